@@ -1,0 +1,71 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What the commands share: options, exit codes, the connection. */
+#ifndef PERCUSS_CLI_CLI_H
+#define PERCUSS_CLI_CLI_H
+
+#include <argp.h>
+#include <percuss/percuss.h>
+
+enum exit_code {
+    EXIT_ANSWERED,
+    EXIT_ANSWERED_WITH_WARNING,
+    EXIT_USAGE,
+    EXIT_NO_SERVER,
+    EXIT_TIMEOUT,
+    EXIT_REJECTED
+};
+
+/* Options of every command. */
+struct common {
+    uint32_t domain;
+    double timeout; /* s for the answer; NAN: not given */
+    bool json;
+};
+
+/* Long options without a letter; each command goes on from OPTION_OWN. */
+enum option_key {
+    OPTION_DOMAIN = 256,
+    OPTION_TIMEOUT,
+    OPTION_JSON,
+    OPTION_SCENE,
+    OPTION_OWN = 300
+};
+
+/* Parses --domain, --timeout and --json into the `struct common` that is its input. */
+extern const struct argp common_argp;
+
+/* One command: argv[0] is "percuss <command>"; `common` holds what stood before the command.
+ * Returns an exit code. */
+typedef int command_function(int argc, char **argv, struct common *common);
+command_function command_query, command_sweep, command_ensemble, command_bodies, command_status,
+    command_ping;
+
+/* Parses a command line that has no options of its own. */
+void parse_only_common(int argc, char **argv, const char *doc, struct common *common);
+
+/* The whole of `text` as a finite number. On failure it ends the process through argp_error. */
+double parse_number(const char *option, const char *text, struct argp_state *state);
+unsigned parse_count(const char *option, const char *text, unsigned most, struct argp_state *state);
+
+/* Seconds to wait for an answer, and for a server to appear. */
+double common_timeout(const struct common *common);
+double common_patience(const struct common *common);
+
+/* Prints "percuss: ..." to stderr. */
+void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Prints the library's error of a call and returns its exit code. */
+int complain_result(enum percuss_result result);
+
+/* A connected client; `id` NULL: random. EXIT_ANSWERED, or complains. */
+int open_client(const struct common *common, const uint8_t *id, struct percuss_client **client);
+
+/* The exit code of a reply. */
+int status_exit_code(enum percuss_status status);
+
+/* Writes the octets as hexadecimal digits with a terminating zero. */
+void format_hex(const uint8_t octets[16], char text[33]);
+
+#endif

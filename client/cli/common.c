@@ -1,0 +1,159 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+
+enum { HIGHEST_DOMAIN = 230 };
+static const double default_timeout = 30.0; /* s */
+static const double default_patience = 3.0; /* s for a server to appear; discovery takes 0.1 s */
+
+static const struct argp_option common_options[] = {
+    {"domain", OPTION_DOMAIN, "N", 0, "DDS domain of the server (default 0)", 90},
+    {"timeout", OPTION_TIMEOUT, "S", 0,
+     "seconds to wait for the server and then for the answer (default 3 and 30)", 90},
+    {"json", OPTION_JSON, NULL, 0, "print one JSON object", 90},
+    {0},
+};
+
+double parse_number(const char *option, const char *text, struct argp_state *state)
+{
+    char *end;
+    double number = strtod(text, &end);
+    if (end == text || *end || !isfinite(number))
+        argp_error(state, "--%s: '%s' is not a finite number", option, text);
+    return number;
+}
+
+unsigned parse_count(const char *option, const char *text, unsigned most, struct argp_state *state)
+{
+    char *end;
+    errno = 0;
+    unsigned long number = strtoul(text, &end, 10);
+    if (end == text || *end || errno || number > most || strchr(text, '-'))
+        argp_error(state, "--%s: '%s' is not a whole number of 0..%u", option, text, most);
+    return (unsigned)number;
+}
+
+static error_t parse_common(int key, char *text, struct argp_state *state)
+{
+    struct common *common = state->input;
+    switch (key) {
+    case OPTION_DOMAIN:
+        common->domain = parse_count("domain", text, HIGHEST_DOMAIN, state);
+        return 0;
+    case OPTION_TIMEOUT:
+        common->timeout = parse_number("timeout", text, state);
+        if (common->timeout < 0.0)
+            argp_error(state, "--timeout: '%s': seconds >= 0 are needed", text);
+        return 0;
+    case OPTION_JSON:
+        common->json = true;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+const struct argp common_argp = {.options = common_options, .parser = parse_common};
+
+static error_t pass_on_common(int key, char *text, struct argp_state *state)
+{
+    (void)text;
+    if (key != ARGP_KEY_INIT)
+        return ARGP_ERR_UNKNOWN;
+    state->child_inputs[0] = state->input;
+    return 0;
+}
+
+void parse_only_common(int argc, char **argv, const char *doc, struct common *common)
+{
+    const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
+    const struct argp only = {.parser = pass_on_common, .doc = doc, .children = children};
+    argp_parse(&only, argc, argv, 0, NULL, common);
+}
+
+double common_timeout(const struct common *common)
+{
+    return isnan(common->timeout) ? default_timeout : common->timeout;
+}
+
+double common_patience(const struct common *common)
+{
+    return isnan(common->timeout) ? default_patience : common->timeout;
+}
+
+void complain(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fputs("percuss: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+    va_end(arguments);
+}
+
+int complain_result(enum percuss_result result)
+{
+    complain("%s", percuss_error_text());
+    switch (result) {
+    case PERCUSS_RESULT_OK:
+        return EXIT_ANSWERED;
+    case PERCUSS_RESULT_TIMEOUT:
+        return EXIT_TIMEOUT;
+    case PERCUSS_RESULT_INVALID_ARGUMENT:
+        return EXIT_USAGE;
+    default:
+        return EXIT_NO_SERVER;
+    }
+}
+
+int open_client(const struct common *common, const uint8_t *id, struct percuss_client **client)
+{
+    struct percuss_client_config config = percuss_client_config_default();
+    config.domain = common->domain;
+    if (id)
+        memcpy(config.id, id, sizeof config.id);
+    enum percuss_result result = percuss_client_create(&config, client);
+    if (result != PERCUSS_RESULT_OK)
+        return complain_result(result);
+    result = percuss_client_connect(*client, common_patience(common));
+    if (result == PERCUSS_RESULT_OK)
+        return EXIT_ANSWERED;
+    int code = EXIT_NO_SERVER;
+    if (result == PERCUSS_RESULT_NO_SERVER)
+        complain("%s; start one with: percussd --config config/percussd.yaml --domain %u",
+                 percuss_error_text(), common->domain);
+    else
+        code = complain_result(result);
+    percuss_client_free(*client);
+    *client = NULL;
+    return code;
+}
+
+int status_exit_code(enum percuss_status status)
+{
+    switch (status) {
+    case PERCUSS_OK:
+        return EXIT_ANSWERED;
+    case PERCUSS_TRUNCATED:
+    case PERCUSS_NOT_APPROACHING:
+        return EXIT_ANSWERED_WITH_WARNING;
+    case PERCUSS_TIMEOUT:
+        return EXIT_TIMEOUT;
+    default:
+        return EXIT_REJECTED;
+    }
+}
+
+void format_hex(const uint8_t octets[16], char text[33])
+{
+    for (int i = 0; i < 16; ++i)
+        snprintf(text + 2 * i, 3, "%02x", octets[i]);
+}

@@ -1,0 +1,149 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* percuss query: one impact. */
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "cli.h"
+#include "reply_json.h"
+#include "reply_table.h"
+#include "request_json.h"
+#include "scene.h"
+
+enum { KEY_SPEED = OPTION_OWN, KEY_REQUEST };
+
+struct query {
+    struct common *common;
+    struct scene scene;
+    double speed; /* NAN: not given */
+    const char *file;
+};
+
+static const struct argp_option options[] = {
+    {"speed", KEY_SPEED, "V", 0, "speed of A towards B, m/s", 10},
+    {"request", KEY_REQUEST, "FILE", 0, "ask a whole request in JSON instead; - is standard input",
+     30},
+    {0},
+};
+
+/* Either a scene or a whole request. */
+static void check(const struct query *query, struct argp_state *state)
+{
+    const struct scene *scene = &query->scene;
+    if (query->file && (scene->given || !isnan(query->speed)))
+        argp_error(state, "--request says everything; no other flag of the impact goes with it");
+    if (!query->file && !(scene->a && scene->b && !isnan(query->speed)))
+        argp_error(state, "--a ID --b ID --speed V or --request FILE is needed");
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct query *query = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &query->scene;
+        state->child_inputs[1] = query->common;
+        return 0;
+    case KEY_SPEED:
+        query->speed = parse_number("speed", text, state);
+        if (!(query->speed > 0.0))
+            argp_error(state, "--speed: '%s': a number of m/s > 0 is needed", text);
+        return 0;
+    case KEY_REQUEST:
+        query->file = text;
+        return 0;
+    case ARGP_KEY_END:
+        check(query, state);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp_child children[] = {
+    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
+static const struct argp query_argp = {
+    .options = options,
+    .parser = parse,
+    .doc =
+        "Asks for one impact: A moves at speed V straight at B, which is at rest, and hits it at "
+        "the bodies' default sites; or whatever a JSON request says.\v"
+        "Example: percuss query --a steel-sphere --b al-beam --speed 0.3 --at 0.25",
+    .children = children,
+};
+
+/* Names what is known after the server refused a body. */
+static void explain_unknown(const struct query *query, const struct percuss_request *request,
+                            struct percuss_client *client)
+{
+    struct percuss_body_list list;
+    if (percuss_bodies(client, common_timeout(query->common), &list) == PERCUSS_RESULT_OK)
+        scene_explain_unknown(request, &list);
+    percuss_body_list_free(&list);
+}
+
+static int ask(const struct query *query, const struct percuss_request *request,
+               struct percuss_client *client)
+{
+    struct percuss_reply reply;
+    enum percuss_result result =
+        percuss_solve(client, request, common_timeout(query->common), &reply);
+    if (result != PERCUSS_RESULT_OK)
+        return complain_result(result);
+    if (query->common->json)
+        json_print(reply_to_json(&reply));
+    else
+        reply_table_print(request, &reply);
+    if (reply.status == PERCUSS_UNKNOWN_BODY)
+        explain_unknown(query, request, client);
+    int code = status_exit_code(reply.status);
+    percuss_reply_free(&reply);
+    return code;
+}
+
+static int ask_scene(const struct query *query)
+{
+    struct percuss_client *client;
+    struct scene_bodies bodies;
+    struct percuss_request request;
+    int code = open_client(query->common, NULL, &client);
+    if (code != EXIT_ANSWERED)
+        return code;
+    code = scene_find_bodies(&query->scene, query->common, client, &bodies);
+    if (code == EXIT_ANSWERED)
+        code = scene_request(&query->scene, &bodies, query->speed, &request);
+    if (code == EXIT_ANSWERED)
+        code = ask(query, &request, client);
+    percuss_body_list_free(&bodies.list);
+    percuss_client_free(client);
+    return code;
+}
+
+static int ask_file(const struct query *query)
+{
+    struct percuss_client *client;
+    struct json_fault fault;
+    struct json_request *request = malloc(sizeof *request);
+    if (!request)
+        return EXIT_FAILURE;
+    int code = EXIT_USAGE;
+    if (!request_json_load(query->file, request, &fault))
+        complain("%s", fault.text);
+    else
+        code = open_client(query->common, request->has_client ? request->client : NULL, &client);
+    if (code == EXIT_ANSWERED) {
+        code = ask(query, &request->request, client);
+        percuss_client_free(client);
+    }
+    free(request);
+    return code;
+}
+
+int command_query(int argc, char **argv, struct common *common)
+{
+    struct query query = {.common = common, .scene = scene_default(), .speed = NAN};
+    argp_parse(&query_argp, argc, argv, 0, NULL, &query);
+    return query.file ? ask_file(&query) : ask_scene(&query);
+}

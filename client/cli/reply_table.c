@@ -1,0 +1,120 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "reply_table.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "cli.h"
+
+double reply_restitution_error(const struct percuss_reply *reply)
+{
+    return fabs(reply->error.restitution_time) + fabs(reply->error.restitution_modes);
+}
+
+unsigned reply_significant(const struct percuss_contact_result *contact)
+{
+    unsigned count = 0;
+    for (uint32_t i = 0; i < contact->sub_impacts_listed; ++i)
+        count += !contact->sub_impacts[i].negligible;
+    return count;
+}
+
+/* "a on b" of the i-th contact. */
+static void print_title(const struct percuss_request *request, size_t i)
+{
+    const struct percuss_contact *contact = &request->contacts[i];
+    if (i < request->contact_count && contact->a < request->body_count &&
+        contact->b < request->body_count)
+        printf("%s on %s\n", request->bodies[contact->a].id, request->bodies[contact->b].id);
+}
+
+static void print_sub_impacts(const struct percuss_contact_result *contact)
+{
+    if (contact->sub_impacts_listed == 0)
+        return;
+    printf("\n  %4s %10s %10s %13s %8s %10s %12s\n", "#", "start/ms", "length/us", "impulse/N s",
+           "share/%", "peak/N", "indent./um");
+    for (uint32_t i = 0; i < contact->sub_impacts_listed; ++i) {
+        const struct percuss_sub_impact *sub = &contact->sub_impacts[i];
+        printf("  %4u %10.4f %10.2f %13.6g %8.2f %10.4g %12.4g%s\n", i + 1, 1e3 * sub->start,
+               1e6 * (sub->end - sub->start), sub->impulse, 100.0 * sub->impulse / contact->impulse,
+               sub->peak_force, 1e6 * sub->max_indentation, sub->negligible ? "  negligible" : "");
+    }
+    if (contact->sub_impacts_listed < contact->sub_impact_count)
+        printf("  ... %u more\n", contact->sub_impact_count - contact->sub_impacts_listed);
+}
+
+static void print_contact(const struct percuss_reply *reply,
+                          const struct percuss_contact_result *contact)
+{
+    printf("  restitution  %.6g  (estimated error %.1g)\n", contact->restitution,
+           reply_restitution_error(reply));
+    printf("  impulse      %.6g N s  (%.6g N s stops the approach)\n", contact->impulse,
+           contact->impulse_compression);
+    printf("  duration     %.4g ms (%s)\n", 1e3 * contact->end_time,
+           percuss_end_reason_name(reply->end_reason));
+    printf("  sub-impacts  %u", contact->sub_impact_count);
+    unsigned significant = reply_significant(contact);
+    if (significant < contact->sub_impacts_listed)
+        printf(", %u of them significant", significant);
+    putchar('\n');
+    print_sub_impacts(contact);
+}
+
+static void print_share(const char *name, double energy, double available)
+{
+    if (energy != 0.0)
+        printf(", %s %.2f %%", name, 100.0 * energy / available);
+}
+
+static void print_energy(const struct percuss_energy *energy)
+{
+    printf("\n  energy       %.5g J available: rigid motion %.2f %%", energy->available,
+           100.0 * energy->rigid_after / energy->available);
+    for (size_t i = 0; i < energy->vibration_count; ++i) {
+        char name[PERCUSS_ID_SIZE + 16];
+        snprintf(name, sizeof name, "vibration of %s", energy->vibration[i].id);
+        print_share(name, energy->vibration[i].energy, energy->available);
+    }
+    print_share("damping", energy->damping, energy->available);
+    print_share("plastic", energy->plastic, energy->available);
+    print_share("stored", energy->stored, energy->available);
+    printf(" (closure %.0e)\n", energy->closure / energy->available);
+}
+
+static void print_model(const struct percuss_model *model)
+{
+    printf("  model        %s contact, %s compliance, %s method",
+           percuss_contact_model_name(model->contact_model),
+           percuss_compliance_name(model->compliance), percuss_method_name(model->method));
+    for (size_t i = 0; i < model->body_count; ++i) {
+        const struct percuss_body_model *body = &model->bodies[i];
+        if (body->rigid)
+            printf("; %s rigid", body->id);
+        else
+            printf("; %s %s, %u modes", body->id, body->theory, body->modes);
+    }
+    putchar('\n');
+    if (model->reason[0])
+        printf("               %s\n", model->reason);
+}
+
+void reply_table_print(const struct percuss_request *request, const struct percuss_reply *reply)
+{
+    if (reply->status != PERCUSS_OK)
+        complain("%s: %s", percuss_status_name(reply->status), reply->message);
+    for (size_t i = 0; i < reply->contact_count; ++i) {
+        print_title(request, i);
+        print_contact(reply, &reply->contacts[i]);
+    }
+    if (reply->contact_count > 0) {
+        print_energy(&reply->energy);
+        print_model(&reply->model);
+    }
+    if (reply->time_shift != 0.0 && !isnan(reply->time_shift))
+        printf("  time shift   %.4g us\n", 1e6 * reply->time_shift);
+    for (size_t i = 0; i < reply->warning_count; ++i)
+        complain("warning: %s", reply->warnings[i]);
+}

@@ -1,0 +1,19 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A reply for people. */
+#ifndef PERCUSS_CLI_REPLY_TABLE_H
+#define PERCUSS_CLI_REPLY_TABLE_H
+
+#include <percuss/percuss.h>
+
+/* Prints the answer to stdout; message and warnings to stderr. `request` is what was asked. */
+void reply_table_print(const struct percuss_request *request, const struct percuss_reply *reply);
+
+/* Estimated error of the restitution: time steps and modes together; NAN: unknown. */
+double reply_restitution_error(const struct percuss_reply *reply);
+
+/* Listed sub-impacts that are not negligible. */
+unsigned reply_significant(const struct percuss_contact_result *contact);
+
+#endif

@@ -1,0 +1,168 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "scene.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "similar.h"
+
+enum scene_key {
+    KEY_A = OPTION_SCENE,
+    KEY_B,
+    KEY_AT,
+    KEY_TOLERANCE,
+    KEY_HORIZON,
+    KEY_CONTACT_MODEL,
+    KEY_METHOD,
+    KEY_COMPLIANCE
+};
+
+static const struct argp_option scene_options[] = {
+    {"a", KEY_A, "ID", 0, "the moving body", 10},
+    {"b", KEY_B, "ID", 0, "the body at rest; percuss bodies lists them", 10},
+    {"at", KEY_AT, "S", 0, "place of the impact along a beam, 0..1 (default 0.5)", 10},
+    {"tolerance", KEY_TOLERANCE, "T", 0, "wanted accuracy of the restitution (default 1e-3)", 20},
+    {"horizon", KEY_HORIZON, "T", 0, "s; give up watching the bodies after this time", 20},
+    {"contact-model", KEY_CONTACT_MODEL, "M", 0,
+     "auto, hertz, closed-form, table, concurrent-fe or complete-fe", 20},
+    {"method", KEY_METHOD, "M", 0, "modal or cvode", 20},
+    {"compliance", KEY_COMPLIANCE, "C", 0, "default, half-space or matched", 20},
+    {0},
+};
+
+/* The number whose name was given. */
+static unsigned parse_choice(const char *option, const char *text, unsigned count,
+                             const char *(*name_of)(unsigned), struct argp_state *state)
+{
+    char allowed[256] = "";
+    for (unsigned i = 0; i < count; ++i) {
+        if (!strcmp(text, name_of(i)))
+            return i;
+        size_t length = strlen(allowed);
+        snprintf(allowed + length, sizeof allowed - length, "%s%s", i ? ", " : "", name_of(i));
+    }
+    argp_error(state, "--%s: '%s' is not one of: %s", option, text, allowed);
+    return 0;
+}
+
+static double parse_positive(const char *option, const char *text, struct argp_state *state)
+{
+    double number = parse_number(option, text, state);
+    if (!(number > 0.0))
+        argp_error(state, "--%s: '%s': a number > 0 is needed", option, text);
+    return number;
+}
+
+static void parse_site(const char *text, struct scene *scene, struct argp_state *state)
+{
+    scene->at = parse_number("at", text, state);
+    scene->at_given = true;
+    if (scene->at < 0.0 || scene->at > 1.0)
+        argp_error(state, "--at: '%s': a fraction 0..1 is needed", text);
+}
+
+static error_t parse_scene(int key, char *text, struct argp_state *state)
+{
+    struct scene *scene = state->input;
+    struct percuss_options *options = &scene->options;
+    switch (key) {
+    case KEY_A:
+        scene->a = text;
+        break;
+    case KEY_B:
+        scene->b = text;
+        break;
+    case KEY_AT:
+        parse_site(text, scene, state);
+        break;
+    case KEY_TOLERANCE:
+        options->tolerance = parse_positive("tolerance", text, state);
+        break;
+    case KEY_HORIZON:
+        options->horizon = parse_positive("horizon", text, state);
+        break;
+    case KEY_CONTACT_MODEL:
+        options->contact_model = parse_choice("contact-model", text, PERCUSS_CONTACT_COUNT,
+                                              percuss_contact_model_name, state);
+        break;
+    case KEY_METHOD:
+        options->method =
+            parse_choice("method", text, PERCUSS_METHOD_COUNT, percuss_method_name, state);
+        break;
+    case KEY_COMPLIANCE:
+        options->compliance = parse_choice("compliance", text, PERCUSS_COMPLIANCE_COUNT,
+                                           percuss_compliance_name, state);
+        break;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+    scene->given = true;
+    return 0;
+}
+
+const struct argp scene_argp = {.options = scene_options, .parser = parse_scene};
+
+struct scene scene_default(void)
+{
+    return (struct scene){.at = 0.5, .options = percuss_options_default()};
+}
+
+/* The body of that id, or the stranger made to look like a point. */
+static const struct percuss_body *find_or_invent(const struct percuss_body_list *list,
+                                                 const char *id, struct percuss_body *stranger)
+{
+    const struct percuss_body *body = percuss_body_find(list, id);
+    if (body)
+        return body;
+    *stranger = (struct percuss_body){.shape = "sphere"};
+    snprintf(stranger->id, sizeof stranger->id, "%s", id);
+    return stranger;
+}
+
+int scene_find_bodies(const struct scene *scene, const struct common *common,
+                      struct percuss_client *client, struct scene_bodies *bodies)
+{
+    *bodies = (struct scene_bodies){0};
+    enum percuss_result result = percuss_bodies(client, common_timeout(common), &bodies->list);
+    if (result != PERCUSS_RESULT_OK)
+        return complain_result(result);
+    bodies->pair =
+        percuss_pair_default(find_or_invent(&bodies->list, scene->a, &bodies->strangers[0]),
+                             find_or_invent(&bodies->list, scene->b, &bodies->strangers[1]));
+    // of two beams the one at rest is hit at S
+    bool b_is_beam = !strcmp(bodies->pair.b->shape, "beam");
+    if (scene->at_given && !b_is_beam && strcmp(bodies->pair.a->shape, "beam") != 0)
+        complain("--at has no effect: neither body is a beam");
+    *(b_is_beam ? &bodies->pair.at_b : &bodies->pair.at_a) = scene->at;
+    return EXIT_ANSWERED;
+}
+
+int scene_request(const struct scene *scene, const struct scene_bodies *bodies, double speed,
+                  struct percuss_request *request)
+{
+    struct percuss_pair pair = bodies->pair;
+    pair.speed = speed;
+    enum percuss_result result = percuss_contact_pair(&pair, request);
+    request->options = scene->options;
+    return result == PERCUSS_RESULT_OK ? EXIT_ANSWERED : complain_result(result);
+}
+
+void scene_explain_unknown(const struct percuss_request *request,
+                           const struct percuss_body_list *list)
+{
+    for (size_t i = 0; i < request->body_count; ++i) {
+        const char *id = request->bodies[i].id;
+        if (percuss_body_find(list, id))
+            continue;
+        const struct percuss_body *nearest = similar_body(list, id);
+        if (nearest)
+            complain("'%s': did you mean '%s'?", id, nearest->id);
+        fprintf(stderr, "percuss: the server knows:");
+        for (size_t j = 0; j < list->count; ++j)
+            fprintf(stderr, " %s", list->bodies[j].id);
+        fputc('\n', stderr);
+        return;
+    }
+}

@@ -1,0 +1,46 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* One contact of two bodies at their default sites, as given by flags. */
+#ifndef PERCUSS_CLI_SCENE_H
+#define PERCUSS_CLI_SCENE_H
+
+#include "cli.h"
+
+struct scene {
+    const char *a, *b; /* NULL: not given */
+    double at;
+    bool at_given;
+    bool given; /* any flag */
+    struct percuss_options options;
+};
+
+/* Parses --a, --b, --at, --tolerance, ... into the `struct scene` that is its input. */
+extern const struct argp scene_argp;
+
+/* Nothing given, defaults. */
+struct scene scene_default(void);
+
+/* Where the scene's bodies come from: the server's catalogue. A body that it does not list is
+ * placed as a point, so that the refusal is the server's. */
+struct scene_bodies {
+    struct percuss_body_list list;
+    struct percuss_body strangers[2];
+    struct percuss_pair pair; /* at speed 0 */
+};
+
+/* Reads the catalogue and finds the bodies. Exit code; complains. Release with
+ * percuss_body_list_free(&bodies->list). */
+int scene_find_bodies(const struct scene *scene, const struct common *common,
+                      struct percuss_client *client, struct scene_bodies *bodies);
+
+/* The request at that speed. Exit code; complains. */
+int scene_request(const struct scene *scene, const struct scene_bodies *bodies, double speed,
+                  struct percuss_request *request);
+
+/* Prints to stderr which of the request's bodies the server lacks and which it knows, the most
+ * similar ids first. */
+void scene_explain_unknown(const struct percuss_request *request,
+                           const struct percuss_body_list *list);
+
+#endif

@@ -1,0 +1,236 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* percuss sweep: the same impact at many speeds. */
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli.h"
+#include "scene.h"
+#include "sweep_output.h"
+
+/* Enough to keep a server's workers busy, few enough for its queue. */
+enum { OUTSTANDING = 16, MOST_POINTS = 1000000 };
+enum { KEY_SPEED = OPTION_OWN, KEY_CSV };
+
+struct sweep {
+    struct common *common;
+    struct scene scene;
+    double low, high;
+    unsigned count; /* 0: no --speed */
+    bool csv;
+};
+
+static const struct argp_option options[] = {
+    {"speed", KEY_SPEED, "LO:HI:N", 0, "N speeds from LO to HI, m/s", 10},
+    {"csv", KEY_CSV, NULL, 0, "print comma-separated values", 90},
+    {0},
+};
+
+static void parse_speeds(const char *text, struct sweep *sweep, struct argp_state *state)
+{
+    int end = 0;
+    bool read = sscanf(text, "%lf:%lf:%u%n", &sweep->low, &sweep->high, &sweep->count, &end) == 3;
+    if (!read || text[end])
+        argp_error(state, "--speed: '%s' is not LO:HI:N, for example 0.1:0.4:31", text);
+    if (!(sweep->low > 0.0) || !(sweep->high >= sweep->low) || !isfinite(sweep->high))
+        argp_error(state, "--speed: '%s': 0 < LO <= HI is needed", text);
+    if (sweep->count < 1 || sweep->count > MOST_POINTS)
+        argp_error(state, "--speed: '%s': N of 1..%d is needed", text, MOST_POINTS);
+}
+
+static void check(const struct sweep *sweep, struct argp_state *state)
+{
+    if (!sweep->scene.a || !sweep->scene.b || sweep->count == 0)
+        argp_error(state, "--a ID --b ID --speed LO:HI:N are needed");
+    if (sweep->csv && sweep->common->json)
+        argp_error(state, "--csv or --json, not both");
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct sweep *sweep = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &sweep->scene;
+        state->child_inputs[1] = sweep->common;
+        return 0;
+    case KEY_SPEED:
+        parse_speeds(text, sweep, state);
+        return 0;
+    case KEY_CSV:
+        sweep->csv = true;
+        return 0;
+    case ARGP_KEY_END:
+        check(sweep, state);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp_child children[] = {
+    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
+static const struct argp sweep_argp = {
+    .options = options,
+    .parser = parse,
+    .doc = "Asks for the same impact at N speeds and prints a line for each.\v"
+           "Example: percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.4:31 --csv",
+    .children = children,
+};
+
+/* A sweep under way. */
+struct run {
+    const struct sweep *sweep;
+    struct percuss_client *client;
+    struct scene_bodies bodies;
+    struct percuss_reply *replies; /* one a speed */
+    uint64_t *sequences;
+    unsigned sent, answered;
+};
+
+static double speed_at(const struct sweep *sweep, unsigned i)
+{
+    if (sweep->count == 1)
+        return sweep->low;
+    return sweep->low + (sweep->high - sweep->low) * i / (sweep->count - 1);
+}
+
+static int send_point(struct run *run, unsigned i)
+{
+    struct percuss_request request;
+    int code = scene_request(&run->sweep->scene, &run->bodies, speed_at(run->sweep, i), &request);
+    if (code != EXIT_ANSWERED)
+        return code;
+    enum percuss_result result = percuss_submit(run->client, &request, &run->sequences[i]);
+    return result == PERCUSS_RESULT_OK ? EXIT_ANSWERED : complain_result(result);
+}
+
+/* Which point a reply answers: one of the last OUTSTANDING sent, or one sent again since. */
+static unsigned point_of(const struct run *run, uint64_t sequence)
+{
+    unsigned i = run->sent;
+    while (i > 0 && run->sequences[i - 1] != sequence)
+        --i;
+    return i - 1;
+}
+
+static void show_progress(const struct run *run)
+{
+    enum { WIDTH = 40 };
+    unsigned count = run->sweep->count, filled = WIDTH * run->answered / count;
+    fprintf(stderr, "\r[%-*.*s] %u/%u", WIDTH, (int)filled,
+            "########################################", run->answered, count);
+    if (run->answered == count)
+        fputc('\n', stderr);
+}
+
+/* Takes one reply; a busy server is asked again. */
+static int take_point(struct run *run)
+{
+    struct percuss_reply reply;
+    enum percuss_result result =
+        percuss_wait(run->client, 0, common_timeout(run->sweep->common), &reply);
+    if (result != PERCUSS_RESULT_OK)
+        return complain_result(result);
+    unsigned i = point_of(run, reply.sequence);
+    if (reply.status == PERCUSS_BUSY) {
+        percuss_reply_free(&reply);
+        usleep(1000);
+        return send_point(run, i);
+    }
+    run->replies[i] = reply;
+    ++run->answered;
+    return EXIT_ANSWERED;
+}
+
+static int ask_all(struct run *run)
+{
+    bool show = isatty(STDERR_FILENO);
+    int code = EXIT_ANSWERED;
+    while (code == EXIT_ANSWERED && run->answered < run->sweep->count) {
+        bool more = run->sent < run->sweep->count && run->sent - run->answered < OUTSTANDING;
+        if (more)
+            code = send_point(run, run->sent++);
+        else
+            code = take_point(run);
+        if (show && !more)
+            show_progress(run);
+    }
+    return code;
+}
+
+static void print(const struct run *run)
+{
+    struct sweep_points points = {run->sweep->count, NULL, run->replies};
+    double *speeds = calloc(run->sweep->count, sizeof *speeds);
+    if (!speeds)
+        return;
+    for (unsigned i = 0; i < run->sweep->count; ++i)
+        speeds[i] = speed_at(run->sweep, i);
+    points.speeds = speeds;
+    if (run->sweep->common->json)
+        sweep_print_json(&points);
+    else if (run->sweep->csv)
+        sweep_print_csv(&points);
+    else
+        sweep_print_table(&points);
+    free(speeds);
+}
+
+/* The worst exit code of the replies; explains an unknown body once. */
+static int judge(const struct run *run)
+{
+    int worst = EXIT_ANSWERED;
+    const struct percuss_reply *refused = NULL;
+    for (unsigned i = 0; i < run->sweep->count; ++i) {
+        int code = status_exit_code(run->replies[i].status);
+        if (code > worst) {
+            worst = code;
+            refused = &run->replies[i];
+        }
+    }
+    if (refused)
+        complain("%s: %s", percuss_status_name(refused->status), refused->message);
+    struct percuss_request request;
+    if (refused && refused->status == PERCUSS_UNKNOWN_BODY &&
+        scene_request(&run->sweep->scene, &run->bodies, run->sweep->low, &request) == EXIT_ANSWERED)
+        scene_explain_unknown(&request, &run->bodies.list);
+    return worst;
+}
+
+static int run_sweep(struct run *run)
+{
+    unsigned count = run->sweep->count;
+    run->replies = calloc(count, sizeof *run->replies);
+    run->sequences = calloc(count, sizeof *run->sequences);
+    int code = run->replies && run->sequences ? ask_all(run) : EXIT_FAILURE;
+    if (code == EXIT_ANSWERED) {
+        print(run);
+        code = judge(run);
+    }
+    for (unsigned i = 0; run->replies && i < count; ++i)
+        percuss_reply_free(&run->replies[i]);
+    free(run->replies);
+    free(run->sequences);
+    return code;
+}
+
+int command_sweep(int argc, char **argv, struct common *common)
+{
+    struct sweep sweep = {.common = common, .scene = scene_default()};
+    argp_parse(&sweep_argp, argc, argv, 0, NULL, &sweep);
+    struct run run = {.sweep = &sweep};
+    int code = open_client(common, NULL, &run.client);
+    if (code == EXIT_ANSWERED)
+        code = scene_find_bodies(&sweep.scene, common, run.client, &run.bodies);
+    if (code == EXIT_ANSWERED)
+        code = run_sweep(&run);
+    percuss_body_list_free(&run.bodies.list);
+    percuss_client_free(run.client);
+    return code;
+}

@@ -1,0 +1,6 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+
+# find_package(percuss) gives the target percuss::percuss. DDS is inside the library; a program that
+# uses it needs nothing else.
+include(${CMAKE_CURRENT_LIST_DIR}/percussTargets.cmake)

@@ -1,0 +1,89 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What a server announces of itself and its catalogue, and the placing of two of its bodies. */
+#ifndef PERCUSS_SERVER_H
+#define PERCUSS_SERVER_H
+
+#include <percuss/request.h>
+
+enum percuss_support { PERCUSS_SUPPORT_FREE, PERCUSS_SUPPORT_PINNED, PERCUSS_SUPPORT_CLAMPED };
+
+/* A body of the catalogue. */
+struct percuss_body {
+    char id[PERCUSS_ID_SIZE];
+    char shape[32]; /* sphere, rod, beam, cylinder, block, half-space */
+    char material[PERCUSS_ID_SIZE];
+    double mass;                      /* kg; INFINITY: half-space */
+    char description[256];            /* dimensions, theory and ends in words */
+    double half_extents[3];           /* half the size along the body's x, y, z, m; half-space: 0 */
+    double radius;                    /* sphere, rod, round beam, cylinder, m; 0: none */
+    double tip_radius;                /* of a rod's ends, m; INFINITY: flat; other shapes: 0 */
+    enum percuss_support supports[2]; /* rod, beam: at its ends at -x and +x */
+};
+
+struct percuss_body_list {
+    size_t count;
+    struct percuss_body *bodies; /* sorted by id */
+};
+
+struct percuss_server {
+    uint8_t server[16];
+    char version[32], catalogue_revision[64];
+    char catalogue[256]; /* file */
+    char host[64];
+    uint32_t process;
+    char state[32]; /* ready, draining */
+    uint32_t workers, bodies;
+    uint32_t queue_length, queue_capacity;
+    uint64_t answered, refused;
+    double uptime;      /* s */
+    char activity[256]; /* what a long computation is doing */
+    double progress;    /* 0..1; NAN: nothing is running */
+};
+
+struct percuss_server_list {
+    size_t count;
+    struct percuss_server *servers;
+};
+
+/* Two bodies at their default sites; A moves with `speed` (m/s, > 0) straight at B, else at rest.
+ */
+struct percuss_pair {
+    const struct percuss_body *a, *b;
+    double speed;
+    double at_a, at_b; /* beams: where along the length the site is, 0 (end at -x) .. 1 (at +x) */
+};
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The pair at speed 0 with beams hit half-way. */
+PERCUSS_API struct percuss_pair percuss_pair_default(const struct percuss_body *a,
+                                                     const struct percuss_body *b);
+
+/* Fills `request` with default options, bodies A and B and one contact in which they touch.
+ *
+ * Default sites: sphere and block: top (+z); half-space: origin; cylinder: end at +x; rod: end at
+ * +x if that is free, else at -x; beam: +z side. B stands unrotated at the origin, n is the outward
+ * normal of its site. A is turned by the smallest rotation that makes the outward normal of its
+ * site -n (half a turn: about its x axis, or y for rods and cylinders); a beam on a beam is also
+ * turned about n so that they cross at a right angle. INVALID_ARGUMENT for a shape that it cannot
+ * place, a speed that is not positive and finite or a fraction outside 0..1. Needs no client. */
+PERCUSS_API enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
+                                                     struct percuss_request *request);
+
+/* The body of that id, or NULL. */
+PERCUSS_API const struct percuss_body *percuss_body_find(const struct percuss_body_list *list,
+                                                         const char *id);
+
+/* Release what percuss_bodies and percuss_servers returned; NULL and empty lists are allowed. */
+PERCUSS_API void percuss_body_list_free(struct percuss_body_list *list);
+PERCUSS_API void percuss_server_list_free(struct percuss_server_list *list);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,159 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "client.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+
+#include "error.h"
+
+enum { DEFAULT_WINDOW = 256, HIGHEST_DOMAIN = 230 };
+
+struct percuss_client_config percuss_client_config_default(void)
+{
+    return (struct percuss_client_config){.first_sequence = 1, .window = DEFAULT_WINDOW};
+}
+
+static enum percuss_result check_config(const struct percuss_client_config *config)
+{
+    if (config->domain > HIGHEST_DOMAIN)
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "domain: %u: 0..%d is allowed",
+                         config->domain, HIGHEST_DOMAIN);
+    if (config->window < 1 || config->window > WIRE_WINDOW)
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "window: %u: 1..%d is allowed",
+                         config->window, WIRE_WINDOW);
+    if (config->first_sequence == 0)
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "first_sequence: 0 means a ping");
+    return PERCUSS_RESULT_OK;
+}
+
+static enum percuss_result choose_id(const uint8_t configured[16], uint8_t id[16])
+{
+    static const uint8_t none[16];
+    memcpy(id, configured, 16);
+    if (memcmp(id, none, 16) == 0 && getrandom(id, 16, 0) != 16)
+        return error_set(PERCUSS_RESULT_TRANSPORT, "random client id: %s", strerror(errno));
+    return PERCUSS_RESULT_OK;
+}
+
+dds_entity_t client_reader_create(struct percuss_client *client,
+                                  const dds_topic_descriptor_t *descriptor, const char *topic,
+                                  dds_qos_t *qos)
+{
+    dds_entity_t reader = dds_create_topic(client->participant, descriptor, topic, NULL, NULL);
+    if (reader > 0)
+        reader = dds_create_reader(client->participant, reader, qos, NULL);
+    dds_delete_qos(qos);
+    return reader;
+}
+
+dds_entity_t client_writer_create(struct percuss_client *client,
+                                  const dds_topic_descriptor_t *descriptor, const char *topic)
+{
+    dds_qos_t *qos = wire_qos_exchange(NULL);
+    dds_entity_t writer = dds_create_topic(client->participant, descriptor, topic, NULL, NULL);
+    if (writer > 0)
+        writer = dds_create_writer(client->participant, writer, qos, NULL);
+    dds_delete_qos(qos);
+    return writer;
+}
+
+dds_entity_t client_reply_reader_create(struct percuss_client *client,
+                                        const dds_topic_descriptor_t *descriptor, const char *topic)
+{
+    char partition[WIRE_PARTITION_SIZE];
+    wire_partition_name(client->id, partition);
+    dds_entity_t reader =
+        client_reader_create(client, descriptor, topic, wire_qos_exchange(partition));
+    if (reader < 0)
+        return reader;
+    // a read condition stays triggered while anything is left to take; a status does not
+    dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
+    dds_return_t code =
+        condition < 0 ? condition : dds_waitset_attach(client->waitset, condition, 0);
+    return code < 0 ? code : reader;
+}
+
+/* Everything is a child of the participant and goes with it. */
+static enum percuss_result create_entities(struct percuss_client *client)
+{
+    client->participant = wire_participant_create(client->domain);
+    if (client->participant < 0)
+        return error_dds("DDS participant", client->participant);
+    client->waitset = dds_create_waitset(client->participant);
+    if (client->waitset < 0)
+        return error_dds("waitset", client->waitset);
+    client->reply_reader =
+        client_reply_reader_create(client, &percuss_v1_Reply_desc, WIRE_TOPIC_REPLY);
+    if (client->reply_reader < 0)
+        return error_dds("reader of " WIRE_TOPIC_REPLY, client->reply_reader);
+    client->request_writer =
+        client_writer_create(client, &percuss_v1_Request_desc, WIRE_TOPIC_REQUEST);
+    if (client->request_writer < 0)
+        return error_dds("writer of " WIRE_TOPIC_REQUEST, client->request_writer);
+    return PERCUSS_RESULT_OK;
+}
+
+static void create_lock(struct percuss_client *client)
+{
+    pthread_condattr_t monotonic;
+    pthread_condattr_init(&monotonic);
+    pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
+    pthread_mutex_init(&client->lock, NULL);
+    pthread_cond_init(&client->changed, &monotonic);
+    pthread_condattr_destroy(&monotonic);
+}
+
+enum percuss_result percuss_client_create(const struct percuss_client_config *config,
+                                          struct percuss_client **client)
+{
+    struct percuss_client_config chosen = config ? *config : percuss_client_config_default();
+    *client = NULL;
+    enum percuss_result result = check_config(&chosen);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    struct percuss_client *created = calloc(1, sizeof *created);
+    if (!created)
+        return error_set(PERCUSS_RESULT_NO_MEMORY, "a client");
+    create_lock(created);
+    created->domain = chosen.domain;
+    created->next_sequence = chosen.first_sequence;
+    created->pending.window = chosen.window;
+
+    result = choose_id(chosen.id, created->id);
+    if (result == PERCUSS_RESULT_OK)
+        result = create_entities(created);
+    if (result != PERCUSS_RESULT_OK) {
+        percuss_client_free(created);
+        return result;
+    }
+    *client = created;
+    return PERCUSS_RESULT_OK;
+}
+
+void percuss_client_free(struct percuss_client *client)
+{
+    if (!client)
+        return;
+    if (client->participant > 0)
+        dds_delete(client->participant);
+    pending_clear(&client->pending);
+    pthread_cond_destroy(&client->changed);
+    pthread_mutex_destroy(&client->lock);
+    free(client);
+}
+
+void percuss_client_id(const struct percuss_client *client, uint8_t id[16])
+{
+    memcpy(id, client->id, 16);
+}
+
+uint64_t client_draw_sequences(struct percuss_client *client, size_t count)
+{
+    uint64_t first = client->next_sequence;
+    client->next_sequence += count;
+    return first;
+}

@@ -1,0 +1,51 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The client's inside. */
+#ifndef PERCUSS_LIB_CLIENT_H
+#define PERCUSS_LIB_CLIENT_H
+
+#include <percuss/percuss.h>
+#include <pthread.h>
+
+#include "pending.h"
+#include "wire.h"
+
+struct percuss_client {
+    /* constant once created */
+    uint8_t id[16];
+    uint32_t domain;
+    dds_entity_t participant;
+    dds_entity_t waitset;
+    dds_entity_t request_writer;
+    dds_entity_t reply_reader;
+
+    pthread_mutex_t lock; /* guards everything below */
+    pthread_cond_t changed;
+    bool leading; /* a thread is in the waitset, see receive.h */
+    bool connected;
+    uint8_t server[16]; /* who answered the ping of percuss_client_connect */
+    uint64_t next_sequence;
+    uint64_t pings_answered;
+    struct pending_table pending;
+    dds_entity_t batch_writer, batch_reader; /* 0 until the first batch */
+    dds_entity_t server_reader, body_reader; /* 0 until asked for */
+};
+
+/* A reader or writer with its topic in the client's participant. `qos` is released. A negative
+ * return is a DDS code. */
+dds_entity_t client_reader_create(struct percuss_client *client,
+                                  const dds_topic_descriptor_t *descriptor, const char *topic,
+                                  dds_qos_t *qos);
+dds_entity_t client_writer_create(struct percuss_client *client,
+                                  const dds_topic_descriptor_t *descriptor, const char *topic);
+
+/* A reader of topic `topic` in the client's own partition, attached to the waitset. */
+dds_entity_t client_reply_reader_create(struct percuss_client *client,
+                                        const dds_topic_descriptor_t *descriptor,
+                                        const char *topic);
+
+/* Takes `count` consecutive sequences; the lock is held. */
+uint64_t client_draw_sequences(struct percuss_client *client, size_t count);
+
+#endif

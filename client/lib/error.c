@@ -1,0 +1,31 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "error.h"
+
+#include <dds/dds.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+/* Per thread: a client may be shared by threads, and a client that could not be created has no
+ * place for a text. */
+static _Thread_local char error_text[512];
+
+enum percuss_result error_set(enum percuss_result result, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error_text, sizeof error_text, format, arguments);
+    va_end(arguments);
+    return result;
+}
+
+enum percuss_result error_dds(const char *what, int code)
+{
+    return error_set(PERCUSS_RESULT_TRANSPORT, "%s: %s", what, dds_strretcode(-code));
+}
+
+const char *percuss_error_text(void)
+{
+    return error_text;
+}

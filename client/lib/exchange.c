@@ -1,0 +1,214 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Requests and their replies, one at a time or many outstanding. */
+
+#include "exchange.h"
+
+#include <string.h>
+
+#include "convert.h"
+#include "error.h"
+#include "receive.h"
+
+enum percuss_result exchange_check_connected(const struct percuss_client *client)
+{
+    if (client->connected)
+        return PERCUSS_RESULT_OK;
+    return error_set(PERCUSS_RESULT_NO_SERVER, "not connected: call percuss_client_connect first");
+}
+
+static bool pending_is_ready(const struct percuss_client *client, const void *subject)
+{
+    (void)client;
+    const struct pending *pending = subject;
+    return pending->ready;
+}
+
+/* Words for a time-out: a server that has gone is worth telling from a slow one. */
+static enum percuss_result time_out(const struct percuss_client *client, uint64_t sequence)
+{
+    bool gone = dds_get_matched_publications(client->reply_reader, NULL, 0) == 0;
+    return error_set(PERCUSS_RESULT_TIMEOUT, "request %llu is not answered yet%s",
+                     (unsigned long long)sequence, gone ? "; the server is gone" : "");
+}
+
+enum percuss_result exchange_await(struct percuss_client *client, const struct pending *pending,
+                                   double deadline)
+{
+    enum percuss_result result = receive_until(client, pending_is_ready, pending, deadline);
+    return result == PERCUSS_RESULT_TIMEOUT ? time_out(client, pending->sequence) : result;
+}
+
+/* Enters the request, or finds it where it is repeated. */
+static enum percuss_result enter(struct percuss_client *client, uint64_t sequence, bool waited,
+                                 struct pending **pending)
+{
+    *pending = sequence ? pending_find(&client->pending, sequence) : NULL;
+    if (*pending && ((*pending)->waited || (*pending)->batch))
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                         "sequence: %llu: another thread waits for it",
+                         (unsigned long long)sequence);
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    if (!*pending) {
+        if (sequence == 0)
+            sequence = client_draw_sequences(client, 1);
+        else if (sequence >= client->next_sequence)
+            client->next_sequence = sequence + 1;
+        result = pending_add(&client->pending, sequence, pending);
+    }
+    if (result == PERCUSS_RESULT_OK)
+        (*pending)->waited = waited;
+    return result;
+}
+
+/* Enters and writes a request; the lock is held. */
+static enum percuss_result send_request(struct percuss_client *client,
+                                        const struct percuss_request *request, bool waited,
+                                        struct pending **pending)
+{
+    struct request_storage storage;
+    percuss_v1_Request wire;
+    enum percuss_result result = convert_request(request, &storage, &wire);
+    if (result == PERCUSS_RESULT_OK)
+        result = exchange_check_connected(client);
+    if (result == PERCUSS_RESULT_OK)
+        result = enter(client, request->sequence, waited, pending);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    memcpy(wire.client, client->id, sizeof wire.client);
+    wire.sequence = (*pending)->sequence;
+    dds_return_t code = dds_write(client->request_writer, &wire);
+    if (code < 0) {
+        pending_remove(&client->pending, *pending);
+        return error_dds("writing the request", code);
+    }
+    return PERCUSS_RESULT_OK;
+}
+
+/* Hands over a ready reply and forgets the request. */
+static enum percuss_result collect(struct percuss_client *client, struct pending *pending,
+                                   struct percuss_reply *reply)
+{
+    enum percuss_result result = pending->result;
+    *reply = pending->reply;
+    pending->reply = (struct percuss_reply){0};
+    pending_remove(&client->pending, pending);
+    if (result != PERCUSS_RESULT_OK)
+        error_set(result, "%s: a reply", percuss_result_text(result));
+    return result;
+}
+
+enum percuss_result percuss_solve(struct percuss_client *client,
+                                  const struct percuss_request *request, double timeout,
+                                  struct percuss_reply *reply)
+{
+    struct pending *pending;
+    double deadline;
+    *reply = (struct percuss_reply){0};
+    enum percuss_result result = receive_deadline(timeout, &deadline);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    pthread_mutex_lock(&client->lock);
+    result = send_request(client, request, true, &pending);
+    if (result == PERCUSS_RESULT_OK) {
+        result = exchange_await(client, pending, deadline);
+        if (result == PERCUSS_RESULT_OK)
+            result = collect(client, pending, reply);
+        else
+            pending_remove(&client->pending, pending);
+    }
+    pthread_mutex_unlock(&client->lock);
+    return result;
+}
+
+enum percuss_result percuss_submit(struct percuss_client *client,
+                                   const struct percuss_request *request, uint64_t *sequence)
+{
+    struct pending *pending;
+    pthread_mutex_lock(&client->lock);
+    enum percuss_result result = send_request(client, request, false, &pending);
+    if (result == PERCUSS_RESULT_OK && sequence)
+        *sequence = pending->sequence;
+    pthread_mutex_unlock(&client->lock);
+    return result;
+}
+
+/* The outstanding request of that sequence that no other thread waits for. */
+static enum percuss_result find(struct percuss_client *client, uint64_t sequence,
+                                struct pending **pending)
+{
+    *pending = pending_find(&client->pending, sequence);
+    if (*pending && !(*pending)->waited)
+        return PERCUSS_RESULT_OK;
+    return error_set(PERCUSS_RESULT_UNKNOWN_SEQUENCE, "sequence: %llu: %s",
+                     (unsigned long long)sequence,
+                     *pending ? "another thread waits for it" : "no such request is outstanding");
+}
+
+static enum percuss_result wait_for(struct percuss_client *client, uint64_t sequence,
+                                    double deadline, struct percuss_reply *reply)
+{
+    struct pending *pending;
+    enum percuss_result result = find(client, sequence, &pending);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    pending->waited = true;
+    result = exchange_await(client, pending, deadline);
+    pending->waited = false;
+    return result == PERCUSS_RESULT_OK ? collect(client, pending, reply) : result;
+}
+
+static bool any_is_settled(const struct percuss_client *client, const void *subject)
+{
+    (void)subject;
+    return pending_first_ready(&client->pending) || !pending_has_unwaited(&client->pending);
+}
+
+static enum percuss_result wait_for_any(struct percuss_client *client, double deadline,
+                                        struct percuss_reply *reply)
+{
+    enum percuss_result result = receive_until(client, any_is_settled, NULL, deadline);
+    if (result == PERCUSS_RESULT_TIMEOUT)
+        return error_set(result, "none of %u outstanding requests is answered yet",
+                         client->pending.count);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    struct pending *pending = pending_first_ready(&client->pending);
+    if (!pending)
+        return error_set(PERCUSS_RESULT_UNKNOWN_SEQUENCE, "no request is outstanding");
+    return collect(client, pending, reply);
+}
+
+enum percuss_result percuss_wait(struct percuss_client *client, uint64_t sequence, double timeout,
+                                 struct percuss_reply *reply)
+{
+    double deadline;
+    *reply = (struct percuss_reply){0};
+    enum percuss_result result = receive_deadline(timeout, &deadline);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    pthread_mutex_lock(&client->lock);
+    result = sequence ? wait_for(client, sequence, deadline, reply)
+                      : wait_for_any(client, deadline, reply);
+    pthread_mutex_unlock(&client->lock);
+    return result;
+}
+
+enum percuss_result percuss_poll(struct percuss_client *client, uint64_t sequence,
+                                 struct percuss_reply *reply)
+{
+    enum percuss_result result = percuss_wait(client, sequence, 0.0, reply);
+    return result == PERCUSS_RESULT_TIMEOUT ? PERCUSS_RESULT_PENDING : result;
+}
+
+enum percuss_result percuss_cancel(struct percuss_client *client, uint64_t sequence)
+{
+    struct pending *pending;
+    pthread_mutex_lock(&client->lock);
+    enum percuss_result result = find(client, sequence, &pending);
+    if (result == PERCUSS_RESULT_OK)
+        pending_remove(&client->pending, pending);
+    pthread_mutex_unlock(&client->lock);
+    return result;
+}

@@ -1,0 +1,159 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Places two bodies so that they touch at their default sites. All site normals are axes of the
+ * body, so every rotation is a quarter or a half turn. */
+
+#include <math.h>
+#include <percuss/server.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "error.h"
+
+/* A point of the surface with its outward normal, in some frame. */
+struct site {
+    double point[3];
+    double normal[3];
+};
+
+struct percuss_pair percuss_pair_default(const struct percuss_body *a, const struct percuss_body *b)
+{
+    return (struct percuss_pair){.a = a, .b = b, .at_a = 0.5, .at_b = 0.5};
+}
+
+/* The site on the face at +axis (side 1) or -axis (side -1). */
+static struct site face_site(const struct percuss_body *body, int axis, double side)
+{
+    struct site site = {0};
+    site.point[axis] = side * body->half_extents[axis];
+    site.normal[axis] = side;
+    return site;
+}
+
+/* The default site in the body frame; false for an unknown shape. */
+static bool default_site(const struct percuss_body *body, double at, struct site *site)
+{
+    enum { X, Z = 2 };
+    if (!strcmp(body->shape, "rod")) {
+        bool far_end_is_free = body->supports[1] == PERCUSS_SUPPORT_FREE;
+        *site = face_site(body, X, far_end_is_free ? 1.0 : -1.0);
+    } else if (!strcmp(body->shape, "cylinder")) {
+        *site = face_site(body, X, 1.0);
+    } else if (!strcmp(body->shape, "beam")) {
+        *site = face_site(body, Z, 1.0);
+        site->point[X] = (2.0 * at - 1.0) * body->half_extents[X];
+    } else if (!strcmp(body->shape, "sphere") || !strcmp(body->shape, "block") ||
+               !strcmp(body->shape, "half-space")) {
+        *site = face_site(body, Z, 1.0);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double result[3])
+{
+    result[0] = a[1] * b[2] - a[2] * b[1];
+    result[1] = a[2] * b[0] - a[0] * b[2];
+    result[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* R(q) v = v + 2 w (u x v) + 2 u x (u x v) with q = (w, u). */
+static void rotate(const double q[4], const double v[3], double result[3])
+{
+    double once[3], twice[3];
+    cross(q + 1, v, once);
+    cross(q + 1, once, twice);
+    for (int i = 0; i < 3; ++i)
+        result[i] = v[i] + 2.0 * (q[0] * once[i] + twice[i]);
+}
+
+/* The smallest rotation that takes `from` to `to`, both along axes. Of the half turns it takes the
+ * one about x for +-z and the one about y for +-x. */
+static void smallest_rotation(const double from[3], const double to[3], double q[4])
+{
+    double cosine = dot(from, to), sine[3];
+    cross(from, to, sine);
+    if (cosine > 0.5) {
+        q[0] = 1.0;
+        q[1] = q[2] = q[3] = 0.0;
+    } else if (cosine < -0.5) {
+        q[0] = 0.0;
+        for (int i = 0; i < 3; ++i)
+            q[1 + (i + 1) % 3] = fabs(from[i]);
+    } else {
+        q[0] = M_SQRT1_2;
+        for (int i = 0; i < 3; ++i)
+            q[1 + i] = M_SQRT1_2 * sine[i];
+    }
+}
+
+static bool both_beams(const struct percuss_pair *pair)
+{
+    return !strcmp(pair->a->shape, "beam") && !strcmp(pair->b->shape, "beam");
+}
+
+static enum percuss_result check_pair(const struct percuss_pair *pair)
+{
+    if (!(pair->speed > 0.0) || !isfinite(pair->speed))
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                         "speed: %g: a finite number of m/s > 0 is needed", pair->speed);
+    const double at[] = {pair->at_a, pair->at_b};
+    for (int i = 0; i < 2; ++i)
+        if (!(at[i] >= 0.0 && at[i] <= 1.0))
+            return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "at: %g: a fraction 0..1 is needed",
+                             at[i]);
+    return PERCUSS_RESULT_OK;
+}
+
+static enum percuss_result find_site(const struct percuss_body *body, double at, struct site *site)
+{
+    if (default_site(body, at, site))
+        return PERCUSS_RESULT_OK;
+    return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                     "%s: a body of shape '%s' has no default site; send a whole request", body->id,
+                     body->shape);
+}
+
+enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
+                                         struct percuss_request *request)
+{
+    struct site site_a, site_b;
+    enum percuss_result result = check_pair(pair);
+    if (result == PERCUSS_RESULT_OK)
+        result = find_site(pair->a, pair->at_a, &site_a);
+    if (result == PERCUSS_RESULT_OK)
+        result = find_site(pair->b, pair->at_b, &site_b);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+
+    percuss_request_init(request);
+    struct percuss_body_motion *a = percuss_request_add_body(request, pair->a->id);
+    percuss_request_add_body(request, pair->b->id);
+    struct percuss_contact *contact = percuss_request_add_contact(request, 0, 1);
+
+    // B stands unrotated at the origin, so its site is the contact in the world
+    memcpy(contact->point, site_b.point, sizeof contact->point);
+    memcpy(contact->normal, site_b.normal, sizeof contact->normal);
+
+    double facing[3], arm[3];
+    for (int i = 0; i < 3; ++i)
+        facing[i] = 0.0 - site_b.normal[i]; // not -0
+    // crossed beams: z to -z and x to y is the half turn about the diagonal of x and y
+    if (both_beams(pair))
+        memcpy(a->orientation, (double[4]){0.0, M_SQRT1_2, M_SQRT1_2, 0.0}, sizeof a->orientation);
+    else
+        smallest_rotation(site_a.normal, facing, a->orientation);
+    rotate(a->orientation, site_a.point, arm);
+    for (int i = 0; i < 3; ++i) {
+        a->position[i] = contact->point[i] - arm[i];
+        a->velocity[i] = pair->speed * facing[i];
+    }
+    return PERCUSS_RESULT_OK;
+}

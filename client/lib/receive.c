@@ -1,0 +1,140 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "receive.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+#include "batch.h"
+#include "convert.h"
+#include "error.h"
+
+enum { TAKE_AT_ONCE = 32 };
+static const double longest_wait = 1e6; /* s; so that infinity fits nanoseconds and a timespec */
+
+double receive_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+enum percuss_result receive_deadline(double timeout, double *deadline)
+{
+    if (!(timeout >= 0.0))
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "timeout: %g: seconds >= 0 are needed",
+                         timeout);
+    *deadline = receive_now() + timeout;
+    return PERCUSS_RESULT_OK;
+}
+
+/* Files one reply. A reply that nobody waits for is a repeated or a cancelled one. */
+static void file_reply(struct percuss_client *client, struct percuss_reply *reply,
+                       enum percuss_result result)
+{
+    pthread_mutex_lock(&client->lock);
+    struct pending *pending = pending_find(&client->pending, reply->sequence);
+    if (reply->sequence == 0) {
+        ++client->pings_answered;
+        memcpy(client->server, reply->server, sizeof client->server);
+    } else if (pending && !pending->ready && !pending->batch) {
+        pending->reply = *reply;
+        *reply = (struct percuss_reply){0};
+        pending_set_ready(&client->pending, pending, result);
+    }
+    pthread_mutex_unlock(&client->lock);
+    percuss_reply_free(reply);
+}
+
+static void take_reply(struct percuss_client *client, const void *sample)
+{
+    const percuss_v1_Reply *wire = sample;
+    struct percuss_reply reply;
+    enum percuss_result result = convert_reply(wire, &reply);
+    reply.sequence = wire->sequence;
+    file_reply(client, &reply, result);
+}
+
+static void take_batch_reply(struct percuss_client *client, const void *sample)
+{
+    const percuss_v1_BatchReply *wire = sample;
+    pthread_mutex_lock(&client->lock);
+    struct pending *pending = pending_find(&client->pending, wire->sequence);
+    if (pending && !pending->ready && pending->batch) {
+        enum percuss_result result = batch_add_part(pending->batch, wire);
+        if (result != PERCUSS_RESULT_PENDING)
+            pending_set_ready(&client->pending, pending, result);
+    }
+    pthread_mutex_unlock(&client->lock);
+}
+
+/* Takes everything that a reader holds. */
+static enum percuss_result take_all(struct percuss_client *client, dds_entity_t reader,
+                                    void (*take)(struct percuss_client *, const void *))
+{
+    dds_return_t count;
+    do {
+        void *samples[TAKE_AT_ONCE] = {NULL}; // NULL: lent by the reader
+        dds_sample_info_t infos[TAKE_AT_ONCE];
+        count = dds_take(reader, samples, infos, TAKE_AT_ONCE, TAKE_AT_ONCE);
+        for (dds_return_t i = 0; i < count; ++i)
+            if (infos[i].valid_data)
+                take(client, samples[i]);
+        if (count > 0)
+            dds_return_loan(reader, samples, count);
+    } while (count == TAKE_AT_ONCE);
+    return count < 0 ? error_dds("taking replies", count) : PERCUSS_RESULT_OK;
+}
+
+/* Waits up to `seconds` for anything and files it. The lock is released meanwhile. */
+static enum percuss_result lead(struct percuss_client *client, double seconds)
+{
+    dds_entity_t batch_reader = client->batch_reader;
+    client->leading = true;
+    pthread_mutex_unlock(&client->lock);
+
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    dds_duration_t duration = (dds_duration_t)(1e9 * fmin(seconds, longest_wait));
+    dds_return_t triggered = dds_waitset_wait(client->waitset, NULL, 0, duration);
+    if (triggered < 0)
+        result = error_dds("waiting for replies", triggered);
+    if (triggered > 0)
+        result = take_all(client, client->reply_reader, take_reply);
+    if (triggered > 0 && result == PERCUSS_RESULT_OK && batch_reader)
+        result = take_all(client, batch_reader, take_batch_reply);
+
+    pthread_mutex_lock(&client->lock);
+    client->leading = false;
+    pthread_cond_broadcast(&client->changed);
+    return result;
+}
+
+/* Sleeps until the leader has filed something or resigns. */
+static void follow(struct percuss_client *client, double deadline)
+{
+    double until = fmin(deadline, receive_now() + longest_wait);
+    struct timespec time = {.tv_sec = (time_t)until};
+    time.tv_nsec = (long)(1e9 * (until - (double)time.tv_sec));
+    pthread_cond_timedwait(&client->changed, &client->lock, &time);
+}
+
+enum percuss_result receive_until(struct percuss_client *client, receive_condition *done,
+                                  const void *subject, double deadline)
+{
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    bool looked = false;
+    while (result == PERCUSS_RESULT_OK && !done(client, subject)) {
+        double left = deadline - receive_now();
+        if (left <= 0.0 && looked)
+            return PERCUSS_RESULT_TIMEOUT;
+        looked = true;
+        if (client->leading)
+            follow(client, deadline);
+        else
+            result = lead(client, fmax(left, 0.0));
+    }
+    return result;
+}

@@ -1,0 +1,27 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Who reads. There is no reader thread: a thread that waits for a reply sits in the waitset itself
+ * and takes it, so that a reply costs one hand-over (Cyclone's receive thread to the caller) and
+ * not two. Only one thread at a time does so, the leader; it files what arrives for the others,
+ * which sleep on the client's condition variable, and when its own wait is over another takes its
+ * place. */
+#ifndef PERCUSS_LIB_RECEIVE_H
+#define PERCUSS_LIB_RECEIVE_H
+
+#include "client.h"
+
+/* Monotonic time, s. */
+double receive_now(void);
+
+/* When a wait of `timeout` seconds that starts now is over. INVALID_ARGUMENT: not a number >= 0. */
+enum percuss_result receive_deadline(double timeout, double *deadline);
+
+typedef bool receive_condition(const struct percuss_client *client, const void *subject);
+
+/* Receives until `done` or the deadline; looks at least once at what has arrived. The lock is held
+ * at entry and return, and whenever `done` is called. OK, TIMEOUT or TRANSPORT. */
+enum percuss_result receive_until(struct percuss_client *client, receive_condition *done,
+                                  const void *subject, double deadline);
+
+#endif

@@ -1,0 +1,42 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Installs what percuss is built with and tested with, from Debian 12; nothing where it is there
+# already. Needs root (or sudo) only when something is missing.
+# usage: dependencies.sh [build|test]
+set -eu
+
+build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-dev
+liblapacke-dev libyaml-dev libjansson-dev"
+test="libcmocka-dev"
+
+packages=$build
+[ "${1:-build}" = build ] || packages="$build $test"
+
+missing=""
+for package in $packages; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' ||
+        missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+command -v apt-get >/dev/null || {
+    echo "dependencies: this script knows Debian's apt-get only; install:$missing" >&2
+    exit 1
+}
+sudo=""
+[ "$(id -u)" -eq 0 ] || sudo=sudo
+echo "installing:$missing" >&2
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+for attempt in 1 2 3; do
+    if { $sudo apt-get update && DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y \
+        --no-install-recommends $missing; } >"$log" 2>&1; then
+        exit 0
+    fi
+    sleep $((attempt * 5))
+done
+tail -n 20 "$log" >&2
+echo "dependencies: could not install:$missing" >&2
+exit 1

@@ -1,0 +1,43 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Topic names, quality of service and the built-in configuration: what both ends must agree on. */
+#ifndef PERCUSS_WIRE_H
+#define PERCUSS_WIRE_H
+
+#include <dds/dds.h>
+#include <stdint.h>
+
+#include "percuss_wire.h"
+
+#define WIRE_TOPIC_REQUEST           "percuss/v1/Request"
+#define WIRE_TOPIC_REPLY             "percuss/v1/Reply"
+#define WIRE_TOPIC_BATCH_REQUEST     "percuss/v1/BatchRequest"
+#define WIRE_TOPIC_BATCH_REPLY       "percuss/v1/BatchReply"
+#define WIRE_TOPIC_ENSEMBLE_REQUEST  "percuss/v1/EnsembleRequest"
+#define WIRE_TOPIC_ENSEMBLE_PROGRESS "percuss/v1/EnsembleProgress"
+#define WIRE_TOPIC_ENSEMBLE_REPLY    "percuss/v1/EnsembleReply"
+#define WIRE_TOPIC_TRACE             "percuss/v1/Trace"
+#define WIRE_TOPIC_SERVER_STATUS     "percuss/v1/ServerStatus"
+#define WIRE_TOPIC_BODY              "percuss/v1/Body"
+#define WIRE_TOPIC_DENTS             "percuss/v1/Dents"
+
+enum { WIRE_PARTITION_SIZE = 35, WIRE_WINDOW = 1024 };
+
+/* A participant in `domain`. Without CYCLONEDDS_URI in the environment it uses a built-in
+ * configuration: loopback only, no multicast, up to 100 processes. Returns the entity or a negative
+ * DDS return code (dds_strretcode). */
+dds_entity_t wire_participant_create(uint32_t domain);
+
+/* Quality of service of requests and replies of every kind: RELIABLE, VOLATILE, KEEP_LAST
+ * WIRE_WINDOW per client, blocking at most 100 ms. `partition` NULL: the default partition.
+ * The caller deletes the result with dds_delete_qos. */
+dds_qos_t *wire_qos_exchange(const char *partition);
+
+/* Quality of service of Body, ServerStatus and Dents: RELIABLE, TRANSIENT_LOCAL, KEEP_LAST 1. */
+dds_qos_t *wire_qos_announcement(void);
+
+/* "c_" and the 32 hexadecimal digits of a client id. */
+void wire_partition_name(const uint8_t client[16], char name[WIRE_PARTITION_SIZE]);
+
+#endif

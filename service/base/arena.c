@@ -1,0 +1,76 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "base/arena.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ALIGNMENT = 32, BLOCK_SIZE = 1 << 18 };
+
+struct arena_block {
+    struct arena_block *next;
+    size_t size, used;
+    _Alignas(ALIGNMENT) unsigned char bytes[];
+};
+
+static struct arena_block *block_create(size_t at_least)
+{
+    size_t size = at_least > BLOCK_SIZE ? at_least : BLOCK_SIZE;
+    struct arena_block *block = aligned_alloc(ALIGNMENT, sizeof *block + size);
+    if (block)
+        *block = (struct arena_block){.size = size};
+    return block;
+}
+
+/* The next block with room, old ones first. */
+static struct arena_block *block_with_room(struct arena *arena, size_t bytes)
+{
+    while (arena->current && arena->current->size - arena->current->used < bytes &&
+           arena->current->next) {
+        arena->current = arena->current->next;
+        arena->current->used = 0;
+    }
+    if (arena->current && arena->current->size - arena->current->used >= bytes)
+        return arena->current;
+    struct arena_block *block = block_create(bytes);
+    if (!block)
+        return NULL;
+    if (arena->current)
+        arena->current->next = block;
+    else
+        arena->first = block;
+    arena->current = block;
+    return block;
+}
+
+void *arena_take(struct arena *arena, size_t count, size_t size)
+{
+    if (size && count > (SIZE_MAX - 2 * ALIGNMENT) / size)
+        return NULL;
+    size_t bytes = (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    struct arena_block *block = block_with_room(arena, bytes);
+    if (!block)
+        return NULL;
+    void *memory = block->bytes + block->used;
+    block->used += bytes;
+    return memset(memory, 0, bytes);
+}
+
+void arena_reset(struct arena *arena)
+{
+    arena->current = arena->first;
+    if (arena->current)
+        arena->current->used = 0;
+}
+
+void arena_release(struct arena *arena)
+{
+    for (struct arena_block *block = arena->first; block;) {
+        struct arena_block *next = block->next;
+        free(block);
+        block = next;
+    }
+    *arena = (struct arena){0};
+}

@@ -1,0 +1,26 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Memory of one solve: handed out in pieces, given back all at once. */
+#ifndef PERCUSS_BASE_ARENA_H
+#define PERCUSS_BASE_ARENA_H
+
+#include <stddef.h>
+
+struct arena_block;
+
+struct arena {
+    struct arena_block *first; /* all blocks, kept for reuse */
+    struct arena_block *current;
+};
+
+/* 32-byte aligned, zeroed memory for `count` items of `size` bytes; NULL: out of memory. */
+void *arena_take(struct arena *arena, size_t count, size_t size);
+
+/* Everything taken is free again; no memory goes back to the system. */
+void arena_reset(struct arena *arena);
+
+/* Gives all memory back. */
+void arena_release(struct arena *arena);
+
+#endif

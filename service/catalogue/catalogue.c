@@ -1,0 +1,109 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "catalogue/catalogue.h"
+
+#include <errno.h>
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "catalogue/content.h"
+#include "catalogue/guard.h"
+#include "catalogue/reader.h"
+#include "catalogue/revision.h"
+
+static enum percuss_status out_of_memory(const char *name, struct fault *fault)
+{
+    return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", reader_short_name(name));
+}
+
+/* The guard has parsed the same text before: only memory can fail here. */
+static enum percuss_status load_document(const char *text, size_t size, const char *name,
+                                         yaml_document_t *document, struct fault *fault)
+{
+    yaml_parser_t parser;
+    if (!yaml_parser_initialize(&parser))
+        return out_of_memory(name, fault);
+    yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(&parser, (const unsigned char *)text, size);
+    int loaded = yaml_parser_load(&parser, document);
+    yaml_parser_delete(&parser);
+    return loaded ? PERCUSS_OK : out_of_memory(name, fault);
+}
+
+static enum percuss_status parse(const char *text, size_t size, const char *name,
+                                 struct body_set *set, struct fault *fault)
+{
+    yaml_document_t document;
+    enum percuss_status status = guard_check(text, size, name, fault);
+    if (!status)
+        status = load_document(text, size, name, &document, fault);
+    if (status)
+        return status;
+    struct reader reader = {.document = &document, .name = name, .fault = fault};
+    status = content_read(&reader, set);
+    if (!status)
+        status = revision_write(set, fault);
+    yaml_document_delete(&document);
+    return status;
+}
+
+enum percuss_status catalogue_parse(const char *text, size_t size, const char *name,
+                                    struct body_set **set, struct fault *fault)
+{
+    *set = NULL;
+    if (size > CATALOGUE_MAX_BYTES)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: too long: must be at most %d bytes",
+                         reader_short_name(name), CATALOGUE_MAX_BYTES);
+    enum percuss_status status = PERCUSS_INTERNAL;
+    /* numbers have a point in every country, in the file and in messages */
+    locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
+    if (!plain)
+        return out_of_memory(name, fault);
+    locale_t caller = uselocale(plain);
+    struct body_set *fresh = calloc(1, sizeof *fresh);
+    if (!fresh) {
+        out_of_memory(name, fault);
+        goto restore;
+    }
+    status = parse(text ? text : "", text ? size : 0, name, fresh, fault);
+    if (status)
+        body_set_free(fresh);
+    else
+        *set = fresh;
+restore:
+    uselocale(caller);
+    freelocale(plain);
+    return status;
+}
+
+static enum percuss_status unreadable(const char *path, struct fault *fault)
+{
+    return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: cannot be read: %s", reader_short_name(path),
+                     strerror(errno));
+}
+
+enum percuss_status catalogue_load(const char *path, struct body_set **set, struct fault *fault)
+{
+    enum percuss_status status;
+    size_t size = 0, got;
+    *set = NULL;
+    FILE *file = fopen(path, "rbe");
+    if (!file)
+        return unreadable(path, fault);
+    /* one byte more than allowed tells a file that is too long */
+    char *text = malloc(CATALOGUE_MAX_BYTES + 1);
+    if (!text) {
+        status = out_of_memory(path, fault);
+        goto close;
+    }
+    while ((got = fread(text + size, 1, CATALOGUE_MAX_BYTES + 1 - size, file)) > 0)
+        size += got;
+    status = ferror(file) ? unreadable(path, fault) : catalogue_parse(text, size, path, set, fault);
+    free(text);
+close:
+    fclose(file);
+    return status;
+}

@@ -1,0 +1,169 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "catalogue/content.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "catalogue/keys.h"
+#include "catalogue/names.h"
+#include "model/body_check.h"
+
+struct materials {
+    struct names names;
+    struct material *list; /* in the order of the file */
+};
+
+static enum percuss_status out_of_memory(const struct reader *reader)
+{
+    return fault_set(reader->fault, PERCUSS_INTERNAL, "%s: out of memory",
+                     reader_short_name(reader->name));
+}
+
+/* Gives a message of the model, "field: value: must be ...", the line of that field. */
+static enum percuss_status refuse_field(struct reader *reader, struct entry entry,
+                                        const char *message)
+{
+    char field[64];
+    size_t length = strcspn(message, ":");
+    snprintf(field, sizeof field, "%.*s", (int)strcspn(message, ":.["), message);
+    const yaml_node_t *at = reader_find(reader, entry.value, field).value;
+    snprintf(field, sizeof field, "%.*s", (int)length, message);
+    reader_enter(reader, field);
+    const char *rest = message + length;
+    return reader_refuse(reader, at ? at : entry.key, "%s", rest + strspn(rest, ": "));
+}
+
+static enum percuss_status read_material(struct reader *reader, struct entry entry,
+                                         struct material *material)
+{
+    *material = (struct material){.yield = INFINITY};
+    memcpy(material->name, entry.key->data.scalar.value, entry.key->data.scalar.length);
+    size_t mark = reader_enter(reader, material->name);
+    enum percuss_status status = keys_read(reader, entry, &keys_material, KEYS_ANY, material);
+    if (status)
+        return status;
+    struct fault fault = {0};
+    if (material_check(material, &fault))
+        return refuse_field(reader, entry, fault.text);
+    reader_leave(reader, mark);
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_materials(struct reader *reader, const yaml_node_t *mapping,
+                                          struct materials *materials)
+{
+    size_t mark = reader_enter(reader, "materials");
+    enum percuss_status status = names_read(reader, mapping, &materials->names);
+    if (status)
+        return status;
+    materials->list = malloc(materials->names.count * sizeof *materials->list);
+    if (!materials->list)
+        return out_of_memory(reader);
+    for (size_t i = 0; !status && i < materials->names.count; i++)
+        status = read_material(reader, reader_entry(reader, mapping, i), &materials->list[i]);
+    if (!status)
+        reader_leave(reader, mark);
+    return status;
+}
+
+static void materials_free(struct materials *materials)
+{
+    names_free(&materials->names);
+    free(materials->list);
+}
+
+/* The shape decides which other keys are allowed. */
+static enum percuss_status read_shape(struct reader *reader, struct entry entry, struct body *body)
+{
+    const struct key *key = keys_find(&keys_body, "shape", KEYS_ANY);
+    if (entry.value->type != YAML_MAPPING_NODE)
+        return reader_refuse_value(reader, entry.value, "a mapping with shape, material, ...");
+    const yaml_node_t *value = reader_find(reader, entry.value, key->name).value;
+    size_t mark = reader_enter(reader, key->name);
+    if (!value)
+        return reader_refuse(reader, entry.key, "missing: must be %s", keys_allowed(key).text);
+    enum percuss_status status = keys_read_value(reader, value, key, body);
+    if (!status)
+        reader_leave(reader, mark);
+    return status;
+}
+
+static enum percuss_status find_material(struct reader *reader, struct entry entry,
+                                         const struct materials *materials, struct body *body)
+{
+    size_t position = names_find(&materials->names, body->material.name);
+    if (position < materials->names.count) {
+        body->material = materials->list[position];
+        return PERCUSS_OK;
+    }
+    const yaml_node_t *value = reader_find(reader, entry.value, "material").value;
+    reader_enter(reader, "material");
+    return reader_refuse(reader, value, "%s: unknown material; must be one of %s",
+                         reader_excerpt(value).text, names_list(&materials->names).text);
+}
+
+static enum percuss_status read_body(struct reader *reader, struct entry entry,
+                                     const struct materials *materials, struct body *body)
+{
+    *body = (struct body){.tip_radius = INFINITY};
+    memcpy(body->id, entry.key->data.scalar.value, entry.key->data.scalar.length);
+    size_t mark = reader_enter(reader, body->id);
+    enum percuss_status status = read_shape(reader, entry, body);
+    if (!status)
+        status = keys_read(reader, entry, &keys_body, KEYS_OF(body->shape), body);
+    if (!status)
+        status = find_material(reader, entry, materials, body);
+    if (status)
+        return status;
+    if (body->shape == SHAPE_BEAM && body->radius == 0.0 && body->width == 0.0)
+        return reader_refuse(reader, entry.key,
+                             "radius or section missing: a beam must have one of them");
+    struct fault fault = {0};
+    if (body_complete(body, &fault))
+        return refuse_field(reader, entry, fault.text);
+    reader_leave(reader, mark);
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_bodies(struct reader *reader, const yaml_node_t *mapping,
+                                       const struct materials *materials, struct body_set *set)
+{
+    struct names names;
+    size_t mark = reader_enter(reader, "bodies");
+    enum percuss_status status = names_read(reader, mapping, &names);
+    if (status)
+        return status;
+    set->count = names.count;
+    names_free(&names);
+    set->bodies = malloc(set->count * sizeof *set->bodies);
+    if (!set->bodies)
+        return out_of_memory(reader);
+    for (size_t i = 0; !status && i < set->count; i++)
+        status = read_body(reader, reader_entry(reader, mapping, i), materials, &set->bodies[i]);
+    if (!status)
+        reader_leave(reader, mark);
+    return status;
+}
+
+enum percuss_status content_read(struct reader *reader, struct body_set *set)
+{
+    struct materials materials = {0};
+    const yaml_node_t *root = yaml_document_get_root_node(reader->document);
+    *set = (struct body_set){.compliance = PERCUSS_COMPLIANCE_HALF_SPACE};
+    enum percuss_status status =
+        keys_read(reader, (struct entry){root, root}, &keys_top, KEYS_ANY, set);
+    if (!status)
+        status = read_materials(reader, reader_find(reader, root, "materials").value, &materials);
+    if (!status)
+        status = read_bodies(reader, reader_find(reader, root, "bodies").value, &materials, set);
+    materials_free(&materials);
+    if (status) {
+        free(set->bodies);
+        *set = (struct body_set){0};
+    }
+    return status;
+}

@@ -1,0 +1,216 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "catalogue/keys.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "model/body.h"
+
+_Static_assert(sizeof(enum support) == sizeof(unsigned) && sizeof(enum shape) == sizeof(unsigned),
+               "choices are stored as unsigned numbers");
+
+static enum percuss_status refuse(const struct reader *reader, const yaml_node_t *value,
+                                  const struct key *key)
+{
+    return reader_refuse_value(reader, value, keys_allowed(key).text);
+}
+
+static bool read_number(const yaml_node_t *value, const struct key *key, void *field)
+{
+    double number;
+    if (!reader_number(value, &number) || !limit_holds(key->limit, number))
+        return false;
+    memcpy(field, &number, sizeof number);
+    return true;
+}
+
+static bool read_whole(const yaml_node_t *value, const struct key *key, void *field)
+{
+    return reader_whole(value, (unsigned)key->limit->high, field);
+}
+
+static bool read_flag(const yaml_node_t *value, bool *field)
+{
+    *field = reader_is(value, "true");
+    return value->type == YAML_SCALAR_NODE && value->data.scalar.style == YAML_PLAIN_SCALAR_STYLE &&
+           (*field || reader_is(value, "false"));
+}
+
+static bool read_word(const yaml_node_t *value, const struct key *key, void *field)
+{
+    for (unsigned i = 0; i < key->word_count; i++)
+        if (key->words[i] && reader_is(value, key->words[i])) {
+            memcpy(field, &i, sizeof i);
+            return true;
+        }
+    return false;
+}
+
+static bool read_shear(const yaml_node_t *value, const struct key *key, struct body *body)
+{
+    if (read_word(value, key, &body->shear_rule))
+        return true;
+    body->shear_rule = SHEAR_NUMBER;
+    return read_number(value, key, &body->shear_number);
+}
+
+static bool read_name(const yaml_node_t *value, char *field)
+{
+    if (value->type != YAML_SCALAR_NODE || value->data.scalar.length >= PERCUSS_ID_SIZE)
+        return false;
+    memcpy(field, value->data.scalar.value, value->data.scalar.length);
+    field[value->data.scalar.length] = '\0';
+    return true;
+}
+
+/* A list of exactly `count`; the message of a bad element names its index. */
+static enum percuss_status read_list(struct reader *reader, const yaml_node_t *list,
+                                     const struct key *key, size_t count, char *field)
+{
+    struct key one = *key;
+    one.type = key->type == KEY_ENDS ? KEY_WORD : KEY_NUMBER;
+    size_t stride = key->type == KEY_ENDS ? sizeof(unsigned) : sizeof(double);
+    if (list->type != YAML_SEQUENCE_NODE || reader_count(list) != count)
+        return refuse(reader, list, key);
+    for (size_t i = 0; i < count; i++) {
+        char index[24];
+        snprintf(index, sizeof index, "[%zu]", i);
+        size_t mark = reader_enter(reader, index);
+        one.offset = i * stride;
+        enum percuss_status status =
+            keys_read_value(reader, reader_element(reader, list, i), &one, field);
+        if (status)
+            return status;
+        reader_leave(reader, mark);
+    }
+    return PERCUSS_OK;
+}
+
+static enum percuss_status read_ends(struct reader *reader, const yaml_node_t *value,
+                                     const struct key *key, char *field)
+{
+    if (!read_word(value, key, field))
+        return read_list(reader, value, key, 2, field);
+    memcpy(field + sizeof(unsigned), field, sizeof(unsigned));
+    return PERCUSS_OK;
+}
+
+enum percuss_status keys_read_value(struct reader *reader, const yaml_node_t *value,
+                                    const struct key *key, void *object)
+{
+    char *field = (char *)object + key->offset;
+    bool good = true;
+    switch (key->type) {
+    case KEY_NUMBER:
+        good = read_number(value, key, field);
+        break;
+    case KEY_WHOLE:
+        good = read_whole(value, key, field);
+        break;
+    case KEY_FLAG:
+        good = read_flag(value, (bool *)field);
+        break;
+    case KEY_WORD:
+        good = read_word(value, key, field);
+        break;
+    case KEY_SHEAR:
+        good = read_shear(value, key, object);
+        break;
+    case KEY_NAME:
+        good = read_name(value, field);
+        break;
+    case KEY_NUMBERS:
+        return read_list(reader, value, key, 3, field);
+    case KEY_ENDS:
+        return read_ends(reader, value, key, field);
+    case KEY_SECTION:
+        return keys_read(reader, (struct entry){value, value}, key->nested, KEYS_ANY, object);
+    case KEY_CALLER:
+        good = value->type == YAML_MAPPING_NODE;
+        break;
+    }
+    return good ? PERCUSS_OK : refuse(reader, value, key);
+}
+
+const struct key *keys_find(const struct key_table *table, const char *name, unsigned shapes)
+{
+    for (size_t i = 0; i < table->count; i++)
+        if (table->keys[i].shapes & shapes && strcmp(table->keys[i].name, name) == 0)
+            return &table->keys[i];
+    return NULL;
+}
+
+static const char *owner_name(const struct key_table *table, unsigned shapes)
+{
+    unsigned shape = 0;
+    while (shape < SHAPE_HALF_SPACE && !(shapes & KEYS_OF(shape)))
+        shape++;
+    return table->owner ? table->owner : shape_name(shape);
+}
+
+static enum percuss_status refuse_key(const struct reader *reader, const yaml_node_t *key,
+                                      const struct key_table *table, unsigned shapes)
+{
+    return reader_refuse(reader, key, "%s: unknown key; the keys of %s are %s",
+                         reader_excerpt(key).text, owner_name(table, shapes),
+                         keys_list(table, shapes).text);
+}
+
+static enum percuss_status check_required(struct reader *reader, struct entry entry,
+                                          const struct key_table *table, unsigned shapes)
+{
+    for (size_t i = 0; i < table->count; i++) {
+        const struct key *key = &table->keys[i];
+        if (!key->required || !(key->shapes & shapes) ||
+            reader_find(reader, entry.value, key->name).value)
+            continue;
+        reader_enter(reader, key->name);
+        return reader_refuse(reader, entry.key, "missing: must be %s", keys_allowed(key).text);
+    }
+    return PERCUSS_OK;
+}
+
+/* One row of the table, or NULL. */
+static const struct key *key_of(const yaml_node_t *node, const struct key_table *table,
+                                unsigned shapes)
+{
+    for (size_t i = 0; i < table->count; i++)
+        if (table->keys[i].shapes & shapes && reader_is(node, table->keys[i].name))
+            return &table->keys[i];
+    return NULL;
+}
+
+static enum percuss_status read_entry(struct reader *reader, const yaml_node_t *mapping,
+                                      struct entry item, const struct key *key, void *object)
+{
+    size_t mark = reader_enter(reader, key->name);
+    struct entry first = reader_find(reader, mapping, key->name);
+    if (first.key != item.key)
+        return reader_refuse(reader, item.key, "must stand once, but is on line %zu already",
+                             first.key->start_mark.line + 1);
+    enum percuss_status status = keys_read_value(reader, item.value, key, object);
+    if (!status)
+        reader_leave(reader, mark);
+    return status;
+}
+
+enum percuss_status keys_read(struct reader *reader, struct entry entry,
+                              const struct key_table *table, unsigned shapes, void *object)
+{
+    if (entry.value->type != YAML_MAPPING_NODE) {
+        const struct key whole = {.type = KEY_SECTION, .nested = table};
+        return refuse(reader, entry.value, &whole);
+    }
+    for (size_t i = 0; i < reader_count(entry.value); i++) {
+        struct entry item = reader_entry(reader, entry.value, i);
+        const struct key *key = key_of(item.key, table, shapes);
+        if (!key)
+            return refuse_key(reader, item.key, table, shapes);
+        enum percuss_status status = read_entry(reader, entry.value, item, key, object);
+        if (status)
+            return status;
+    }
+    return check_required(reader, entry, table, shapes);
+}

@@ -1,0 +1,103 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "catalogue/revision.h"
+
+#include <inttypes.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* FNV-1a, 128 bits (Fowler, Noll, Vo; RFC 9923): xor an octet, multiply by 2^88 + 0x13b. */
+__extension__ typedef unsigned __int128 wide;
+
+struct hash {
+    wide state;
+};
+
+static void hash_octet(struct hash *hash, unsigned char octet)
+{
+    const wide prime = ((wide)1 << 88) + 0x13b;
+    hash->state = (hash->state ^ octet) * prime;
+}
+
+static void hash_number(struct hash *hash, uint64_t number)
+{
+    for (int shift = 0; shift < 64; shift += 8)
+        hash_octet(hash, (unsigned char)(number >> shift));
+}
+
+static void hash_double(struct hash *hash, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    hash_number(hash, bits);
+}
+
+/* The terminating zero keeps neighbours apart. */
+static void hash_text(struct hash *hash, const char *text)
+{
+    size_t size = strlen(text) + 1;
+    for (size_t i = 0; i < size; i++)
+        hash_octet(hash, (unsigned char)text[i]);
+}
+
+static void hash_material(struct hash *hash, const struct material *material)
+{
+    hash_text(hash, material->name);
+    hash_double(hash, material->young);
+    hash_double(hash, material->poisson);
+    hash_double(hash, material->density);
+    hash_double(hash, material->yield);
+    hash_double(hash, material->tangent);
+}
+
+static void hash_body(struct hash *hash, const struct body *body)
+{
+    const double dimensions[] = {
+        body->radius,  body->width,   body->height,  body->length,  body->tip_radius,
+        body->size[0], body->size[1], body->size[2], body->damping,
+    };
+    hash_text(hash, body->id);
+    hash_material(hash, &body->material);
+    hash_number(hash, body->shape);
+    for (size_t i = 0; i < sizeof dimensions / sizeof *dimensions; i++)
+        hash_double(hash, dimensions[i]);
+    hash_number(hash, body->lateral_inertia);
+    hash_number(hash, body->supports[0]);
+    hash_number(hash, body->supports[1]);
+    hash_number(hash, body->modes);
+    hash_number(hash, body->theory);
+    /* the factors themselves: they are NAN where the rule has no effect */
+    bool shear = body->shape == SHAPE_BEAM && body->theory == THEORY_TIMOSHENKO;
+    for (int plane = 0; shear && plane < 2; plane++)
+        hash_double(hash, body->shear_factor[plane]);
+}
+
+static int by_id(const void *a, const void *b)
+{
+    const struct body *const *x = a, *const *y = b;
+    return strcmp((*x)->id, (*y)->id);
+}
+
+enum percuss_status revision_write(struct body_set *set, struct fault *fault)
+{
+    const struct body **order = malloc((set->count + 1) * sizeof *order);
+    if (!order)
+        return fault_set(fault, PERCUSS_INTERNAL, "catalogue revision: out of memory");
+    for (size_t i = 0; i < set->count; i++)
+        order[i] = &set->bodies[i];
+    qsort(order, set->count, sizeof *order, by_id);
+
+    struct hash hash = {(wide)0x6c62272e07bb0142 << 64 | 0x62b821756295c58d};
+    hash_text(&hash, "percuss catalogue 1"); /* of this list of fields */
+    hash_number(&hash, set->compliance);
+    hash_number(&hash, set->count);
+    for (size_t i = 0; i < set->count; i++)
+        hash_body(&hash, order[i]);
+    free(order);
+    snprintf(set->revision, sizeof set->revision, "%016" PRIx64 "%016" PRIx64,
+             (uint64_t)(hash.state >> 64), (uint64_t)hash.state);
+    return PERCUSS_OK;
+}

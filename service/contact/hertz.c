@@ -1,0 +1,79 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "contact/hertz.h"
+
+#include <math.h>
+
+#include "numeric/elliptic.h"
+
+double hertz_effective_modulus(const struct material *a, const struct material *b)
+{
+    return 1.0 / ((1.0 - a->poisson * a->poisson) / a->young +
+                  (1.0 - b->poisson * b->poisson) / b->young);
+}
+
+/* With q = (b/a)^2 both brackets are Carlson integrals times m/3: K - E = m R_D(0,q,1)/3 and
+ * (a/b)^2 E - K = m R_D(0,1,q)/3 (DLMF 19.25.1), so that B/A needs no series near the circle. */
+static double curvature_ratio(double q)
+{
+    return elliptic_rd0(1.0, q) / elliptic_rd0(q, 1.0);
+}
+
+/* q = (b/a)^2 for B/A = ratio >= 1: the ratio falls from infinity to 1 as q rises to 1; regula falsi
+ * with bisection in log q against log ratio, which is nearly a straight line. */
+static double axis_ratio_squared(double ratio)
+{
+    if (ratio <= 1.0)
+        return 1.0;
+    double target = log(ratio);
+    double low = -4.0 * target - 1.0;
+    double high = 0.0;
+    double f_low = log(curvature_ratio(exp(low))) - target;
+    double f_high = -target;
+    for (int i = 0; i < 200 && high - low > 1e-15 * fmax(1e-8, -low); i++) {
+        double x = low - f_low * (high - low) / (f_high - f_low);
+        if (i % 3 == 2 || !(x > low && x < high))
+            x = 0.5 * (low + high);
+        double f = log(curvature_ratio(exp(x))) - target;
+        if (f == 0.0)
+            return exp(x);
+        if (f > 0.0) {
+            low = x;
+            f_low = f;
+        } else {
+            high = x;
+            f_high = f;
+        }
+    }
+    return exp(0.5 * (low + high));
+}
+
+struct hertz_contact hertz_contact_make(double effective_modulus, double a, double b)
+{
+    double q = axis_ratio_squared(b / a);
+    double k = elliptic_rf0(q, 1.0);
+    double g = elliptic_rd0(q, 1.0) / (3.0 * a);
+    return (struct hertz_contact){
+        .effective_modulus = effective_modulus,
+        .stiffness = 2.0 * M_PI / 3.0 * effective_modulus * sqrt(g) / (k * sqrt(k)),
+        .axis_ratio = sqrt(q),
+        .curvature = {a, b},
+    };
+}
+
+void hertz_ellipse(const struct hertz_contact *contact, double force, double axes[2])
+{
+    /* a^3 = 3 F G / (2 pi E-star), with G as above (Johnson, eqs. 4.25 and 4.26) */
+    double q = contact->axis_ratio * contact->axis_ratio;
+    double g = elliptic_rd0(q, 1.0) / (3.0 * contact->curvature[0]);
+    axes[0] = cbrt(1.5 * force * g / (M_PI * contact->effective_modulus));
+    axes[1] = axes[0] * contact->axis_ratio;
+}
+
+double hertz_peak_pressure(const struct hertz_contact *contact, double force)
+{
+    double axes[2];
+    hertz_ellipse(contact, force, axes);
+    return force > 0.0 ? 1.5 * force / (M_PI * axes[0] * axes[1]) : 0.0;
+}

@@ -1,0 +1,34 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Hertz contact of two general second-order surfaces, exact elliptic solution. */
+#ifndef PERCUSS_CONTACT_HERTZ_H
+#define PERCUSS_CONTACT_HERTZ_H
+
+#include "model/material.h"
+
+/* Below this ratio of the relative principal curvatures a contact counts as a line. */
+#define HERTZ_LINE_RATIO 1e-6
+
+struct hertz_contact {
+    double effective_modulus; /* E*, Pa */
+    double stiffness;         /* k of F = k d^(3/2), N/m^(3/2) */
+    double axis_ratio;        /* b / a <= 1 of the contact ellipse */
+    double curvature[2];      /* A <= B of the gap A x^2 + B y^2, 1/m */
+};
+
+/* 1/E* = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b. */
+double hertz_effective_modulus(const struct material *a, const struct material *b);
+
+/* Contact of relative curvatures A <= B (1/m), A > 0: A = 1/(2 R1), B = 1/(2 R2) (Johnson, Contact
+ * Mechanics, section 4.2; with m = 1 - (b/a)^2: B/A = [(a/b)^2 E - K]/(K - E), G = (K - E)/(m A),
+ * k = (2 pi E-star/3) sqrt(G)/K^(3/2)). */
+struct hertz_contact hertz_contact_make(double effective_modulus, double a, double b);
+
+/* Semi-axes (a, b), m, of the contact ellipse at a force. */
+void hertz_ellipse(const struct hertz_contact *contact, double force, double axes[2]);
+
+/* Largest pressure at a force, Pa: 3 F / (2 pi a b). */
+double hertz_peak_pressure(const struct hertz_contact *contact, double force);
+
+#endif

@@ -1,0 +1,46 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+
+#include "contact/law.h"
+
+static double hertz_force(const struct contact_law *law, const void *history, double indentation,
+                          double *stiffness)
+{
+    (void)history;
+    if (!(indentation > 0.0)) {
+        *stiffness = 0.0;
+        return 0.0;
+    }
+    double root = sqrt(indentation);
+    *stiffness = 1.5 * law->parameters[0] * root;
+    return law->parameters[0] * indentation * root;
+}
+
+static double hertz_stored(const struct contact_law *law, const void *history, double indentation)
+{
+    (void)history;
+    if (!(indentation > 0.0))
+        return 0.0;
+    return 0.4 * law->parameters[0] * indentation * indentation * sqrt(indentation);
+}
+
+static double hertz_indentation(const struct contact_law *law, double force)
+{
+    double root = cbrt(force / law->parameters[0]);
+    return root * root;
+}
+
+static const struct contact_law_operations operations = {
+    .model = PERCUSS_CONTACT_HERTZ,
+    .history_size = 0,
+    .force = hertz_force,
+    .stored = hertz_stored,
+    .indentation = hertz_indentation,
+};
+
+struct contact_law contact_law_hertz(double stiffness)
+{
+    return (struct contact_law){.operations = &operations, .parameters = {stiffness}};
+}

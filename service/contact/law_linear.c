@@ -1,0 +1,36 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "contact/law.h"
+
+static double linear_force(const struct contact_law *law, const void *history, double indentation,
+                           double *stiffness)
+{
+    (void)history;
+    *stiffness = indentation > 0.0 ? law->parameters[0] : 0.0;
+    return *stiffness * indentation;
+}
+
+static double linear_stored(const struct contact_law *law, const void *history, double indentation)
+{
+    (void)history;
+    return indentation > 0.0 ? 0.5 * law->parameters[0] * indentation * indentation : 0.0;
+}
+
+static double linear_indentation(const struct contact_law *law, double force)
+{
+    return force / law->parameters[0];
+}
+
+static const struct contact_law_operations operations = {
+    .model = PERCUSS_CONTACT_AUTO,
+    .history_size = 0,
+    .force = linear_force,
+    .stored = linear_stored,
+    .indentation = linear_indentation,
+};
+
+struct contact_law contact_law_linear(double stiffness)
+{
+    return (struct contact_law){.operations = &operations, .parameters = {stiffness}};
+}

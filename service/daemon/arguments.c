@@ -1,0 +1,75 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/arguments.h"
+
+#include <argp.h>
+#include <stdlib.h>
+
+#include "daemon/settings.h"
+
+enum { KEY_CHECK = 0x100, USAGE = 2 };
+
+const char *argp_program_version = "percussd " PERCUSS_VERSION;
+
+static const struct argp_option options[] = {
+    {"config", 'c', "FILE", 0, "Settings, as in config/percussd.yaml", 0},
+    {"catalogue", 'C', "FILE", 0, "Bodies and materials; goes before the one in the settings", 0},
+    {"domain", 'd', "N", 0, "DDS domain, 0 to 230; goes before the one in the settings", 0},
+    {"check-config", KEY_CHECK, NULL, 0, "Read settings and catalogue, say ok or what is wrong", 0},
+    {0},
+};
+
+static int parse_domain(struct argp_state *state, const char *text)
+{
+    char *end;
+    long domain = strtol(text, &end, 10);
+    if (end == text || *end || domain < 0 || domain > SETTINGS_MAX_DOMAIN)
+        argp_error(state, "--domain: %s: must be a whole number, 0 to %d", text,
+                   SETTINGS_MAX_DOMAIN);
+    return (int)domain;
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct arguments *arguments = state->input;
+    switch (key) {
+    case 'c':
+        arguments->config = text;
+        return 0;
+    case 'C':
+        arguments->catalogue = text;
+        return 0;
+    case 'd':
+        arguments->domain = parse_domain(state, text);
+        return 0;
+    case KEY_CHECK:
+        arguments->check_config = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        argp_error(state, "%s: must be an option", text);
+        return 0;
+    case ARGP_KEY_END:
+        if (!arguments->config && !arguments->catalogue)
+            argp_error(state, "--config FILE or --catalogue FILE must be given");
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+struct arguments arguments_read(int argc, char **argv)
+{
+    static const struct argp argp = {
+        .options = options,
+        .parser = parse,
+        .doc =
+            "Answers what impacts do, on DDS."
+            "\vSIGTERM and SIGINT: answers what is waiting and ends. SIGHUP: reads the catalogue "
+            "again; a bad one is logged and the old one stays.",
+    };
+    struct arguments arguments = {.domain = -1};
+    argp_err_exit_status = USAGE;
+    argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    return arguments;
+}

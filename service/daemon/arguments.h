@@ -1,0 +1,19 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The daemon's command line. */
+#ifndef PERCUSS_DAEMON_ARGUMENTS_H
+#define PERCUSS_DAEMON_ARGUMENTS_H
+
+#include <stdbool.h>
+
+struct arguments {
+    const char *config, *catalogue; /* NULL: not given */
+    int domain;                     /* -1: not given */
+    bool check_config;
+};
+
+/* Ends the program for --help, --version and, with exit code 2, wrong usage. */
+struct arguments arguments_read(int argc, char **argv);
+
+#endif

@@ -1,0 +1,183 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/reception.h"
+
+#include <stdio.h>
+
+#include "daemon/log.h"
+#include "endpoint/clock.h"
+#include "endpoint/encode.h"
+#include "endpoint/question.h"
+
+/* Finer solutions than this may take long, and the reading thread must not. */
+static const double cheap_tolerance = 1e-6;
+
+static struct answer *refusal(const struct envelope *envelope, enum exchange exchange,
+                              enum percuss_status status, const char *message)
+{
+    if (exchange == EXCHANGE_BATCH)
+        return encode_batch_refusal(envelope, status, message);
+    if (exchange == EXCHANGE_ENSEMBLE)
+        return encode_ensemble_refusal(envelope, status, message);
+    return encode_refusal(envelope, status, message);
+}
+
+/* Sends a refusal that is not stored: the request may be asked again. */
+static void refuse(struct service *service, const struct request_name *name,
+                   enum percuss_status status, const char *message)
+{
+    struct edition *edition = editions_hold(&service->editions);
+    struct envelope envelope = service_envelope(service, name, edition);
+    struct answer *answer = refusal(&envelope, name->exchange, status, message);
+    editions_let_go(&service->editions, edition);
+    if (!answer)
+        return;
+    endpoint_reply(service->endpoint, name->client, answer);
+    answer_release(answer);
+    if (status != PERCUSS_OK)
+        atomic_fetch_add(&service->refused, 1);
+}
+
+/* A refusal of an admitted request for how things stand. */
+static void turn_away(struct service *service, const struct request_name *name)
+{
+    char message[128];
+    reply_store_forget(service->replies, name);
+    if (atomic_load(&service->draining))
+        snprintf(message, sizeof message, "the server is shutting down: ask another one");
+    else
+        snprintf(message, sizeof message, "%u requests are waiting: ask again later",
+                 service->settings->queue_capacity);
+    refuse(service, name, PERCUSS_BUSY, message);
+}
+
+/* Answers what has been asked before, and what misuses its number. True: the request is new. */
+static bool admit(struct service *service, const struct request_name *name, struct digest content,
+                  double now)
+{
+    struct answer *stored;
+    char message[160];
+    switch (reply_store_admit(service->replies, name, content, now, &stored)) {
+    case ADMISSION_REPEATED:
+        endpoint_reply(service->endpoint, name->client, stored);
+        answer_release(stored);
+        return false;
+    case ADMISSION_CONFLICT:
+        snprintf(message, sizeof message,
+                 "sequence: %llu: was used for another request: must be a new number",
+                 (unsigned long long)name->sequence);
+        refuse(service, name, PERCUSS_BAD_REQUEST, message);
+        return false;
+    case ADMISSION_PENDING:
+        return false;
+    case ADMISSION_NEW:
+        break;
+    }
+    return true;
+}
+
+/* Hands requests to the workers, or refuses them at once. */
+static void enqueue(struct service *service, const struct request_name *name,
+                    const percuss_v1_Request *requests, size_t count, double arrival)
+{
+    struct task *task =
+        atomic_load(&service->draining) ? NULL : task_create(name->exchange, requests, count);
+    if (!task) {
+        turn_away(service, name);
+        return;
+    }
+    for (size_t i = 0; i < sizeof task->client; i++)
+        task->client[i] = name->client[i];
+    task->sequence = name->sequence;
+    task->arrival = arrival;
+    task->edition = editions_hold(&service->editions);
+    if (!queue_put(service->queue, task)) {
+        editions_let_go(&service->editions, task->edition);
+        task_free(task);
+        turn_away(service, name);
+    }
+}
+
+static bool is_cheap(const percuss_v1_Request *request)
+{
+    const percuss_v1_Options *options = &request->options;
+    return request->contacts._length <= 1 && options->method == PERCUSS_METHOD_MODAL &&
+           options->contact_model <= PERCUSS_CONTACT_CLOSED_FORM && !options->conditioning &&
+           (options->tolerance == 0.0 || options->tolerance >= cheap_tolerance);
+}
+
+static void answer_here(struct service *service, const struct request_name *name,
+                        const percuss_v1_Request *request, double arrival)
+{
+    struct edition *edition = editions_hold(&service->editions);
+    struct question question = {
+        .request = request,
+        .set = edition->set,
+        .envelope = service_envelope(service, name, edition),
+        .arrival = arrival,
+    };
+    struct answer *answer = respond(service->desk, service->tokens, &question);
+    service_deliver(service, name, answer);
+    answer_release(answer);
+    editions_let_go(&service->editions, edition);
+}
+
+static void receive_single(void *context, const percuss_v1_Request *request, bool alone)
+{
+    struct service *service = context;
+    double arrival = clock_now();
+    struct request_name name = {request->client, EXCHANGE_SINGLE, request->sequence};
+    if (request->sequence == 0) {
+        refuse(service, &name, PERCUSS_OK, "");
+        return;
+    }
+    if (!admit(service, &name, question_digest_single(request), arrival))
+        return;
+    bool here = alone && service->settings->inline_solves && is_cheap(request) &&
+                !atomic_load(&service->draining) && queue_length(service->queue) == 0;
+    if (here)
+        answer_here(service, &name, request, arrival);
+    else
+        enqueue(service, &name, request, 1, arrival);
+}
+
+static void receive_batch(void *context, const percuss_v1_BatchRequest *batch)
+{
+    struct service *service = context;
+    double arrival = clock_now();
+    struct request_name name = {batch->client, EXCHANGE_BATCH, batch->sequence};
+    if (batch->sequence == 0)
+        refuse(service, &name, PERCUSS_BAD_REQUEST, "sequence: 0: must be > 0 for a batch");
+    else if (batch->requests._length == 0)
+        refuse(service, &name, PERCUSS_BAD_REQUEST, "requests: none given: must be 1 to 256");
+    else if (admit(service, &name, question_digest_batch(batch), arrival))
+        enqueue(service, &name, batch->requests._buffer, batch->requests._length, arrival);
+}
+
+static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *request)
+{
+    struct request_name name = {request->client, EXCHANGE_ENSEMBLE, request->sequence};
+    refuse(context, &name, PERCUSS_BAD_REQUEST,
+           "ensembles are not available from this server version");
+}
+
+static void note_presence(void *context, const uint8_t client[16], bool present)
+{
+    struct service *service = context;
+    char name[WIRE_PARTITION_SIZE];
+    wire_partition_name(client, name);
+    log_line(LEVEL_DEBUG, "client %s: a reader of replies has %s", name, present ? "come" : "gone");
+    reply_store_set_present(service->replies, client, present, clock_now());
+}
+
+struct endpoint_handler reception_handler(struct service *service)
+{
+    return (struct endpoint_handler){
+        .context = service,
+        .single = receive_single,
+        .batch = receive_batch,
+        .ensemble = receive_ensemble,
+        .presence = note_presence,
+    };
+}

@@ -1,0 +1,140 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/respond.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "daemon/log.h"
+#include "endpoint/batch.h"
+#include "endpoint/clock.h"
+#include "endpoint/decode.h"
+#include "endpoint/encode.h"
+
+struct seat *seat_create(void)
+{
+    struct seat *seat = calloc(1, sizeof *seat);
+    if (!seat)
+        return NULL;
+    seat->workspace = solve_workspace_create();
+    if (!seat->workspace) {
+        free(seat);
+        return NULL;
+    }
+    return seat;
+}
+
+void seat_free(struct seat *seat)
+{
+    if (!seat)
+        return;
+    solve_workspace_free(seat->workspace);
+    free(seat);
+}
+
+static enum percuss_status check_deadline(const struct question *question, const char *when,
+                                          struct fault *fault)
+{
+    double deadline = question->request->options.deadline;
+    double passed = clock_now() - question->arrival;
+    if (deadline == 0.0 || passed <= deadline)
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_TIMEOUT,
+                     "options.deadline: %g: had passed %s, %.3g s after the arrival", deadline,
+                     when, passed);
+}
+
+static enum percuss_status hold_state(struct seat *seat, struct token_store *tokens,
+                                      const struct question *question, size_t index,
+                                      struct fault *fault)
+{
+    const char *token = question->request->bodies._buffer[index].state;
+    struct solve_body *body = &seat->request.bodies[index];
+    /* an unknown body is the solver's to refuse */
+    if (!*token || !body_set_find(question->set, body->id))
+        return PERCUSS_OK;
+    struct token_subject subject = {question->set->revision, body->id};
+    struct fault reason;
+    body->state = token_store_hold(tokens, token, &subject, clock_now(), &reason);
+    if (body->state)
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_UNKNOWN_STATE, "bodies[%zu].state: %.500s", index, reason.text);
+}
+
+static void release_states(struct seat *seat, struct token_store *tokens)
+{
+    for (size_t i = 0; i < seat->request.body_count; i++) {
+        if (seat->request.bodies[i].state)
+            token_store_release(tokens, seat->request.bodies[i].state);
+        seat->request.bodies[i].state = NULL;
+    }
+}
+
+/* Fills seat->request; after a failure it holds no states. */
+static enum percuss_status prepare(struct seat *seat, struct token_store *tokens,
+                                   const struct question *question, struct fault *fault)
+{
+    enum percuss_status status = decode_request(question->request, &seat->request, fault);
+    if (!status)
+        status = check_deadline(question, "before the solve began", fault);
+    if (status)
+        return status;
+    for (size_t i = 0; !status && i < seat->request.body_count; i++)
+        status = hold_state(seat, tokens, question, i, fault);
+    if (status)
+        release_states(seat, tokens);
+    return status;
+}
+
+static void name_states(struct seat *seat, struct token_store *tokens,
+                        const struct question *question)
+{
+    double now = clock_now();
+    for (size_t i = 0; i < seat->result.body_count; i++) {
+        const struct solve_body_result *body = &seat->result.bodies[i];
+        struct token_subject subject = {question->set->revision, body->id};
+        seat->tokens[i][0] = '\0';
+        if (body->state_after)
+            token_store_put(tokens, &subject, body->state_after, now, seat->tokens[i]);
+    }
+}
+
+/* Solves seat->request and makes the reply. */
+static struct answer *compute(struct seat *seat, struct token_store *tokens,
+                              const struct question *question)
+{
+    const struct envelope *envelope = &question->envelope;
+    struct solve_result *result = &seat->result;
+    struct fault fault;
+    solve(seat->workspace, question->set, &seat->request, result);
+    if (result->status == PERCUSS_INTERNAL)
+        log_line(LEVEL_ERROR, "request %llu: internal: %s", (unsigned long long)envelope->sequence,
+                 result->fault.text);
+    if (check_deadline(question, "when the solve ended", &fault))
+        return encode_refusal(envelope, PERCUSS_TIMEOUT, fault.text);
+    if (!encode_status_has_result(result->status))
+        return encode_refusal(envelope, result->status, result->fault.text);
+    name_states(seat, tokens, question);
+    const char(*names)[PERCUSS_ID_SIZE] = (const char(*)[PERCUSS_ID_SIZE])seat->tokens;
+    if (question->in_batch)
+        return batch_encode_member(envelope, result, names);
+    return encode_result(envelope, result, names, PERCUSS_MAX_SUB_IMPACTS);
+}
+
+struct answer *respond(struct seat *seat, struct token_store *tokens,
+                       const struct question *question)
+{
+    struct fault fault;
+    double start = clock_now();
+    enum percuss_status status = prepare(seat, tokens, question, &fault);
+    if (status)
+        return encode_refusal(&question->envelope, status, fault.text);
+    struct answer *answer = compute(seat, tokens, question);
+    release_states(seat, tokens);
+    if (answer) {
+        answer->reply->timing.queue = start - question->arrival;
+        answer->reply->timing.solve = clock_now() - start;
+    }
+    return answer;
+}

@@ -1,0 +1,39 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* One request answered: validated, its states looked up, solved, and put into a reply. */
+#ifndef PERCUSS_DAEMON_RESPOND_H
+#define PERCUSS_DAEMON_RESPOND_H
+
+#include <stdbool.h>
+
+#include "endpoint/answer.h"
+#include "endpoint/token_store.h"
+#include "solve/solve.h"
+
+/* What one thread needs to answer requests. */
+struct seat {
+    struct solve_workspace *workspace;
+    struct solve_request request;
+    struct solve_result result;
+    char tokens[PERCUSS_MAX_BODIES][PERCUSS_ID_SIZE]; /* of the states afterwards */
+};
+
+struct seat *seat_create(void); /* NULL: out of memory */
+void seat_free(struct seat *seat);
+
+/* A request with where it came from. */
+struct question {
+    const percuss_v1_Request *request;
+    const struct body_set *set; /* the catalogue it is answered from */
+    struct envelope envelope;   /* of the reply */
+    double arrival;             /* monotonic, s */
+    bool in_batch;
+};
+
+/* The reply, whatever it says; it differs with the thread, the load and the time in its timing
+ * only, and where a deadline passed. NULL: out of memory. */
+struct answer *respond(struct seat *seat, struct token_store *tokens,
+                       const struct question *question);
+
+#endif

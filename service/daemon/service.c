@@ -1,0 +1,219 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/service.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "daemon/log.h"
+#include "daemon/reception.h"
+#include "daemon/workers.h"
+#include "endpoint/clock.h"
+#include "endpoint/encode.h"
+
+enum { REMEMBERED_CLIENTS = 4096 };
+
+static const double megabyte = 1048576.0;
+static const double flush_seconds = 1.0;
+
+static bool create_stores(struct service *service)
+{
+    const struct settings *settings = service->settings;
+    struct token_limits tokens = {
+        .count = settings->token_count,
+        .bytes = (size_t)(settings->token_megabytes * megabyte),
+        .seconds = 60.0 * settings->token_minutes,
+    };
+    struct reply_limits replies = {
+        .per_client = settings->replies_per_client,
+        .bytes = (size_t)(settings->reply_megabytes * megabyte),
+        .clients = REMEMBERED_CLIENTS,
+        .seconds = 60.0 * settings->session_minutes,
+    };
+    service->tokens = token_store_create(&tokens);
+    service->replies = reply_store_create(&replies);
+    service->queue = queue_create(settings->queue_capacity);
+    service->desk = seat_create();
+    return service->tokens && service->replies && service->queue && service->desk;
+}
+
+static void *read_requests(void *argument)
+{
+    struct service *service = argument;
+    struct endpoint_handler handler = reception_handler(service);
+    endpoint_run(service->endpoint, &handler);
+    return NULL;
+}
+
+static bool start_threads(struct service *service, struct fault *fault)
+{
+    if (workers_start(service))
+        service->reader_runs = pthread_create(&service->reader, NULL, read_requests, service) == 0;
+    if (!service->reader_runs)
+        fault_set(fault, PERCUSS_INTERNAL, "threads: cannot be started");
+    return service->reader_runs;
+}
+
+struct service *service_create(const struct settings *settings, struct fault *fault)
+{
+    struct service *service = calloc(1, sizeof *service);
+    if (!service) {
+        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+        return NULL;
+    }
+    service->settings = settings;
+    service->started = clock_now();
+    if (editions_create(&service->editions, settings->catalogue, fault))
+        goto failed;
+    if (!create_stores(service)) {
+        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+        goto failed;
+    }
+    service->endpoint = endpoint_create(settings->domain, fault);
+    if (!service->endpoint || !start_threads(service, fault))
+        goto failed;
+    /* bodies before the status: whoever sees a server finds its catalogue */
+    if (!endpoint_announce_bodies(service->endpoint, service->editions.current->set, NULL))
+        log_line(LEVEL_WARNING, "not all bodies could be announced");
+    service_announce(service);
+    return service;
+failed:
+    service_free(service);
+    return NULL;
+}
+
+void service_free(struct service *service)
+{
+    if (service->reader_runs) {
+        endpoint_stop(service->endpoint);
+        pthread_join(service->reader, NULL);
+    }
+    if (service->queue)
+        queue_close(service->queue);
+    workers_join(service);
+    if (service->endpoint)
+        endpoint_flush(service->endpoint, flush_seconds);
+    endpoint_free(service->endpoint);
+    seat_free(service->desk);
+    queue_free(service->queue);
+    reply_store_free(service->replies);
+    token_store_free(service->tokens);
+    editions_release(&service->editions);
+    free(service);
+}
+
+void service_reload(struct service *service)
+{
+    struct fault fault;
+    struct edition *before;
+    const char *path = service->settings->catalogue;
+    if (editions_reload(&service->editions, path, &before, &fault)) {
+        log_line(LEVEL_ERROR, "reload: %s; the old catalogue stays", fault.text);
+        return;
+    }
+    struct edition *now = editions_hold(&service->editions);
+    if (!endpoint_announce_bodies(service->endpoint, now->set, before->set))
+        log_line(LEVEL_WARNING, "not all bodies could be announced");
+    log_line(LEVEL_INFO, "reload: %zu bodies, catalogue revision %s%s", now->set->count,
+             now->set->revision,
+             strcmp(now->set->revision, before->set->revision) ? "" : " as before");
+    editions_let_go(&service->editions, before);
+    editions_let_go(&service->editions, now);
+    service_announce(service);
+}
+
+void service_announce(struct service *service)
+{
+    struct edition *edition = editions_hold(&service->editions);
+    percuss_v1_ServerStatus status = {
+        .process = (uint32_t)getpid(),
+        .workers = (uint32_t)service->worker_count,
+        .bodies = (uint32_t)edition->set->count,
+        .queue_length = (uint32_t)queue_length(service->queue),
+        .queue_capacity = service->settings->queue_capacity,
+        .answered = atomic_load(&service->answered),
+        .refused = atomic_load(&service->refused),
+        .uptime = clock_now() - service->started,
+        .progress = NAN,
+    };
+    const char *state = atomic_load(&service->draining) ? "draining" : "ready";
+    snprintf(status.version, sizeof status.version, "%s", PERCUSS_VERSION);
+    snprintf(status.state, sizeof status.state, "%s", state);
+    snprintf(status.catalogue_revision, sizeof status.catalogue_revision, "%s",
+             edition->set->revision);
+    snprintf(status.catalogue, sizeof status.catalogue, "%.255s", service->settings->catalogue);
+    editions_let_go(&service->editions, edition);
+    gethostname(status.host, sizeof status.host - 1);
+    endpoint_announce_status(service->endpoint, &status);
+}
+
+void service_tick(struct service *service)
+{
+    double now = clock_now();
+    token_store_sweep(service->tokens, now);
+    reply_store_sweep(service->replies, now);
+    unsigned long long undelivered = atomic_load(&service->undelivered);
+    if (undelivered > service->reported)
+        log_line(LEVEL_WARNING, "%llu replies were not taken by their clients",
+                 undelivered - service->reported);
+    service->reported = undelivered;
+    service_announce(service);
+}
+
+void service_begin_drain(struct service *service)
+{
+    atomic_store(&service->draining, true);
+    service_announce(service);
+}
+
+bool service_drain(struct service *service, double seconds)
+{
+    return queue_drain(service->queue, seconds);
+}
+
+struct envelope service_envelope(const struct service *service, const struct request_name *name,
+                                 const struct edition *edition)
+{
+    return (struct envelope){
+        .client = name->client,
+        .server = endpoint_server(service->endpoint),
+        .sequence = name->sequence,
+        .revision = edition->set->revision,
+        .version = PERCUSS_VERSION,
+    };
+}
+
+static void count(struct service *service, const struct answer *answer)
+{
+    unsigned long long answered = 0, all = 1;
+    if (answer->exchange == EXCHANGE_BATCH && answer->member_count > 0)
+        all = answer->member_count;
+    for (size_t i = 0; answer->reply && i < all; i++)
+        answered += encode_status_has_result(answer->reply[i].status);
+    atomic_fetch_add(&service->answered, answered);
+    atomic_fetch_add(&service->refused, all - answered);
+}
+
+void service_deliver(struct service *service, const struct request_name *name,
+                     struct answer *answer)
+{
+    if (!answer) {
+        reply_store_forget(service->replies, name);
+        log_line(LEVEL_ERROR, "request %llu: no memory for its reply",
+                 (unsigned long long)name->sequence);
+        return;
+    }
+    count(service, answer);
+    /* stored first: who has seen the reply finds it when asking again */
+    if (answer->passing)
+        reply_store_forget(service->replies, name);
+    else
+        reply_store_keep(service->replies, name, answer);
+    if (endpoint_reply(service->endpoint, name->client, answer) != DELIVERY_DONE)
+        atomic_fetch_add(&service->undelivered, 1);
+}

@@ -1,0 +1,65 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The running service: what the threads share. */
+#ifndef PERCUSS_DAEMON_SERVICE_H
+#define PERCUSS_DAEMON_SERVICE_H
+
+#include "daemon/edition.h"
+#include "daemon/queue.h"
+#include "daemon/respond.h"
+#include "daemon/settings.h"
+#include "endpoint/endpoint.h"
+#include "endpoint/reply_store.h"
+
+struct service {
+    const struct settings *settings;
+    struct editions editions;
+    struct endpoint *endpoint;
+    struct token_store *tokens;
+    struct reply_store *replies;
+    struct queue *queue;
+    struct seat *desk; /* of the reading thread, which solves what is cheap itself */
+    double started;    /* monotonic, s */
+    atomic_bool draining;
+    atomic_ullong answered, refused; /* replies with and without results */
+    atomic_ullong undelivered;       /* replies their clients did not take */
+    unsigned long long reported;     /* of those, in the log */
+    pthread_t reader;
+    bool reader_runs;
+    struct worker *workers; /* see workers.c */
+    size_t worker_count;    /* that run */
+};
+
+/* Loads the catalogue, joins the domain and starts the threads; `settings` stays the caller's and
+ * must outlive the service. NULL with a fault. */
+struct service *service_create(const struct settings *settings, struct fault *fault);
+
+/* Reads the catalogue again; a bad one is logged and changes nothing. */
+void service_reload(struct service *service);
+
+/* Publishes the status and forgets what has expired: to be called about once a second. */
+void service_tick(struct service *service);
+
+/* From now on new requests are refused. */
+void service_begin_drain(struct service *service);
+
+/* Waits until everything queued is answered and delivered, at most `seconds`. False: not all is. */
+bool service_drain(struct service *service, double seconds);
+
+/* Ends the threads and leaves the domain. */
+void service_free(struct service *service);
+
+/* The head of the reply to that request, answered from that edition, which must stay. */
+struct envelope service_envelope(const struct service *service, const struct request_name *name,
+                                 const struct edition *edition);
+
+/* Sends the answer to an admitted request, stores it and counts it; the caller keeps his reference.
+ * NULL: there was no memory for one. */
+void service_deliver(struct service *service, const struct request_name *name,
+                     struct answer *answer);
+
+/* Publishes the status. */
+void service_announce(struct service *service);
+
+#endif

@@ -1,0 +1,39 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What the daemon can be told in its configuration file; config/percussd.yaml explains each key. */
+#ifndef PERCUSS_DAEMON_SETTINGS_H
+#define PERCUSS_DAEMON_SETTINGS_H
+
+#include <stdbool.h>
+
+#include "base/fault.h"
+#include "daemon/log.h"
+
+enum { SETTINGS_PATH_SIZE = 4096 };
+
+struct settings {
+    char catalogue[SETTINGS_PATH_SIZE]; /* empty: not given */
+    unsigned domain;
+    unsigned workers;
+    unsigned queue_capacity;
+    bool inline_solves;
+    unsigned token_count, token_megabytes;
+    double token_minutes;
+    unsigned replies_per_client, reply_megabytes;
+    double session_minutes;
+    double drain_seconds;
+    enum log_level log_level;
+};
+
+/* The defaults; as many workers as processors. */
+struct settings settings_default(void);
+
+/* Reads a file over what `settings` holds: PERCUSS_OK, or PERCUSS_BAD_REQUEST with "FILE:LINE: KEY:
+ * VALUE: must be ...". A relative path in it starts from the file's folder. */
+enum percuss_status settings_load(const char *path, struct settings *settings, struct fault *fault);
+
+/* Range of `domain`, for the command line too. */
+enum { SETTINGS_MAX_DOMAIN = 230 };
+
+#endif

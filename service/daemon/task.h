@@ -1,0 +1,33 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A request, or a batch of them, that waits for workers. */
+#ifndef PERCUSS_DAEMON_TASK_H
+#define PERCUSS_DAEMON_TASK_H
+
+#include <stdatomic.h>
+
+#include "daemon/edition.h"
+#include "endpoint/answer.h"
+
+struct task {
+    enum exchange exchange;
+    uint8_t client[16];
+    uint64_t sequence;
+    double arrival; /* monotonic, s */
+    struct edition *edition;
+    percuss_v1_Request *requests; /* copies; one, or the members of a batch */
+    size_t count;
+    size_t next;             /* first request no worker has taken; the queue's */
+    atomic_size_t left;      /* to be answered; whoever answers the last one sends the reply */
+    struct answer **answers; /* of the requests */
+};
+
+/* A task for copies of `count` >= 1 requests; client, sequence, arrival and edition are the
+ * caller's to set. NULL: out of memory. */
+struct task *task_create(enum exchange exchange, const percuss_v1_Request *requests, size_t count);
+
+/* Releases all but the edition. */
+void task_free(struct task *task);
+
+#endif

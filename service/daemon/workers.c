@@ -1,0 +1,113 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/workers.h"
+
+#include <stdlib.h>
+
+#include "endpoint/batch.h"
+
+struct worker {
+    struct service *service;
+    struct seat *seat;
+    pthread_t thread;
+};
+
+static struct request_name task_name(const struct task *task)
+{
+    return (struct request_name){task->client, task->exchange, task->sequence};
+}
+
+/* The replies of a batch as one answer, in the order of its requests; NULL: no memory. */
+static struct answer *assemble(const struct service *service, struct task *task)
+{
+    for (size_t i = 0; i < task->count; i++) {
+        if (!task->answers[i])
+            return NULL;
+    }
+    struct request_name name = task_name(task);
+    struct envelope envelope = service_envelope(service, &name, task->edition);
+    struct answer *answer = batch_answer(&envelope, task->answers, task->count);
+    if (answer) {
+        /* it has taken the references over */
+        free(task->answers);
+        task->answers = NULL;
+    }
+    return answer;
+}
+
+/* The last request of the task has been answered: sends the reply. */
+static void finish(struct service *service, struct task *task)
+{
+    struct request_name name = task_name(task);
+    if (task->exchange == EXCHANGE_BATCH) {
+        struct answer *answer = assemble(service, task);
+        service_deliver(service, &name, answer);
+        answer_release(answer);
+    } else {
+        service_deliver(service, &name, task->answers[0]);
+    }
+    editions_let_go(&service->editions, task->edition);
+    task_free(task);
+}
+
+static void work_on(struct worker *worker, struct task *task, size_t index)
+{
+    struct service *service = worker->service;
+    struct request_name name = task_name(task);
+    name.sequence = task->requests[index].sequence;
+    struct question question = {
+        .request = &task->requests[index],
+        .set = task->edition->set,
+        .envelope = service_envelope(service, &name, task->edition),
+        .arrival = task->arrival,
+        .in_batch = task->exchange == EXCHANGE_BATCH,
+    };
+    task->answers[index] = respond(worker->seat, service->tokens, &question);
+    if (atomic_fetch_sub(&task->left, 1) == 1)
+        finish(service, task);
+}
+
+static void *work(void *argument)
+{
+    struct worker *worker = argument;
+    struct queue *queue = worker->service->queue;
+    struct task *task;
+    size_t index;
+    while ((task = queue_take(queue, &index))) {
+        work_on(worker, task, index);
+        queue_done(queue);
+    }
+    return NULL;
+}
+
+static bool worker_start(struct worker *worker, struct service *service)
+{
+    worker->service = service;
+    worker->seat = seat_create();
+    if (worker->seat && pthread_create(&worker->thread, NULL, work, worker) == 0)
+        return true;
+    seat_free(worker->seat);
+    return false;
+}
+
+bool workers_start(struct service *service)
+{
+    size_t count = service->settings->workers;
+    service->workers = calloc(count, sizeof *service->workers);
+    while (service->workers && service->worker_count < count &&
+           worker_start(&service->workers[service->worker_count], service))
+        service->worker_count++;
+    return service->worker_count == count;
+}
+
+void workers_join(struct service *service)
+{
+    for (size_t i = 0; i < service->worker_count; i++) {
+        pthread_join(service->workers[i].thread, NULL);
+        seat_free(service->workers[i].seat);
+    }
+    free(service->workers);
+    service->workers = NULL;
+    service->worker_count = 0;
+}

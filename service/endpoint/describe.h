@@ -1,0 +1,14 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Bodies of the catalogue as they are announced. */
+#ifndef PERCUSS_ENDPOINT_DESCRIBE_H
+#define PERCUSS_ENDPOINT_DESCRIBE_H
+
+#include "model/body.h"
+#include "wire.h"
+
+/* Fills everything but the server. */
+void describe_body(const struct body *body, percuss_v1_Body *wire);
+
+#endif

@@ -1,0 +1,240 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "endpoint/endpoint.h"
+
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+
+#include "endpoint/describe.h"
+
+enum { TAKEN_AT_ONCE = 32, WRITE_ATTEMPTS = 20 };
+
+/* What wakes the reading thread: the kinds of requests, and these. */
+enum { SOURCE_SUBSCRIPTIONS = EXCHANGE_COUNT, SOURCE_STOP, SOURCE_COUNT };
+
+struct endpoint {
+    dds_entity_t participant, waitset, stop;
+    dds_entity_t readers[EXCHANGE_COUNT];
+    dds_entity_t status_writer, body_writer;
+    struct reply_writers *writers;
+    atomic_bool stopped;
+    uint8_t server[16];
+};
+
+static const struct {
+    const char *topic;
+    const dds_topic_descriptor_t *type;
+} requests[EXCHANGE_COUNT] = {
+    [EXCHANGE_SINGLE] = {WIRE_TOPIC_REQUEST, &percuss_v1_Request_desc},
+    [EXCHANGE_BATCH] = {WIRE_TOPIC_BATCH_REQUEST, &percuss_v1_BatchRequest_desc},
+    [EXCHANGE_ENSEMBLE] = {WIRE_TOPIC_ENSEMBLE_REQUEST, &percuss_v1_EnsembleRequest_desc},
+};
+
+/* The entity, or a fault that says what it was for. */
+static bool created(dds_entity_t entity, const char *what, struct fault *fault)
+{
+    if (entity < 0)
+        fault_set(fault, PERCUSS_INTERNAL, "DDS: %s: %s", what, dds_strretcode(entity));
+    return entity > 0;
+}
+
+static bool create_readers(struct endpoint *endpoint, struct fault *fault)
+{
+    dds_qos_t *qos = wire_qos_exchange(NULL);
+    bool good = true;
+    for (int i = 0; good && i < EXCHANGE_COUNT; i++) {
+        dds_entity_t topic = dds_create_topic(endpoint->participant, requests[i].type,
+                                              requests[i].topic, NULL, NULL);
+        good = created(topic, requests[i].topic, fault);
+        if (!good)
+            break;
+        endpoint->readers[i] = dds_create_reader(endpoint->participant, topic, qos, NULL);
+        good = created(endpoint->readers[i], "reader of requests", fault);
+    }
+    dds_delete_qos(qos);
+    return good;
+}
+
+static bool create_announcer(struct endpoint *endpoint, const dds_topic_descriptor_t *type,
+                             const char *name, dds_entity_t *writer, struct fault *fault)
+{
+    dds_entity_t topic = dds_create_topic(endpoint->participant, type, name, NULL, NULL);
+    if (!created(topic, name, fault))
+        return false;
+    dds_qos_t *qos = wire_qos_announcement();
+    *writer = dds_create_writer(endpoint->participant, topic, qos, NULL);
+    dds_delete_qos(qos);
+    return created(*writer, name, fault);
+}
+
+static bool attach_reader(struct endpoint *endpoint, dds_entity_t reader, int source,
+                          struct fault *fault)
+{
+    dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
+    return created(condition, "read condition", fault) &&
+           dds_waitset_attach(endpoint->waitset, condition, source) == DDS_RETCODE_OK;
+}
+
+static bool create_waitset(struct endpoint *endpoint, struct fault *fault)
+{
+    fault_set(fault, PERCUSS_INTERNAL, "DDS: waitset: cannot be attached to");
+    endpoint->waitset = dds_create_waitset(endpoint->participant);
+    endpoint->stop = dds_create_guardcondition(endpoint->participant);
+    if (!created(endpoint->waitset, "waitset", fault) ||
+        !created(endpoint->stop, "guard condition", fault) ||
+        dds_waitset_attach(endpoint->waitset, endpoint->stop, SOURCE_STOP) != DDS_RETCODE_OK)
+        return false;
+    bool good = attach_reader(endpoint, reply_writers_source(endpoint->writers),
+                              SOURCE_SUBSCRIPTIONS, fault);
+    for (int i = 0; good && i < EXCHANGE_COUNT; i++)
+        good = attach_reader(endpoint, endpoint->readers[i], i, fault);
+    return good;
+}
+
+struct endpoint *endpoint_create(uint32_t domain, struct fault *fault)
+{
+    struct endpoint *endpoint = calloc(1, sizeof *endpoint);
+    if (!endpoint || getrandom(endpoint->server, sizeof endpoint->server, 0) < 0) {
+        fault_set(fault, PERCUSS_INTERNAL, "out of memory or of random numbers");
+        free(endpoint);
+        return NULL;
+    }
+    endpoint->participant = wire_participant_create(domain);
+    if (!created(endpoint->participant, "participant", fault))
+        goto failed;
+    endpoint->writers = reply_writers_create(endpoint->participant, fault);
+    if (!endpoint->writers || !create_readers(endpoint, fault) ||
+        !create_announcer(endpoint, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS,
+                          &endpoint->status_writer, fault) ||
+        !create_announcer(endpoint, &percuss_v1_Body_desc, WIRE_TOPIC_BODY, &endpoint->body_writer,
+                          fault) ||
+        !create_waitset(endpoint, fault))
+        goto failed;
+    return endpoint;
+failed:
+    endpoint_free(endpoint);
+    return NULL;
+}
+
+void endpoint_free(struct endpoint *endpoint)
+{
+    if (!endpoint)
+        return;
+    /* with its domain, which runs threads of its own: a process has one endpoint */
+    if (endpoint->participant > 0)
+        dds_delete(dds_get_parent(endpoint->participant));
+    reply_writers_free(endpoint->writers);
+    free(endpoint);
+}
+
+const uint8_t *endpoint_server(const struct endpoint *endpoint)
+{
+    return endpoint->server;
+}
+
+static void handle(const struct endpoint_handler *handler, enum exchange exchange,
+                   const void *sample, bool alone)
+{
+    if (exchange == EXCHANGE_SINGLE)
+        handler->single(handler->context, sample, alone);
+    else if (exchange == EXCHANGE_BATCH)
+        handler->batch(handler->context, sample);
+    else
+        handler->ensemble(handler->context, sample);
+}
+
+/* Takes what is there, up to a bound. */
+static void take(struct endpoint *endpoint, const struct endpoint_handler *handler,
+                 enum exchange exchange)
+{
+    void *samples[TAKEN_AT_ONCE] = {NULL};
+    dds_sample_info_t infos[TAKEN_AT_ONCE];
+    dds_entity_t reader = endpoint->readers[exchange];
+    dds_return_t count = dds_take(reader, samples, infos, TAKEN_AT_ONCE, TAKEN_AT_ONCE);
+    /* samples without data only tell that a client's writer has gone */
+    for (dds_return_t i = 0; i < count; i++) {
+        if (infos[i].valid_data)
+            handle(handler, exchange, samples[i], count == 1);
+    }
+    if (count > 0)
+        dds_return_loan(reader, samples, count);
+}
+
+void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *handler)
+{
+    while (!atomic_load(&endpoint->stopped)) {
+        dds_attach_t woken[SOURCE_COUNT];
+        bool ready[SOURCE_COUNT] = {false};
+        dds_return_t count = dds_waitset_wait(endpoint->waitset, woken, SOURCE_COUNT, DDS_INFINITY);
+        for (dds_return_t i = 0; i < count && i < SOURCE_COUNT; i++)
+            ready[woken[i]] = true;
+        /* readers of replies first, so that there is a writer for the replies to come */
+        if (ready[SOURCE_SUBSCRIPTIONS])
+            reply_writers_follow(endpoint->writers, handler->presence, handler->context);
+        for (int i = 0; i < EXCHANGE_COUNT; i++) {
+            if (ready[i])
+                take(endpoint, handler, i);
+        }
+    }
+}
+
+void endpoint_stop(struct endpoint *endpoint)
+{
+    atomic_store(&endpoint->stopped, true);
+    dds_set_guardcondition(endpoint->stop, true);
+}
+
+enum delivery endpoint_reply(struct endpoint *endpoint, const uint8_t client[16],
+                             const struct answer *answer)
+{
+    return reply_writers_write(endpoint->writers, client, answer);
+}
+
+void endpoint_flush(struct endpoint *endpoint, double seconds)
+{
+    reply_writers_flush(endpoint->writers, seconds);
+}
+
+size_t endpoint_clients(struct endpoint *endpoint)
+{
+    return reply_writers_count(endpoint->writers);
+}
+
+/* Large catalogues outrun readers of the announcements; a write then gives up after 100 ms. */
+static bool write_patiently(dds_entity_t writer, const void *sample)
+{
+    dds_return_t result = DDS_RETCODE_TIMEOUT;
+    for (int i = 0; result == DDS_RETCODE_TIMEOUT && i < WRITE_ATTEMPTS; i++)
+        result = dds_write(writer, sample);
+    return result == DDS_RETCODE_OK;
+}
+
+bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *set,
+                              const struct body_set *before)
+{
+    bool good = true;
+    percuss_v1_Body body;
+    for (size_t i = 0; before && i < before->count; i++) {
+        if (body_set_find(set, before->bodies[i].id))
+            continue;
+        describe_body(&before->bodies[i], &body);
+        memcpy(body.server, endpoint->server, sizeof body.server);
+        dds_dispose(endpoint->body_writer, &body);
+    }
+    for (size_t i = 0; i < set->count; i++) {
+        describe_body(&set->bodies[i], &body);
+        memcpy(body.server, endpoint->server, sizeof body.server);
+        good = write_patiently(endpoint->body_writer, &body) && good;
+    }
+    return good;
+}
+
+void endpoint_announce_status(struct endpoint *endpoint, percuss_v1_ServerStatus *status)
+{
+    memcpy(status->server, endpoint->server, sizeof status->server);
+    dds_write(endpoint->status_writer, status);
+}

@@ -1,0 +1,55 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The service's place in the DDS domain: reads requests, writes replies, announces the server and
+ * its bodies. */
+#ifndef PERCUSS_ENDPOINT_ENDPOINT_H
+#define PERCUSS_ENDPOINT_ENDPOINT_H
+
+#include "endpoint/reply_writers.h"
+#include "model/body.h"
+
+struct endpoint;
+
+/* Joins the domain: when this returns, requests are received. NULL with a fault if DDS refuses. */
+struct endpoint *endpoint_create(uint32_t domain, struct fault *fault);
+
+/* Leaves the domain. No other thread may be using the endpoint. */
+void endpoint_free(struct endpoint *endpoint);
+
+/* 16 octets that name this server, drawn when it was created. */
+const uint8_t *endpoint_server(const struct endpoint *endpoint);
+
+/* What happens with arriving samples, all in the thread of endpoint_run. The samples are borrowed.
+ * `alone`: no other request came with this one, so there is time to answer it on the spot. */
+struct endpoint_handler {
+    void *context;
+    void (*single)(void *context, const percuss_v1_Request *request, bool alone);
+    void (*batch)(void *context, const percuss_v1_BatchRequest *batch);
+    void (*ensemble)(void *context, const percuss_v1_EnsembleRequest *request);
+    presence_function *presence;
+};
+
+/* Reads until endpoint_stop, which any thread may call. */
+void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *handler);
+void endpoint_stop(struct endpoint *endpoint);
+
+/* Writes the answer to its client. Thread-safe. */
+enum delivery endpoint_reply(struct endpoint *endpoint, const uint8_t client[16],
+                             const struct answer *answer);
+
+/* Waits until the clients have what was written, at most `seconds`. */
+void endpoint_flush(struct endpoint *endpoint, double seconds);
+
+/* Number of clients that read replies. Thread-safe. */
+size_t endpoint_clients(struct endpoint *endpoint);
+
+/* Announces the bodies of `set` and withdraws those that only `before` (may be NULL) has. False:
+ * not all were announced. */
+bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *set,
+                              const struct body_set *before);
+
+/* Announces the state of the server; fills status->server. */
+void endpoint_announce_status(struct endpoint *endpoint, percuss_v1_ServerStatus *status);
+
+#endif

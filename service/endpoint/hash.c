@@ -1,0 +1,60 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "endpoint/hash.h"
+
+#include <string.h>
+
+static const uint64_t multiplier_first = 0x87c37b91114253d5u;
+static const uint64_t multiplier_second = 0x4cf5ad432745937fu;
+
+static uint64_t rotate(uint64_t x, int by)
+{
+    return x << by | x >> (64 - by);
+}
+
+static uint64_t finish(uint64_t x)
+{
+    x = (x ^ x >> 33) * 0xff51afd7ed558ccdu;
+    x = (x ^ x >> 33) * 0xc4ceb9fe1a85ec53u;
+    return x ^ x >> 33;
+}
+
+static void mix(struct hasher *hasher, uint64_t first, uint64_t second)
+{
+    hasher->first ^= rotate(first * multiplier_first, 31) * multiplier_second;
+    hasher->first = (rotate(hasher->first, 27) + hasher->second) * 5 + 0x52dce729;
+    hasher->second ^= rotate(second * multiplier_second, 33) * multiplier_first;
+    hasher->second = (rotate(hasher->second, 31) + hasher->first) * 5 + 0x38495ab5;
+}
+
+void hash_bytes(struct hasher *hasher, const void *data, size_t size)
+{
+    const unsigned char *at = data;
+    hash_number(hasher, size);
+    while (size > 0) {
+        uint64_t words[2] = {0};
+        size_t part = size < sizeof words ? size : sizeof words;
+        memcpy(words, at, part);
+        mix(hasher, words[0], words[1]);
+        at += part;
+        size -= part;
+    }
+}
+
+void hash_text(struct hasher *hasher, const char *text)
+{
+    hash_bytes(hasher, text, strlen(text));
+}
+
+void hash_number(struct hasher *hasher, uint64_t number)
+{
+    mix(hasher, number, ++hasher->length);
+}
+
+struct digest hash_digest(const struct hasher *hasher)
+{
+    uint64_t first = finish((hasher->first ^ hasher->length) + hasher->second);
+    uint64_t second = finish(hasher->second + first);
+    return (struct digest){first + second, second + 2 * first};
+}

@@ -1,0 +1,119 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "endpoint/question.h"
+
+#include <stdalign.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void hash_body(struct hasher *hasher, const percuss_v1_BodyMotion *body)
+{
+    hash_text(hasher, body->id);
+    hash_bytes(hasher, body->position, sizeof body->position);
+    hash_bytes(hasher, body->orientation, sizeof body->orientation);
+    hash_bytes(hasher, body->velocity, sizeof body->velocity);
+    hash_bytes(hasher, body->angular_velocity, sizeof body->angular_velocity);
+    hash_text(hasher, body->state);
+    hash_bytes(hasher, &body->elapsed, sizeof body->elapsed);
+    hash_text(hasher, body->specimen);
+}
+
+static void hash_contact(struct hasher *hasher, const percuss_v1_Contact *contact)
+{
+    hash_number(hasher, contact->a);
+    hash_number(hasher, contact->b);
+    hash_bytes(hasher, contact->point, sizeof contact->point);
+    hash_bytes(hasher, contact->normal, sizeof contact->normal);
+    hash_bytes(hasher, &contact->gap, sizeof contact->gap);
+    hash_bytes(hasher, &contact->gap_acceleration, sizeof contact->gap_acceleration);
+}
+
+static void hash_options(struct hasher *hasher, const percuss_v1_Options *options)
+{
+    hash_bytes(hasher, &options->tolerance, sizeof options->tolerance);
+    hash_bytes(hasher, &options->horizon, sizeof options->horizon);
+    hash_number(hasher, options->contact_model);
+    hash_number(hasher, options->method);
+    hash_number(hasher, options->compliance);
+    hash_number(hasher, options->dents);
+    hash_number(hasher, options->conditioning);
+    hash_number(hasher, options->trace);
+    hash_bytes(hasher, &options->deadline, sizeof options->deadline);
+}
+
+static void hash_request(struct hasher *hasher, const percuss_v1_Request *request)
+{
+    hash_number(hasher, request->bodies._length);
+    for (uint32_t i = 0; i < request->bodies._length; i++)
+        hash_body(hasher, &request->bodies._buffer[i]);
+    hash_number(hasher, request->contacts._length);
+    for (uint32_t i = 0; i < request->contacts._length; i++)
+        hash_contact(hasher, &request->contacts._buffer[i]);
+    hash_bytes(hasher, request->delassus._buffer, request->delassus._length * sizeof(double));
+    hash_options(hasher, &request->options);
+}
+
+struct digest question_digest_single(const percuss_v1_Request *request)
+{
+    struct hasher hasher = {0};
+    hash_request(&hasher, request);
+    return hash_digest(&hasher);
+}
+
+struct digest question_digest_batch(const percuss_v1_BatchRequest *batch)
+{
+    struct hasher hasher = {0};
+    for (uint32_t i = 0; i < batch->requests._length; i++) {
+        hash_number(&hasher, batch->requests._buffer[i].sequence);
+        hash_request(&hasher, &batch->requests._buffer[i]);
+    }
+    return hash_digest(&hasher);
+}
+
+static size_t round_up(size_t bytes)
+{
+    return (bytes + alignof(max_align_t) - 1) / alignof(max_align_t) * alignof(max_align_t);
+}
+
+/* Copies a list to `at` and returns the place behind it. */
+static char *copy_list(char *at, const void *list, size_t bytes)
+{
+    if (bytes > 0)
+        memcpy(at, list, bytes);
+    return at + round_up(bytes);
+}
+
+/* Copies the sequence `name` of a request to `at` and moves on. */
+#define COPY_SEQUENCE(to, from, name, at)                                                          \
+    do {                                                                                           \
+        (to)->name._buffer = (void *)(at);                                                         \
+        (to)->name._release = false;                                                               \
+        (at) = copy_list(at, (from)->name._buffer, LIST_BYTES((from)->name));                      \
+    } while (0)
+
+#define LIST_BYTES(sequence) ((sequence)._length * sizeof *(sequence)._buffer)
+
+static size_t lists_size(const percuss_v1_Request *request)
+{
+    return round_up(LIST_BYTES(request->bodies)) + round_up(LIST_BYTES(request->contacts)) +
+           round_up(LIST_BYTES(request->delassus));
+}
+
+percuss_v1_Request *question_copy(const percuss_v1_Request *requests, size_t count)
+{
+    size_t size = round_up(count * sizeof *requests);
+    for (size_t i = 0; i < count; i++)
+        size += lists_size(&requests[i]);
+    percuss_v1_Request *copies = malloc(size);
+    if (!copies)
+        return NULL;
+    memcpy(copies, requests, count * sizeof *requests);
+    char *at = (char *)copies + round_up(count * sizeof *requests);
+    for (size_t i = 0; i < count; i++) {
+        COPY_SEQUENCE(&copies[i], &requests[i], bodies, at);
+        COPY_SEQUENCE(&copies[i], &requests[i], contacts, at);
+        COPY_SEQUENCE(&copies[i], &requests[i], delassus, at);
+    }
+    return copies;
+}

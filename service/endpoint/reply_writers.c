@@ -1,0 +1,357 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "endpoint/reply_writers.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/queue.h>
+
+#include "endpoint/clock.h"
+#include "endpoint/key_map.h"
+
+enum { TAKEN_AT_ONCE = 32 };
+
+static const double stall_pause = 1.0; /* s */
+
+/* A client. */
+struct destination {
+    struct key_node node; /* key: client */
+    LIST_ENTRY(destination) all;
+    uint8_t client[16];
+    unsigned readers[EXCHANGE_COUNT];
+    dds_entity_t writers[EXCHANGE_COUNT]; /* 0: none */
+    double stalled_until[EXCHANGE_COUNT];
+};
+
+/* A reader of replies somewhere in the domain; when it goes, only its key is told. */
+struct remote_reader {
+    struct key_node node; /* key: GUID */
+    LIST_ENTRY(remote_reader) all;
+    struct destination *destination;
+    enum exchange exchange;
+};
+
+struct reply_writers {
+    pthread_mutex_t lock; /* of the destinations and what is in them */
+    dds_entity_t participant, source;
+    dds_entity_t topics[EXCHANGE_COUNT];
+    struct key_map destinations, readers;
+    LIST_HEAD(destination_list, destination) all_destinations;
+    LIST_HEAD(reader_list, remote_reader) all_readers;
+};
+
+static const struct {
+    const char *topic;
+    const dds_topic_descriptor_t *type;
+} replies[EXCHANGE_COUNT] = {
+    [EXCHANGE_SINGLE] = {WIRE_TOPIC_REPLY, &percuss_v1_Reply_desc},
+    [EXCHANGE_BATCH] = {WIRE_TOPIC_BATCH_REPLY, &percuss_v1_BatchReply_desc},
+    [EXCHANGE_ENSEMBLE] = {WIRE_TOPIC_ENSEMBLE_REPLY, &percuss_v1_EnsembleReply_desc},
+};
+
+static bool create_entities(struct reply_writers *writers, struct fault *fault)
+{
+    for (int i = 0; i < EXCHANGE_COUNT; i++) {
+        writers->topics[i] =
+            dds_create_topic(writers->participant, replies[i].type, replies[i].topic, NULL, NULL);
+        if (writers->topics[i] < 0) {
+            fault_set(fault, PERCUSS_INTERNAL, "topic %s: %s", replies[i].topic,
+                      dds_strretcode(writers->topics[i]));
+            return false;
+        }
+    }
+    writers->source =
+        dds_create_reader(writers->participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, NULL, NULL);
+    if (writers->source < 0)
+        fault_set(fault, PERCUSS_INTERNAL, "reader of subscriptions: %s",
+                  dds_strretcode(writers->source));
+    return writers->source > 0;
+}
+
+struct reply_writers *reply_writers_create(dds_entity_t participant, struct fault *fault)
+{
+    struct reply_writers *writers = calloc(1, sizeof *writers);
+    if (!writers || !key_map_create(&writers->destinations, REPLY_WRITERS_CLIENTS))
+        goto no_destinations;
+    if (!key_map_create(&writers->readers, REPLY_WRITERS_CLIENTS))
+        goto no_readers;
+    pthread_mutex_init(&writers->lock, NULL);
+    writers->participant = participant;
+    if (!create_entities(writers, fault)) {
+        reply_writers_free(writers);
+        return NULL;
+    }
+    return writers;
+no_readers:
+    key_map_release(&writers->destinations);
+no_destinations:
+    free(writers);
+    fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    return NULL;
+}
+
+void reply_writers_free(struct reply_writers *writers)
+{
+    if (!writers)
+        return;
+    while (!LIST_EMPTY(&writers->all_readers)) {
+        struct remote_reader *reader = LIST_FIRST(&writers->all_readers);
+        LIST_REMOVE(reader, all);
+        free(reader);
+    }
+    while (!LIST_EMPTY(&writers->all_destinations)) {
+        struct destination *destination = LIST_FIRST(&writers->all_destinations);
+        LIST_REMOVE(destination, all);
+        free(destination);
+    }
+    key_map_release(&writers->readers);
+    key_map_release(&writers->destinations);
+    pthread_mutex_destroy(&writers->lock);
+    free(writers);
+}
+
+dds_entity_t reply_writers_source(const struct reply_writers *writers)
+{
+    return writers->source;
+}
+
+static struct destination *find(const struct reply_writers *writers, const uint8_t client[16])
+{
+    struct key_node *node = key_map_find(&writers->destinations, digest_of_octets(client));
+    return node ? KEY_MAP_OWNER(node, struct destination, node) : NULL;
+}
+
+/* The destination, old or new; NULL: too many clients, or no memory. */
+static struct destination *find_or_create(struct reply_writers *writers, const uint8_t client[16])
+{
+    struct destination *destination = find(writers, client);
+    if (destination || writers->destinations.count >= REPLY_WRITERS_CLIENTS)
+        return destination;
+    destination = calloc(1, sizeof *destination);
+    if (!destination)
+        return NULL;
+    destination->node.key = digest_of_octets(client);
+    memcpy(destination->client, client, sizeof destination->client);
+    key_map_insert(&writers->destinations, &destination->node);
+    LIST_INSERT_HEAD(&writers->all_destinations, destination, all);
+    return destination;
+}
+
+static void drop_if_unread(struct reply_writers *writers, struct destination *destination)
+{
+    for (int i = 0; i < EXCHANGE_COUNT; i++) {
+        if (destination->readers[i] > 0)
+            return;
+    }
+    key_map_remove(&writers->destinations, &destination->node);
+    LIST_REMOVE(destination, all);
+    free(destination);
+}
+
+static dds_entity_t create_writer(const struct reply_writers *writers, const uint8_t client[16],
+                                  enum exchange exchange)
+{
+    char partition[WIRE_PARTITION_SIZE];
+    wire_partition_name(client, partition);
+    dds_qos_t *qos = wire_qos_exchange(partition);
+    dds_entity_t writer =
+        dds_create_writer(writers->participant, writers->topics[exchange], qos, NULL);
+    dds_delete_qos(qos);
+    return writer > 0 ? writer : 0;
+}
+
+/* A reader came: false if it can get no writer. */
+static bool add_reader(struct reply_writers *writers, struct remote_reader *reader,
+                       const uint8_t client[16], enum exchange exchange)
+{
+    pthread_mutex_lock(&writers->lock);
+    struct destination *destination = find_or_create(writers, client);
+    if (destination) {
+        destination->readers[exchange]++;
+        if (!destination->writers[exchange])
+            destination->writers[exchange] = create_writer(writers, client, exchange);
+        reader->destination = destination;
+        reader->exchange = exchange;
+        key_map_insert(&writers->readers, &reader->node);
+        LIST_INSERT_HEAD(&writers->all_readers, reader, all);
+    }
+    pthread_mutex_unlock(&writers->lock);
+    return destination != NULL;
+}
+
+/* A reader went. Writes that go on in other threads meanwhile fail on their own. */
+static void remove_reader(struct reply_writers *writers, struct remote_reader *reader)
+{
+    struct destination *destination = reader->destination;
+    enum exchange exchange = reader->exchange;
+    dds_entity_t unused = 0;
+    pthread_mutex_lock(&writers->lock);
+    key_map_remove(&writers->readers, &reader->node);
+    LIST_REMOVE(reader, all);
+    if (--destination->readers[exchange] == 0) {
+        unused = destination->writers[exchange];
+        destination->writers[exchange] = 0;
+        drop_if_unread(writers, destination);
+    }
+    pthread_mutex_unlock(&writers->lock);
+    free(reader);
+    if (unused)
+        dds_delete(unused);
+}
+
+/* The client whose partition this is: "c_" and 32 lower-case hexadecimal digits. */
+static bool parse_partition(const char *name, uint8_t client[16])
+{
+    if (strlen(name) != WIRE_PARTITION_SIZE - 1 || name[0] != 'c' || name[1] != '_' ||
+        strspn(name + 2, "0123456789abcdef") != 32)
+        return false;
+    for (size_t i = 0; i < 16; i++)
+        sscanf(name + 2 + 2 * i, "%2hhx", &client[i]);
+    return true;
+}
+
+/* Looks for a client's partition among those of a reader; the first one counts. */
+static bool find_client(const dds_qos_t *qos, uint8_t client[16])
+{
+    uint32_t count = 0;
+    char **names = NULL;
+    bool found = false;
+    if (!dds_qget_partition(qos, &count, &names))
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        found = found || parse_partition(names[i], client);
+        dds_free(names[i]);
+    }
+    dds_free(names);
+    return found;
+}
+
+static enum exchange find_exchange(const char *topic)
+{
+    int i = 0;
+    while (i < EXCHANGE_COUNT && strcmp(topic, replies[i].topic) != 0)
+        i++;
+    return i;
+}
+
+static void follow_one(struct reply_writers *writers, const dds_builtintopic_endpoint_t *endpoint,
+                       const dds_sample_info_t *info, presence_function *presence, void *context)
+{
+    struct digest key = digest_of_octets(endpoint->key.v);
+    struct key_node *node = key_map_find(&writers->readers, key);
+    bool alive = info->instance_state == DDS_ALIVE_INSTANCE_STATE;
+    if (node && !alive) {
+        struct remote_reader *reader = KEY_MAP_OWNER(node, struct remote_reader, node);
+        uint8_t client[16];
+        memcpy(client, reader->destination->client, sizeof client);
+        remove_reader(writers, reader);
+        presence(context, client, false);
+        return;
+    }
+    uint8_t client[16];
+    if (node || !alive || !info->valid_data || !find_client(endpoint->qos, client))
+        return;
+    enum exchange exchange = find_exchange(endpoint->topic_name);
+    struct remote_reader *reader = exchange < EXCHANGE_COUNT ? calloc(1, sizeof *reader) : NULL;
+    if (!reader)
+        return;
+    reader->node.key = key;
+    if (add_reader(writers, reader, client, exchange))
+        presence(context, client, true);
+    else
+        free(reader);
+}
+
+void reply_writers_follow(struct reply_writers *writers, presence_function *presence, void *context)
+{
+    void *samples[TAKEN_AT_ONCE] = {NULL};
+    dds_sample_info_t infos[TAKEN_AT_ONCE];
+    dds_return_t count;
+    while ((count = dds_take(writers->source, samples, infos, TAKEN_AT_ONCE, TAKEN_AT_ONCE)) > 0) {
+        for (dds_return_t i = 0; i < count; i++)
+            follow_one(writers, samples[i], &infos[i], presence, context);
+        dds_return_loan(writers->source, samples, count);
+    }
+}
+
+/* The writer for a client's replies; 0 with the reason if there is none to be used now. */
+static dds_entity_t find_writer(struct reply_writers *writers, const uint8_t client[16],
+                                enum exchange exchange, enum delivery *reason)
+{
+    dds_entity_t writer = 0;
+    *reason = DELIVERY_NO_READER;
+    pthread_mutex_lock(&writers->lock);
+    const struct destination *destination = find(writers, client);
+    if (destination && destination->writers[exchange]) {
+        bool stalled = clock_now() < destination->stalled_until[exchange];
+        *reason = stalled ? DELIVERY_STALLED : DELIVERY_DONE;
+        writer = stalled ? 0 : destination->writers[exchange];
+    }
+    pthread_mutex_unlock(&writers->lock);
+    return writer;
+}
+
+/* Spares the other clients the wait for one that is stopped or cut off. */
+static void mark_stalled(struct reply_writers *writers, const uint8_t client[16],
+                         enum exchange exchange)
+{
+    pthread_mutex_lock(&writers->lock);
+    struct destination *destination = find(writers, client);
+    if (destination)
+        destination->stalled_until[exchange] = clock_now() + stall_pause;
+    pthread_mutex_unlock(&writers->lock);
+}
+
+static dds_return_t write_all(dds_entity_t writer, const struct answer *answer)
+{
+    if (answer->exchange == EXCHANGE_ENSEMBLE)
+        return dds_write(writer, answer->report);
+    if (answer->exchange == EXCHANGE_SINGLE)
+        return dds_write(writer, answer->reply);
+    dds_return_t result = DDS_RETCODE_OK;
+    for (size_t i = 0; !result && i < answer->part_count; i++)
+        result = dds_write(writer, &answer->parts[i]);
+    return result;
+}
+
+enum delivery reply_writers_write(struct reply_writers *writers, const uint8_t client[16],
+                                  const struct answer *answer)
+{
+    enum delivery delivery;
+    dds_entity_t writer = find_writer(writers, client, answer->exchange, &delivery);
+    if (!writer)
+        return delivery;
+    dds_return_t result = write_all(writer, answer);
+    if (result == DDS_RETCODE_TIMEOUT) {
+        mark_stalled(writers, client, answer->exchange);
+        return DELIVERY_STALLED;
+    }
+    return result == DDS_RETCODE_OK ? DELIVERY_DONE : DELIVERY_NO_READER;
+}
+
+void reply_writers_flush(struct reply_writers *writers, double seconds)
+{
+    double end = clock_now() + seconds;
+    pthread_mutex_lock(&writers->lock);
+    struct destination *destination;
+    LIST_FOREACH(destination, &writers->all_destinations, all)
+    {
+        for (int i = 0; i < EXCHANGE_COUNT; i++) {
+            double left = end - clock_now();
+            if (destination->writers[i] && left > 0.0)
+                dds_wait_for_acks(destination->writers[i], (dds_duration_t)(left * 1e9));
+        }
+    }
+    pthread_mutex_unlock(&writers->lock);
+}
+
+size_t reply_writers_count(struct reply_writers *writers)
+{
+    pthread_mutex_lock(&writers->lock);
+    size_t count = writers->destinations.count;
+    pthread_mutex_unlock(&writers->lock);
+    return count;
+}

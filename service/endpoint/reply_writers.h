@@ -1,0 +1,51 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* One reply writer per client and kind of reply, in the client's own partition (c_<hex>): an idle
+ * client then costs the others nothing. A writer exists as long as the built-in topic of
+ * subscriptions shows a reader for it. Thread-safe but for reply_writers_follow. */
+#ifndef PERCUSS_ENDPOINT_REPLY_WRITERS_H
+#define PERCUSS_ENDPOINT_REPLY_WRITERS_H
+
+#include <stdbool.h>
+
+#include "base/fault.h"
+#include "endpoint/answer.h"
+
+/* More clients than this at once get no replies. */
+enum { REPLY_WRITERS_CLIENTS = 1024 };
+
+struct reply_writers;
+
+/* NULL with a fault if DDS refuses. */
+struct reply_writers *reply_writers_create(dds_entity_t participant, struct fault *fault);
+void reply_writers_free(struct reply_writers *writers);
+
+/* The reader of subscriptions, to wait on. */
+dds_entity_t reply_writers_source(const struct reply_writers *writers);
+
+/* Told that a reader of replies of this client has come or gone. */
+typedef void presence_function(void *context, const uint8_t client[16], bool present);
+
+/* Creates and deletes writers for the readers that came and went since the last call. One thread
+ * only. */
+void reply_writers_follow(struct reply_writers *writers, presence_function *presence,
+                          void *context);
+
+enum delivery {
+    DELIVERY_DONE,
+    DELIVERY_NO_READER, /* the client has no reader of such replies */
+    DELIVERY_STALLED    /* it does not take what it was sent; tried again after a second */
+};
+
+/* Writes the answer, all parts of it, to its client. */
+enum delivery reply_writers_write(struct reply_writers *writers, const uint8_t client[16],
+                                  const struct answer *answer);
+
+/* Waits until the clients have everything that was written, at most `seconds`. */
+void reply_writers_flush(struct reply_writers *writers, double seconds);
+
+/* Number of clients that read replies. */
+size_t reply_writers_count(struct reply_writers *writers);
+
+#endif

@@ -1,0 +1,26 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Four-node Gauss collocation of the contact forces on a step, in the step's own time 0..1. */
+#ifndef PERCUSS_IMPACT_COLLOCATION_H
+#define PERCUSS_IMPACT_COLLOCATION_H
+
+enum { NODES = 4 };
+
+struct collocation {
+    double node[NODES];
+    double weight[NODES];               /* of the integral over the step */
+    double monomial[NODES][NODES];      /* Lagrange polynomial j = sum_m monomial[j][m] s^m */
+    double velocity[NODES][NODES];      /* [i][j]: integral of polynomial j from 0 to node i */
+    double position[NODES][NODES];      /* [i][j]: its double integral */
+    double position_end[NODES];         /* double integral from 0 to 1 */
+    double highest[NODES];              /* coefficient of the Legendre polynomial of degree 3 */
+};
+
+extern const struct collocation collocation;
+
+/* Polynomial through the nodal values at s in 0..1, and its integral from 0 to s. */
+double collocation_value(const double values[NODES], double s);
+double collocation_integral(const double values[NODES], double s);
+
+#endif

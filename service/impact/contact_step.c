@@ -1,0 +1,295 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/contact_step.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "impact/kernel.h"
+#include "numeric/linear.h"
+
+enum { MAX_ITERATIONS = 40 };
+
+bool contact_step_create(struct contact_step *step, const struct scene *scene, struct arena *arena)
+{
+    size_t n = scene->contacts;
+    size_t unknowns = n * NODES;
+    *step = (struct contact_step){.arena = arena};
+    step->indentation = arena_take(arena, n, sizeof *step->indentation);
+    step->force = arena_take(arena, n, sizeof *step->force);
+    step->end_indentation = arena_take(arena, n, sizeof(double));
+    step->matrix = arena_take(arena, unknowns * unknowns, sizeof(double));
+    step->unknown = arena_take(arena, 2 * unknowns, sizeof(double));
+    step->approach = arena_take(arena, n, sizeof(double));
+    step->end_force = arena_take(arena, n, sizeof(double));
+    return step->indentation && step->force && step->end_indentation && step->matrix &&
+           step->unknown && step->approach && step->end_force &&
+           motion_create(&step->end, scene, arena);
+}
+
+/* What a unit force of contact b at node j does to the approach of contact a at node i, with the
+ * residual flexibility: rigid double integral, modes, and the series compliance at the same node. */
+static const double *coupling_of_level(struct contact_step *step, const struct scene *scene,
+                                       int level)
+{
+    if (step->coupling[level])
+        return step->coupling[level];
+    size_t n = scene->contacts;
+    double h = step_length(level);
+    double(*all)[NODES][NODES] = arena_take(step->arena, n * n, sizeof *all);
+    if (!all)
+        return NULL;
+    for (size_t a = 0; a < n; a++) {
+        for (size_t b = 0; b < n; b++) {
+            double(*m)[NODES] = all[a * n + b];
+            for (int i = 0; i < NODES; i++) {
+                for (int j = 0; j < NODES; j++)
+                    m[i][j] = scene->w[a * n + b] * h * h * collocation.position[i][j];
+                m[i][i] += scene->residual[a * n + b];
+            }
+            for (size_t g = 0; g < scene->groups; g++) {
+                const struct scene_group *group = &scene->group[g];
+                const double *pa = group->participation[a];
+                const double *pb = group->participation[b];
+                const struct step_table *table = oscillators_table(group->set, level);
+                if (!table)
+                    return NULL;
+                if (pa && pb)
+                    kernel_response(table, group->stride, pa, pb, m);
+            }
+        }
+    }
+    step->coupling[level] = (double *)all;
+    return step->coupling[level];
+}
+
+/* Approach at the nodes if no force acted on this step. */
+static void free_approach(const struct scene *scene, const struct motion *motion, size_t contact,
+                          int level, double approach[NODES])
+{
+    double h = step_length(level);
+    double modes[NODES] = {0};
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        if (group->participation[contact])
+            kernel_nodes(group->set->tables[level], group->stride, group->participation[contact],
+                         motion->q[g], motion->v[g], modes);
+    }
+    for (int i = 0; i < NODES; i++) {
+        double t = collocation.node[i] * h;
+        double a = scene->gap_acceleration[contact];
+        approach[i] = -(motion->gap[contact] + t * (motion->gap_rate[contact] + 0.5 * a * t)) -
+                      modes[i];
+    }
+}
+
+static size_t active_list(const struct scene *scene, const bool *active, size_t *list)
+{
+    size_t count = 0;
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (active[c])
+            list[count++] = c;
+    return count;
+}
+
+/* Forces, residual and Jacobian of d_i + sum coupling F(d) = free approach; returns the residual. */
+static void assemble(struct contact_step *step, const struct scene *scene, const size_t *list,
+                     size_t count, const double *coupling, const double *target)
+{
+    size_t n = scene->contacts;
+    size_t size = count * NODES;
+    double stiffness[PERCUSS_MAX_CONTACTS][NODES];
+    for (size_t a = 0; a < count; a++)
+        for (int i = 0; i < NODES; i++)
+            step->force[list[a]][i] =
+                contact_law_force(&scene->laws[list[a]], NULL, step->indentation[list[a]][i],
+                                  &stiffness[a][i]);
+    for (size_t a = 0; a < count; a++) {
+        for (int i = 0; i < NODES; i++) {
+            size_t row = a * NODES + (size_t)i;
+            double sum = step->indentation[list[a]][i] - target[row];
+            for (size_t b = 0; b < count; b++) {
+                const double *m = coupling + ((list[a] * n + list[b]) * NODES + (size_t)i) * NODES;
+                for (int j = 0; j < NODES; j++) {
+                    sum += m[j] * step->force[list[b]][j];
+                    step->matrix[row * size + b * NODES + (size_t)j] = m[j] * stiffness[b][j];
+                }
+            }
+            step->matrix[row * size + row] += 1.0;
+            step->unknown[row] = sum;
+        }
+    }
+}
+
+/* Newton's method for the local indentations at the nodes. */
+static bool solve_nodes(struct contact_step *step, const struct scene *scene, const size_t *list,
+                        size_t count, const double *coupling)
+{
+    size_t size = count * NODES;
+    const double *target = step->unknown + scene->contacts * NODES;
+    double previous = INFINITY;
+    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+        assemble(step, scene, list, count, coupling, target);
+        if (!linear_solve(size, step->matrix, step->unknown))
+            return false;
+        step->iterations++;
+        double change = 0.0;
+        double scale = 0.0;
+        for (size_t u = 0; u < size; u++) {
+            double *d = &step->indentation[list[u / NODES]][u % NODES];
+            *d -= step->unknown[u];
+            change = fmax(change, fabs(step->unknown[u]));
+            scale = fmax(scale, fmax(fabs(*d), fabs(target[u])));
+        }
+        if (!isfinite(change))
+            return false;
+        /* quadratic: after a change of 1e-8 the rest is rounding; or no progress above rounding */
+        if (change <= 1e-8 * scale || (change <= 1e-12 * scale && change >= previous)) {
+            assemble(step, scene, list, count, coupling, target);
+            return true;
+        }
+        previous = change;
+    }
+    return false;
+}
+
+static void push_rigid(struct contact_step *step, const struct scene *scene, const size_t *list,
+                       size_t count, double h)
+{
+    for (size_t b = 0; b < count; b++) {
+        double impulse = 0.0;
+        double travel = 0.0;
+        for (int j = 0; j < NODES; j++) {
+            impulse += h * collocation.weight[j] * step->force[list[b]][j];
+            travel += h * h * collocation.position_end[j] * step->force[list[b]][j];
+        }
+        for (size_t a = 0; a < scene->contacts; a++) {
+            step->end.gap[a] += scene->w[a * scene->contacts + list[b]] * travel;
+            step->end.gap_rate[a] += scene->w[a * scene->contacts + list[b]] * impulse;
+        }
+    }
+}
+
+/* What the dampers of one group take, by the quadratic form of its table. */
+static double group_loss(const struct contact_step *step, const struct scene_group *group,
+                         const struct motion *motion, const double *q, const double *v,
+                         const size_t *list, size_t count, const struct step_table *table)
+{
+    (void)motion;
+    double sum = 0.0;
+    for (size_t k = 0; k < group->count; k++) {
+        double x[NODES + 2] = {q[k], v[k]};
+        for (size_t b = 0; b < count; b++)
+            for (int j = 0; group->participation[list[b]] && j < NODES; j++)
+                x[j + 2] += group->participation[list[b]][k] * step->force[list[b]][j];
+        for (int r = 0, term = 0; r < NODES + 2; r++) {
+            for (int s = 0; s < r; s++, term++)
+                sum += 2.0 * table->loss[term][k] * x[r] * x[s];
+            sum += table->loss[term++][k] * x[r] * x[r];
+        }
+    }
+    return sum;
+}
+
+static void advance(struct contact_step *step, const struct scene *scene,
+                    const struct motion *motion, const size_t *list, size_t count, int level)
+{
+    double h = step_length(level);
+    step->end.time = motion->time + h;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double a = scene->gap_acceleration[c];
+        step->end.gap[c] = motion->gap[c] + h * (motion->gap_rate[c] + 0.5 * a * h);
+        step->end.gap_rate[c] = motion->gap_rate[c] + a * h;
+    }
+    push_rigid(step, scene, list, count, h);
+    step->loss = 0.0;
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        const struct step_table *table = group->set->tables[level];
+        kernel_advance(table, group->stride, motion->q[g], motion->v[g], step->end.q[g],
+                       step->end.v[g]);
+        for (size_t b = 0; b < count; b++)
+            if (group->participation[list[b]])
+                kernel_push(table, group->stride, group->participation[list[b]],
+                            step->force[list[b]], step->end.q[g], step->end.v[g]);
+        if (group->set->damping > 0.0)
+            step->loss += group_loss(step, group, motion, motion->q[g], motion->v[g], list, count,
+                                     table);
+    }
+}
+
+bool contact_local_indentation(const struct scene *scene, const bool *active, const double *approach,
+                               double *indentation, double *force, double *matrix)
+{
+    size_t n = scene->contacts;
+    size_t list[PERCUSS_MAX_CONTACTS];
+    size_t count = active_list(scene, active, list);
+    double unknown[PERCUSS_MAX_CONTACTS];
+    double stiffness[PERCUSS_MAX_CONTACTS];
+    memset(force, 0, n * sizeof *force);
+    bool converged = count == 0;
+    for (int iteration = 0; iteration < MAX_ITERATIONS && !converged; iteration++) {
+        for (size_t a = 0; a < count; a++)
+            force[list[a]] = contact_law_force(&scene->laws[list[a]], NULL, indentation[list[a]],
+                                               &stiffness[a]);
+        for (size_t a = 0; a < count; a++) {
+            unknown[a] = indentation[list[a]] - approach[list[a]];
+            for (size_t b = 0; b < count; b++) {
+                double c = scene->residual[list[a] * n + list[b]];
+                unknown[a] += c * force[list[b]];
+                matrix[a * count + b] = c * stiffness[b] + (a == b);
+            }
+        }
+        if (!linear_solve(count, matrix, unknown))
+            return false;
+        double change = 0.0;
+        double scale = 0.0;
+        for (size_t a = 0; a < count; a++) {
+            indentation[list[a]] -= unknown[a];
+            change = fmax(change, fabs(unknown[a]));
+            scale = fmax(scale, fmax(fabs(indentation[list[a]]), fabs(approach[list[a]])));
+        }
+        converged = change <= 1e-14 * scale;
+        if (!converged && iteration == MAX_ITERATIONS - 1)
+            converged = change <= 1e-9 * scale;
+    }
+    for (size_t a = 0; a < n; a++) {
+        if (active[a])
+            continue;
+        indentation[a] = approach[a];
+        for (size_t b = 0; b < count; b++)
+            indentation[a] -= scene->residual[a * n + list[b]] * force[list[b]];
+    }
+    return converged;
+}
+
+bool contact_step_solve(struct contact_step *step, const struct scene *scene,
+                        const struct motion *motion, const bool *active, int level,
+                        const double *indentation, const double *rate)
+{
+    double h = step_length(level);
+    const double *coupling = coupling_of_level(step, scene, level);
+    if (!coupling)
+        return false;
+    size_t list[PERCUSS_MAX_CONTACTS];
+    size_t count = active_list(scene, active, list);
+    double *target = step->unknown + scene->contacts * NODES;
+    for (size_t a = 0; a < count; a++) {
+        free_approach(scene, motion, list[a], level, target + a * NODES);
+        for (int i = 0; i < NODES; i++)
+            step->indentation[list[a]][i] =
+                indentation[list[a]] + rate[list[a]] * collocation.node[i] * h;
+    }
+    if (!solve_nodes(step, scene, list, count, coupling))
+        return false;
+    advance(step, scene, motion, list, count, level);
+    double ignored;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        motion_approach(&step->end, scene, c, &step->approach[c], &ignored);
+        step->end_indentation[c] =
+            active[c] ? collocation_value(step->indentation[c], 1.0) : 0.0;
+    }
+    return contact_local_indentation(scene, active, step->approach, step->end_indentation,
+                                     step->end_force, step->matrix);
+}

@@ -1,0 +1,42 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* One step of the contact phase: the forces at the nodes are the only unknowns, the modes between
+ * them are exact. */
+#ifndef PERCUSS_IMPACT_CONTACT_STEP_H
+#define PERCUSS_IMPACT_CONTACT_STEP_H
+
+#include <stdbool.h>
+
+#include "impact/motion.h"
+
+struct contact_step {
+    struct motion end;              /* the state after the step */
+    double (*indentation)[NODES];   /* [contact] local, at the nodes; active contacts only */
+    double (*force)[NODES];
+    double *end_indentation;        /* [contact], all contacts */
+    double loss;                    /* taken by damping, J */
+    unsigned long iterations;       /* Newton's, since creation */
+
+    double *coupling[STEP_LEVELS];  /* [contact][contact][node][node]: residual + response */
+    double *matrix, *unknown;       /* scratch */
+    double *approach, *end_force;
+    struct arena *arena;
+};
+
+/* Memory for a scene from the arena. False: out of memory. */
+bool contact_step_create(struct contact_step *step, const struct scene *scene, struct arena *arena);
+
+/* Solves a step of a level from `motion` with the `active` contacts; `indentation` and `rate` are
+ * local values at its start (the starting values of the iteration). False: no solution found (the
+ * step is too long) or out of memory. `motion` is not changed. */
+bool contact_step_solve(struct contact_step *step, const struct scene *scene,
+                        const struct motion *motion, const bool *active, int level,
+                        const double *indentation, const double *rate);
+
+/* Local indentation of every contact for approaches d: F_i = law(d_i - sum_j residual_ij F_j) for the
+ * active ones, d_i - sum_j residual_ij F_j for the others. `indentation` holds starting values. */
+bool contact_local_indentation(const struct scene *scene, const bool *active, const double *approach,
+                               double *indentation, double *force, double *matrix);
+
+#endif

@@ -1,0 +1,90 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/energy.h"
+
+#include <math.h>
+
+#include "numeric/linear.h"
+
+/* x^T m y */
+static double form(size_t n, const double *m, const double *x, const double *y)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            sum += x[i] * m[i * n + j] * y[j];
+    return sum;
+}
+
+/* 1/w for one contact, the pseudo-inverse otherwise: motions that no contact sees carry no energy. */
+static double *effective_mass(const struct scene *scene, struct arena *arena)
+{
+    size_t n = scene->contacts;
+    double *mass = arena_take(arena, n * n, sizeof *mass);
+    if (!mass)
+        return NULL;
+    if (n == 1) {
+        mass[0] = 1.0 / scene->w[0];
+        return mass;
+    }
+    double *scratch = arena_take(arena, n * (n + 1), sizeof *scratch);
+    if (!scratch || isnan(linear_pseudo_inverse(n, scene->w, 1e-12, mass, scratch)))
+        return NULL;
+    return mass;
+}
+
+static double initial_vibration(const struct scene *scene)
+{
+    double sum = 0.0;
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        for (size_t k = 0; group->q && k < group->count; k++) {
+            double spring = group->set->omega[k] * group->q[k];
+            sum += 0.5 * (group->v[k] * group->v[k] + spring * spring);
+        }
+    }
+    return sum;
+}
+
+static double stored_energy(const struct scene *scene, const double *indentation)
+{
+    double force[PERCUSS_MAX_CONTACTS];
+    double sum = 0.0;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        const struct contact_law *law = &scene->laws[c];
+        double stiffness;
+        force[c] = contact_law_force(law, NULL, indentation[c], &stiffness);
+        sum += law->operations->stored(law, NULL, indentation[c]);
+    }
+    return sum + 0.5 * form(scene->contacts, scene->residual, force, force);
+}
+
+bool energy_audit(const struct scene *scene, const double *indentation, double damping,
+                  struct arena *arena, struct impact_outcome *outcome)
+{
+    size_t n = scene->contacts;
+    const struct motion *end = &outcome->motion;
+    double *mass = effective_mass(scene, arena);
+    double *travel = arena_take(arena, n, sizeof *travel);
+    if (!mass || !travel)
+        return false;
+    for (size_t c = 0; c < n; c++)
+        travel[c] = end->gap[c] - scene->gap[c];
+
+    struct impact_energy *energy = &outcome->energy;
+    *energy = (struct impact_energy){.damping = damping};
+    /* the acceleration is a force W^+ a on the gaps: its work is that over the gaps' travel */
+    energy->available = 0.5 * form(n, mass, scene->gap_rate, scene->gap_rate) +
+                        initial_vibration(scene) +
+                        form(n, mass, scene->gap_acceleration, travel);
+    energy->rigid_after = 0.5 * form(n, mass, end->gap_rate, end->gap_rate);
+    for (size_t b = 0; b < scene->bodies; b++) {
+        outcome->vibration[b] = motion_vibration(end, scene, b);
+        energy->vibration += outcome->vibration[b];
+    }
+    energy->stored = stored_energy(scene, indentation);
+    energy->closure = energy->available - energy->rigid_after - energy->vibration -
+                      energy->damping - energy->plastic - energy->stored;
+    return true;
+}

@@ -1,0 +1,223 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/flight.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "impact/flight_root.h"
+#include "impact/kernel.h"
+
+/* Modes with omega h below this are followed by their tangent, the others bounded by amplitude. */
+#define SLOW_ANGLE 1.5
+/* At this omega h of the fastest mode an interval is as short as it needs to be. */
+#define FLOOR_ANGLE 0.5
+
+enum { REFRESH = 32 /* intervals between two looks at the decayed amplitudes */ };
+
+bool flight_create(struct flight *flight, const struct scene *scene, struct arena *arena)
+{
+    *flight = (struct flight){0};
+    flight->amplitude = arena_take(arena, scene->groups, sizeof *flight->amplitude);
+    flight->bound = arena_take(arena, scene->contacts, sizeof *flight->bound);
+    flight->all_modes = arena_take(arena, scene->contacts * STEP_LEVELS, sizeof(double));
+    flight->slow_modes = arena_take(arena, scene->contacts * STEP_LEVELS, sizeof(double));
+    if (!flight->amplitude || !flight->bound || !flight->all_modes || !flight->slow_modes)
+        return false;
+    for (size_t g = 0; g < scene->groups; g++) {
+        flight->amplitude[g] = arena_take(arena, scene->group[g].stride, sizeof(double));
+        if (!flight->amplitude[g])
+            return false;
+    }
+    return motion_create(&flight->probe, scene, arena);
+}
+
+/* a = sqrt(q^2 + v^2/omega^2) bounds |q| for good, damped or not: the energy cannot grow. */
+static void find_amplitudes(struct flight *flight, const struct scene *scene,
+                            const struct motion *motion)
+{
+    memset(flight->known, 0, sizeof flight->known);
+    memset(flight->bound, 0, scene->contacts * sizeof *flight->bound);
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        for (size_t k = 0; k < group->count; k++) {
+            double v = motion->v[g][k] / group->set->omega[k];
+            flight->amplitude[g][k] = sqrt(motion->q[g][k] * motion->q[g][k] + v * v);
+        }
+        for (size_t c = 0; c < scene->contacts; c++)
+            for (size_t k = 0; group->participation[c] && k < group->count; k++)
+                flight->bound[c] += fabs(group->participation[c][k]) * flight->amplitude[g][k];
+    }
+}
+
+/* Bounds of the modes' departure from tangent (slow) and from zero (fast) within a step of a level:
+ * |q''| <= omega^2 a sqrt(1 + 4 zeta^2) by the energy bound. */
+static void find_remainders(struct flight *flight, const struct scene *scene, int level)
+{
+    double h = step_length(level);
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double all = 0.0;
+        double slow = 0.0;
+        for (size_t g = 0; g < scene->groups; g++) {
+            const struct scene_group *group = &scene->group[g];
+            const double *phi = group->participation[c];
+            double stiffer = sqrt(1.0 + 4.0 * group->set->damping * group->set->damping);
+            for (size_t k = 0; phi && k < group->count; k++) {
+                double angle = group->set->omega[k] * h;
+                double reach = fabs(phi[k]) * flight->amplitude[g][k];
+                double bend = 0.5 * angle * angle * stiffer * reach;
+                all += bend;
+                slow += angle < SLOW_ANGLE ? bend : reach;
+            }
+        }
+        flight->all_modes[c * STEP_LEVELS + (size_t)level] = all;
+        flight->slow_modes[c * STEP_LEVELS + (size_t)level] = slow;
+    }
+    flight->known[level] = true;
+}
+
+/* Rigid approach and rate plus those of the modes slower than `fastest`. */
+static void partial_approach(const struct flight *flight, const struct scene *scene, size_t contact,
+                             double fastest, double *approach, double *rate)
+{
+    double d = 0.0;
+    double d_rate = 0.0;
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        const double *phi = group->participation[contact];
+        for (size_t k = 0; phi && k < group->count && group->set->omega[k] < fastest; k++) {
+            d += phi[k] * flight->probe.q[g][k];
+            d_rate += phi[k] * flight->probe.v[g][k];
+        }
+    }
+    *approach = -flight->probe.gap[contact] - d;
+    *rate = -flight->probe.gap_rate[contact] - d_rate;
+}
+
+/* Whether contact c stays open for one step of the level. */
+static bool stays_open(const struct flight *flight, const struct scene *scene, size_t c, int level)
+{
+    double h = step_length(level);
+    double pull = -0.5 * scene->gap_acceleration[c] * h * h; /* what acceleration closes */
+    double d;
+    double rate;
+    /* a parabola that opens upward is largest at its ends */
+    partial_approach(flight, scene, c, INFINITY, &d, &rate);
+    double rise = fmax(0.0, flight->all_modes[c * STEP_LEVELS + (size_t)level] + pull);
+    if (d <= 0.0 && d + rate * h + rise < 0.0)
+        return true;
+    partial_approach(flight, scene, c, SLOW_ANGLE / h, &d, &rate);
+    double margin = flight->slow_modes[c * STEP_LEVELS + (size_t)level];
+    return fmax(d, d + rate * h + fmax(0.0, pull)) + margin < 0.0;
+}
+
+static bool all_stay_open(struct flight *flight, const struct scene *scene, int level)
+{
+    if (!flight->known[level])
+        find_remainders(flight, scene, level);
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (!stays_open(flight, scene, c, level))
+            return false;
+    return true;
+}
+
+/* The instant, from now, from which every rigid gap exceeds its bound for good (or, under a pressing
+ * acceleration, first does while it opens); INFINITY: never. */
+static double completion(const struct flight *flight, const struct scene *scene,
+                         const struct motion *motion)
+{
+    double from = 0.0;
+    double until = INFINITY;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double first;
+        double last;
+        flight_root_exceeds(motion->gap[c] - flight->bound[c], motion->gap_rate[c],
+                            scene->gap_acceleration[c], &first, &last);
+        from = fmax(from, first);
+        until = fmin(until, last);
+    }
+    return from <= until ? from : INFINITY;
+}
+
+/* The next step of the scan, along exact motion. */
+static bool move_probe(struct flight *flight, const struct scene *scene, int level)
+{
+    double h = step_length(level);
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double a = scene->gap_acceleration[c];
+        flight->probe.gap[c] += h * (flight->probe.gap_rate[c] + 0.5 * a * h);
+        flight->probe.gap_rate[c] += a * h;
+    }
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct step_table *table = oscillators_table(scene->group[g].set, level);
+        if (!table)
+            return false;
+        kernel_advance(table, scene->group[g].stride, flight->probe.q[g], flight->probe.v[g],
+                       flight->probe.q[g], flight->probe.v[g]);
+    }
+    flight->probe.time += h;
+    return true;
+}
+
+/* Looks into the shortest interval [from, from + h] contact by contact. */
+static bool touch_within(const struct scene *scene, const struct motion *motion, double from,
+                         double h, double *time, size_t *contact)
+{
+    bool found = false;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double t;
+        if (flight_root_touch(motion, scene, c, from, from + h, &t) && (!found || t < *time)) {
+            found = true;
+            *time = t;
+            *contact = c;
+        }
+    }
+    return found;
+}
+
+static int floor_level(const struct scene *scene, double allowed)
+{
+    double highest = scene_highest_frequency(scene);
+    double shortest = highest > 0.0 ? FLOOR_ANGLE / highest : allowed;
+    return step_level(fmin(shortest, allowed));
+}
+
+enum flight_end flight_find(struct flight *flight, const struct scene *scene,
+                            const struct motion *motion, double allowed, unsigned long intervals,
+                            double *time, size_t *contact)
+{
+    int floor = floor_level(scene, allowed);
+    int level = floor;
+    int passed = 0;
+    motion_copy(&flight->probe, motion, scene);
+    find_amplitudes(flight, scene, motion);
+    double complete = completion(flight, scene, motion);
+    for (unsigned long i = 1; flight->probe.time - motion->time < fmin(complete, allowed); i++) {
+        flight->intervals++;
+        double from = flight->probe.time - motion->time;
+        bool open = all_stay_open(flight, scene, level);
+        if (!open && level < floor) {
+            level++;
+            passed = 0;
+            continue;
+        }
+        if (!open && touch_within(scene, motion, from, step_length(level), time, contact) &&
+            *time < fmin(complete, allowed))
+            return FLIGHT_TOUCH;
+        if (!move_probe(flight, scene, level) || i >= intervals)
+            return FLIGHT_LIMIT;
+        /* twice in a row on the safe side: try steps twice as long */
+        passed = open ? passed + 1 : 0;
+        if (passed >= 2 && level > 0) {
+            level--;
+            passed = 0;
+        }
+        if (i % REFRESH == 0) {
+            find_amplitudes(flight, scene, &flight->probe);
+            complete = flight->probe.time - motion->time + completion(flight, scene, &flight->probe);
+        }
+    }
+    *time = fmin(complete, allowed);
+    return complete <= allowed ? FLIGHT_COMPLETE : FLIGHT_TIMEOUT;
+}

@@ -1,0 +1,127 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/flight_root.h"
+
+#include <math.h>
+
+void flight_root_exceeds(double excess, double rate, double acceleration, double *first,
+                         double *last)
+{
+    *first = INFINITY;
+    *last = INFINITY;
+    if (acceleration >= 0.0) {
+        if (rate >= 0.0 && excess >= 0.0)
+            *first = 0.0;
+        else if (acceleration > 0.0) {
+            /* the later root, when it is above and opening */
+            double discriminant = rate * rate - 2.0 * acceleration * excess;
+            double turn = fmax(0.0, -rate / acceleration);
+            *first = discriminant > 0.0 ? fmax(turn, (sqrt(discriminant) - rate) / acceleration)
+                                        : turn;
+        } else if (rate > 0.0)
+            *first = -excess / rate;
+        return;
+    }
+    /* pressing: only on the way up, and only if the top of the way exceeds it */
+    double discriminant = rate * rate - 2.0 * acceleration * excess;
+    if (rate <= 0.0 || discriminant < 0.0)
+        return;
+    *first = excess >= 0.0 ? 0.0 : -2.0 * excess / (rate + sqrt(discriminant));
+    *last = -rate / acceleration;
+}
+
+/* Root of the approach in [low, high] with approach(low) <= 0 < approach(high): bisection kept safe,
+ * Newton where it stays inside. */
+static double rising_root(const struct motion *motion, const struct scene *scene, size_t contact,
+                          double low, double high)
+{
+    double t = 0.5 * (low + high);
+    for (int i = 0; i < 100; i++) {
+        double d;
+        double rate;
+        motion_approach_at(motion, scene, contact, t, &d, &rate);
+        if (d > 0.0)
+            high = t;
+        else
+            low = t;
+        double next = rate > 0.0 ? t - d / rate : low;
+        if (!(next > low && next < high))
+            next = 0.5 * (low + high);
+        if (fabs(next - t) <= 1e-16 * fabs(t) || high - low <= 1e-16 * fabs(high))
+            return next;
+        t = next;
+    }
+    return t;
+}
+
+/* Instant of the peak in [low, high]: the rate falls through zero. */
+static double peak(const struct motion *motion, const struct scene *scene, size_t contact, double low,
+                   double high)
+{
+    for (int i = 0; i < 60 && high - low > 1e-15 * fabs(high); i++) {
+        double t = 0.5 * (low + high);
+        double d;
+        double rate;
+        motion_approach_at(motion, scene, contact, t, &d, &rate);
+        if (d > 0.0)
+            return t;
+        if (rate > 0.0)
+            low = t;
+        else
+            high = t;
+    }
+    return 0.5 * (low + high);
+}
+
+bool flight_root_touch(const struct motion *motion, const struct scene *scene, size_t contact,
+                       double from, double to, double *time)
+{
+    double d0;
+    double rate0;
+    double d1;
+    double rate1;
+    motion_approach_at(motion, scene, contact, from, &d0, &rate0);
+    if (d0 >= 0.0 && rate0 > 0.0) {
+        *time = from;
+        return true;
+    }
+    motion_approach_at(motion, scene, contact, to, &d1, &rate1);
+    if (d1 > 0.0) {
+        *time = rising_root(motion, scene, contact, from, to);
+        return true;
+    }
+    if (!(rate0 > 0.0 && rate1 < 0.0))
+        return false;
+    double top = peak(motion, scene, contact, from, to);
+    motion_approach_at(motion, scene, contact, top, &d1, &rate1);
+    if (!(d1 > 0.0))
+        return false;
+    *time = rising_root(motion, scene, contact, from, top);
+    return true;
+}
+
+double flight_root_back(const struct motion *motion, const struct scene *scene, size_t contact,
+                        double longest)
+{
+    double highest = scene_highest_frequency(scene);
+    double step = highest > 0.0 ? fmin(longest, 0.5 / highest) : longest;
+    double d;
+    double rate;
+    motion_approach(motion, scene, contact, &d, &rate);
+    if (highest == 0.0 && rate > 0.0) {
+        /* rigid: the nearer root of d + rate t - a t^2/2 = 0 behind us */
+        double a = scene->gap_acceleration[contact];
+        double discriminant = rate * rate + 2.0 * a * d;
+        if (discriminant < 0.0)
+            return -INFINITY;
+        double t = -2.0 * d / (rate + sqrt(discriminant));
+        return -t <= longest ? t : -INFINITY;
+    }
+    for (double t = step; t <= longest; t += step) {
+        motion_approach_at(motion, scene, contact, -t, &d, &rate);
+        if (d <= 0.0)
+            return rising_root(motion, scene, contact, -t, -t + step);
+    }
+    return -INFINITY;
+}

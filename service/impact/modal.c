@@ -1,0 +1,292 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+#include <string.h>
+
+#include "impact/contact_step.h"
+#include "impact/energy.h"
+#include "impact/flight.h"
+#include "impact/impact.h"
+
+/* A run of the modal method. */
+struct modal_run {
+    const struct scene *scene;
+    const struct impact_settings *settings;
+    struct impact_outcome *outcome;
+    struct motion *motion; /* the outcome's: the current state */
+    struct contact_step step;
+    struct flight flight;
+    bool *active;                /* [contact] */
+    double *indentation, *rate;  /* [contact], local, now */
+    struct impact_scale *scales; /* [contact], of the sub-impact under way */
+    double damping;              /* J taken so far */
+    double roughness;            /* largest highest-order share of a force on an accepted step */
+    unsigned long used;          /* of settings->max_steps */
+};
+
+/* A force's cubic is accurate enough when its highest Legendre coefficient is this share of the
+ * contact's force. The impulse converges with the eighth power of the step, the coefficient with the
+ * third, hence the exponent; the factor is measured (docs/accuracy.md). */
+static double allowed_roughness(const struct modal_run *run)
+{
+    return fmin(0.02, 0.6 * pow(run->settings->accuracy, 0.4));
+}
+
+/* The step in which a contact opens or closes may be this part of the contact's duration: the impulse
+ * within it is about its 5/2 power. */
+static double event_share(const struct modal_run *run)
+{
+    return fmin(0.05, 0.5 * pow(run->settings->accuracy, 0.4));
+}
+
+static bool any_active(const struct modal_run *run)
+{
+    for (size_t c = 0; c < run->scene->contacts; c++)
+        if (run->active[c])
+            return true;
+    return false;
+}
+
+static void activate(struct modal_run *run, size_t contact, double indentation, double rate)
+{
+    run->active[contact] = true;
+    run->indentation[contact] = indentation;
+    run->rate[contact] = rate;
+    run->scales[contact] = impact_scale_of(run->scene, contact, rate);
+    track_open(&run->outcome->tracks[contact], run->motion->time, run->motion->gap_rate[contact]);
+}
+
+static void deactivate(struct modal_run *run, size_t contact, double time)
+{
+    run->active[contact] = false;
+    track_close(&run->outcome->tracks[contact], &run->scene->laws[contact], time,
+                run->motion->gap_rate[contact]);
+}
+
+/* The finest level that events and grading need. */
+static int finest_level(const struct modal_run *run)
+{
+    double shortest = INFINITY;
+    for (size_t c = 0; c < run->scene->contacts; c++)
+        if (run->active[c])
+            shortest = fmin(shortest, run->scales[c].duration);
+    return step_level(shortest * event_share(run));
+}
+
+/* A step must not jump over a contact's end: at most three quarters of the way there. */
+static int level_before_release(const struct modal_run *run, int level, int finest)
+{
+    for (size_t c = 0; c < run->scene->contacts; c++) {
+        if (!run->active[c] || run->rate[c] >= 0.0)
+            continue;
+        double left = 0.75 * run->indentation[c] / -run->rate[c];
+        while (level < finest && step_length(level) > left)
+            level++;
+    }
+    double remaining = run->settings->horizon - run->motion->time;
+    while (level < STEP_LEVELS - 1 && step_length(level) > remaining)
+        level++;
+    return level;
+}
+
+/* How much of the contacts' forces the highest coefficient of the step's cubic is. */
+static double step_roughness(const struct modal_run *run)
+{
+    double worst = 0.0;
+    for (size_t c = 0; c < run->scene->contacts; c++) {
+        if (!run->active[c])
+            continue;
+        double highest = 0.0;
+        for (int j = 0; j < NODES; j++)
+            highest += collocation.highest[j] * run->step.force[c][j];
+        worst = fmax(worst, fabs(highest) / run->scales[c].force);
+    }
+    return worst;
+}
+
+/* A contact that opens or closes inside the step. */
+static bool has_event(const struct modal_run *run)
+{
+    for (size_t c = 0; c < run->scene->contacts; c++) {
+        bool closed = run->step.end_indentation[c] > 0.0;
+        if (closed != run->active[c])
+            return true;
+    }
+    return false;
+}
+
+/* Last instant with positive indentation on the step just made: linear between the nodes around it. */
+static double release_time(const struct modal_run *run, size_t contact, double start, double h)
+{
+    double s[NODES + 2];
+    double d[NODES + 2];
+    s[0] = 0.0;
+    d[0] = run->indentation[contact];
+    for (int j = 0; j < NODES; j++) {
+        s[j + 1] = collocation.node[j];
+        d[j + 1] = run->step.indentation[contact][j];
+    }
+    s[NODES + 1] = 1.0;
+    d[NODES + 1] = run->step.end_indentation[contact];
+    int last = NODES;
+    while (last > 0 && d[last] <= 0.0)
+        last--;
+    double share = d[last] > 0.0 ? d[last] / (d[last] - d[last + 1]) : 0.0;
+    return start + h * (s[last] + share * (s[last + 1] - s[last]));
+}
+
+/* Rate of the local indentation at the end of the step: from the cubic through its nodes. */
+static double end_rate(const double values[NODES], double h)
+{
+    double sum = 0.0;
+    for (int j = 0; j < NODES; j++)
+        for (int m = 1; m < NODES; m++)
+            sum += values[j] * m * collocation.monomial[j][m];
+    return sum / h;
+}
+
+/* Makes the step just solved the present. */
+static void accept(struct modal_run *run, int level)
+{
+    double h = step_length(level);
+    double start = run->motion->time;
+    struct motion old = *run->motion;
+    *run->motion = run->step.end;
+    run->step.end = old;
+    run->damping += run->step.loss;
+    run->outcome->steps++;
+    for (size_t c = 0; c < run->scene->contacts; c++) {
+        double end = run->step.end_indentation[c];
+        if (run->active[c]) {
+            track_step(&run->outcome->tracks[c], start, h, run->step.indentation[c],
+                       run->step.force[c], end);
+            if (end <= 0.0)
+                deactivate(run, c, release_time(run, c, start, h));
+            run->rate[c] = end_rate(run->step.indentation[c], h);
+            run->indentation[c] = end;
+        } else if (end > 0.0) {
+            double d;
+            double rate;
+            motion_approach(run->motion, run->scene, c, &d, &rate);
+            activate(run, c, end, rate);
+        }
+    }
+}
+
+/* From the first touch until every contact is open again, the horizon, or the limit. */
+static enum percuss_end_reason contact_phase(struct modal_run *run)
+{
+    double allowed = allowed_roughness(run);
+    int level = finest_level(run);
+    while (any_active(run)) {
+        if (++run->used > run->settings->max_steps)
+            return PERCUSS_END_LIMIT;
+        int finest = finest_level(run);
+        level = level_before_release(run, level, finest);
+        double h = step_length(level);
+        if (run->motion->time + h == run->motion->time ||
+            run->settings->horizon - run->motion->time < step_length(finest))
+            return PERCUSS_END_IN_CONTACT;
+        bool solved = contact_step_solve(&run->step, run->scene, run->motion, run->active, level,
+                                         run->indentation, run->rate);
+        double roughness = solved ? step_roughness(run) : INFINITY;
+        bool fine = level >= finest;
+        if (!solved || (!fine && (roughness > 3.0 * allowed || has_event(run)))) {
+            if (level >= STEP_LEVELS - 1)
+                return PERCUSS_END_LIMIT;
+            run->outcome->rejected++;
+            level++;
+            continue;
+        }
+        accept(run, level);
+        run->roughness = fmax(run->roughness, roughness);
+        /* the coefficient falls with the third power of the step */
+        if (roughness < allowed / 8.0 && level > 0)
+            level--;
+        else if (roughness > allowed)
+            level++;
+    }
+    return PERCUSS_END_NONE;
+}
+
+/* Free motion to the next touch. NONE: touched. */
+static enum percuss_end_reason fly(struct modal_run *run)
+{
+    double time = 0.0;
+    size_t contact = 0;
+    unsigned long before = run->flight.intervals;
+    double allowed = run->settings->horizon - run->motion->time;
+    enum flight_end end = flight_find(&run->flight, run->scene, run->motion, allowed,
+                                      run->settings->max_steps - run->used, &time, &contact);
+    run->used += run->flight.intervals - before;
+    if (end == FLIGHT_LIMIT || run->used > run->settings->max_steps)
+        return PERCUSS_END_LIMIT;
+    run->damping += motion_free_loss(run->motion, run->scene, time);
+    motion_advance(run->motion, run->scene, time);
+    if (end == FLIGHT_TIMEOUT)
+        return PERCUSS_END_HORIZON;
+    if (end == FLIGHT_COMPLETE) {
+        for (size_t c = 0; c < run->scene->contacts; c++)
+            if (run->scene->gap_acceleration[c] < 0.0)
+                return PERCUSS_END_HANDED_BACK;
+        return PERCUSS_END_SEPARATED;
+    }
+    double d;
+    double rate;
+    motion_approach(run->motion, run->scene, contact, &d, &rate);
+    activate(run, contact, 0.0, rate);
+    return PERCUSS_END_NONE;
+}
+
+static bool run_create(struct modal_run *run, const struct scene *scene, struct arena *arena)
+{
+    run->active = arena_take(arena, scene->contacts, sizeof *run->active);
+    run->indentation = arena_take(arena, scene->contacts, sizeof *run->indentation);
+    run->rate = arena_take(arena, scene->contacts, sizeof *run->rate);
+    run->scales = arena_take(arena, scene->contacts, sizeof *run->scales);
+    return run->active && run->indentation && run->rate && run->scales &&
+           contact_step_create(&run->step, scene, arena) &&
+           flight_create(&run->flight, scene, arena);
+}
+
+enum percuss_status impact_modal(const struct scene *scene, const struct impact_settings *settings,
+                                 struct arena *arena, struct impact_outcome *outcome)
+{
+    struct modal_run run = {.scene = scene, .settings = settings, .outcome = outcome};
+    run.motion = &outcome->motion;
+    if (!run_create(&run, scene, arena))
+        return PERCUSS_INTERNAL;
+    for (size_t c = 0; c < scene->contacts; c++)
+        track_clear(&outcome->tracks[c]);
+    outcome->steps = outcome->rejected = 0;
+    motion_start(run.motion, scene);
+    impact_find_start(scene, settings->horizon, run.motion, &outcome->time_shift);
+    /* what damping takes between the touch behind us and the stated instant was counted in the stated
+     * vibration already */
+    run.damping = -motion_free_loss(run.motion, scene, -outcome->time_shift);
+
+    bool touched = false;
+    enum percuss_end_reason end = PERCUSS_END_NONE;
+    while (end == PERCUSS_END_NONE) {
+        end = fly(&run);
+        if (end != PERCUSS_END_NONE)
+            break;
+        if (!touched && outcome->time_shift == 0.0)
+            outcome->time_shift = run.motion->time;
+        touched = true;
+        end = contact_phase(&run);
+    }
+    for (size_t c = 0; c < scene->contacts; c++) {
+        if (run.active[c])
+            deactivate(&run, c, run.motion->time);
+        else
+            run.indentation[c] = 0.0;
+        track_mark_negligible(&outcome->tracks[c]);
+    }
+    outcome->end_reason = end;
+    outcome->window = run.motion->time;
+    outcome->intervals = run.flight.intervals;
+    return energy_audit(scene, run.indentation, run.damping, arena, outcome) ? PERCUSS_OK
+                                                                             : PERCUSS_INTERNAL;
+}

@@ -1,0 +1,139 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/motion.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "impact/oscillator.h"
+
+bool motion_create(struct motion *motion, const struct scene *scene, struct arena *arena)
+{
+    motion->gap = arena_take(arena, scene->contacts, sizeof *motion->gap);
+    motion->gap_rate = arena_take(arena, scene->contacts, sizeof *motion->gap_rate);
+    motion->q = arena_take(arena, scene->groups, sizeof *motion->q);
+    motion->v = arena_take(arena, scene->groups, sizeof *motion->v);
+    if (!motion->gap || !motion->gap_rate || !motion->q || !motion->v)
+        return false;
+    for (size_t g = 0; g < scene->groups; g++) {
+        motion->q[g] = arena_take(arena, scene->group[g].stride, sizeof **motion->q);
+        motion->v[g] = arena_take(arena, scene->group[g].stride, sizeof **motion->v);
+        if (!motion->q[g] || !motion->v[g])
+            return false;
+    }
+    return true;
+}
+
+static void copy_or_clear(double *to, const double *from, size_t count)
+{
+    if (from)
+        memcpy(to, from, count * sizeof *to);
+    else
+        memset(to, 0, count * sizeof *to);
+}
+
+void motion_start(struct motion *motion, const struct scene *scene)
+{
+    motion->time = 0.0;
+    copy_or_clear(motion->gap, scene->gap, scene->contacts);
+    copy_or_clear(motion->gap_rate, scene->gap_rate, scene->contacts);
+    for (size_t g = 0; g < scene->groups; g++) {
+        copy_or_clear(motion->q[g], scene->group[g].q, scene->group[g].stride);
+        copy_or_clear(motion->v[g], scene->group[g].v, scene->group[g].stride);
+    }
+}
+
+void motion_copy(struct motion *to, const struct motion *from, const struct scene *scene)
+{
+    to->time = from->time;
+    copy_or_clear(to->gap, from->gap, scene->contacts);
+    copy_or_clear(to->gap_rate, from->gap_rate, scene->contacts);
+    for (size_t g = 0; g < scene->groups; g++) {
+        copy_or_clear(to->q[g], from->q[g], scene->group[g].stride);
+        copy_or_clear(to->v[g], from->v[g], scene->group[g].stride);
+    }
+}
+
+void motion_advance(struct motion *motion, const struct scene *scene, double time)
+{
+    motion->time += time;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double a = scene->gap_acceleration[c];
+        motion->gap[c] += time * (motion->gap_rate[c] + 0.5 * a * time);
+        motion->gap_rate[c] += a * time;
+    }
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        for (size_t k = 0; k < group->count; k++)
+            if (motion->q[g][k] != 0.0 || motion->v[g][k] != 0.0)
+                oscillator_advance(group->set->omega[k], group->set->damping, time,
+                                   &motion->q[g][k], &motion->v[g][k]);
+    }
+}
+
+void motion_approach(const struct motion *motion, const struct scene *scene, size_t contact,
+                     double *approach, double *rate)
+{
+    double d = 0.0;
+    double d_rate = 0.0;
+    for (size_t g = 0; g < scene->groups; g++) {
+        const double *phi = scene->group[g].participation[contact];
+        for (size_t k = 0; phi && k < scene->group[g].count; k++) {
+            d += phi[k] * motion->q[g][k];
+            d_rate += phi[k] * motion->v[g][k];
+        }
+    }
+    *approach = -motion->gap[contact] - d;
+    *rate = -motion->gap_rate[contact] - d_rate;
+}
+
+void motion_approach_at(const struct motion *motion, const struct scene *scene, size_t contact,
+                        double time, double *approach, double *rate)
+{
+    double d = 0.0;
+    double d_rate = 0.0;
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        const double *phi = group->participation[contact];
+        for (size_t k = 0; phi && k < group->count; k++) {
+            double q = motion->q[g][k];
+            double v = motion->v[g][k];
+            if (phi[k] == 0.0 || (q == 0.0 && v == 0.0))
+                continue;
+            oscillator_advance(group->set->omega[k], group->set->damping, time, &q, &v);
+            d += phi[k] * q;
+            d_rate += phi[k] * v;
+        }
+    }
+    double a = scene->gap_acceleration[contact];
+    *approach = -(motion->gap[contact] + time * (motion->gap_rate[contact] + 0.5 * a * time)) - d;
+    *rate = -(motion->gap_rate[contact] + a * time) - d_rate;
+}
+
+double motion_vibration(const struct motion *motion, const struct scene *scene, size_t body)
+{
+    double sum = 0.0;
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        if (group->body != body)
+            continue;
+        for (size_t k = 0; k < group->count; k++) {
+            double spring = group->set->omega[k] * motion->q[g][k];
+            sum += motion->v[g][k] * motion->v[g][k] + spring * spring;
+        }
+    }
+    return 0.5 * sum;
+}
+
+double motion_free_loss(const struct motion *motion, const struct scene *scene, double time)
+{
+    double sum = 0.0;
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        for (size_t k = 0; group->set->damping > 0.0 && k < group->count; k++)
+            sum += oscillator_free_loss(group->set->omega[k], group->set->damping, time,
+                                        motion->q[g][k], motion->v[g][k]);
+    }
+    return sum;
+}

@@ -1,0 +1,45 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The state of a scene at one instant and its exact motion while no contact acts. */
+#ifndef PERCUSS_IMPACT_MOTION_H
+#define PERCUSS_IMPACT_MOTION_H
+
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "impact/scene.h"
+
+struct motion {
+    double time;      /* s from the stated instant */
+    double *gap;      /* [contact], rigid */
+    double *gap_rate;
+    double **q, **v;  /* [group][stride] */
+};
+
+/* Memory for a state from the arena. False: out of memory. */
+bool motion_create(struct motion *motion, const struct scene *scene, struct arena *arena);
+
+/* The stated instant. */
+void motion_start(struct motion *motion, const struct scene *scene);
+
+void motion_copy(struct motion *to, const struct motion *from, const struct scene *scene);
+
+/* Free motion over `time` (may be negative). */
+void motion_advance(struct motion *motion, const struct scene *scene, double time);
+
+/* d and its rate at one contact. */
+void motion_approach(const struct motion *motion, const struct scene *scene, size_t contact,
+                     double *approach, double *rate);
+
+/* The same after a free motion over `time` without touching the state. */
+void motion_approach_at(const struct motion *motion, const struct scene *scene, size_t contact,
+                        double time, double *approach, double *rate);
+
+/* Vibration energy of one body, J. */
+double motion_vibration(const struct motion *motion, const struct scene *scene, size_t body);
+
+/* Energy that damping takes during a free motion over `time`, J. */
+double motion_free_loss(const struct motion *motion, const struct scene *scene, double time);
+
+#endif

@@ -1,0 +1,98 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/oscillator.h"
+
+#include <math.h>
+
+double complex oscillator_lambda(double omega, double damping)
+{
+    return omega * CMPLX(-damping, sqrt((1.0 - damping) * (1.0 + damping)));
+}
+
+/* Free motion: q(t) = Re(A e^(lambda t)) with A from q(0), v(0); written out in real numbers. */
+static void free_map(double complex lambda, double time, double to_q[2], double to_v[2])
+{
+    double decay = creal(lambda);
+    double frequency = cimag(lambda);
+    double scale = exp(fmin(decay * time, 300.0));
+    double sine = scale * sin(frequency * time) / frequency;
+    double cosine = scale * cos(frequency * time);
+    to_q[0] = cosine - decay * sine;
+    to_q[1] = sine;
+    to_v[0] = -(decay * decay + frequency * frequency) * sine;
+    to_v[1] = cosine + decay * sine;
+}
+
+void oscillator_advance(double omega, double damping, double time, double *q, double *v)
+{
+    double to_q[2];
+    double to_v[2];
+    free_map(oscillator_lambda(omega, damping), time, to_q, to_v);
+    double moved = to_q[0] * *q + to_q[1] * *v;
+    *v = to_v[0] * *q + to_v[1] * *v;
+    *q = moved;
+}
+
+double oscillator_free_loss(double omega, double damping, double time, double q, double v)
+{
+    if (damping == 0.0 || time == 0.0)
+        return 0.0;
+    /* v(t) = Re(V e^(lambda t)); V from v(0) and v'(0) = -2 zeta omega v - omega^2 q */
+    double complex lambda = oscillator_lambda(omega, damping);
+    double rate = -2.0 * damping * omega * v - omega * omega * q;
+    double complex amplitude = CMPLX(v, (creal(lambda) * v - rate) / cimag(lambda));
+    double twice = 2.0 * creal(lambda);
+    double steady = expm1(twice * time) / twice;
+    double complex swinging = (cexp(2.0 * lambda * time) - 1.0) / (2.0 * lambda);
+    double square = creal(amplitude * conj(amplitude)) * steady +
+                    creal(amplitude * amplitude * swinging);
+    return damping * omega * square;
+}
+
+void oscillator_moments(double complex z, double c, double complex moments[NODES])
+{
+    double complex x = z * c;
+    if (cabs(x) < 3.0) {
+        /* int exp(z(c-s)) s^m ds = c^(m+1) m! sum_k x^k / (m+1+k)!: no cancellation for small x */
+        double power = c;
+        double lead = 1.0;
+        for (int m = 0; m < NODES; m++) {
+            lead /= m + 1;
+            double complex term = lead;
+            double complex sum = term;
+            for (int k = 1; k < 40 && cabs(term) > 1e-18 * cabs(sum); k++) {
+                term *= x / (m + 1 + k);
+                sum += term;
+            }
+            double factorial = tgamma(m + 1.0);
+            moments[m] = power * factorial * sum;
+            power *= c;
+        }
+        return;
+    }
+    /* by parts, upward: each step divides by |x| >= 3 */
+    double power = 1.0;
+    moments[0] = (cexp(x) - 1.0) / z;
+    for (int m = 1; m < NODES; m++) {
+        power *= c;
+        moments[m] = (m * moments[m - 1] - power) / z;
+    }
+}
+
+void oscillator_map(double omega, double damping, double h, double c, double to_q[NODES + 2],
+                    double to_v[NODES + 2])
+{
+    double complex lambda = oscillator_lambda(omega, damping);
+    double complex moments[NODES];
+    free_map(lambda, c * h, to_q, to_v);
+    oscillator_moments(lambda * h, c, moments);
+    /* Duhamel's integral with the kernel Im(e^(lambda t)) / Im(lambda) and its derivative */
+    for (int j = 0; j < NODES; j++) {
+        double complex sum = 0.0;
+        for (int m = 0; m < NODES; m++)
+            sum += collocation.monomial[j][m] * moments[m];
+        to_q[j + 2] = h * cimag(sum) / cimag(lambda);
+        to_v[j + 2] = h * cimag(lambda * sum) / cimag(lambda);
+    }
+}

@@ -1,0 +1,29 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* One damped oscillator q'' + 2 zeta omega q' + omega^2 q = f: exact solutions. */
+#ifndef PERCUSS_IMPACT_OSCILLATOR_H
+#define PERCUSS_IMPACT_OSCILLATOR_H
+
+#include <complex.h>
+
+#include "impact/collocation.h"
+
+/* Characteristic value lambda = -zeta omega + i omega sqrt(1 - zeta^2). */
+double complex oscillator_lambda(double omega, double damping);
+
+/* Free motion over any time (also backward), in place. */
+void oscillator_advance(double omega, double damping, double time, double *q, double *v);
+
+/* Energy that the damper takes during free motion over `time` from (q, v), J. */
+double oscillator_free_loss(double omega, double damping, double time, double q, double v);
+
+/* moments[m] = int_0^c exp(z (c - s)) s^m ds for m < NODES. */
+void oscillator_moments(double complex z, double c, double complex moments[NODES]);
+
+/* Linear map of (q, v, f_1..f_4) to q and v at the time c h into a step of length h: columns in that
+ * order. */
+void oscillator_map(double omega, double damping, double h, double c, double to_q[NODES + 2],
+                    double to_v[NODES + 2]);
+
+#endif

@@ -1,0 +1,35 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What the fast scale reports, contact by contact. */
+#ifndef PERCUSS_IMPACT_RESULT_H
+#define PERCUSS_IMPACT_RESULT_H
+
+#include <stdbool.h>
+
+/* A maximal interval with local indentation > 0. */
+struct sub_impact {
+    double start; /* s from the stated instant */
+    double compression_end;
+    double end;
+    double impulse;
+    double compression_impulse; /* up to the largest indentation */
+    double peak_force;
+    double max_indentation;
+    double gap_rate_before; /* rigid gap rate, m/s */
+    double gap_rate_after;
+    bool negligible; /* below 1 % of the contact's impulse */
+};
+
+/* J; every term computed by itself, so that the closure checks the solution. */
+struct impact_energy {
+    double available;
+    double rigid_after;
+    double vibration; /* all bodies */
+    double damping;
+    double plastic;
+    double stored;
+    double closure; /* available - all the others */
+};
+
+#endif

@@ -1,0 +1,24 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/scene.h"
+
+#include <math.h>
+
+double scene_highest_frequency(const struct scene *scene)
+{
+    double highest = 0.0;
+    for (size_t g = 0; g < scene->groups; g++)
+        if (scene->group[g].count)
+            highest = fmax(highest, scene->group[g].set->omega[scene->group[g].count - 1]);
+    return highest;
+}
+
+double scene_longest_period(const struct scene *scene)
+{
+    double lowest = INFINITY;
+    for (size_t g = 0; g < scene->groups; g++)
+        if (scene->group[g].count)
+            lowest = fmin(lowest, scene->group[g].set->omega[0]);
+    return isfinite(lowest) ? 2.0 * M_PI / lowest : 0.0;
+}

@@ -1,0 +1,117 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/step_table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "impact/oscillator.h"
+#include "impact/oscillator_loss.h"
+
+struct oscillators *oscillators_create(size_t count, const double *omega, double damping)
+{
+    struct oscillators *set = calloc(1, sizeof *set);
+    if (!set)
+        return NULL;
+    set->count = count;
+    set->stride = (count + LANES - 1) / LANES * LANES;
+    set->damping = damping;
+    set->omega = calloc(set->stride + 1, sizeof *set->omega);
+    if (!set->omega) {
+        free(set);
+        return NULL;
+    }
+    memcpy(set->omega, omega, count * sizeof *omega);
+    return set;
+}
+
+void oscillators_free(struct oscillators *set)
+{
+    if (!set)
+        return;
+    for (int level = 0; level < STEP_LEVELS; level++)
+        free(set->tables[level]);
+    free(set->omega);
+    free(set);
+}
+
+double step_length(int level)
+{
+    return ldexp(1.0, -level);
+}
+
+int step_level(double h)
+{
+    int exponent;
+    frexp(h, &exponent); /* h = f 2^exponent, 1/2 <= f < 1 */
+    int level = 1 - exponent;
+    return level < 0 ? 0 : level >= STEP_LEVELS ? STEP_LEVELS - 1 : level;
+}
+
+/* One block: the table, then its arrays, each `stride` long and aligned. */
+static struct step_table *table_allocate(size_t stride, bool damped)
+{
+    size_t arrays = 2 * NODES + 4 + 2 * NODES + NODES * NODES + (damped ? LOSS_TERMS : 0);
+    size_t header = (sizeof(struct step_table) + 31) / 32 * 32;
+    size_t bytes = header + arrays * stride * sizeof(double);
+    unsigned char *block = aligned_alloc(32, (bytes + 31) / 32 * 32);
+    if (!block)
+        return NULL;
+    memset(block, 0, bytes);
+    struct step_table *table = (struct step_table *)block;
+    double *next = (double *)(block + header);
+    double **first[] = {table->node_q,  table->node_v,  &table->end_qq, &table->end_qv,
+                        &table->end_vq, &table->end_vv, table->force_q, table->force_v,
+                        &table->response[0][0], table->loss};
+    size_t lengths[] = {NODES, NODES, 1, 1, 1, 1, NODES, NODES, NODES * NODES,
+                        damped ? LOSS_TERMS : 0};
+    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+        for (size_t j = 0; j < lengths[i]; j++, next += stride)
+            first[i][j] = next;
+    }
+    return table;
+}
+
+static void fill_mode(struct step_table *table, const struct oscillators *set, double h, size_t k)
+{
+    double to_q[NODES + 2];
+    double to_v[NODES + 2];
+    for (int i = 0; i < NODES; i++) {
+        oscillator_map(set->omega[k], set->damping, h, collocation.node[i], to_q, to_v);
+        table->node_q[i][k] = to_q[0];
+        table->node_v[i][k] = to_q[1];
+        for (int j = 0; j < NODES; j++)
+            table->response[i][j][k] = to_q[j + 2];
+    }
+    oscillator_map(set->omega[k], set->damping, h, 1.0, to_q, to_v);
+    table->end_qq[k] = to_q[0];
+    table->end_qv[k] = to_q[1];
+    table->end_vq[k] = to_v[0];
+    table->end_vv[k] = to_v[1];
+    for (int j = 0; j < NODES; j++) {
+        table->force_q[j][k] = to_q[j + 2];
+        table->force_v[j][k] = to_v[j + 2];
+    }
+    if (set->damping > 0.0) {
+        double form[LOSS_INPUTS][LOSS_INPUTS];
+        oscillator_loss_form(set->omega[k], set->damping, h, form);
+        for (int r = 0, term = 0; r < LOSS_INPUTS; r++)
+            for (int s = 0; s <= r; s++, term++)
+                table->loss[term][k] = form[r][s];
+    }
+}
+
+const struct step_table *oscillators_table(struct oscillators *set, int level)
+{
+    if (!set->tables[level]) {
+        struct step_table *table = table_allocate(set->stride, set->damping > 0.0);
+        if (!table)
+            return NULL;
+        for (size_t k = 0; k < set->count; k++)
+            fill_mode(table, set, step_length(level), k);
+        set->tables[level] = table;
+    }
+    return set->tables[level];
+}

@@ -1,0 +1,43 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The list of sub-impacts as they happen. */
+#ifndef PERCUSS_IMPACT_TRACK_H
+#define PERCUSS_IMPACT_TRACK_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/arena.h"
+#include "contact/law.h"
+#include "impact/collocation.h"
+#include "impact/result.h"
+
+/* One contact. */
+struct track {
+    struct sub_impact *list; /* PERCUSS_MAX_SUB_IMPACTS */
+    size_t count;            /* exact, may exceed the list */
+    double impulse;          /* of all of them, N s */
+    double end_time;         /* of the last one */
+    struct sub_impact open;  /* the one under way */
+};
+
+/* Memory from the arena. False: out of memory. */
+bool track_create(struct track *track, struct arena *arena);
+
+void track_clear(struct track *track);
+
+void track_open(struct track *track, double time, double gap_rate);
+
+/* Adds a step of length h from `time` with the indentations and forces at its nodes and the
+ * indentation at its end. */
+void track_step(struct track *track, double time, double h, const double indentation[NODES],
+                const double force[NODES], double end_indentation);
+
+/* Ends the one under way: separation, or the end of the window. */
+void track_close(struct track *track, const struct contact_law *law, double time, double gap_rate);
+
+/* Sets `negligible` of every listed one: below 1 % of the contact's impulse. */
+void track_mark_negligible(struct track *track);
+
+#endif

@@ -1,0 +1,73 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Transverse vibration and static compliance of a straight uniform beam in one plane of bending:
+ * Timoshenko's theory; Euler-Bernoulli's is its limit without shear and rotatory inertia. */
+#ifndef PERCUSS_MODEL_BEAM_H
+#define PERCUSS_MODEL_BEAM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "model/body.h"
+
+/* One plane of bending. x runs from -length/2 to +length/2. */
+struct beam_plane {
+    double length;
+    double bending_stiffness; /* E I, N m^2 */
+    double shear_stiffness;   /* kappa G A, N; INFINITY: Euler-Bernoulli */
+    double line_mass;         /* rho A, kg/m */
+    double line_inertia;      /* rho I, kg m; 0: Euler-Bernoulli */
+    enum support supports[2]; /* at -length/2, +length/2 */
+};
+
+/* One elastic mode, mass-normalised: integral of rho A w^2 + rho I psi^2 over the length is 1. With
+ * s = x/length the deflection is
+ *   w = even[0] C(s) + even[1] cos(beta s) + odd[0] S(s) + odd[1] sin(beta s),
+ * where C, S are the hyperbolic functions of alpha s over cosh(alpha/2) below the cut-off frequency
+ * and the trigonometric ones of alpha s above it; alpha > 0 also at the cut-off. Between equal
+ * supports the even or the odd factors are exactly zero. Sign: at x = +length/2 w is positive on a
+ * free end, psi on a pinned and the moment on a clamped one. */
+struct beam_mode {
+    double omega; /* rad/s */
+    double alpha, beta;
+    double even[2], odd[2];             /* of w, 1/sqrt(kg) */
+    double even_slope[2], odd_slope[2]; /* of psi: factors of S, sin and C, cos, 1/(m sqrt(kg)) */
+    bool above_cutoff;
+};
+
+/* The first `count` elastic modes (rigid ones are not among them), frequencies ascending, relative
+ * error of omega some 1e-15. No mode is missed: each root has its own bracket, see beam_roots.h.
+ * Shapes are good to 1e-12 of their amplitude as far as the frequency's neighbours allow: two waves
+ * whose frequencies differ by a relative gap mix with an error of some 1e-16/gap per half-wave. */
+void beam_modes(const struct beam_plane *plane, size_t count, struct beam_mode *modes);
+
+/* Deflection w and rotation psi of the section at x (m) for unit modal coordinate. For
+ * Euler-Bernoulli psi = dw/dx. Sign: psi = +dw/dx where shear vanishes. */
+void beam_mode_at(const struct beam_plane *plane, const struct beam_mode *mode, double x, double *w,
+                  double *psi);
+
+/* A transverse force and a moment (conjugate to psi) acting at x. */
+struct beam_load {
+    double x;
+    double force;
+    double moment;
+};
+
+/* Static compliance between two loads, m/N for unit forces: work of load `i` on the displacement
+ * due to load `j`. Rigid motions that the supports allow are balanced by the inertia of that
+ * motion, and the displacement is orthogonal to them (inertia relief); so it equals the sum over
+ * all elastic modes of phi_i phi_j / omega^2. Exact but for rounding, some 1e-15. Loads act
+ * within the span, its ends included. */
+double beam_compliance(const struct beam_plane *plane, const struct beam_load *i,
+                       const struct beam_load *j);
+
+/* Shear factors. Cowper 1966 (circle, rectangle: independent of the direction); Hutchinson 2001
+ * (circle; rectangle of `depth` along the deflection and `breadth` across it). The latter has a
+ * pole and is negative beyond it for wide sections and large Poisson ratios: the caller checks. */
+double beam_shear_cowper_circle(double poisson);
+double beam_shear_cowper_rectangle(double poisson);
+double beam_shear_hutchinson_circle(double poisson);
+double beam_shear_hutchinson_rectangle(double poisson, double depth, double breadth);
+
+#endif

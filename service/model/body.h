@@ -1,0 +1,75 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* One body of the catalogue. Body frame: origin in the centre of mass; rods and beams along x, from
+ * x = -length/2 to +length/2; a compact cylinder's axis is x as well; a half-space fills z <= 0. */
+#ifndef PERCUSS_MODEL_BODY_H
+#define PERCUSS_MODEL_BODY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/fault.h"
+#include "model/material.h"
+
+enum shape { SHAPE_SPHERE, SHAPE_ROD, SHAPE_BEAM, SHAPE_CYLINDER, SHAPE_BLOCK, SHAPE_HALF_SPACE };
+enum support { SUPPORT_FREE, SUPPORT_PINNED, SUPPORT_CLAMPED }; /* a rod's `fixed` is CLAMPED */
+enum beam_theory { THEORY_TIMOSHENKO, THEORY_EULER_BERNOULLI };
+enum shear_rule { SHEAR_COWPER, SHEAR_HUTCHINSON, SHEAR_NUMBER };
+
+struct body {
+    char id[PERCUSS_ID_SIZE];
+    struct material material;
+    enum shape shape;
+    double radius;        /* sphere, rod, round beam, cylinder; 0 otherwise */
+    double width, height; /* rectangular beam: along y, along z; 0 otherwise */
+    double length;        /* rod, beam, cylinder */
+    double tip_radius;    /* rod; INFINITY: flat ends */
+    double size[3];       /* block: along x, y, z */
+    bool lateral_inertia; /* rod: Rayleigh-Love */
+    enum beam_theory theory;
+    enum shear_rule shear_rule;
+    double shear_number;      /* SHEAR_NUMBER: the factor */
+    enum support supports[2]; /* rod, beam: at x = -length/2, +length/2 */
+    double damping;           /* modal damping ratio, [0, 1) */
+    unsigned modes;           /* fixed number of modes a family; 0: from the tolerance */
+
+    /* Set by body_complete. */
+    double mass; /* kg; INFINITY: half-space */
+    double
+        inertia[3]; /* principal, about the centre of mass; a Timoshenko beam's M(L^2/12 + r^2/4) */
+    double area;    /* rod, beam: of the section */
+    double second_moment[2]; /* beam: of the section for bending along y, along z */
+    double shear_factor[2];  /* beam: for bending along y, along z; NAN for Euler-Bernoulli */
+};
+
+/* Computes what follows from the dimensions and the material. PERCUSS_OK, or PERCUSS_BAD_REQUEST
+ * with the field, its value and what is allowed (sizes > 0 and finite, poisson in (-1, 0.5), ...).
+ */
+enum percuss_status body_complete(struct body *body, struct fault *fault);
+
+/* Whether it can vibrate: a rod or a beam. */
+bool body_is_flexible(const struct body *body);
+
+/* The smallest dimension that curves or bounds its surface: radius, half the thickness, tip;
+ * INFINITY for a half-space. */
+double body_smallest_radius(const struct body *body);
+
+/* "sphere", "rod", ... */
+const char *shape_name(enum shape shape);
+
+/* An immutable catalogue. Owns its arrays; loaders fill it, see catalogue/. */
+struct body_set {
+    struct body *bodies;
+    size_t count;
+    enum percuss_compliance compliance; /* HALF_SPACE or MATCHED */
+    char revision[PERCUSS_ID_SIZE];     /* hash of everything that can change an answer */
+};
+
+/* The body of that id, or NULL. */
+const struct body *body_set_find(const struct body_set *set, const char *id);
+
+/* Frees a set whose arrays came from malloc; NULL is allowed. */
+void body_set_free(struct body_set *set);
+
+#endif

@@ -1,0 +1,31 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What a number describing a body may be: one list for the checks of the model, for the keys of the
+ * catalogue and for the words of both. */
+#ifndef PERCUSS_MODEL_LIMITS_H
+#define PERCUSS_MODEL_LIMITS_H
+
+#include <stdbool.h>
+
+enum { LIMIT_MODES = 5000 }; /* fixed number of modes of a body, at most */
+
+struct limit {
+    double low, high; /* both finite; allowed themselves unless open */
+    bool low_open, high_open;
+    const char *text; /* what is allowed, in words that follow "must be" */
+};
+
+extern const struct limit limit_length;       /* m */
+extern const struct limit limit_young;        /* Pa */
+extern const struct limit limit_poisson;      /* so that bulk and shear moduli are positive */
+extern const struct limit limit_density;      /* kg/m^3 */
+extern const struct limit limit_yield;        /* Pa */
+extern const struct limit limit_tangent;      /* Pa */
+extern const struct limit limit_damping;      /* ratio; 1 would no longer oscillate */
+extern const struct limit limit_shear_factor; /* of a Timoshenko beam */
+
+/* False for NAN and the infinities too. */
+bool limit_holds(const struct limit *limit, double value);
+
+#endif

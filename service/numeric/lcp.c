@@ -1,0 +1,146 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "numeric/lcp.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Tableau of w - m z - 1 z0 = q: n rows; columns w (n), z (n), z0, q. (Cottle, Pang, Stone, The Linear
+ * Complementarity Problem, algorithm 4.4.5 and section 4.9.) */
+struct tableau {
+    size_t n, width;
+    double *cell;
+    size_t *basis; /* variable of each row: 0..n-1 w, n..2n-1 z, 2n z0 */
+};
+
+static double *row_of(const struct tableau *t, size_t i)
+{
+    return t->cell + i * t->width;
+}
+
+static bool tableau_create(struct tableau *t, size_t n, const double *m, const double *q)
+{
+    t->n = n;
+    t->width = 2 * n + 2;
+    t->cell = calloc(n * t->width, sizeof *t->cell);
+    t->basis = calloc(n, sizeof *t->basis);
+    if (!t->cell || !t->basis)
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        double *row = row_of(t, i);
+        row[i] = 1.0;
+        for (size_t j = 0; j < n; j++)
+            row[n + j] = -m[i * n + j];
+        row[n + i] -= 1e-10 * m[i * n + i];
+        row[2 * n] = -1.0;
+        row[2 * n + 1] = q[i];
+        t->basis[i] = i;
+    }
+    return true;
+}
+
+static void pivot(struct tableau *t, size_t pivot_row, size_t column)
+{
+    double *p = row_of(t, pivot_row);
+    double inverse = 1.0 / p[column];
+    for (size_t k = 0; k < t->width; k++)
+        p[k] *= inverse;
+    for (size_t i = 0; i < t->n; i++) {
+        double *row = row_of(t, i);
+        double factor = row[column];
+        if (i == pivot_row || factor == 0.0)
+            continue;
+        for (size_t k = 0; k < t->width; k++)
+            row[k] -= factor * p[k];
+        row[column] = 0.0;
+    }
+    t->basis[pivot_row] = column;
+}
+
+/* -1, 0, 1 by (q, inverse basis) of row a over its entry against row b over its. */
+static int compare_ratio(const struct tableau *t, size_t a, size_t b, size_t column)
+{
+    const double *ra = row_of(t, a);
+    const double *rb = row_of(t, b);
+    for (size_t k = 0; k <= t->n; k++) {
+        size_t at = k == 0 ? t->width - 1 : k - 1;
+        double x = ra[at] / ra[column];
+        double y = rb[at] / rb[column];
+        if (x != y)
+            return x < y ? -1 : 1;
+    }
+    return 0;
+}
+
+/* Row that leaves when `column` enters; n: none. z0 leaves as soon as it may. */
+static size_t leaving_row(const struct tableau *t, size_t column)
+{
+    size_t best = t->n;
+    double largest = 0.0;
+    for (size_t i = 0; i < t->n; i++)
+        largest = fmax(largest, fabs(row_of(t, i)[column]));
+    for (size_t i = 0; i < t->n; i++) {
+        if (!(row_of(t, i)[column] > 1e-13 * largest))
+            continue;
+        int order = best == t->n ? -1 : compare_ratio(t, i, best, column);
+        if (order < 0 || (order == 0 && t->basis[i] == 2 * t->n))
+            best = i;
+    }
+    return best;
+}
+
+static bool lemke(struct tableau *t)
+{
+    size_t n = t->n;
+    size_t first = 0;
+    for (size_t i = 1; i < n; i++)
+        if (row_of(t, i)[t->width - 1] < row_of(t, first)[t->width - 1])
+            first = i;
+    if (row_of(t, first)[t->width - 1] >= 0.0)
+        return true;
+    size_t left = t->basis[first];
+    pivot(t, first, 2 * n);
+    for (size_t i = 0; i < 50 * n + 100; i++) {
+        size_t column = left < n ? left + n : left - n;
+        size_t row = leaving_row(t, column);
+        if (row == n)
+            return false;
+        left = t->basis[row];
+        pivot(t, row, column);
+        if (left == 2 * n)
+            return true;
+    }
+    return false;
+}
+
+/* The independent judge: complementarity of the answer itself. */
+static bool solves(size_t n, const double *m, const double *q, const double *z)
+{
+    double scale = 0.0;
+    for (size_t i = 0; i < n; i++)
+        scale = fmax(scale, fabs(q[i]));
+    for (size_t i = 0; i < n; i++) {
+        double w = q[i];
+        for (size_t j = 0; j < n; j++)
+            w += m[i * n + j] * z[j];
+        double residual = fmin(w, m[i * n + i] * z[i]);
+        if (!(fabs(residual) <= 1e-8 * scale))
+            return false;
+    }
+    return true;
+}
+
+bool lcp_solve(size_t n, const double *m, const double *q, double *z)
+{
+    struct tableau t = {0};
+    bool solved = tableau_create(&t, n, m, q) && lemke(&t);
+    memset(z, 0, n * sizeof *z);
+    for (size_t i = 0; solved && i < n; i++)
+        if (t.basis[i] >= n && t.basis[i] < 2 * n)
+            z[t.basis[i] - n] = fmax(0.0, row_of(&t, i)[t.width - 1]);
+    free(t.cell);
+    free(t.basis);
+    return solved && solves(n, m, q, z);
+}

@@ -1,0 +1,41 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A request in the terms of mechanics: bodies found, contacts placed on their surfaces, W, gap rates,
+ * contact laws. */
+#ifndef PERCUSS_SOLVE_GEOMETRY_H
+#define PERCUSS_SOLVE_GEOMETRY_H
+
+#include "base/arena.h"
+#include "contact/hertz.h"
+#include "model/modal_basis.h"
+#include "solve/solve.h"
+
+/* One side of a contact. */
+struct contact_side {
+    size_t body;           /* index into the request's bodies */
+    struct site site;
+    double direction[3];   /* of the force on the body per newton, body frame */
+    struct site_load load;
+};
+
+struct geometry {
+    size_t body_count, contact_count;
+    const struct body *bodies[PERCUSS_MAX_BODIES];
+    struct pose poses[PERCUSS_MAX_BODIES];
+    struct contact_side (*sides)[2]; /* [contact]: a, b */
+    struct hertz_contact *hertz;     /* [contact] */
+    double *gap_rate;                /* [contact], rigid, m/s */
+    double *service_w;               /* contacts^2, from the bodies */
+    double *w;                       /* the one in use */
+    double *impulse_compression;     /* [contact], Eq. (4) or its complementarity problem, N s */
+    bool from_client;
+};
+
+/* PERCUSS_OK, or the refusal with its message: UNKNOWN_BODY, BAD_REQUEST, UNSUPPORTED_GEOMETRY,
+ * NOT_APPROACHING. Arrays come from the arena. */
+enum percuss_status geometry_find(struct geometry *geometry, const struct body_set *catalogue,
+                                  const struct solve_request *request, struct arena *arena,
+                                  struct fault *fault);
+
+#endif

@@ -1,0 +1,162 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/prepared.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BUCKETS = 256, ROUNDING = 8 };
+
+struct entry {
+    struct entry *next;
+    char id[PERCUSS_ID_SIZE];
+    struct prepared_family *families[FAMILY_COUNT];
+};
+
+struct prepared_cache {
+    char revision[PERCUSS_ID_SIZE];
+    struct entry *buckets[BUCKETS];
+    struct prepared_family *retired; /* outgrown, but a scene may still point at them */
+};
+
+static void family_free(struct prepared_family *family)
+{
+    if (!family)
+        return;
+    for (size_t g = 0; g < family->group_count; g++) {
+        oscillators_free(family->groups[g].set);
+        free(family->groups[g].mode);
+    }
+    modal_family_free(family->modes);
+    free(family);
+}
+
+static bool group_create(struct prepared_group *group, const struct body *body,
+                         const struct modal_family *modes, int parity)
+{
+    double *omega = calloc(modes->count + 1, sizeof *omega);
+    group->mode = calloc(modes->count + 1, sizeof *group->mode);
+    size_t count = 0;
+    for (size_t k = 0; omega && group->mode && k < modes->count; k++) {
+        if (modes->odd[k] != parity)
+            continue;
+        omega[count] = modes->omega[k];
+        group->mode[count++] = k;
+    }
+    if (omega && group->mode)
+        group->set = oscillators_create(count, omega, body->damping);
+    free(omega);
+    return group->set != NULL;
+}
+
+static struct prepared_family *family_create(const struct body *body, enum mode_family which,
+                                             size_t count)
+{
+    struct prepared_family *family = calloc(1, sizeof *family);
+    if (!family)
+        return NULL;
+    family->modes = modal_family_create(body, which, count);
+    if (!family->modes) {
+        family_free(family);
+        return NULL;
+    }
+    bool any_odd = false;
+    for (size_t k = 0; k < count; k++)
+        any_odd = any_odd || family->modes->odd[k];
+    family->group_count = any_odd ? 2 : 1;
+    for (size_t g = 0; g < family->group_count; g++) {
+        if (!group_create(&family->groups[g], body, family->modes, (int)g)) {
+            family_free(family);
+            return NULL;
+        }
+    }
+    return family;
+}
+
+struct prepared_cache *prepared_cache_create(void)
+{
+    return calloc(1, sizeof(struct prepared_cache));
+}
+
+static void forget(struct prepared_cache *cache)
+{
+    for (size_t b = 0; b < BUCKETS; b++) {
+        for (struct entry *entry = cache->buckets[b]; entry;) {
+            struct entry *next = entry->next;
+            for (int f = 0; f < FAMILY_COUNT; f++)
+                family_free(entry->families[f]);
+            free(entry);
+            entry = next;
+        }
+        cache->buckets[b] = NULL;
+    }
+}
+
+static void free_retired(struct prepared_cache *cache)
+{
+    while (cache->retired) {
+        struct prepared_family *next = cache->retired->next_retired;
+        family_free(cache->retired);
+        cache->retired = next;
+    }
+}
+
+void prepared_cache_free(struct prepared_cache *cache)
+{
+    if (!cache)
+        return;
+    free_retired(cache);
+    forget(cache);
+    free(cache);
+}
+
+void prepared_cache_use(struct prepared_cache *cache, const char *revision)
+{
+    free_retired(cache);
+    if (strncmp(cache->revision, revision, sizeof cache->revision) == 0)
+        return;
+    forget(cache);
+    snprintf(cache->revision, sizeof cache->revision, "%s", revision);
+}
+
+static struct entry *find_entry(struct prepared_cache *cache, const char *id)
+{
+    unsigned hash = 2166136261u;
+    for (const char *c = id; *c; c++)
+        hash = (hash ^ (unsigned char)*c) * 16777619u;
+    struct entry **bucket = &cache->buckets[hash % BUCKETS];
+    for (struct entry *entry = *bucket; entry; entry = entry->next)
+        if (strcmp(entry->id, id) == 0)
+            return entry;
+    struct entry *entry = calloc(1, sizeof *entry);
+    if (!entry)
+        return NULL;
+    snprintf(entry->id, sizeof entry->id, "%s", id);
+    entry->next = *bucket;
+    *bucket = entry;
+    return entry;
+}
+
+const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
+                                                  const struct body *body, enum mode_family family,
+                                                  size_t count)
+{
+    struct entry *entry = find_entry(cache, body->id);
+    if (!entry)
+        return NULL;
+    struct prepared_family *known = entry->families[family];
+    if (known && known->modes->count >= count)
+        return known;
+    size_t rounded = (count + ROUNDING - 1) / ROUNDING * ROUNDING;
+    struct prepared_family *made = family_create(body, family, rounded ? rounded : ROUNDING);
+    if (!made)
+        return NULL;
+    if (known) {
+        known->next_retired = cache->retired;
+        cache->retired = known;
+    }
+    entry->families[family] = made;
+    return made;
+}

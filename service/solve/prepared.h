@@ -1,0 +1,40 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Prepared bodies: what depends on the body and on the number of modes, but not on the request.
+ * A hit and a miss give the same bits: every mode is computed independently of how many there are. */
+#ifndef PERCUSS_SOLVE_PREPARED_H
+#define PERCUSS_SOLVE_PREPARED_H
+
+#include "impact/step_table.h"
+#include "model/modal_basis.h"
+
+/* Modes whose shapes are all even, all odd, or (longitudinal, unlike supports) anything. */
+struct prepared_group {
+    struct oscillators *set;
+    size_t *mode; /* [set->count]: index within the family */
+};
+
+struct prepared_family {
+    struct modal_family *modes;
+    size_t group_count;
+    struct prepared_group groups[2];
+    struct prepared_family *next_retired;
+};
+
+struct prepared_cache;
+
+struct prepared_cache *prepared_cache_create(void);
+void prepared_cache_free(struct prepared_cache *cache);
+
+/* Begins a solve: forgets what no scene uses any more, and everything unless the cache already belongs
+ * to this revision. */
+void prepared_cache_use(struct prepared_cache *cache, const char *revision);
+
+/* At least `count` modes of a family of a body (of the revision in use). The result stays valid until
+ * the next prepared_cache_use. NULL: out of memory. */
+const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
+                                                  const struct body *body, enum mode_family family,
+                                                  size_t count);
+
+#endif

@@ -1,0 +1,196 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/report.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "model/rigid.h"
+#include "model/vector.h"
+#include "solve/state_out.h"
+#include "solve/validity.h"
+
+void report_warn(struct solve_result *result, const char *format, ...)
+{
+    size_t room = sizeof result->warnings / sizeof *result->warnings;
+    if (result->warning_count >= room)
+        return;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(result->warnings[result->warning_count++], sizeof *result->warnings, format, args);
+    va_end(args);
+}
+
+static void fill_contacts(const struct geometry *geometry, const struct solve_request *request,
+                          const struct accuracy *accuracy, struct solve_result *result)
+{
+    size_t n = geometry->contact_count;
+    result->contact_count = n;
+    for (size_t c = 0; c < n; c++) {
+        const struct track *track = &accuracy->outcome.tracks[c];
+        struct solve_contact_result *contact = &result->contacts[c];
+        size_t listed = track->count < PERCUSS_MAX_SUB_IMPACTS ? track->count
+                                                                : PERCUSS_MAX_SUB_IMPACTS;
+        *contact = (struct solve_contact_result){
+            .impulse = track->impulse,
+            .impulse_compression = geometry->impulse_compression[c],
+            .restitution = accuracy_restitution(geometry, &accuracy->outcome, c),
+            .inverse_effective_mass = geometry->w[c * n + c],
+            .end_time = track->end_time,
+            .sub_impact_count = track->count,
+            .sub_impacts_listed = listed,
+            .sub_impacts = track->list,
+        };
+        scale3(track->impulse, request->contacts[c].normal, contact->impulse_vector);
+    }
+}
+
+/* Velocities after all impulses, by the bodies' own masses. */
+static void fill_velocities(const struct geometry *geometry, const struct solve_request *request,
+                            struct solve_result *result)
+{
+    for (size_t b = 0; b < geometry->body_count; b++) {
+        double velocity[3] = {0.0, 0.0, 0.0};
+        double angular[3] = {0.0, 0.0, 0.0};
+        for (size_t c = 0; c < geometry->contact_count; c++) {
+            for (int which = 0; which < 2; which++) {
+                const struct contact_side *side = &geometry->sides[c][which];
+                double impulse[3];
+                if (side->body != b)
+                    continue;
+                scale3(result->contacts[c].impulse, side->direction, impulse);
+                rigid_apply_impulse(geometry->bodies[b], side->site.point, impulse, velocity,
+                                    angular);
+            }
+        }
+        rotate3(geometry->poses[b].rotation, velocity, result->bodies[b].velocity);
+        rotate3(geometry->poses[b].rotation, angular, result->bodies[b].angular_velocity);
+        add_scaled3(1.0, request->bodies[b].velocity, result->bodies[b].velocity);
+        add_scaled3(1.0, request->bodies[b].angular_velocity, result->bodies[b].angular_velocity);
+    }
+}
+
+static const char *theory_name(const struct body *body)
+{
+    if (body->shape == SHAPE_ROD)
+        return body->lateral_inertia ? "rayleigh-love" : "rod";
+    if (body->shape == SHAPE_BEAM)
+        return body->theory == THEORY_TIMOSHENKO ? "timoshenko" : "euler-bernoulli";
+    return "rigid";
+}
+
+static void fill_bodies(const struct geometry *geometry, const struct solve_request *request,
+                        const struct accuracy *accuracy, struct arena *arena,
+                        struct solve_result *result)
+{
+    result->body_count = geometry->body_count;
+    for (size_t b = 0; b < geometry->body_count; b++) {
+        const struct body *body = geometry->bodies[b];
+        struct solve_body_result *out = &result->bodies[b];
+        *out = (struct solve_body_result){
+            .vibration = accuracy->outcome.vibration[b],
+            .modes = (unsigned)accuracy->assembly->modes[b],
+            .rigid = accuracy->assembly->modes[b] == 0,
+            .theory = theory_name(body),
+            .shear_factor = body->shape == SHAPE_BEAM ? body->shear_factor[1] : NAN,
+            .state_after = state_after(accuracy->assembly, &accuracy->outcome, geometry,
+                                       &request->bodies[b], b, arena),
+        };
+        memcpy(out->id, body->id, sizeof out->id);
+    }
+    result->velocities_known = !geometry->from_client;
+    if (result->velocities_known)
+        fill_velocities(geometry, request, result);
+}
+
+static void fill_model(const struct geometry *geometry, const struct solve_request *request,
+                       const struct accuracy *accuracy, struct solve_result *result)
+{
+    result->contact_model = PERCUSS_CONTACT_HERTZ;
+    result->compliance = PERCUSS_COMPLIANCE_HALF_SPACE;
+    result->method = request->options.method;
+    result->delassus_source =
+        geometry->from_client ? PERCUSS_DELASSUS_CLIENT : PERCUSS_DELASSUS_SERVICE;
+    double pressure = 0.0;
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        const struct track *track = &accuracy->outcome.tracks[c];
+        for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
+            pressure = fmax(pressure,
+                            hertz_peak_pressure(&geometry->hertz[c], track->list[i].peak_force));
+    }
+    const struct assembly *assembly = accuracy->assembly;
+    int used = snprintf(result->reason, sizeof result->reason,
+                        "elastic Hertz contact (peak pressure %.3g MPa) on a half-space", pressure / 1e6);
+    if (assembly->all_modes)
+        snprintf(result->reason + used, sizeof result->reason - (size_t)used,
+                 "; %zu modes up to %.4g Hz, residual flexibility for the others",
+                 assembly->all_modes, assembly->highest / (2.0 * M_PI));
+    else if (isfinite(assembly->lowest_omitted))
+        snprintf(result->reason + used, sizeof result->reason - (size_t)used,
+                 "; every mode is too fast to matter (lowest %.4g Hz): static flexibility only",
+                 assembly->lowest_omitted / (2.0 * M_PI));
+    result->omitted_error =
+        accuracy->restitution_modes + validity_wave_loss(geometry, request, result);
+}
+
+static void fill_errors(const struct accuracy *accuracy, struct solve_result *result)
+{
+    result->restitution_time = accuracy->restitution_time;
+    result->restitution_modes = accuracy->restitution_modes;
+    result->impulse_time = accuracy->impulse_time;
+    result->impulse_modes = accuracy->impulse_modes;
+    result->restitution_by_speed = accuracy->restitution_by_speed;
+    result->tolerance_met = accuracy->tolerance_met;
+    result->energy = accuracy->outcome.energy;
+    result->time_shift = accuracy->outcome.time_shift;
+    result->window = accuracy->outcome.window;
+    if (!result->tolerance_met)
+        report_warn(result,
+                    "error.tolerance_met: false: the estimated error of the restitution is %.2g: "
+                    "the sequence of sub-impacts amplifies small differences (or the effort allowed "
+                    "is spent)",
+                    accuracy->restitution_time + accuracy->restitution_modes);
+}
+
+static void fill_end(const struct accuracy *accuracy, struct solve_result *result)
+{
+    static const char *const why[] = {
+        [PERCUSS_END_HORIZON] = "the horizon was reached before vibration could cause no further "
+                                "contact: the restitution is not final",
+        [PERCUSS_END_IN_CONTACT] = "the horizon was reached inside a contact: the restitution is not "
+                                   "final",
+        [PERCUSS_END_LIMIT] = "the effort allowed was spent: the restitution is not final",
+    };
+    result->end_reason = accuracy->outcome.end_reason;
+    result->complete = result->end_reason == PERCUSS_END_SEPARATED ||
+                       result->end_reason == PERCUSS_END_HANDED_BACK;
+    result->status = result->complete ? PERCUSS_OK : PERCUSS_TRUNCATED;
+    if (!result->complete)
+        fault_set(&result->fault, result->status, "%s", why[result->end_reason]);
+}
+
+static bool is_finite(const struct solve_result *result)
+{
+    double sum = result->energy.closure + result->window + result->time_shift;
+    for (size_t c = 0; c < result->contact_count; c++)
+        sum += result->contacts[c].impulse + result->contacts[c].end_time;
+    return isfinite(sum);
+}
+
+void report_fill(const struct geometry *geometry, const struct solve_request *request,
+                 const struct body_set *catalogue, const struct accuracy *accuracy,
+                 struct arena *arena, struct solve_result *result)
+{
+    fill_contacts(geometry, request, accuracy, result);
+    fill_bodies(geometry, request, accuracy, arena, result);
+    fill_errors(accuracy, result);
+    fill_model(geometry, request, accuracy, result);
+    fill_end(accuracy, result);
+    validity_warn(geometry, request, catalogue, result);
+    if (!is_finite(result))
+        result->status = fault_set(&result->fault, PERCUSS_INTERNAL,
+                                   "no finite answer: the numbers of the request are out of scale");
+}

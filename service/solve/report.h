@@ -1,0 +1,19 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* From a solution to the words and numbers of the reply. */
+#ifndef PERCUSS_SOLVE_REPORT_H
+#define PERCUSS_SOLVE_REPORT_H
+
+#include "solve/accuracy.h"
+
+/* Fills everything of `result` that the solution decides; status and message too. */
+void report_fill(const struct geometry *geometry, const struct solve_request *request,
+                 const struct body_set *catalogue, const struct accuracy *accuracy,
+                 struct arena *arena, struct solve_result *result);
+
+/* Adds a warning while there is room. */
+void report_warn(struct solve_result *result, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+#endif

@@ -1,0 +1,111 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/solve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "solve/accuracy.h"
+#include "solve/report.h"
+
+struct solve_workspace {
+    struct prepared_cache *cache;
+    struct arena arena;
+};
+
+struct solve_workspace *solve_workspace_create(void)
+{
+    struct solve_workspace *workspace = calloc(1, sizeof *workspace);
+    if (!workspace)
+        return NULL;
+    workspace->cache = prepared_cache_create();
+    if (!workspace->cache) {
+        free(workspace);
+        return NULL;
+    }
+    return workspace;
+}
+
+void solve_workspace_free(struct solve_workspace *workspace)
+{
+    if (!workspace)
+        return;
+    prepared_cache_free(workspace->cache);
+    arena_release(&workspace->arena);
+    free(workspace);
+}
+
+static void clear(struct solve_result *result)
+{
+    memset(result, 0, sizeof *result);
+    result->restitution_by_speed = NAN;
+}
+
+static enum percuss_status check_counts(const struct solve_request *request, struct fault *fault)
+{
+    if (request->body_count < 1 || request->body_count > PERCUSS_MAX_BODIES)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "bodies: %zu given: must be 1 to %d",
+                         request->body_count, PERCUSS_MAX_BODIES);
+    if (request->contact_count < 1 || request->contact_count > PERCUSS_MAX_CONTACTS)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "contacts: %zu given: must be 1 to %d",
+                         request->contact_count, PERCUSS_MAX_CONTACTS);
+    for (size_t c = 0; c < request->contact_count; c++) {
+        const struct solve_contact *contact = &request->contacts[c];
+        if (contact->a >= request->body_count || contact->b >= request->body_count ||
+            contact->a == contact->b)
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "contacts[%zu]: a %u, b %u: must be two different indices below %zu", c,
+                             contact->a, contact->b, request->body_count);
+    }
+    return PERCUSS_OK;
+}
+
+/* What later versions will answer is refused by name, never ignored. */
+static enum percuss_status check_supported(const struct solve_options *options, struct fault *fault)
+{
+    if (options->contact_model != PERCUSS_CONTACT_AUTO &&
+        options->contact_model != PERCUSS_CONTACT_HERTZ)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.contact_model: %s: not available in this version: auto or hertz",
+                         contact_model_name(options->contact_model));
+    if (options->compliance == PERCUSS_COMPLIANCE_MATCHED)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.compliance: matched: not available in this version: half-space");
+    return PERCUSS_OK;
+}
+
+static enum percuss_status answer(struct solve_workspace *workspace,
+                                  const struct body_set *catalogue,
+                                  const struct solve_request *request, struct solve_result *result)
+{
+    struct geometry *geometry = arena_take(&workspace->arena, 1, sizeof *geometry);
+    struct accuracy *accuracy = arena_take(&workspace->arena, 1, sizeof *accuracy);
+    if (!geometry || !accuracy)
+        return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
+    enum percuss_status status =
+        geometry_find(geometry, catalogue, request, &workspace->arena, &result->fault);
+    if (!status)
+        status = accuracy_solve(accuracy, geometry, request, workspace->cache, &workspace->arena,
+                                &result->fault);
+    if (!status) {
+        report_fill(geometry, request, catalogue, accuracy, &workspace->arena, result);
+        status = result->status;
+    }
+    return status;
+}
+
+enum percuss_status solve(struct solve_workspace *workspace, const struct body_set *catalogue,
+                          const struct solve_request *request, struct solve_result *result)
+{
+    clear(result);
+    arena_reset(&workspace->arena);
+    prepared_cache_use(workspace->cache, catalogue->revision);
+    result->status = check_counts(request, &result->fault);
+    if (!result->status)
+        result->status = check_supported(&request->options, &result->fault);
+    if (!result->status)
+        result->status = answer(workspace, catalogue, request, result);
+    return result->status;
+}

@@ -1,0 +1,90 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Includes go downward only: fails on an include that goes upward, sideways or round, on a client that
+# looks into the service, and on libraries used outside the one folder that may.
+# usage: layers.sh SOURCE_DIR
+set -u
+cd "$1" || exit 2
+
+# each folder of service/ with the folders it may include from
+allowed() {
+    case $1 in
+    base) echo "base" ;;
+    numeric) echo "base numeric" ;;
+    model) echo "base numeric model" ;;
+    fe) echo "base numeric model fe" ;;
+    contact) echo "base numeric model fe contact" ;;
+    impact) echo "base numeric model fe contact impact" ;;
+    solve) echo "base numeric model fe contact impact solve" ;;
+    ensemble) echo "base numeric model fe contact impact solve ensemble" ;;
+    catalogue) echo "base numeric model catalogue" ;;
+    store) echo "base numeric model store" ;;
+    endpoint) echo "base numeric model contact impact solve ensemble endpoint" ;;
+    daemon) echo "base numeric model contact impact solve ensemble catalogue store endpoint daemon" ;;
+    esac
+}
+
+bad=0
+checked=0
+complain() {
+    echo "layers: $*" >&2
+    bad=1
+}
+
+for folder in service/*/; do
+    layer=$(basename "$folder")
+    list=$(allowed "$layer")
+    [ -n "$list" ] || complain "$folder is in no layer: add it to tests/layers.sh and docs/architecture.md"
+    for file in "$folder"*.c "$folder"*.h; do
+        [ -e "$file" ] || continue
+        checked=$((checked + 1))
+        for include in $(sed -n 's/^ *# *include *"\([^"]*\)".*/\1/p' "$file"); do
+            case $include in
+            percuss/vocabulary.h) continue ;;
+            wire.h | percuss_wire.h)
+                case $layer in endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
+                continue
+                ;;
+            esac
+            target=${include%%/*}
+            case " $list " in
+            *" $target "*) ;;
+            *) complain "$file ($layer) includes $include" ;;
+            esac
+        done
+    done
+done
+
+# no header includes itself round
+headers=$(mktemp)
+for header in service/*/*.h; do
+    from=${header#service/}
+    sed -n 's/^ *# *include *"\([a-z_]*\/[^"]*\)".*/\1/p' "$header" | sed "s|^|$from |"
+done >"$headers"
+tsort "$headers" >/dev/null 2>"$headers.err" || true
+[ ! -s "$headers.err" ] || complain "headers include each other: $(tr '\n' ' ' <"$headers.err")"
+rm -f "$headers" "$headers.err"
+
+# one owner for each library; no files, clock or output below the catalogue
+only() {
+    pattern=$1
+    owner=$2
+    found=$(grep -lE "^ *# *include *<($pattern)" service/*/*.[ch] client/*/*.[ch] 2>/dev/null | grep -vE "^($owner)/")
+    [ -z "$found" ] || complain "<$pattern> outside $owner: $found"
+}
+only 'cvode|arkode|sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol' 'service/numeric'
+only 'lapacke' 'service/numeric'
+only 'yaml' 'service/catalogue|service/daemon'
+only 'jansson' 'client/cli'
+only 'dds/' 'service/endpoint|service/daemon|client/lib'
+only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|client/lib|client/cli'
+
+# clients do not look into the service
+found=$(grep -nE '^ *# *include *"(base|numeric|model|contact|impact|solve|catalogue|endpoint|daemon)/' client/*/*.[ch])
+[ -z "$found" ] || complain "client looks into the service: $found"
+
+[ "$checked" -gt 30 ] || complain "only $checked files found in service/"
+echo "layers: $checked files checked"
+exit $bad

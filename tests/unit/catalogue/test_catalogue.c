@@ -1,0 +1,326 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Tests catalogue/catalogue.c and revision.c: the shipped catalogue, a foreign one, what changes
+ * the revision, and that no text whatever does harm. */
+#include <locale.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "parse.h"
+
+#define SHIPPED PERCUSS_SOURCE_DIR "/config/catalogue.yaml"
+
+static const double pi = 3.14159265358979323846;
+
+static struct body_set *load_shipped(void)
+{
+    struct body_set *set;
+    struct fault fault = {0};
+    if (catalogue_load(SHIPPED, &set, &fault))
+        fail_msg("%s", fault.text);
+    return set;
+}
+
+static const struct body *get(const struct body_set *set, const char *id)
+{
+    const struct body *body = body_set_find(set, id);
+    if (!body)
+        fail_msg("no body %s", id);
+    return body;
+}
+
+static void near(double value, double expected)
+{
+    if (!(fabs(value - expected) <= 1e-12 * fabs(expected)))
+        fail_msg("%.17g is not %.17g", value, expected);
+}
+
+static void loads_the_shipped_bodies(void **state)
+{
+    (void)state;
+    struct body_set *set = load_shipped();
+    assert_int_equal(set->compliance, PERCUSS_COMPLIANCE_HALF_SPACE);
+
+    const struct body *sphere = get(set, "steel-sphere");
+    assert_int_equal(sphere->shape, SHAPE_SPHERE);
+    near(sphere->mass, 4.0 / 3.0 * pi * 0.015 * 0.015 * 0.015 * 7800.0);
+    near(sphere->material.young, 210e9);
+
+    const struct body *rod = get(set, "al-rod");
+    near(rod->mass, pi * 1e-4 * 2700.0);
+    assert_true(isinf(rod->tip_radius) && isinf(rod->material.yield));
+    near(get(set, "al-rod-1")->material.yield, 205e6);
+    near(get(set, "al-rod-2")->material.yield, 575e6);
+
+    const struct body *beam = get(set, "al-beam");
+    assert_int_equal(beam->theory, THEORY_TIMOSHENKO);
+    near(beam->shear_factor[0], 6.0 * 1.33 / (7.0 + 6.0 * 0.33)); /* Cowper, circle */
+
+    /* bodies of equal mass, to the digits of the file */
+    assert_true(fabs(get(set, "al-cylinder")->mass / rod->mass - 1.0) < 1e-8);
+    assert_true(isinf(get(set, "steel-wall")->mass));
+    near(get(set, "timoshenko-beam")->mass, 7960.0 * 0.01 * 0.01 * 0.1535);
+    assert_int_equal(get(set, "timoshenko-beam")->supports[1], SUPPORT_PINNED);
+    assert_null(body_set_find(set, "no-such-body"));
+    body_set_free(set);
+}
+
+static const char foreign[] =
+    "%YAML 1.1\n"
+    "---\n"
+    "contact:\n"
+    "  compliance: matched\n"
+    "bodies:\n"
+    "  \"brass rod\":\n"
+    "    length: 0.4\n"
+    "    radius: .006\n"
+    "    material: brass\n"
+    "    shape: rod\n"
+    "    ends: [free, fixed]\n"
+    "    lateral_inertia: true\n"
+    "    damping: 1.0E-3\n"
+    "    modes: 40\n"
+    "  marble: {shape: sphere, radius: 8e-3, material: glass}\n"
+    "  titan:\n"
+    "    shape: beam\n"
+    "    material: titanium\n"
+    "    section: {width: 0.02, height: 0.005}\n"
+    "    length: 0.6\n"
+    "    shear_factor: hutchinson\n"
+    "    ends: pinned\n"
+    "  brick: {shape: block, material: glass, size: [0.1, 0.2, 0.05]}\n"
+    "materials:\n"
+    "  brass: {young: 100e9, poisson: 0.34, density: 8500, yield: 2e8, tangent: 1e9}\n"
+    "  glass: {young: 70e9, poisson: 0.22, density: 2500}\n"
+    "  titanium: {young: 114e9, poisson: 0.34, density: 4430}\n";
+
+static void loads_a_foreign_catalogue(void **state)
+{
+    (void)state;
+    struct body_set *set = parse_good(foreign);
+    assert_int_equal(set->count, 4);
+    assert_int_equal(set->compliance, PERCUSS_COMPLIANCE_MATCHED);
+
+    const struct body *rod = get(set, "brass rod");
+    near(rod->mass, 8500.0 * pi * 0.006 * 0.006 * 0.4);
+    assert_int_equal(rod->supports[0], SUPPORT_FREE);
+    assert_int_equal(rod->supports[1], SUPPORT_CLAMPED);
+    assert_true(rod->lateral_inertia);
+    assert_int_equal(rod->modes, 40);
+    near(rod->damping, 1e-3);
+    near(rod->material.tangent, 1e9);
+    assert_string_equal(rod->material.name, "brass");
+
+    near(get(set, "marble")->mass, 2500.0 * 4.0 / 3.0 * pi * 8e-3 * 8e-3 * 8e-3);
+    const struct body *beam = get(set, "titan");
+    near(beam->second_moment[0], 0.005 * 0.02 * 0.02 * 0.02 / 12.0);
+    near(beam->second_moment[1], 0.02 * 0.005 * 0.005 * 0.005 / 12.0);
+    assert_int_equal(beam->supports[0], SUPPORT_PINNED);
+    near(get(set, "brick")->mass, 2500.0 * 0.1 * 0.2 * 0.05);
+    body_set_free(set);
+}
+
+/* Numbers mean the same where people write a comma (if such a locale is installed). */
+static void does_not_depend_on_the_locale(void **state)
+{
+    (void)state;
+    setlocale(LC_ALL, "de_DE.UTF-8");
+    struct body_set *set = parse_good(foreign);
+    assert_true(get(set, "titan")->length == 0.6);
+    body_set_free(set);
+    setlocale(LC_ALL, "C");
+}
+
+#define BASE_MATERIAL "materials: {m: {young: 70e9, poisson: 0.3, density: 2700}}\n"
+#define BASE_A        "  a: {shape: sphere, material: m, radius: 0.01}\n"
+#define BASE_B        "  b: {shape: beam, material: m, radius: 0.01, length: 1}\n"
+
+static void revision_of(const char *text, char *revision)
+{
+    struct body_set *set = parse_good(text);
+    strcpy(revision, set->revision);
+    assert_int_equal(strlen(revision), 32);
+    body_set_free(set);
+}
+
+static void keeps_its_revision_when_only_the_look_changes(void **state)
+{
+    (void)state;
+    static const char *const same[] = {
+        "# comment\n" BASE_MATERIAL "bodies:\n" BASE_A BASE_B,
+        BASE_MATERIAL "bodies:\n" BASE_B BASE_A, /* another order */
+        "bodies:\n" BASE_A BASE_B BASE_MATERIAL,
+        BASE_MATERIAL "contact: {compliance: half-space}\nbodies:\n" BASE_A BASE_B,
+        "materials: {m: {young: 7.0e10, poisson: .3, density: 2.7e3, tangent: -0}}\n"
+        "bodies:\n  'a':\n    radius: 10e-3\n    shape: sphere\n    material: m\n" BASE_B,
+        "materials: {n: {young: 1e9, poisson: 0.3, density: 1}, " /* one that nobody uses */
+        "m: {young: 70e9, poisson: 0.3, density: 2700}}\nbodies:\n" BASE_A BASE_B,
+        BASE_MATERIAL "bodies:\n" BASE_A "  b: {shape: beam, material: m, radius: 0.01, length: 1, "
+                      "theory: timoshenko, shear_factor: cowper, ends: [free, free], damping: 0}\n",
+    };
+    char base[PERCUSS_ID_SIZE], other[PERCUSS_ID_SIZE];
+    revision_of(BASE_MATERIAL "bodies:\n" BASE_A BASE_B, base);
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
+        revision_of(same[i], other);
+        assert_string_equal(other, base);
+    }
+}
+
+static void changes_its_revision_with_the_content(void **state)
+{
+    (void)state;
+    static const char *const rods[] = {
+        "  r: {shape: rod, material: m, radius: 0.01, length: 1}\n",
+        "  r: {shape: rod, material: n, radius: 0.01, length: 1}\n",
+        "  r: {shape: rod, material: m, radius: 0.010000000000000002, length: 1}\n",
+        "  r: {shape: rod, material: m, radius: 0.01, length: 2}\n",
+        "  R: {shape: rod, material: m, radius: 0.01, length: 1}\n",
+        "  r: {shape: cylinder, material: m, radius: 0.01, length: 1}\n",
+        "  r: {shape: rod, material: m, radius: 0.01, length: 1, tip_radius: 0.01}\n",
+        "  r: {shape: rod, material: m, radius: 0.01, length: 1, lateral_inertia: true}\n",
+        "  r: {shape: rod, material: m, radius: 0.01, length: 1, ends: [free, fixed]}\n",
+        "  r: {shape: rod, material: m, radius: 0.01, length: 1, ends: [fixed, free]}\n",
+        "  r: {shape: rod, material: m, radius: 0.01, length: 1, damping: 0.01}\n",
+        "  r: {shape: rod, material: m, radius: 0.01, length: 1, modes: 7}\n",
+        "  r: {shape: beam, material: m, radius: 0.01, length: 1}\n",
+        "  r: {shape: beam, material: m, radius: 0.01, length: 1, theory: euler-bernoulli}\n",
+        "  r: {shape: beam, material: m, radius: 0.01, length: 1, shear_factor: 0.9}\n",
+        "  r: {shape: beam, material: m, section: {width: 0.01, height: 0.02}, length: 1}\n",
+        "  r: {shape: beam, material: m, section: {width: 0.02, height: 0.01}, length: 1}\n",
+        "  r: {shape: rod, material: m, radius: 0.01, length: 1}\ncontact: {compliance: matched}\n",
+        "  r: {shape: rod, material: m, radius: 0.01, length: 1}\n"
+        "  s: {shape: rod, material: m, radius: 0.01, length: 1}\n",
+    };
+    enum { COUNT = sizeof rods / sizeof *rods };
+    char revisions[COUNT][PERCUSS_ID_SIZE];
+    for (size_t i = 0; i < COUNT; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "materials: {m: {young: 70e9, poisson: 0.3, density: 2700}, "
+                 "n: {young: 70e9, poisson: 0.3, density: 2700, yield: 1e8}}\nbodies:\n%s",
+                 rods[i]);
+        revision_of(text, revisions[i]);
+        for (size_t k = 0; k < i; k++)
+            assert_string_not_equal(revisions[i], revisions[k]);
+    }
+}
+
+static void says_why_a_file_cannot_be_read(void **state)
+{
+    (void)state;
+    struct body_set *set;
+    struct fault fault;
+    assert_int_equal(catalogue_load("/no/such/file.yaml", &set, &fault), PERCUSS_BAD_REQUEST);
+    assert_string_equal(fault.text,
+                        "/no/such/file.yaml: cannot be read: No such file or directory");
+    assert_int_equal(catalogue_load("/", &set, &fault), PERCUSS_BAD_REQUEST);
+    assert_int_equal(catalogue_load("/dev/null", &set, &fault), PERCUSS_BAD_REQUEST);
+    assert_int_equal(catalogue_load("/dev/zero", &set, &fault), PERCUSS_BAD_REQUEST);
+    assert_null(set);
+}
+
+/* 100000 bodies: ids are compared by sorting, not each with each. */
+static void loads_many_bodies(void **state)
+{
+    (void)state;
+    size_t size = 100 * (size_t)CATALOGUE_MAX_BODIES, length = 0;
+    char *text = malloc(size);
+    assert_non_null(text);
+    length += (size_t)snprintf(text, size, BASE_MATERIAL "bodies:\n");
+    for (int i = 0; i < CATALOGUE_MAX_BODIES; i++)
+        length += (size_t)snprintf(text + length, size - length,
+                                   "  s%d: {shape: sphere, material: m, radius: 0.01}\n", i);
+    struct body_set *set = parse_good(text);
+    assert_int_equal(set->count, CATALOGUE_MAX_BODIES);
+    body_set_free(set);
+    snprintf(text + length, size - length, "  more: {shape: half-space, material: m}\n");
+    parse_bad(text, 3, "bodies: 100001 entries: must be 1 to 100000");
+    free(text);
+}
+
+static uint64_t next_random(uint64_t *state)
+{
+    *state += 0x9e3779b97f4a7c15; /* splitmix64 */
+    uint64_t z = *state;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+}
+
+/* Flips, deletes or inserts a byte; the buffer has room for one more. */
+static size_t mutate(char *text, size_t size, uint64_t *random)
+{
+    static const char favourites[] = "{}[]:,-?&*!|>'\"%@`# \n\t\r0e.+-\0\x7F\x80\xC2\xFF";
+    size_t at = next_random(random) % (size - 1);
+    uint64_t kind = next_random(random);
+    char byte = kind & 8 ? (char)(kind >> 8) : favourites[(kind >> 8) % (sizeof favourites - 1)];
+    if (kind % 3 == 0) {
+        text[at] = byte;
+        return size;
+    }
+    if (kind % 3 == 1) {
+        memmove(text + at, text + at + 1, size - at - 1);
+        return size - 1;
+    }
+    memmove(text + at + 1, text + at, size - at);
+    text[at] = byte;
+    return size + 1;
+}
+
+static size_t read_shipped(char *text, size_t room)
+{
+    FILE *file = fopen(SHIPPED, "rb");
+    assert_non_null(file);
+    size_t size = fread(text, 1, room, file);
+    fclose(file);
+    assert_in_range(size, 1000, room - 1);
+    return size;
+}
+
+/* 20000 damaged catalogues, 1 to 8 bytes each: an answer or a message, and every body finite. */
+static void survives_damaged_files(void **state)
+{
+    (void)state;
+    enum { ROOM = 16384, CHANGES = 8 };
+    static char shipped[ROOM], text[ROOM + CHANGES];
+    size_t shipped_size = read_shipped(shipped, ROOM), good = 0;
+    uint64_t random = 1;
+    for (int i = 0; i < 20000; i++) {
+        size_t size = shipped_size;
+        memcpy(text, shipped, size);
+        for (uint64_t n = 1 + next_random(&random) % CHANGES; n > 0; n--)
+            size = mutate(text, size, &random);
+        /* a copy of exactly this size lets a sanitizer see any byte read beyond it */
+        char *exact = malloc(size);
+        struct body_set *set;
+        struct fault fault = {0};
+        assert_non_null(exact);
+        memcpy(exact, text, size);
+        enum percuss_status status = catalogue_parse(exact, size, "damaged", &set, &fault);
+        free(exact);
+        assert_true(status == PERCUSS_OK || status == PERCUSS_BAD_REQUEST);
+        assert_true((status == PERCUSS_OK) == (set != NULL));
+        assert_true((status == PERCUSS_OK) == (fault.text[0] == '\0'));
+        for (size_t k = 0; set && k < set->count; k++)
+            assert_true(set->bodies[k].mass > 0.0 && body_smallest_radius(&set->bodies[k]) > 0.0);
+        good += set != NULL;
+        body_set_free(set);
+    }
+    assert_true(good > 100); /* comments and blanks: both outcomes are exercised */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(loads_the_shipped_bodies),
+        cmocka_unit_test(loads_a_foreign_catalogue),
+        cmocka_unit_test(does_not_depend_on_the_locale),
+        cmocka_unit_test(keeps_its_revision_when_only_the_look_changes),
+        cmocka_unit_test(changes_its_revision_with_the_content),
+        cmocka_unit_test(says_why_a_file_cannot_be_read),
+        cmocka_unit_test(loads_many_bodies),
+        cmocka_unit_test(survives_damaged_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

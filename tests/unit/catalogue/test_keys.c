@@ -1,0 +1,259 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Tests catalogue/keys.c, reader.c, names.c and content.c: every kind of error in a well-formed
+ * document, with its line and what is allowed. */
+#include "parse.h"
+
+#define MATERIALS                                                                                  \
+    "materials:\n"                                                                                 \
+    "  steel: {young: 210e9, poisson: 0.3, density: 7800}\n"                                       \
+    "  glass: {young: 48e9, poisson: 0.2, density: 2800}\n"                                        \
+    "bodies:\n"
+
+struct bad {
+    const char *text; /* of a body, on line 5 */
+    const char *fragment;
+};
+
+static void refuse_bodies(const struct bad *bad, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        char text[1024];
+        snprintf(text, sizeof text, MATERIALS "%s\n", bad[i].text);
+        parse_bad(text, 5, bad[i].fragment);
+    }
+}
+#define REFUSE(array) refuse_bodies(array, sizeof array / sizeof *array)
+
+static void refuses_impossible_sizes(void **state)
+{
+    (void)state;
+    static const struct bad bad[] = {
+        {"  s: {shape: sphere, material: steel, radius: -0.01}",
+         "bodies.s.radius: -0.01: must be a finite length > 0 m"},
+        {"  s: {shape: sphere, material: steel, radius: 0}", "radius: 0: must be"},
+        {"  s: {shape: sphere, material: steel, radius: 1e4}", "1e-9 to 1e3 m"},
+        {"  s: {shape: sphere, material: steel, radius: 1e-300}", "bodies.s.radius: 1e-300"},
+        {"  r: {shape: rod, material: steel, radius: 0.01, length: 0}", "bodies.r.length: 0"},
+        {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, tip_radius: 0.005}",
+         "bodies.r.tip_radius: 0.005: must be at least radius (0.01 m)"},
+        {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, damping: 1}",
+         "bodies.r.damping: 1: must be a ratio >= 0 and < 1"},
+        {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, modes: 5001}",
+         "bodies.r.modes: 5001: must be a whole number, 1 to 5000"},
+        {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, modes: 0}", "modes: 0: must"},
+        {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, modes: 2.5}", "modes: 2.5"},
+        {"  b: {shape: beam, material: steel, section: {width: 0.1, height: 0}, length: 1}",
+         "bodies.b.section.height: 0: must be a finite length"},
+        {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, shear_factor: 0}",
+         "bodies.b.shear_factor: 0: must be cowper, hutchinson or a number > 0"},
+        {"  k: {shape: block, material: steel, size: [1, -1, 1]}",
+         "bodies.k.size[1]: -1: must be a finite length"},
+    };
+    REFUSE(bad);
+}
+
+static void refuses_what_is_no_number(void **state)
+{
+    (void)state;
+    static const char *const values[] = {
+        "big",  "'0.01'", "0.01 m", "0x1p-3", ".inf", ".nan", "inf",       "nan",   "1_0",
+        "1:30", "1e",     "1e+",    "+",      ".",    "~",    "null",      "",      "1,5",
+        "[1]",  "{}",     "1e999",  "\"1\"",  "true", "--1",  "0.01.0.01", "1e5.0", "e5"};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 MATERIALS "  s:\n    shape: sphere\n    material: steel\n    radius: %s\n",
+                 values[i]);
+        parse_bad(text, 8, "bodies.s.radius: ");
+        parse_bad(text, 8, "must be a finite length > 0 m");
+    }
+}
+
+static void accepts_decimal_numbers(void **state)
+{
+    (void)state;
+    static const char *const values[] = {"0.25", ".25", "+0.25", "25e-2", "2.5E-1", "0.0025e+2"};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        char text[512];
+        snprintf(text, sizeof text, MATERIALS "  s: {shape: sphere, material: steel, radius: %s}\n",
+                 values[i]);
+        struct body_set *set = parse_good(text);
+        assert_true(set->bodies[0].radius == 0.25);
+        body_set_free(set);
+    }
+}
+
+static void refuses_unknown_words(void **state)
+{
+    (void)state;
+    static const struct bad bad[] = {
+        {"  s: {shape: ball, material: steel, radius: 1}",
+         "bodies.s.shape: ball: must be one of sphere, rod, beam, cylinder, block, half-space"},
+        {"  s: {shape: sphere, material: wood, radius: 1}",
+         "bodies.s.material: wood: unknown material; must be one of glass, steel"},
+        {"  s: {shape: sphere, material: [steel], radius: 1}", "bodies.s.material: a list"},
+        {"  s: {shape: sphere, material: steel, radius: 1, colour: red}",
+         "bodies.s: colour: unknown key; the keys of sphere are shape, material, radius"},
+        {"  s: {shape: sphere, material: steel, radius: 1, damping: 0.1}",
+         "damping: unknown key; the keys of sphere are"},
+        {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, tip_radius: 1}",
+         "tip_radius: unknown key; the keys of beam are shape, material, radius, section, length, "
+         "theory, shear_factor, ends, damping, modes"},
+        {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, ends: loose}",
+         "bodies.b.ends: loose: must be one of free, pinned, clamped, or a list of two"},
+        {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, ends: [free]}",
+         "bodies.b.ends: a list: must be"},
+        {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, ends: [free, fixed]}",
+         "bodies.b.ends[1]: fixed: must be one of free, pinned, clamped"},
+        {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, ends: pinned}",
+         "bodies.r.ends: pinned: must be one of free, fixed"},
+        {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, theory: rayleigh}",
+         "bodies.b.theory: rayleigh: must be one of timoshenko, euler-bernoulli"},
+        {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, shear_factor: best}",
+         "bodies.b.shear_factor: best: must be cowper, hutchinson or a number"},
+        {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, lateral_inertia: yes}",
+         "bodies.r.lateral_inertia: yes: must be true or false"},
+        {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, lateral_inertia: 'true'}",
+         "must be true or false"},
+    };
+    REFUSE(bad);
+}
+
+static void refuses_missing_and_double_keys(void **state)
+{
+    (void)state;
+    static const struct bad bad[] = {
+        {"  s: {material: steel, radius: 1}", "bodies.s.shape: missing: must be one of sphere"},
+        {"  s:\n    shape: sphere\n    radius: 1", "bodies.s.material: missing"},
+        {"  s: {shape: sphere, material: steel}", "bodies.s.radius: missing: must be a finite"},
+        {"  b: {shape: beam, material: steel, length: 1}", "bodies.b: radius or section missing"},
+        {"  b: {shape: beam, material: steel, radius: 0.01}", "bodies.b.length: missing"},
+        {"  b: {shape: beam, material: steel, section: {width: 1}, length: 1}",
+         "bodies.b.section.height: missing"},
+        {"  b: {shape: beam, material: steel, radius: 1, section: {width: 1, height: 1}, length: "
+         "1}",
+         "bodies.b.section: 1 x 1: must be absent beside radius"},
+        {"  b: {shape: beam, material: steel, section: 0.1, length: 1}",
+         "bodies.b.section: 0.1: must be a mapping of width, height"},
+        {"  k: {shape: block, material: steel, size: [1, 1]}",
+         "bodies.k.size: a list: must be a list of three"},
+        {"  k: {shape: block, material: steel, size: 1}", "bodies.k.size: 1: must be a list"},
+        {"  s: {shape: sphere, material: steel, radius: 1, radius: 2}",
+         "bodies.s.radius: must stand once, but is on line 5 already"},
+        {"  s: 1", "bodies.s: 1: must be a mapping with shape, material"},
+        {"  s:", "bodies.s: nothing: must be a mapping"},
+        {"  s: {? [1, 2] : 3, shape: sphere}", "bodies.s: a list: unknown key"},
+    };
+    REFUSE(bad);
+    parse_bad(MATERIALS "  s: {shape: half-space, material: steel}\n\n"
+                        "  s: {shape: half-space, material: glass}\n",
+              7, "bodies: s: must stand once, but is on line 5 already");
+}
+
+static void refuses_bad_ids(void **state)
+{
+    (void)state;
+#define TEN   "0123456789"
+#define SIXTY TEN TEN TEN TEN TEN TEN
+    static const struct bad bad[] = {
+        {"  " SIXTY "1234: {shape: half-space, material: steel}", "word of 1 to 63 bytes"},
+        {"  '': {shape: half-space, material: steel}", "bodies: nothing: an id must be"},
+        {"  \"a\\nb\": {shape: half-space, material: steel}", "a?b: an id must be"},
+        {"  \"a\\0b\": {shape: half-space, material: steel}", "a?b: an id must be"},
+        {"  \"a\\u0085b\": {shape: half-space, material: steel}", "without control characters"},
+        {"  [a, b]: {shape: half-space, material: steel}", "a list: an id must be"},
+    };
+    REFUSE(bad);
+    struct body_set *set = parse_good(MATERIALS "  " SIXTY "123: {shape: half-space, material: "
+                                                "steel}\n  Kügelchen 1: {shape: half-space, "
+                                                "material: glass}\n");
+    assert_non_null(body_set_find(set, SIXTY "123"));
+    assert_non_null(body_set_find(set, "Kügelchen 1"));
+    body_set_free(set);
+}
+
+static void refuses_bad_materials(void **state)
+{
+    (void)state;
+    static const struct bad bad[] = {
+        {"young: 0, poisson: 0.3, density: 1", "materials.m.young: 0: must be a finite modulus"},
+        {"young: 210, poisson: 0.3, density: 7800", "materials.m.young: 210: must be"},
+        {"young: 1e9, poisson: 0.5, density: 1", "materials.m.poisson: 0.5: must be a number > -1"},
+        {"young: 1e9, poisson: -1, density: 1", "materials.m.poisson: -1: must be"},
+        {"young: 1e9, poisson: 0.3, density: 0", "materials.m.density: 0: must be a finite"},
+        {"young: 1e9, poisson: 0.3", "materials.m.density: missing: must be"},
+        {"young: 1e9, poisson: 0.3, density: 1, yield: 0", "materials.m.yield: 0: must be"},
+        {"young: 1e9, poisson: 0.3, density: 1, yield: 1e9", "yield: 1e+09: must be below young"},
+        {"young: 1e9, poisson: 0.3, density: 1, yield: 1e6, tangent: -1", "tangent: -1: must be"},
+        {"young: 1e9, poisson: 0.3, density: 1, yield: 1e6, tangent: 1e9",
+         "materials.m.tangent: 1e+09: must be below young"},
+        {"young: 1e9, poisson: 0.3, density: 1, tangent: 1e6", "must be 0 or absent without yield"},
+        {"young: 1e9, poisson: 0.3, density: 1, hardness: 3",
+         "materials.m: hardness: unknown key; the keys of a material are young, poisson, density, "
+         "yield, tangent"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        char text[512];
+        snprintf(text, sizeof text, "materials:\n  m: {%s}\nbodies:\n  w: {shape: half-space}\n",
+                 bad[i].text);
+        parse_bad(text, 2, bad[i].fragment);
+    }
+}
+
+/* Hutchinson's circle has a pole at poisson -0.793. */
+static void refuses_a_shear_rule_outside_its_range(void **state)
+{
+    (void)state;
+    parse_bad("materials:\n  foam: {young: 1e9, poisson: -0.9, density: 100}\nbodies:\n"
+              "  b:\n    shape: beam\n    material: foam\n    radius: 0.01\n    length: 1\n"
+              "    shear_factor: hutchinson\n",
+              9, "bodies.b.shear_factor: hutchinson: must be a number here");
+}
+
+static void refuses_bad_tops(void **state)
+{
+    (void)state;
+    parse_bad("[1, 2]\n", 1, "a list: must be a mapping of materials, bodies, contact");
+    parse_bad("---\n", 2, "nothing: must be a mapping");
+    parse_bad("bodies: {}\n", 1, "materials: missing");
+    parse_bad("materials: {}\nbodies: {}\n", 1, "materials: 0 entries: must be 1 to");
+    parse_bad(MATERIALS, 4, "bodies: nothing: must be a mapping of ids");
+    parse_bad(MATERIALS "  {}\n", 5, "bodies: 0 entries: must be 1 to");
+    parse_bad(MATERIALS "  w: {shape: half-space, material: steel}\nsettings: 1\n", 6,
+              "settings: unknown key; the keys of the catalogue are materials, bodies, contact");
+    parse_bad(MATERIALS "  w: {shape: half-space, material: steel}\ncontact: {compliance: exact}\n",
+              6, "contact.compliance: exact: must be one of half-space, matched");
+    parse_bad(MATERIALS "  w: {shape: half-space, material: steel}\ncontact: {friction: 1}\n", 6,
+              "contact: friction: unknown key; the keys of contact are compliance");
+}
+
+/* However long the words, the message ends and shows where. */
+static void bounds_its_messages(void **state)
+{
+    (void)state;
+    char text[4096] = MATERIALS "  s: {shape: sphere, material: ";
+    size_t length = strlen(text);
+    for (int i = 0; i < 1000; i++)
+        memcpy(text + length + 2 * (size_t)i, "\xC3\xA9", 2);
+    memcpy(text + length + 2000, "}\n", 3);
+    parse_bad(text, 5, "\xC3\xA9...: must be a name of materials");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(refuses_impossible_sizes),
+        cmocka_unit_test(refuses_what_is_no_number),
+        cmocka_unit_test(accepts_decimal_numbers),
+        cmocka_unit_test(refuses_unknown_words),
+        cmocka_unit_test(refuses_missing_and_double_keys),
+        cmocka_unit_test(refuses_bad_ids),
+        cmocka_unit_test(refuses_bad_materials),
+        cmocka_unit_test(refuses_a_shear_rule_outside_its_range),
+        cmocka_unit_test(refuses_bad_tops),
+        cmocka_unit_test(bounds_its_messages),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,49 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Tests client/cli/similar.c: which id was meant. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "similar.h"
+
+static void measures_the_distance(void **state)
+{
+    (void)state;
+    assert_int_equal(similar_distance("", ""), 0);
+    assert_int_equal(similar_distance("al-rod", "al-rod"), 0);
+    assert_int_equal(similar_distance("", "rod"), 3);
+    assert_int_equal(similar_distance("rod", ""), 3);
+    assert_int_equal(similar_distance("kitten", "sitting"), 3);
+    assert_int_equal(similar_distance("al-rod", "al-rod-1"), 2);
+}
+
+static void finds_what_was_meant(void **state)
+{
+    (void)state;
+    struct percuss_body bodies[] = {{.id = "al-beam"}, {.id = "al-rod"}, {.id = "steel-sphere"}};
+    const struct percuss_body_list list = {3, bodies};
+    assert_ptr_equal(similar_body(&list, "steel-spere"), &bodies[2]);
+    assert_ptr_equal(similar_body(&list, "al_rod"), &bodies[1]);
+    assert_null(similar_body(&list, "concrete-wall"));
+    assert_null(similar_body(&list, ""));
+    // longer than any id
+    char text[200];
+    memset(text, 'x', sizeof text);
+    text[sizeof text - 1] = '\0';
+    assert_int_equal(similar_distance(text, "x"), PERCUSS_ID_SIZE - 2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(measures_the_distance),
+        cmocka_unit_test(finds_what_was_meant),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
