@@ -9,12 +9,12 @@ enum { NODES = 4 };
 
 struct collocation {
     double node[NODES];
-    double weight[NODES];               /* of the integral over the step */
-    double monomial[NODES][NODES];      /* Lagrange polynomial j = sum_m monomial[j][m] s^m */
-    double velocity[NODES][NODES];      /* [i][j]: integral of polynomial j from 0 to node i */
-    double position[NODES][NODES];      /* [i][j]: its double integral */
-    double position_end[NODES];         /* double integral from 0 to 1 */
-    double highest[NODES];              /* coefficient of the Legendre polynomial of degree 3 */
+    double weight[NODES];          /* of the integral over the step */
+    double monomial[NODES][NODES]; /* Lagrange polynomial j = sum_m monomial[j][m] s^m */
+    double velocity[NODES][NODES]; /* [i][j]: integral of polynomial j from 0 to node i */
+    double position[NODES][NODES]; /* [i][j]: its double integral */
+    double position_end[NODES];    /* double integral from 0 to 1 */
+    double highest[NODES];         /* coefficient of the Legendre polynomial of degree 3 */
 };
 
 extern const struct collocation collocation;

@@ -29,7 +29,8 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, s
 }
 
 /* What a unit force of contact b at node j does to the approach of contact a at node i, with the
- * residual flexibility: rigid double integral, modes, and the series compliance at the same node. */
+ * residual flexibility: rigid double integral, modes, and the series compliance at the same node.
+ */
 static const double *coupling_of_level(struct contact_step *step, const struct scene *scene,
                                        int level)
 {
@@ -79,8 +80,8 @@ static void free_approach(const struct scene *scene, const struct motion *motion
     for (int i = 0; i < NODES; i++) {
         double t = collocation.node[i] * h;
         double a = scene->gap_acceleration[contact];
-        approach[i] = -(motion->gap[contact] + t * (motion->gap_rate[contact] + 0.5 * a * t)) -
-                      modes[i];
+        approach[i] =
+            -(motion->gap[contact] + t * (motion->gap_rate[contact] + 0.5 * a * t)) - modes[i];
     }
 }
 
@@ -93,7 +94,8 @@ static size_t active_list(const struct scene *scene, const bool *active, size_t 
     return count;
 }
 
-/* Forces, residual and Jacobian of d_i + sum coupling F(d) = free approach; returns the residual. */
+/* Forces, residual and Jacobian of d_i + sum coupling F(d) = free approach; returns the residual.
+ */
 static void assemble(struct contact_step *step, const struct scene *scene, const size_t *list,
                      size_t count, const double *coupling, const double *target)
 {
@@ -102,9 +104,8 @@ static void assemble(struct contact_step *step, const struct scene *scene, const
     double stiffness[PERCUSS_MAX_CONTACTS][NODES];
     for (size_t a = 0; a < count; a++)
         for (int i = 0; i < NODES; i++)
-            step->force[list[a]][i] =
-                contact_law_force(&scene->laws[list[a]], NULL, step->indentation[list[a]][i],
-                                  &stiffness[a][i]);
+            step->force[list[a]][i] = contact_law_force(
+                &scene->laws[list[a]], NULL, step->indentation[list[a]][i], &stiffness[a][i]);
     for (size_t a = 0; a < count; a++) {
         for (int i = 0; i < NODES; i++) {
             size_t row = a * NODES + (size_t)i;
@@ -214,13 +215,14 @@ static void advance(struct contact_step *step, const struct scene *scene,
                 kernel_push(table, group->stride, group->participation[list[b]],
                             step->force[list[b]], step->end.q[g], step->end.v[g]);
         if (group->set->damping > 0.0)
-            step->loss += group_loss(step, group, motion, motion->q[g], motion->v[g], list, count,
-                                     table);
+            step->loss +=
+                group_loss(step, group, motion, motion->q[g], motion->v[g], list, count, table);
     }
 }
 
-bool contact_local_indentation(const struct scene *scene, const bool *active, const double *approach,
-                               double *indentation, double *force, double *matrix)
+bool contact_local_indentation(const struct scene *scene, const bool *active,
+                               const double *approach, double *indentation, double *force,
+                               double *matrix)
 {
     size_t n = scene->contacts;
     size_t list[PERCUSS_MAX_CONTACTS];
@@ -231,8 +233,8 @@ bool contact_local_indentation(const struct scene *scene, const bool *active, co
     bool converged = count == 0;
     for (int iteration = 0; iteration < MAX_ITERATIONS && !converged; iteration++) {
         for (size_t a = 0; a < count; a++)
-            force[list[a]] = contact_law_force(&scene->laws[list[a]], NULL, indentation[list[a]],
-                                               &stiffness[a]);
+            force[list[a]] =
+                contact_law_force(&scene->laws[list[a]], NULL, indentation[list[a]], &stiffness[a]);
         for (size_t a = 0; a < count; a++) {
             unknown[a] = indentation[list[a]] - approach[list[a]];
             for (size_t b = 0; b < count; b++) {
@@ -287,8 +289,7 @@ bool contact_step_solve(struct contact_step *step, const struct scene *scene,
     double ignored;
     for (size_t c = 0; c < scene->contacts; c++) {
         motion_approach(&step->end, scene, c, &step->approach[c], &ignored);
-        step->end_indentation[c] =
-            active[c] ? collocation_value(step->indentation[c], 1.0) : 0.0;
+        step->end_indentation[c] = active[c] ? collocation_value(step->indentation[c], 1.0) : 0.0;
     }
     return contact_local_indentation(scene, active, step->approach, step->end_indentation,
                                      step->end_force, step->matrix);

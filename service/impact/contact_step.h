@@ -11,15 +11,15 @@
 #include "impact/motion.h"
 
 struct contact_step {
-    struct motion end;              /* the state after the step */
-    double (*indentation)[NODES];   /* [contact] local, at the nodes; active contacts only */
+    struct motion end;            /* the state after the step */
+    double (*indentation)[NODES]; /* [contact] local, at the nodes; active contacts only */
     double (*force)[NODES];
-    double *end_indentation;        /* [contact], all contacts */
-    double loss;                    /* taken by damping, J */
-    unsigned long iterations;       /* Newton's, since creation */
+    double *end_indentation;  /* [contact], all contacts */
+    double loss;              /* taken by damping, J */
+    unsigned long iterations; /* Newton's, since creation */
 
-    double *coupling[STEP_LEVELS];  /* [contact][contact][node][node]: residual + response */
-    double *matrix, *unknown;       /* scratch */
+    double *coupling[STEP_LEVELS]; /* [contact][contact][node][node]: residual + response */
+    double *matrix, *unknown;      /* scratch */
     double *approach, *end_force;
     struct arena *arena;
 };
@@ -34,9 +34,11 @@ bool contact_step_solve(struct contact_step *step, const struct scene *scene,
                         const struct motion *motion, const bool *active, int level,
                         const double *indentation, const double *rate);
 
-/* Local indentation of every contact for approaches d: F_i = law(d_i - sum_j residual_ij F_j) for the
- * active ones, d_i - sum_j residual_ij F_j for the others. `indentation` holds starting values. */
-bool contact_local_indentation(const struct scene *scene, const bool *active, const double *approach,
-                               double *indentation, double *force, double *matrix);
+/* Local indentation of every contact for approaches d: F_i = law(d_i - sum_j residual_ij F_j) for
+ * the active ones, d_i - sum_j residual_ij F_j for the others. `indentation` holds starting values.
+ */
+bool contact_local_indentation(const struct scene *scene, const bool *active,
+                               const double *approach, double *indentation, double *force,
+                               double *matrix);
 
 #endif

@@ -17,7 +17,8 @@ static double form(size_t n, const double *m, const double *x, const double *y)
     return sum;
 }
 
-/* 1/w for one contact, the pseudo-inverse otherwise: motions that no contact sees carry no energy. */
+/* 1/w for one contact, the pseudo-inverse otherwise: motions that no contact sees carry no energy.
+ */
 static double *effective_mass(const struct scene *scene, struct arena *arena)
 {
     size_t n = scene->contacts;
@@ -76,8 +77,7 @@ bool energy_audit(const struct scene *scene, const double *indentation, double d
     *energy = (struct impact_energy){.damping = damping};
     /* the acceleration is a force W^+ a on the gaps: its work is that over the gaps' travel */
     energy->available = 0.5 * form(n, mass, scene->gap_rate, scene->gap_rate) +
-                        initial_vibration(scene) +
-                        form(n, mass, scene->gap_acceleration, travel);
+                        initial_vibration(scene) + form(n, mass, scene->gap_acceleration, travel);
     energy->rigid_after = 0.5 * form(n, mass, end->gap_rate, end->gap_rate);
     for (size_t b = 0; b < scene->bodies; b++) {
         outcome->vibration[b] = motion_vibration(end, scene, b);

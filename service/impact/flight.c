@@ -122,8 +122,8 @@ static bool all_stay_open(struct flight *flight, const struct scene *scene, int 
     return true;
 }
 
-/* The instant, from now, from which every rigid gap exceeds its bound for good (or, under a pressing
- * acceleration, first does while it opens); INFINITY: never. */
+/* The instant, from now, from which every rigid gap exceeds its bound for good (or, under a
+ * pressing acceleration, first does while it opens); INFINITY: never. */
 static double completion(const struct flight *flight, const struct scene *scene,
                          const struct motion *motion)
 {
@@ -215,7 +215,8 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
         }
         if (i % REFRESH == 0) {
             find_amplitudes(flight, scene, &flight->probe);
-            complete = flight->probe.time - motion->time + completion(flight, scene, &flight->probe);
+            complete =
+                flight->probe.time - motion->time + completion(flight, scene, &flight->probe);
         }
     }
     *time = fmin(complete, allowed);

@@ -3,8 +3,9 @@
 
 /* Between contacts: the next touch, or the proof that vibration can cause none.
  *
- * The flight is scanned by bounds, not by samples: an interval is passed only when the approach plus a
- * bound of what the modes can add stays below zero on all of it, so that no double root is missed. */
+ * The flight is scanned by bounds, not by samples: an interval is passed only when the approach
+ * plus a bound of what the modes can add stays below zero on all of it, so that no double root is
+ * missed. */
 #ifndef PERCUSS_IMPACT_FLIGHT_H
 #define PERCUSS_IMPACT_FLIGHT_H
 
@@ -19,12 +20,12 @@ enum flight_end {
 
 struct flight {
     struct motion probe;
-    double **amplitude;         /* [group][stride] */
-    double *bound;              /* [contact]: sum of participation times amplitude */
-    double *all_modes;          /* [contact][level]: remainder when all modes are followed */
-    double *slow_modes;         /* [contact][level]: remainder when the slow ones are */
+    double **amplitude; /* [group][stride] */
+    double *bound;      /* [contact]: sum of participation times amplitude */
+    double *all_modes;  /* [contact][level]: remainder when all modes are followed */
+    double *slow_modes; /* [contact][level]: remainder when the slow ones are */
     bool known[STEP_LEVELS];
-    unsigned long intervals;    /* examined, since creation */
+    unsigned long intervals; /* examined, since creation */
 };
 
 bool flight_create(struct flight *flight, const struct scene *scene, struct arena *arena);

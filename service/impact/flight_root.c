@@ -17,8 +17,8 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
             /* the later root, when it is above and opening */
             double discriminant = rate * rate - 2.0 * acceleration * excess;
             double turn = fmax(0.0, -rate / acceleration);
-            *first = discriminant > 0.0 ? fmax(turn, (sqrt(discriminant) - rate) / acceleration)
-                                        : turn;
+            *first =
+                discriminant > 0.0 ? fmax(turn, (sqrt(discriminant) - rate) / acceleration) : turn;
         } else if (rate > 0.0)
             *first = -excess / rate;
         return;
@@ -31,8 +31,8 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
     *last = -rate / acceleration;
 }
 
-/* Root of the approach in [low, high] with approach(low) <= 0 < approach(high): bisection kept safe,
- * Newton where it stays inside. */
+/* Root of the approach in [low, high] with approach(low) <= 0 < approach(high): bisection kept
+ * safe, Newton where it stays inside. */
 static double rising_root(const struct motion *motion, const struct scene *scene, size_t contact,
                           double low, double high)
 {
@@ -56,8 +56,8 @@ static double rising_root(const struct motion *motion, const struct scene *scene
 }
 
 /* Instant of the peak in [low, high]: the rate falls through zero. */
-static double peak(const struct motion *motion, const struct scene *scene, size_t contact, double low,
-                   double high)
+static double peak(const struct motion *motion, const struct scene *scene, size_t contact,
+                   double low, double high)
 {
     for (int i = 0; i < 60 && high - low > 1e-15 * fabs(high); i++) {
         double t = 0.5 * (low + high);
@@ -101,23 +101,34 @@ bool flight_root_touch(const struct motion *motion, const struct scene *scene, s
     return true;
 }
 
+/* The nearer root behind us of the rigid approach d + rate t - a t^2/2. */
+static double rigid_root_back(double d, double rate, double a)
+{
+    double discriminant = rate * rate + 2.0 * a * d;
+    if (!(rate > 0.0) || discriminant < 0.0)
+        return -INFINITY;
+    return -2.0 * d / (rate + sqrt(discriminant));
+}
+
+static bool is_still(const struct motion *motion, const struct scene *scene, size_t contact)
+{
+    for (size_t g = 0; g < scene->groups; g++)
+        for (size_t k = 0; scene->group[g].participation[contact] && k < scene->group[g].count; k++)
+            if (motion->q[g][k] != 0.0 || motion->v[g][k] != 0.0)
+                return false;
+    return true;
+}
+
 double flight_root_back(const struct motion *motion, const struct scene *scene, size_t contact,
                         double longest)
 {
-    double highest = scene_highest_frequency(scene);
-    double step = highest > 0.0 ? fmin(longest, 0.5 / highest) : longest;
     double d;
     double rate;
     motion_approach(motion, scene, contact, &d, &rate);
-    if (highest == 0.0 && rate > 0.0) {
-        /* rigid: the nearer root of d + rate t - a t^2/2 = 0 behind us */
-        double a = scene->gap_acceleration[contact];
-        double discriminant = rate * rate + 2.0 * a * d;
-        if (discriminant < 0.0)
-            return -INFINITY;
-        double t = -2.0 * d / (rate + sqrt(discriminant));
-        return -t <= longest ? t : -INFINITY;
-    }
+    if (is_still(motion, scene, contact))
+        return rigid_root_back(d, rate, scene->gap_acceleration[contact]);
+    /* steps that follow the fastest mode, but never more than a million */
+    double step = fmax(0.5 / scene_highest_frequency(scene), 1e-6 * longest);
     for (double t = step; t <= longest; t += step) {
         motion_approach_at(motion, scene, contact, -t, &d, &rate);
         if (d <= 0.0)

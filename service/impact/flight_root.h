@@ -8,19 +8,20 @@
 #include "impact/motion.h"
 
 /* Where excess + rate t + acceleration t^2/2 >= 0 while it opens, t >= 0: from *first until *last.
- * Without a pressing acceleration *last is INFINITY and a closing rate never counts; *first INFINITY:
- * never. */
+ * Without a pressing acceleration *last is INFINITY and a closing rate never counts; *first
+ * INFINITY: never. */
 void flight_root_exceeds(double excess, double rate, double acceleration, double *first,
                          double *last);
 
 /* First touch (approach rising through zero) of a contact in [from, to] on the free motion from
- * `motion`; the interval is so short that the approach has at most one peak in it. Tells a graze from
- * a miss by the exact peak. False: none. */
+ * `motion`; the interval is so short that the approach has at most one peak in it. Tells a graze
+ * from a miss by the exact peak. False: none. */
 bool flight_root_touch(const struct motion *motion, const struct scene *scene, size_t contact,
                        double from, double to, double *time);
 
-/* The latest touch before the stated instant: the contact overlaps now. Negative time; -INFINITY: none
- * within `longest` s (or the bodies were always apart less than that). */
+/* The latest touch before the stated instant, for a contact that overlaps now: negative time;
+ * -INFINITY: none. Bodies at rest but for their rigid motion: any time ago; vibrating ones: within
+ * `longest` s. */
 double flight_root_back(const struct motion *motion, const struct scene *scene, size_t contact,
                         double longest);
 

@@ -13,8 +13,7 @@ bool impact_create(struct impact_outcome *outcome, const struct scene *scene, st
     memset(outcome, 0, sizeof *outcome);
     outcome->tracks = arena_take(arena, scene->contacts, sizeof *outcome->tracks);
     outcome->vibration = arena_take(arena, scene->bodies, sizeof *outcome->vibration);
-    if (!outcome->tracks || !outcome->vibration ||
-        !motion_create(&outcome->motion, scene, arena))
+    if (!outcome->tracks || !outcome->vibration || !motion_create(&outcome->motion, scene, arena))
         return false;
     for (size_t c = 0; c < scene->contacts; c++)
         if (!track_create(&outcome->tracks[c], arena))
@@ -22,10 +21,10 @@ bool impact_create(struct impact_outcome *outcome, const struct scene *scene, st
     return true;
 }
 
-void impact_find_start(const struct scene *scene, double longest, struct motion *motion,
+bool impact_find_start(const struct scene *scene, double longest, struct motion *motion,
                        double *time_shift)
 {
-    double shift = 0.0;
+    *time_shift = 0.0;
     for (size_t c = 0; c < scene->contacts; c++) {
         double d;
         double rate;
@@ -33,32 +32,65 @@ void impact_find_start(const struct scene *scene, double longest, struct motion 
         if (d <= 0.0)
             continue;
         double back = flight_root_back(motion, scene, c, longest);
-        if (isfinite(back))
-            shift = fmin(shift, back);
+        if (!isfinite(back))
+            return false;
+        *time_shift = fmin(*time_shift, back);
     }
-    if (shift < 0.0)
-        motion_advance(motion, scene, shift);
-    *time_shift = shift;
+    if (*time_shift < 0.0)
+        motion_rewind(motion, scene, -*time_shift);
+    return true;
 }
 
-struct impact_scale impact_scale_of(const struct scene *scene, size_t contact, double rate)
+unsigned long impact_max_steps(const struct scene *scene, const struct impact_settings *settings)
 {
-    const struct contact_law *law = &scene->laws[contact];
-    double speed = fmax(fabs(rate), 1e-150);
-    double energy = 0.5 * speed * speed / scene->w[contact * scene->contacts + contact];
-    /* stored(d) = energy by bisection in log d: the stored energy of any law rises with d */
+    size_t modes = 0;
+    for (size_t g = 0; g < scene->groups; g++)
+        modes += scene->group[g].count;
+    return (unsigned long)(settings->max_work / (double)(modes + 16));
+}
+
+/* Inverse mass that a contact feels within `duration`: rigid, and every mode that is slower than
+ * it. On a long rod that is the wave impedance times the duration, far less than the rod's mass. */
+static double felt_inverse_mass(const struct scene *scene, size_t contact, double duration)
+{
+    double sum = scene->w[contact * scene->contacts + contact];
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        const double *phi = group->participation[contact];
+        for (size_t k = 0; phi && k < group->count && group->set->omega[k] * duration < 1.0; k++)
+            sum += phi[k] * phi[k];
+    }
+    return sum;
+}
+
+/* Indentation at which a law stores an energy, by bisection of its logarithm: any law's stored
+ * energy rises with the indentation. */
+static double indentation_of_energy(const struct contact_law *law, double energy)
+{
     double low = -700.0;
     double high = 50.0;
-    for (int i = 0; i < 50; i++) {
+    for (int i = 0; i < 40; i++) {
         double middle = 0.5 * (low + high);
         if (law->operations->stored(law, NULL, exp(middle)) < energy)
             low = middle;
         else
             high = middle;
     }
-    struct impact_scale scale = {.indentation = exp(high)};
+    return exp(high);
+}
+
+struct impact_scale impact_scale_of(const struct scene *scene, size_t contact, double rate)
+{
+    const struct contact_law *law = &scene->laws[contact];
+    double speed = fmax(fabs(rate), 1e-150);
+    struct impact_scale scale = {.duration = INFINITY};
+    /* the felt mass depends on the duration and the other way round: three rounds settle it */
+    for (int round = 0; round < 3; round++) {
+        double energy = 0.5 * speed * speed / felt_inverse_mass(scene, contact, scale.duration);
+        scale.indentation = indentation_of_energy(law, energy);
+        scale.duration = scale.indentation / speed;
+    }
     double stiffness;
-    scale.duration = scale.indentation / speed;
     scale.force = contact_law_force(law, NULL, scale.indentation, &stiffness);
     return scale;
 }

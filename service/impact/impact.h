@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The fast time scale of one impact: contact phases and flights until vibration can cause no further
- * contact. */
+/* The fast time scale of one impact: contact phases and flights until vibration can cause no
+ * further contact. */
 #ifndef PERCUSS_IMPACT_IMPACT_H
 #define PERCUSS_IMPACT_IMPACT_H
 
@@ -11,21 +11,22 @@
 #include "impact/track.h"
 
 struct impact_settings {
-    double accuracy;          /* relative error of an impulse that the time steps may cause */
-    double horizon;           /* s from the stated instant */
-    unsigned long max_steps;  /* contact steps and flight intervals, together */
+    double accuracy; /* relative error of an impulse that the time steps may cause */
+    double horizon;  /* s from the stated instant */
+    double max_work; /* contact steps and flight intervals, times modes + 16 */
 };
 
 /* Everything here lives in the arena given to impact_create. */
 struct impact_outcome {
     enum percuss_end_reason end_reason;
-    double window;           /* s: the end of the fast scale */
-    double time_shift;       /* the touch before (< 0) or after the stated instant, s */
-    struct track *tracks;    /* [contact] */
+    double window;          /* s: the end of the fast scale */
+    bool always_overlapped; /* no touch behind an overlap: nothing was solved */
+    double time_shift;      /* the touch before (< 0) or after the stated instant, s */
+    struct track *tracks;   /* [contact] */
     struct impact_energy energy;
-    double *vibration;       /* [body], J, at the end */
-    struct motion motion;    /* at the end */
-    unsigned long steps;     /* contact steps accepted */
+    double *vibration;    /* [body], J, at the end */
+    struct motion motion; /* at the end */
+    unsigned long steps;  /* contact steps accepted */
     unsigned long rejected;
     unsigned long intervals; /* of flights */
 };
@@ -33,21 +34,33 @@ struct impact_outcome {
 /* Memory for outcomes of a scene (and of scenes with fewer oscillators). */
 bool impact_create(struct impact_outcome *outcome, const struct scene *scene, struct arena *arena);
 
-/* Solves by exact modal propagation. `arena` holds scratch memory until its next reset. PERCUSS_OK, or
- * PERCUSS_INTERNAL when memory runs out. */
+/* Solves by exact modal propagation. `arena` holds scratch memory until its next reset. PERCUSS_OK,
+ * or PERCUSS_INTERNAL when memory runs out. */
 enum percuss_status impact_modal(const struct scene *scene, const struct impact_settings *settings,
                                  struct arena *arena, struct impact_outcome *outcome);
+
+/* Whether a scene is one elastic contact without modes, acceleration and residual flexibility. */
+bool impact_is_rigid_pair(const struct scene *scene);
+
+/* Solves such a scene in closed form (by impact_modal if the horizon cuts it). */
+enum percuss_status impact_rigid_pair(const struct scene *scene,
+                                      const struct impact_settings *settings, struct arena *arena,
+                                      struct impact_outcome *outcome);
 
 /* The same by CVODE with root finding: the independent reference. */
 enum percuss_status impact_cvode(const struct scene *scene, const struct impact_settings *settings,
                                  struct arena *arena, struct impact_outcome *outcome);
 
-/* Brings the state to the touch when the bodies overlap at the stated instant: sets time_shift. */
-void impact_find_start(const struct scene *scene, double longest, struct motion *motion,
+/* Brings the state to the touch when the bodies overlap at the stated instant: sets time_shift.
+ * False: there was no touch before. */
+bool impact_find_start(const struct scene *scene, double longest, struct motion *motion,
                        double *time_shift);
 
-/* Duration, indentation and force of an elastic collision of the contact alone as rigid bodies at an
- * approach rate: the scales of a contact. */
+/* How many steps and intervals the work allowed is on a scene. */
+unsigned long impact_max_steps(const struct scene *scene, const struct impact_settings *settings);
+
+/* Scales of a contact that begins at an approach rate: those of an elastic collision of the masses
+ * that it feels meanwhile. */
 struct impact_scale {
     double duration; /* indentation / rate, s */
     double indentation;

@@ -5,9 +5,9 @@
 
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 
-/* The same code for the baseline and for AVX2, chosen when the program starts; contraction is off, so
- * both give the same bits. Sanitizers cannot run the resolver. */
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&        \
+/* The same code for the baseline and for AVX2, chosen when the program starts; contraction is off,
+ * so both give the same bits. Sanitizers cannot run the resolver. */
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&      \
     !defined(PERCUSS_ONE_KERNEL)
 #define KERNEL __attribute__((target_clones("avx2", "default")))
 #else

@@ -55,7 +55,13 @@ void motion_copy(struct motion *to, const struct motion *from, const struct scen
     }
 }
 
-void motion_advance(struct motion *motion, const struct scene *scene, double time)
+/* Damping counts forward only, see motion_rewind. */
+static double damping_towards(const struct scene_group *group, double time)
+{
+    return time < 0.0 ? 0.0 : group->set->damping;
+}
+
+static void move(struct motion *motion, const struct scene *scene, double time)
 {
     motion->time += time;
     for (size_t c = 0; c < scene->contacts; c++) {
@@ -65,11 +71,22 @@ void motion_advance(struct motion *motion, const struct scene *scene, double tim
     }
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
+        double damping = damping_towards(group, time);
         for (size_t k = 0; k < group->count; k++)
             if (motion->q[g][k] != 0.0 || motion->v[g][k] != 0.0)
-                oscillator_advance(group->set->omega[k], group->set->damping, time,
-                                   &motion->q[g][k], &motion->v[g][k]);
+                oscillator_advance(group->set->omega[k], damping, time, &motion->q[g][k],
+                                   &motion->v[g][k]);
     }
+}
+
+void motion_advance(struct motion *motion, const struct scene *scene, double time)
+{
+    move(motion, scene, time);
+}
+
+void motion_rewind(struct motion *motion, const struct scene *scene, double time)
+{
+    move(motion, scene, -time);
 }
 
 void motion_approach(const struct motion *motion, const struct scene *scene, size_t contact,
@@ -101,7 +118,7 @@ void motion_approach_at(const struct motion *motion, const struct scene *scene, 
             double v = motion->v[g][k];
             if (phi[k] == 0.0 || (q == 0.0 && v == 0.0))
                 continue;
-            oscillator_advance(group->set->omega[k], group->set->damping, time, &q, &v);
+            oscillator_advance(group->set->omega[k], damping_towards(group, time), time, &q, &v);
             d += phi[k] * q;
             d_rate += phi[k] * v;
         }

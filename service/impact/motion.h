@@ -11,10 +11,10 @@
 #include "impact/scene.h"
 
 struct motion {
-    double time;      /* s from the stated instant */
-    double *gap;      /* [contact], rigid */
+    double time; /* s from the stated instant */
+    double *gap; /* [contact], rigid */
     double *gap_rate;
-    double **q, **v;  /* [group][stride] */
+    double **q, **v; /* [group][stride] */
 };
 
 /* Memory for a state from the arena. False: out of memory. */
@@ -25,21 +25,26 @@ void motion_start(struct motion *motion, const struct scene *scene);
 
 void motion_copy(struct motion *to, const struct motion *from, const struct scene *scene);
 
-/* Free motion over `time` (may be negative). */
+/* Free motion over `time` >= 0. */
 void motion_advance(struct motion *motion, const struct scene *scene, double time);
+
+/* Free motion back over `time` >= 0, as if nothing were damped: damping run backward would blow the
+ * rounding of fast modes up without bound. The vibration's energy stays what it is. */
+void motion_rewind(struct motion *motion, const struct scene *scene, double time);
 
 /* d and its rate at one contact. */
 void motion_approach(const struct motion *motion, const struct scene *scene, size_t contact,
                      double *approach, double *rate);
 
-/* The same after a free motion over `time` without touching the state. */
+/* The same after a free motion over `time`, or a rewind where it is negative, without touching the
+ * state. */
 void motion_approach_at(const struct motion *motion, const struct scene *scene, size_t contact,
                         double time, double *approach, double *rate);
 
 /* Vibration energy of one body, J. */
 double motion_vibration(const struct motion *motion, const struct scene *scene, size_t body);
 
-/* Energy that damping takes during a free motion over `time`, J. */
+/* Energy that damping takes during a free motion over `time` >= 0, J. */
 double motion_free_loss(const struct motion *motion, const struct scene *scene, double time);
 
 #endif

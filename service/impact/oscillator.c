@@ -45,8 +45,8 @@ double oscillator_free_loss(double omega, double damping, double time, double q,
     double twice = 2.0 * creal(lambda);
     double steady = expm1(twice * time) / twice;
     double complex swinging = (cexp(2.0 * lambda * time) - 1.0) / (2.0 * lambda);
-    double square = creal(amplitude * conj(amplitude)) * steady +
-                    creal(amplitude * amplitude * swinging);
+    double square =
+        creal(amplitude * conj(amplitude)) * steady + creal(amplitude * amplitude * swinging);
     return damping * omega * square;
 }
 

@@ -21,8 +21,8 @@ double oscillator_free_loss(double omega, double damping, double time, double q,
 /* moments[m] = int_0^c exp(z (c - s)) s^m ds for m < NODES. */
 void oscillator_moments(double complex z, double c, double complex moments[NODES]);
 
-/* Linear map of (q, v, f_1..f_4) to q and v at the time c h into a step of length h: columns in that
- * order. */
+/* Linear map of (q, v, f_1..f_4) to q and v at the time c h into a step of length h: columns in
+ * that order. */
 void oscillator_map(double omega, double damping, double h, double c, double to_q[NODES + 2],
                     double to_v[NODES + 2]);
 

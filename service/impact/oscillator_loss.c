@@ -58,8 +58,8 @@ static double product_integral(const struct velocity *a, const struct velocity *
                                double complex swinging, double steady,
                                const double complex moment[NODES])
 {
-    double sum = 0.5 * creal(a->wave * b->wave * swinging) +
-                 0.5 * creal(a->wave * conj(b->wave)) * steady;
+    double sum =
+        0.5 * creal(a->wave * b->wave * swinging) + 0.5 * creal(a->wave * conj(b->wave)) * steady;
     for (int m = 0; m < NODES; m++) {
         sum += creal(a->wave * moment[m]) * b->slope[m] + creal(b->wave * moment[m]) * a->slope[m];
         for (int n = 0; n < NODES; n++)

@@ -21,11 +21,11 @@ enum { SCENE_MAX_GROUPS = 6 * PERCUSS_MAX_BODIES };
 
 /* Oscillators of one body. Arrays are padded with zeros to `stride` and 32-byte aligned. */
 struct scene_group {
-    struct oscillators *set;  /* borrowed; at least `count` oscillators */
-    size_t count, stride;     /* the first `count` take part */
-    size_t body;              /* index, for the energy's split */
+    struct oscillators *set;      /* borrowed; at least `count` oscillators */
+    size_t count, stride;         /* the first `count` take part */
+    size_t body;                  /* index, for the energy's split */
     const double **participation; /* [contact]: stride numbers, or NULL where all are zero */
-    const double *q, *v;      /* stride numbers at the stated instant; NULL: at rest */
+    const double *q, *v;          /* stride numbers at the stated instant; NULL: at rest */
 };
 
 struct scene {

@@ -62,11 +62,11 @@ static struct step_table *table_allocate(size_t stride, bool damped)
     memset(block, 0, bytes);
     struct step_table *table = (struct step_table *)block;
     double *next = (double *)(block + header);
-    double **first[] = {table->node_q,  table->node_v,  &table->end_qq, &table->end_qv,
-                        &table->end_vq, &table->end_vv, table->force_q, table->force_v,
+    double **first[] = {table->node_q,          table->node_v,  &table->end_qq, &table->end_qv,
+                        &table->end_vq,         &table->end_vv, table->force_q, table->force_v,
                         &table->response[0][0], table->loss};
-    size_t lengths[] = {NODES, NODES, 1, 1, 1, 1, NODES, NODES, NODES * NODES,
-                        damped ? LOSS_TERMS : 0};
+    size_t lengths[] = {
+        NODES, NODES, 1, 1, 1, 1, NODES, NODES, NODES * NODES, damped ? LOSS_TERMS : 0};
     for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
         for (size_t j = 0; j < lengths[i]; j++, next += stride)
             first[i][j] = next;

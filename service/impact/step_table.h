@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Exact propagation of damped oscillators over a step on which the force is a cubic polynomial. The
- * coefficients depend on the frequency, the damping and the step only, so they are computed once per
- * step of a ladder h = 2^-level seconds and kept. */
+ * coefficients depend on the frequency, the damping and the step only, so they are computed once
+ * per step of a ladder h = 2^-level seconds and kept. */
 #ifndef PERCUSS_IMPACT_STEP_TABLE_H
 #define PERCUSS_IMPACT_STEP_TABLE_H
 
@@ -14,21 +14,22 @@
 
 enum { STEP_LEVELS = 72, LOSS_TERMS = (NODES + 2) * (NODES + 3) / 2 };
 
-/* Arrays over the modes, padded to a multiple of LANES with zeros. q'' + 2 zeta omega q' + omega^2 q = f. */
+/* Arrays over the modes, padded to a multiple of LANES with zeros. q'' + 2 zeta omega q' + omega^2
+ * q = f. */
 struct step_table {
-    double *node_q[NODES], *node_v[NODES];       /* q at node i = node_q q + node_v v + ... */
-    double *end_qq, *end_qv, *end_vq, *end_vv;   /* without force */
-    double *force_q[NODES], *force_v[NODES];     /* on q, v at the end by the force at node j */
-    double *response[NODES][NODES];              /* on q at node i by the force at node j */
-    double *loss[LOSS_TERMS];                    /* 2 zeta omega int v^2 dt as a quadratic form of
-                                                    (q, v, f_1..f_4), lower triangle; damped only */
+    double *node_q[NODES], *node_v[NODES];     /* q at node i = node_q q + node_v v + ... */
+    double *end_qq, *end_qv, *end_vq, *end_vv; /* without force */
+    double *force_q[NODES], *force_v[NODES];   /* on q, v at the end by the force at node j */
+    double *response[NODES][NODES];            /* on q at node i by the force at node j */
+    double *loss[LOSS_TERMS];                  /* 2 zeta omega int v^2 dt as a quadratic form of
+                                                  (q, v, f_1..f_4), lower triangle; damped only */
 };
 
 /* A set of oscillators with a common damping ratio and its tables. */
 struct oscillators {
     size_t count, stride; /* stride: count rounded up to lanes */
     double damping;
-    double *omega;        /* ascending, rad/s; 0 beyond count */
+    double *omega;                          /* ascending, rad/s; 0 beyond count */
     struct step_table *tables[STEP_LEVELS]; /* filled on first use */
 };
 

@@ -25,7 +25,8 @@ void track_open(struct track *track, double time, double gap_rate)
         .start = time, .compression_end = time, .end = time, .gap_rate_before = gap_rate};
 }
 
-/* Where the cubic through the nodes is largest inside the step, in the step's time; < 0: at an end. */
+/* Where the cubic through the nodes is largest inside the step, in the step's time; < 0: at an end.
+ */
 static double interior_peak(const double values[NODES])
 {
     double c[NODES] = {0};

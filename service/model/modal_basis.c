@@ -38,8 +38,9 @@ struct beam_plane modal_beam_plane(const struct body *body, enum mode_family fam
     int plane = family == FAMILY_BENDING_Z;
     const struct material *material = &body->material;
     bool timoshenko = body->theory == THEORY_TIMOSHENKO;
-    double shear = timoshenko ? body->shear_factor[plane] * material_shear_modulus(material) * body->area
-                              : INFINITY;
+    double shear = timoshenko
+                       ? body->shear_factor[plane] * material_shear_modulus(material) * body->area
+                       : INFINITY;
     return (struct beam_plane){
         .length = body->length,
         .bending_stiffness = material->young * body->second_moment[plane],
@@ -63,8 +64,8 @@ static double axial_wave_number(const struct body *body, size_t k)
     return half_waves * M_PI / body->length;
 }
 
-/* Lateral inertia: kinetic energy grows by this share, (nu r_p k)^2 with the polar radius of gyration
- * (Love; Graff, Wave Motion in Elastic Solids, section 2.5.3). */
+/* Lateral inertia: kinetic energy grows by this share, (nu r_p k)^2 with the polar radius of
+ * gyration (Love; Graff, Wave Motion in Elastic Solids, section 2.5.3). */
 static double lateral_share(const struct body *body, double wave_number)
 {
     if (!body->lateral_inertia)
@@ -78,7 +79,8 @@ static void axial_modes(const struct body *body, struct modal_family *modes)
     double speed = sqrt(body->material.young / body->material.density);
     for (size_t k = 0; k < modes->count; k++) {
         double wave_number = axial_wave_number(body, k);
-        modes->omega[k] = wave_number * speed / sqrt(1.0 + lateral_share(body, wave_number));
+        modes->rank[k] = wave_number * speed;
+        modes->omega[k] = modes->rank[k] / sqrt(1.0 + lateral_share(body, wave_number));
     }
 }
 
@@ -88,7 +90,7 @@ static void bending_modes(const struct body *body, struct modal_family *modes)
     beam_modes(&plane, modes->count, modes->beam);
     bool alike = plane.supports[0] == plane.supports[1];
     for (size_t k = 0; k < modes->count; k++) {
-        modes->omega[k] = modes->beam[k].omega;
+        modes->omega[k] = modes->rank[k] = modes->beam[k].omega;
         modes->odd[k] = alike && modes->beam[k].even[0] == 0.0 && modes->beam[k].even[1] == 0.0;
     }
 }
@@ -102,10 +104,11 @@ struct modal_family *modal_family_create(const struct body *body, enum mode_fami
     modes->family = family;
     modes->count = count;
     modes->omega = calloc(count + 1, sizeof *modes->omega);
+    modes->rank = calloc(count + 1, sizeof *modes->rank);
     modes->odd = calloc(count + 1, sizeof *modes->odd);
     if (family != FAMILY_AXIAL)
         modes->beam = calloc(count + 1, sizeof *modes->beam);
-    if (!modes->omega || !modes->odd || (family != FAMILY_AXIAL && !modes->beam)) {
+    if (!modes->omega || !modes->rank || !modes->odd || (family != FAMILY_AXIAL && !modes->beam)) {
         modal_family_free(modes);
         return NULL;
     }
@@ -121,6 +124,7 @@ void modal_family_free(struct modal_family *modes)
     if (!modes)
         return;
     free(modes->omega);
+    free(modes->rank);
     free(modes->odd);
     free(modes->beam);
     free(modes);
@@ -151,8 +155,8 @@ double modal_participation(const struct body *body, const struct modal_family *m
     return bending->force * w + bending->moment * psi;
 }
 
-/* Free-free: L/(3EA) at the same end, -L/(6EA) across, both with inertia relief (u along x); one end
- * held: L/(EA). */
+/* Free-free: L/(3EA) at the same end, -L/(6EA) across, both with inertia relief (u along x); one
+ * end held: L/(EA). */
 static double axial_compliance(const struct body *body, const struct site_load *i,
                                const struct site_load *j)
 {

@@ -18,8 +18,8 @@ enum mode_family { FAMILY_AXIAL, FAMILY_BENDING_Y, FAMILY_BENDING_Z, FAMILY_COUN
 /* What one newton at a contact does to the families of a body. */
 struct site_load {
     bool acts[FAMILY_COUNT];
-    double axial;              /* force along x, at the end `end` */
-    int end;                   /* 0: x = -length/2, 1: +length/2 */
+    double axial;                /* force along x, at the end `end` */
+    int end;                     /* 0: x = -length/2, 1: +length/2 */
     struct beam_load bending[2]; /* along y, along z */
 };
 
@@ -33,8 +33,10 @@ struct site_load site_load_make(const struct body *body, const struct site *site
 struct modal_family {
     enum mode_family family;
     size_t count;
-    double *omega;          /* [count], ascending */
-    unsigned char *odd;     /* [count]: shape odd about the middle; all 0 unless supports are alike */
+    double *omega; /* [count], ascending */
+    double *rank;  /* [count], rad/s: what a cut-off compares; omega, but for Rayleigh-Love, whose
+                      infinitely many modes stay below a limit, that without lateral inertia */
+    unsigned char *odd; /* [count]: shape odd about the middle; all 0 unless supports are alike */
     struct beam_mode *beam; /* [count]; NULL for the longitudinal family */
 };
 
@@ -48,8 +50,8 @@ void modal_family_free(struct modal_family *modes);
 double modal_participation(const struct body *body, const struct modal_family *modes, size_t k,
                            const struct site_load *load);
 
-/* Exact static compliance between two loads within one family, m/N (inertia relief where the body is
- * free): the sum of participation_i participation_j / omega^2 over all modes. */
+/* Exact static compliance between two loads within one family, m/N (inertia relief where the body
+ * is free): the sum of participation_i participation_j / omega^2 over all modes. */
 double modal_compliance(const struct body *body, enum mode_family family, const struct site_load *i,
                         const struct site_load *j);
 

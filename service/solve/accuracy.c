@@ -12,7 +12,11 @@ static const double CUT_RATIO = 1.6;
  * -2.8): what remains above the cut is at most this share of the difference between two levels,
  * 1/(1.6^2 - 1) = 0.64. */
 static const double REMAINDER = 0.64;
-enum { MAX_RAISES = 6, MAX_TIGHTENINGS = 3, MAX_SCENE_MODES = 1200, MAX_STEPS = 2000000 };
+enum { MAX_RAISES = 6, MAX_TIGHTENINGS = 3, MAX_SCENE_MODES = 1200 };
+/* One solution: steps times modes. About a tenth of a second by the modal method. */
+static const double MAX_WORK = 2e7;
+/* CVODE's steps are cheaper and many more. */
+static const double MAX_WORK_CVODE = 2e9;
 
 /* One solution and what it was made with. */
 struct attempt {
@@ -48,8 +52,8 @@ static double contact_duration(const struct search *search, const struct scene *
     return 2.94 * shortest;
 }
 
-/* Cut-off at which a rod's error is about a third of the tolerance: measured on the paper's rod, 8e-5
- * at omega T = 31 and 1.2e-5 at 62, so error = 8e-5 (31/(omega T))^2.8. */
+/* Cut-off at which a rod's error is about a third of the tolerance: measured on the paper's rod,
+ * 8e-5 at omega T = 31 and 1.2e-5 at 62, so error = 8e-5 (31/(omega T))^2.8. */
 static double single_cut(const struct search *search, double duration)
 {
     double angle = 31.0 * pow(8e-5 / (search->tolerance / 3.0), 1.0 / 2.8);
@@ -63,8 +67,8 @@ static double sequence_cut(const struct search *search, double duration)
     return 45.0 * fmax(1.0, cbrt(2e-4 / (search->tolerance / 3.0))) / duration;
 }
 
-/* Relative accuracy of the time steps for a tolerance: the audit must close to 1e-9 where the tolerance
- * is 1e-8 or less. */
+/* Relative accuracy of the time steps for a tolerance: the audit must close to 1e-9 where the
+ * tolerance is 1e-8 or less. */
 static double first_accuracy(double tolerance)
 {
     return fmax(tolerance <= 1e-8 ? 1e-3 * tolerance : 0.1 * tolerance, 1e-14);
@@ -81,7 +85,8 @@ static enum percuss_status run(const struct search *search, struct attempt *atte
     struct impact_settings settings = {
         .accuracy = attempt->accuracy,
         .horizon = search->request->options.horizon,
-        .max_steps = MAX_STEPS,
+        .max_work =
+            search->request->options.method == PERCUSS_METHOD_CVODE ? MAX_WORK_CVODE : MAX_WORK,
     };
     if (settings.horizon == 0.0)
         settings.horizon = default_horizon(scene);
@@ -89,7 +94,24 @@ static enum percuss_status run(const struct search *search, struct attempt *atte
         return PERCUSS_INTERNAL;
     if (search->request->options.method == PERCUSS_METHOD_CVODE)
         return impact_cvode(scene, &settings, search->arena, &attempt->outcome);
+    if (impact_is_rigid_pair(scene))
+        return impact_rigid_pair(scene, &settings, search->arena, &attempt->outcome);
     return impact_modal(scene, &settings, search->arena, &attempt->outcome);
+}
+
+/* No touch lies behind an overlap: the request contradicts itself. */
+static enum percuss_status refuse_overlap(const struct search *search, struct fault *fault)
+{
+    size_t deepest = 0;
+    for (size_t c = 1; c < search->geometry->contact_count; c++)
+        if (search->request->contacts[c].gap < search->request->contacts[deepest].gap)
+            deepest = c;
+    const struct solve_contact *contact = &search->request->contacts[deepest];
+    return fault_set(
+        fault, PERCUSS_BAD_REQUEST,
+        "contacts[%zu].gap: %g m: the bodies overlap, and at the stated gap rate (%g m/s), "
+        "acceleration and vibration they never touched before",
+        deepest, contact->gap, search->geometry->gap_rate[deepest]);
 }
 
 static enum percuss_status attempt_solve(const struct search *search, struct attempt *attempt)
@@ -102,8 +124,8 @@ static enum percuss_status attempt_solve(const struct search *search, struct att
 }
 
 /* Largest difference between two solutions over the contacts. */
-static void difference(const struct search *search, const struct attempt *a, const struct attempt *b,
-                       double *restitution, double *impulse)
+static void difference(const struct search *search, const struct attempt *a,
+                       const struct attempt *b, double *restitution, double *impulse)
 {
     *restitution = 0.0;
     *impulse = 0.0;
@@ -170,8 +192,8 @@ static enum percuss_status shifted_run(const struct search *search, const struct
     return status;
 }
 
-/* A sequence amplifies errors, and not evenly: a shift of the speed as large as the first sub-impact's
- * error shows by how much here. */
+/* A sequence amplifies errors, and not evenly: a shift of the speed as large as the first
+ * sub-impact's error shows by how much here. */
 static enum percuss_status amplified_error(const struct search *search, const struct attempt *best,
                                            double relative, double *restitution, double *impulse)
 {
@@ -197,7 +219,8 @@ static enum percuss_status estimate_modes(const struct search *search, const str
     accuracy->restitution_modes *= REMAINDER;
     accuracy->impulse_modes *= REMAINDER;
     double first = REMAINDER * first_difference(search, best, coarse);
-    if (!is_sequence(search, best) || first == 0.0)
+    bool spent = best->outcome.end_reason == PERCUSS_END_LIMIT;
+    if (!is_sequence(search, best) || first == 0.0 || spent)
         return PERCUSS_OK;
     return amplified_error(search, best, first, &accuracy->restitution_modes,
                            &accuracy->impulse_modes);
@@ -208,22 +231,33 @@ static enum percuss_status search_modes(const struct search *search, double dura
                                         struct attempt *best, struct accuracy *accuracy)
 {
     struct attempt coarse = *best;
+    accuracy->restitution_modes = 0.0;
     coarse.choice.cut = single_cut(search, duration) / CUT_RATIO;
     coarse.choice.fixed_share = 1.0 / CUT_RATIO;
     enum percuss_status status = attempt_solve(search, &coarse);
+    if (status || coarse.outcome.always_overlapped) {
+        *best = coarse;
+        return status;
+    }
     best->choice.cut = coarse.choice.cut * CUT_RATIO;
-    if (!status && is_sequence(search, &coarse)) {
+    if (is_sequence(search, &coarse)) {
         best->choice.cut = sequence_cut(search, duration);
         coarse.choice.cut = best->choice.cut / CUT_RATIO;
         status = attempt_solve(search, &coarse);
     }
     for (int raise = 0; !status; raise++) {
         status = attempt_solve(search, best);
+        bool capped = !status && best->assembly->capped;
+        if (capped) {
+            /* no more to be had: the estimate needs a solution with fewer */
+            coarse.choice.cut = best->assembly->highest / CUT_RATIO;
+            status = attempt_solve(search, &coarse);
+        }
         if (!status)
             status = estimate_modes(search, &coarse, best, accuracy);
         bool same = !status && coarse.assembly->all_modes == best->assembly->all_modes;
         bool none_left = !status && best->assembly->lowest_omitted == INFINITY;
-        if (status || none_left ||
+        if (status || none_left || capped || best->outcome.end_reason == PERCUSS_END_LIMIT ||
             (!same && accuracy->restitution_modes <= 0.7 * search->tolerance) ||
             raise >= MAX_RAISES || best->assembly->all_modes > MAX_SCENE_MODES)
             break;
@@ -237,6 +271,15 @@ static enum percuss_status search_modes(const struct search *search, double dura
     return status;
 }
 
+/* Energy that stops the approach, J. */
+static double approach_energy(const struct search *search)
+{
+    double sum = 0.0;
+    for (size_t c = 0; c < search->geometry->contact_count; c++)
+        sum += 0.5 * search->geometry->impulse_compression[c] * fabs(search->geometry->gap_rate[c]);
+    return sum;
+}
+
 /* Shorter steps until they matter less than the tolerance and the energy audit closes. */
 static enum percuss_status search_steps(const struct search *search, struct attempt *best,
                                         struct accuracy *accuracy)
@@ -248,9 +291,14 @@ static enum percuss_status search_steps(const struct search *search, struct atte
     for (int i = 0; !status; i++) {
         difference(search, best, &coarse, &accuracy->restitution_time, &accuracy->impulse_time);
         const struct impact_energy *energy = &best->outcome.energy;
-        bool closes = fabs(energy->closure) <= closure_allowed * energy->available;
-        if ((accuracy->restitution_time <= 0.3 * search->tolerance && closes) ||
-            i >= MAX_TIGHTENINGS || best->accuracy <= 1e-14)
+        /* what acceleration takes may leave next to nothing available: compare with the approach
+         * too */
+        accuracy->energy_closes =
+            fabs(energy->closure) <=
+            closure_allowed * fmax(energy->available, approach_energy(search));
+        if ((accuracy->restitution_time <= 0.3 * search->tolerance && accuracy->energy_closes) ||
+            i >= MAX_TIGHTENINGS || best->accuracy < 1.01e-14 ||
+            best->outcome.end_reason == PERCUSS_END_LIMIT)
             break;
         coarse = *best;
         best->accuracy = fmax(best->accuracy / 100.0, 1e-14);
@@ -259,10 +307,10 @@ static enum percuss_status search_steps(const struct search *search, struct atte
     return status;
 }
 
-/* d(restitution)/d(speed) of the contact with the largest impulse, by central difference with all gap
- * rates scaled. */
-static enum percuss_status find_conditioning(const struct search *search, const struct attempt *best,
-                                             struct accuracy *accuracy)
+/* d(restitution)/d(speed) of the contact with the largest impulse, by central difference with all
+ * gap rates scaled. */
+static enum percuss_status find_conditioning(const struct search *search,
+                                             const struct attempt *best, struct accuracy *accuracy)
 {
     const double step = 1e-5;
     size_t n = search->geometry->contact_count;
@@ -303,6 +351,8 @@ enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geome
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     double duration = contact_duration(&search, &rigid->scene);
     enum percuss_status status = search_modes(&search, duration, &best, accuracy);
+    if (!status && best.outcome.always_overlapped)
+        return refuse_overlap(&search, fault);
     if (!status)
         status = search_steps(&search, &best, accuracy);
     if (!status && request->options.conditioning)
@@ -312,6 +362,7 @@ enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geome
     accuracy->assembly = best.assembly;
     accuracy->outcome = best.outcome;
     accuracy->tolerance_met =
+        accuracy->energy_closes &&
         accuracy->restitution_time + accuracy->restitution_modes <= search.tolerance;
     return PERCUSS_OK;
 }

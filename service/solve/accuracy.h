@@ -10,11 +10,12 @@
 #include "solve/assemble.h"
 
 struct accuracy {
-    struct assembly *assembly;      /* of the answer */
-    struct impact_outcome outcome;  /* the answer */
+    struct assembly *assembly;     /* of the answer */
+    struct impact_outcome outcome; /* the answer */
     double restitution_time, restitution_modes;
     double impulse_time, impulse_modes;
-    double restitution_by_speed;    /* NAN unless asked for */
+    double restitution_by_speed; /* NAN unless asked for */
+    bool energy_closes;          /* as the tolerance demands */
     bool tolerance_met;
 };
 
@@ -22,8 +23,8 @@ struct accuracy {
 double accuracy_restitution(const struct geometry *geometry, const struct impact_outcome *outcome,
                             size_t contact);
 
-/* Solves until the estimated error fits the tolerance or the effort allowed is spent. `memory` holds
- * everything that is returned. PERCUSS_OK or PERCUSS_INTERNAL. */
+/* Solves until the estimated error fits the tolerance or the effort allowed is spent. `memory`
+ * holds everything that is returned. PERCUSS_OK or PERCUSS_INTERNAL. */
 enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geometry *geometry,
                                    const struct solve_request *request,
                                    struct prepared_cache *cache, struct arena *memory,

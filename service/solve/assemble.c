@@ -8,7 +8,8 @@
 
 #include "impact/oscillator.h"
 
-/* A group whose shapes all vanish at every contact, up to rounding, does not exist for the scene. */
+/* A group whose shapes all vanish at every contact, up to rounding, does not exist for the scene.
+ */
 static const double NODE_SHARE = 1e-9;
 
 /* What one family of one body adds. */
@@ -54,10 +55,11 @@ static size_t count_below(struct prepared_cache *cache, const struct body *body,
         const struct prepared_family *prepared = prepared_family_get(cache, body, family, ask);
         if (!prepared)
             return ASSEMBLE_MAX_MODES + 1;
+        /* never more than asked for, whatever the cache holds already: same request, same answer */
         size_t count = 0;
-        while (count < prepared->modes->count && prepared->modes->omega[count] <= cut)
+        while (count < ask && prepared->modes->rank[count] <= cut)
             count++;
-        if (count < prepared->modes->count || ask == ASSEMBLE_MAX_MODES)
+        if (count < ask || ask == ASSEMBLE_MAX_MODES)
             return count;
     }
 }
@@ -180,7 +182,7 @@ static bool add_family(const struct addition *add, double *residual)
     }
     if (body->modes == 0 && add->count < add->prepared->modes->count)
         assembly->lowest_omitted =
-            fmin(assembly->lowest_omitted, add->prepared->modes->omega[add->count]);
+            fmin(assembly->lowest_omitted, add->prepared->modes->rank[add->count]);
     return true;
 }
 
@@ -229,6 +231,7 @@ bool assemble(struct assembly *assembly, const struct geometry *geometry,
     memset(assembly->modes, 0, sizeof assembly->modes);
     assembly->scene = (struct scene){.residual = residual};
     assembly->all_modes = 0;
+    assembly->capped = false;
     assembly->highest = 0.0;
     assembly->lowest_omitted = INFINITY;
     if (!residual || !fill_scene(assembly, geometry, request, arena))
@@ -248,6 +251,7 @@ bool assemble(struct assembly *assembly, const struct geometry *geometry,
             add.count = wanted(cache, body, add.family, add.state, choice);
             if (add.count > ASSEMBLE_MAX_MODES)
                 return false;
+            assembly->capped = assembly->capped || add.count == ASSEMBLE_MAX_MODES;
             add.prepared = prepared_family_get(cache, body, add.family, add.count + 1);
             if (!add.prepared || !add_family(&add, residual))
                 return false;

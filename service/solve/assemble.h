@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* From geometry to the fast scale's scene: which modes take part, and the residual flexibility of those
- * that do not. */
+/* From geometry to the fast scale's scene: which modes take part, and the residual flexibility of
+ * those that do not. */
 #ifndef PERCUSS_SOLVE_ASSEMBLE_H
 #define PERCUSS_SOLVE_ASSEMBLE_H
 
@@ -18,6 +18,7 @@ struct assembly {
     enum mode_family families[SCENE_MAX_GROUPS];
     size_t modes[PERCUSS_MAX_BODIES]; /* taking part, by body */
     size_t all_modes;                 /* taking part, of all bodies */
+    bool capped;                      /* a family has more modes below the cut than are allowed */
     double highest;                   /* of the frequencies that take part, rad/s */
     double lowest_omitted;            /* rad/s; INFINITY: no more modes to be had */
 };
@@ -32,7 +33,8 @@ struct assemble_choice {
     double fixed_share; /* 1, or less for an error estimate */
 };
 
-/* Modes of a given initial state always take part. Arrays come from the arena. False: out of memory. */
+/* Modes of a given initial state always take part. Arrays come from the arena. False: out of
+ * memory. */
 bool assemble(struct assembly *assembly, const struct geometry *geometry,
               const struct solve_request *request, struct prepared_cache *cache,
               const struct assemble_choice *choice, struct arena *arena);

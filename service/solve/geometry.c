@@ -42,8 +42,9 @@ static void point_velocity(const struct solve_body *body, const double point[3],
         velocity[i] = body->velocity[i] + turning[i];
 }
 
-static enum percuss_status place_side(struct geometry *geometry, const struct solve_contact *contact,
-                                      size_t index, int which, double allowed, struct fault *fault)
+static enum percuss_status place_side(struct geometry *geometry,
+                                      const struct solve_contact *contact, size_t index, int which,
+                                      double allowed, struct fault *fault)
 {
     struct contact_side *side = &geometry->sides[index][which];
     side->body = which == 0 ? contact->a : contact->b;
@@ -75,8 +76,8 @@ static enum percuss_status place_contact(struct geometry *geometry,
     double smallest = fmin(body_smallest_radius(a), body_smallest_radius(b));
     if (!isfinite(smallest))
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
-                         "contacts[%zu]: %s on %s: two planes do not touch in a point", index, a->id,
-                         b->id);
+                         "contacts[%zu]: %s on %s: two planes do not touch in a point", index,
+                         a->id, b->id);
     for (int which = 0; which < 2; which++) {
         enum percuss_status status =
             place_side(geometry, contact, index, which, 0.1 * smallest, fault);
@@ -88,17 +89,19 @@ static enum percuss_status place_contact(struct geometry *geometry,
                             &geometry->sides[index][1].site, &geometry->poses[contact->b],
                             contact->normal, curvature);
     if (!(curvature[0] > HERTZ_LINE_RATIO * curvature[1]))
-        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
-                         "contacts[%zu]: %s on %s touch in a %s there (relative curvatures %.3g and "
-                         "%.3g 1/m): only a point contact of two smooth surfaces is supported",
-                         index, a->id, b->id, curvature[1] > 0.0 ? "line" : "face",
-                         2.0 * curvature[0], 2.0 * curvature[1]);
-    geometry->hertz[index] = hertz_contact_make(
-        hertz_effective_modulus(&a->material, &b->material), curvature[0], curvature[1]);
+        return fault_set(
+            fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+            "contacts[%zu]: %s on %s touch in a %s there (relative curvatures %.3g and "
+            "%.3g 1/m): only a point contact of two smooth surfaces is supported",
+            index, a->id, b->id, curvature[1] > 0.0 ? "line" : "face", 2.0 * curvature[0],
+            2.0 * curvature[1]);
+    geometry->hertz[index] = hertz_contact_make(hertz_effective_modulus(&a->material, &b->material),
+                                                curvature[0], curvature[1]);
     return PERCUSS_OK;
 }
 
-static void find_gap_rate(struct geometry *geometry, const struct solve_request *request, size_t index)
+static void find_gap_rate(struct geometry *geometry, const struct solve_request *request,
+                          size_t index)
 {
     const struct solve_contact *contact = &request->contacts[index];
     double a[3];

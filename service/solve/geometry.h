@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A request in the terms of mechanics: bodies found, contacts placed on their surfaces, W, gap rates,
- * contact laws. */
+/* A request in the terms of mechanics: bodies found, contacts placed on their surfaces, W, gap
+ * rates, contact laws. */
 #ifndef PERCUSS_SOLVE_GEOMETRY_H
 #define PERCUSS_SOLVE_GEOMETRY_H
 
@@ -13,9 +13,9 @@
 
 /* One side of a contact. */
 struct contact_side {
-    size_t body;           /* index into the request's bodies */
+    size_t body; /* index into the request's bodies */
     struct site site;
-    double direction[3];   /* of the force on the body per newton, body frame */
+    double direction[3]; /* of the force on the body per newton, body frame */
     struct site_load load;
 };
 

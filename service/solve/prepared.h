@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Prepared bodies: what depends on the body and on the number of modes, but not on the request.
- * A hit and a miss give the same bits: every mode is computed independently of how many there are. */
+ * A hit and a miss give the same bits: every mode is computed independently of how many there are.
+ */
 #ifndef PERCUSS_SOLVE_PREPARED_H
 #define PERCUSS_SOLVE_PREPARED_H
 
@@ -27,12 +28,12 @@ struct prepared_cache;
 struct prepared_cache *prepared_cache_create(void);
 void prepared_cache_free(struct prepared_cache *cache);
 
-/* Begins a solve: forgets what no scene uses any more, and everything unless the cache already belongs
- * to this revision. */
+/* Begins a solve: forgets what no scene uses any more, and everything unless the cache already
+ * belongs to this revision. */
 void prepared_cache_use(struct prepared_cache *cache, const char *revision);
 
-/* At least `count` modes of a family of a body (of the revision in use). The result stays valid until
- * the next prepared_cache_use. NULL: out of memory. */
+/* At least `count` modes of a family of a body (of the revision in use). The result stays valid
+ * until the next prepared_cache_use. NULL: out of memory. */
 const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
                                                   const struct body *body, enum mode_family family,
                                                   size_t count);

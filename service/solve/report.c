@@ -32,8 +32,8 @@ static void fill_contacts(const struct geometry *geometry, const struct solve_re
     for (size_t c = 0; c < n; c++) {
         const struct track *track = &accuracy->outcome.tracks[c];
         struct solve_contact_result *contact = &result->contacts[c];
-        size_t listed = track->count < PERCUSS_MAX_SUB_IMPACTS ? track->count
-                                                                : PERCUSS_MAX_SUB_IMPACTS;
+        size_t listed =
+            track->count < PERCUSS_MAX_SUB_IMPACTS ? track->count : PERCUSS_MAX_SUB_IMPACTS;
         *contact = (struct solve_contact_result){
             .impulse = track->impulse,
             .impulse_compression = geometry->impulse_compression[c],
@@ -118,12 +118,13 @@ static void fill_model(const struct geometry *geometry, const struct solve_reque
     for (size_t c = 0; c < geometry->contact_count; c++) {
         const struct track *track = &accuracy->outcome.tracks[c];
         for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
-            pressure = fmax(pressure,
-                            hertz_peak_pressure(&geometry->hertz[c], track->list[i].peak_force));
+            pressure =
+                fmax(pressure, hertz_peak_pressure(&geometry->hertz[c], track->list[i].peak_force));
     }
     const struct assembly *assembly = accuracy->assembly;
-    int used = snprintf(result->reason, sizeof result->reason,
-                        "elastic Hertz contact (peak pressure %.3g MPa) on a half-space", pressure / 1e6);
+    int used =
+        snprintf(result->reason, sizeof result->reason,
+                 "elastic Hertz contact (peak pressure %.3g MPa) on a half-space", pressure / 1e6);
     if (assembly->all_modes)
         snprintf(result->reason + used, sizeof result->reason - (size_t)used,
                  "; %zu modes up to %.4g Hz, residual flexibility for the others",
@@ -148,11 +149,20 @@ static void fill_errors(const struct accuracy *accuracy, struct solve_result *re
     result->time_shift = accuracy->outcome.time_shift;
     result->window = accuracy->outcome.window;
     if (!result->tolerance_met)
-        report_warn(result,
-                    "error.tolerance_met: false: the estimated error of the restitution is %.2g: "
-                    "the sequence of sub-impacts amplifies small differences (or the effort allowed "
-                    "is spent)",
-                    accuracy->restitution_time + accuracy->restitution_modes);
+        report_warn(
+            result,
+            "error.tolerance_met: false: the estimated error of the restitution is %.2g: "
+            "the sequence of sub-impacts amplifies small differences (or the effort allowed "
+            "is spent)",
+            accuracy->restitution_time + accuracy->restitution_modes);
+}
+
+static bool ever_touches(const struct solve_result *result)
+{
+    for (size_t c = 0; c < result->contact_count; c++)
+        if (result->contacts[c].sub_impact_count)
+            return true;
+    return false;
 }
 
 static void fill_end(const struct accuracy *accuracy, struct solve_result *result)
@@ -160,14 +170,18 @@ static void fill_end(const struct accuracy *accuracy, struct solve_result *resul
     static const char *const why[] = {
         [PERCUSS_END_HORIZON] = "the horizon was reached before vibration could cause no further "
                                 "contact: the restitution is not final",
-        [PERCUSS_END_IN_CONTACT] = "the horizon was reached inside a contact: the restitution is not "
-                                   "final",
+        [PERCUSS_END_IN_CONTACT] =
+            "the horizon was reached inside a contact: the restitution is not "
+            "final",
         [PERCUSS_END_LIMIT] = "the effort allowed was spent: the restitution is not final",
     };
     result->end_reason = accuracy->outcome.end_reason;
     result->complete = result->end_reason == PERCUSS_END_SEPARATED ||
                        result->end_reason == PERCUSS_END_HANDED_BACK;
     result->status = result->complete ? PERCUSS_OK : PERCUSS_TRUNCATED;
+    if (!ever_touches(result))
+        report_warn(result,
+                    "contacts: the bodies do not touch: gap and acceleration keep them apart");
     if (!result->complete)
         fault_set(&result->fault, result->status, "%s", why[result->end_reason]);
 }

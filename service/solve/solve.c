@@ -56,8 +56,8 @@ static enum percuss_status check_counts(const struct solve_request *request, str
         if (contact->a >= request->body_count || contact->b >= request->body_count ||
             contact->a == contact->b)
             return fault_set(fault, PERCUSS_BAD_REQUEST,
-                             "contacts[%zu]: a %u, b %u: must be two different indices below %zu", c,
-                             contact->a, contact->b, request->body_count);
+                             "contacts[%zu]: a %u, b %u: must be two different indices below %zu",
+                             c, contact->a, contact->b, request->body_count);
     }
     return PERCUSS_OK;
 }

@@ -8,8 +8,8 @@
 #include "impact/impact.h"
 #include "solve/assemble.h"
 
-/* The state of a body at the end of the window: modes that took part from the outcome, the others of
- * its initial state moved on freely. NULL: rigid body, or out of memory. In the arena. */
+/* The state of a body at the end of the window: modes that took part from the outcome, the others
+ * of its initial state moved on freely. NULL: rigid body, or out of memory. In the arena. */
 const struct body_state *state_after(const struct assembly *assembly,
                                      const struct impact_outcome *outcome,
                                      const struct geometry *geometry,

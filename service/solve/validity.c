@@ -25,8 +25,8 @@ double validity_wave_loss(const struct geometry *geometry, const struct solve_re
             const struct body *body = geometry->bodies[geometry->sides[c][which].body];
             double ratio = speed / wave_speed(body);
             if (body->shape == SHAPE_HALF_SPACE)
-                /* share of the energy that goes into waves: 1.04 (v/c)^(3/5) (Hunter, J. Mech. Phys.
-                 * Solids 5 (1957) 162; Johnson, Contact Mechanics, section 11.4) */
+                /* share of the energy that goes into waves: 1.04 (v/c)^(3/5) (Hunter, J. Mech.
+                 * Phys. Solids 5 (1957) 162; Johnson, Contact Mechanics, section 11.4) */
                 energy_share += 1.04 * pow(ratio, 0.6);
             else if (!body_is_flexible(body))
                 /* vibration of a sphere after a collision: about v/(50 c) (Rayleigh; Goldsmith) */
@@ -53,11 +53,12 @@ static void warn_yield(const struct geometry *geometry, size_t c, double pressur
         const struct body *body = geometry->bodies[geometry->sides[c][which].body];
         /* first yield below the surface at 1.6 times the yield stress (Johnson, section 6.1) */
         if (pressure > 1.6 * body->material.yield)
-            report_warn(result,
-                        "contacts[%zu]: the elastic peak pressure of %.3g MPa exceeds 1.6 times the "
-                        "yield stress of %s (%.3g MPa): plastic dents are not modelled, the true "
-                        "restitution is lower",
-                        c, pressure / 1e6, body->id, body->material.yield / 1e6);
+            report_warn(
+                result,
+                "contacts[%zu]: the elastic peak pressure of %.3g MPa exceeds 1.6 times the "
+                "yield stress of %s (%.3g MPa): plastic dents are not modelled, the true "
+                "restitution is lower",
+                c, pressure / 1e6, body->id, body->material.yield / 1e6);
     }
 }
 
@@ -73,21 +74,24 @@ static void warn_contact(const struct geometry *geometry, size_t c, struct solve
         const struct body *body = geometry->bodies[side->body];
         double size = body_smallest_radius(body);
         if (axes[0] > 0.3 * size)
-            report_warn(result,
-                        "contacts[%zu]: the contact's half-axis of %.3g m is more than 30 %% of the "
-                        "smallest radius of %s (%.3g m): Hertz's law ends there",
-                        c, axes[0], body->id, size);
+            report_warn(
+                result,
+                "contacts[%zu]: the contact's half-axis of %.3g m is more than 30 %% of the "
+                "smallest radius of %s (%.3g m): Hertz's law ends there",
+                c, axes[0], body->id, size);
         if (side->site.at_edge)
-            report_warn(result,
-                        "contacts[%zu]: within 10 %% of the radius of an edge of %s: the contact law "
-                        "assumes material on all sides",
-                        c, body->id);
+            report_warn(
+                result,
+                "contacts[%zu]: within 10 %% of the radius of an edge of %s: the contact law "
+                "assumes material on all sides",
+                c, body->id);
         double ratio = fabs(geometry->gap_rate[c]) / wave_speed(body);
         if (ratio > 0.01)
-            report_warn(result,
-                        "contacts[%zu]: the approach at %.3g m/s is more than 1 %% of the wave speed "
-                        "in %s (%.4g m/s): small strains end there",
-                        c, fabs(geometry->gap_rate[c]), body->id, wave_speed(body));
+            report_warn(
+                result,
+                "contacts[%zu]: the approach at %.3g m/s is more than 1 %% of the wave speed "
+                "in %s (%.4g m/s): small strains end there",
+                c, fabs(geometry->gap_rate[c]), body->id, wave_speed(body));
     }
 }
 
@@ -115,6 +119,7 @@ void validity_warn(const struct geometry *geometry, const struct solve_request *
         warn_delassus(geometry, result);
     if (catalogue->compliance == PERCUSS_COMPLIANCE_MATCHED &&
         request->options.compliance == PERCUSS_COMPLIANCE_DEFAULT)
-        report_warn(result, "compliance: the catalogue asks for matched, which is not available for "
-                            "these bodies: half-space is used");
+        report_warn(result,
+                    "compliance: the catalogue asks for matched, which is not available for "
+                    "these bodies: half-space is used");
 }

@@ -7,8 +7,8 @@
 
 #include "solve/geometry.h"
 
-/* Estimated effect on the restitution of waves in bodies that are rigid by their shape (the half-space:
- * Hunter 1957; spheres and compact bodies: Rayleigh 1906). */
+/* Estimated effect on the restitution of waves in bodies that are rigid by their shape (the
+ * half-space: Hunter 1957; spheres and compact bodies: Rayleigh 1906). */
 double validity_wave_loss(const struct geometry *geometry, const struct solve_request *request,
                           const struct solve_result *result);
 

@@ -1,0 +1,83 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* One elastic contact of bodies without vibration: a conservative motion with one degree of
+ * freedom, solved by its energy. Nothing is lost, so e = 1 to the last bits at any tolerance. */
+#include <math.h>
+
+#include "impact/energy.h"
+#include "impact/impact.h"
+
+bool impact_is_rigid_pair(const struct scene *scene)
+{
+    return scene->contacts == 1 && scene->groups == 0 && scene->gap_acceleration[0] == 0.0 &&
+           scene->residual[0] == 0.0 && scene->gap_rate[0] < 0.0 &&
+           scene->laws[0].operations->history_size == 0;
+}
+
+/* Largest indentation: the law stores all the energy. Newton's method; the force is the derivative.
+ */
+static double largest_indentation(const struct contact_law *law, double start, double energy)
+{
+    double d = start;
+    for (int i = 0; i < 60; i++) {
+        double stiffness;
+        double force = contact_law_force(law, NULL, d, &stiffness);
+        double change = (law->operations->stored(law, NULL, d) - energy) / force;
+        d -= change;
+        if (!(fabs(change) > 1e-16 * d))
+            break;
+    }
+    return d;
+}
+
+/* Time from touch to the largest indentation: int dd / sqrt(v^2 (1 - U(d)/E)). With d = d_max
+ * sin^2(phi) the integrand is smooth at both ends for a force like d^(3/2) or d. */
+static double compression_time(const struct contact_law *law, double largest, double energy,
+                               double speed)
+{
+    enum { PANELS = 24 };
+    double sum = 0.0;
+    for (int p = 0; p < PANELS; p++) {
+        for (int j = 0; j < NODES; j++) {
+            double phi = 0.5 * M_PI * (p + collocation.node[j]) / PANELS;
+            double s = sin(phi);
+            double left = 1.0 - law->operations->stored(law, NULL, largest * s * s) / energy;
+            sum += collocation.weight[j] * 2.0 * s * cos(phi) / sqrt(left);
+        }
+    }
+    return sum * 0.5 * M_PI / PANELS * largest / speed;
+}
+
+enum percuss_status impact_rigid_pair(const struct scene *scene,
+                                      const struct impact_settings *settings, struct arena *arena,
+                                      struct impact_outcome *outcome)
+{
+    double speed = -scene->gap_rate[0];
+    double w = scene->w[0];
+    double energy = 0.5 * speed * speed / w;
+    double touch = scene->gap[0] / speed;
+    double closed = 0.0;
+    track_clear(&outcome->tracks[0]);
+    motion_start(&outcome->motion, scene);
+    outcome->time_shift = touch;
+    outcome->end_reason = PERCUSS_END_SEPARATED;
+    const struct contact_law *law = &scene->laws[0];
+    double start = impact_scale_of(scene, 0, speed).indentation;
+    double largest = largest_indentation(law, start, energy);
+    double half = compression_time(law, largest, energy, speed);
+    if (touch + 2.0 * half > settings->horizon)
+        return impact_modal(scene, settings, arena, outcome);
+
+    track_open(&outcome->tracks[0], touch, -speed);
+    struct sub_impact *open = &outcome->tracks[0].open;
+    open->compression_end = touch + half;
+    open->compression_impulse = speed / w;
+    open->impulse = 2.0 * speed / w;
+    open->max_indentation = largest;
+    track_close(&outcome->tracks[0], law, touch + 2.0 * half, speed);
+    outcome->motion.gap[0] = 0.0;
+    outcome->motion.gap_rate[0] = speed;
+    outcome->motion.time = outcome->window = touch + 2.0 * half;
+    return energy_audit(scene, &closed, 0.0, arena, outcome) ? PERCUSS_OK : PERCUSS_INTERNAL;
+}
