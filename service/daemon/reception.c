@@ -4,14 +4,19 @@
 #include "daemon/reception.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "daemon/log.h"
 #include "endpoint/clock.h"
 #include "endpoint/encode.h"
 #include "endpoint/question.h"
 
-/* Finer solutions than this may take long, and the reading thread must not. */
-static const double cheap_tolerance = 1e-6;
+/* Finer solutions than these take tens of milliseconds, which the reading thread must not; or
+ * seconds, for which there is the long lane. */
+static const double cheap_tolerance = 1e-4, short_tolerance = 1e-9;
+
+/* Two clients that ask within this time, s, are served side by side by the workers. */
+static const double company_seconds = 0.01;
 
 static struct answer *refusal(const struct envelope *envelope, enum exchange exchange,
                               enum percuss_status status, const char *message)
@@ -77,6 +82,27 @@ static bool admit(struct service *service, const struct request_name *name, stru
     return true;
 }
 
+static bool is_at_least(const percuss_v1_Options *options, double tolerance)
+{
+    return options->tolerance == 0.0 || options->tolerance >= tolerance;
+}
+
+static bool is_long(const percuss_v1_Options *options)
+{
+    return options->method != PERCUSS_METHOD_MODAL ||
+           options->contact_model > PERCUSS_CONTACT_CLOSED_FORM ||
+           !is_at_least(options, short_tolerance);
+}
+
+/* A batch is as long as its longest member. */
+static enum lane lane_for(const percuss_v1_Request *requests, size_t count)
+{
+    size_t i = 0;
+    while (i < count && !is_long(&requests[i].options))
+        i++;
+    return i < count ? LANE_LONG : LANE_SHORT;
+}
+
 /* Hands requests to the workers, or refuses them at once. */
 static void enqueue(struct service *service, const struct request_name *name,
                     const percuss_v1_Request *requests, size_t count, double arrival)
@@ -87,12 +113,11 @@ static void enqueue(struct service *service, const struct request_name *name,
         turn_away(service, name);
         return;
     }
-    for (size_t i = 0; i < sizeof task->client; i++)
-        task->client[i] = name->client[i];
+    memcpy(task->client, name->client, sizeof task->client);
     task->sequence = name->sequence;
     task->arrival = arrival;
     task->edition = editions_hold(&service->editions);
-    if (!queue_put(service->queue, task)) {
+    if (!queue_put(service->lanes[lane_for(requests, count)], task)) {
         editions_let_go(&service->editions, task->edition);
         task_free(task);
         turn_away(service, name);
@@ -104,7 +129,17 @@ static bool is_cheap(const percuss_v1_Request *request)
     const percuss_v1_Options *options = &request->options;
     return request->contacts._length <= 1 && options->method == PERCUSS_METHOD_MODAL &&
            options->contact_model <= PERCUSS_CONTACT_CLOSED_FORM && !options->conditioning &&
-           (options->tolerance == 0.0 || options->tolerance >= cheap_tolerance);
+           is_at_least(options, cheap_tolerance);
+}
+
+/* Whether no other client has asked lately: while the reading thread solves, nobody else is heard.
+ */
+static bool is_sole(struct service *service, const uint8_t client[16], double now)
+{
+    if (memcmp(service->last_client, client, sizeof service->last_client) != 0)
+        service->company_until = now + company_seconds;
+    memcpy(service->last_client, client, sizeof service->last_client);
+    return now >= service->company_until;
 }
 
 static void answer_here(struct service *service, const struct request_name *name,
@@ -134,8 +169,9 @@ static void receive_single(void *context, const percuss_v1_Request *request, boo
     }
     if (!admit(service, &name, question_digest_single(request), arrival))
         return;
-    bool here = alone && service->settings->inline_solves && is_cheap(request) &&
-                !atomic_load(&service->draining) && queue_length(service->queue) == 0;
+    bool sole = is_sole(service, request->client, arrival);
+    bool here = alone && sole && service->settings->inline_solves && is_cheap(request) &&
+                !atomic_load(&service->draining) && queue_length(service->lanes[LANE_SHORT]) == 0;
     if (here)
         answer_here(service, &name, request, arrival);
     else

@@ -37,9 +37,13 @@ static bool create_stores(struct service *service)
     };
     service->tokens = token_store_create(&tokens);
     service->replies = reply_store_create(&replies);
-    service->queue = queue_create(settings->queue_capacity);
     service->desk = seat_create();
-    return service->tokens && service->replies && service->queue && service->desk;
+    bool good = service->tokens && service->replies && service->desk;
+    for (int lane = 0; lane < LANE_COUNT; lane++) {
+        service->lanes[lane] = queue_create(settings->queue_capacity);
+        good = good && service->lanes[lane];
+    }
+    return good;
 }
 
 static void *read_requests(void *argument)
@@ -93,14 +97,17 @@ void service_free(struct service *service)
         endpoint_stop(service->endpoint);
         pthread_join(service->reader, NULL);
     }
-    if (service->queue)
-        queue_close(service->queue);
+    for (int lane = 0; lane < LANE_COUNT; lane++) {
+        if (service->lanes[lane])
+            queue_close(service->lanes[lane]);
+    }
     workers_join(service);
     if (service->endpoint)
         endpoint_flush(service->endpoint, flush_seconds);
     endpoint_free(service->endpoint);
     seat_free(service->desk);
-    queue_free(service->queue);
+    for (int lane = 0; lane < LANE_COUNT; lane++)
+        queue_free(service->lanes[lane]);
     reply_store_free(service->replies);
     token_store_free(service->tokens);
     editions_release(&service->editions);
@@ -127,15 +134,23 @@ void service_reload(struct service *service)
     service_announce(service);
 }
 
+static uint32_t waiting(const struct service *service)
+{
+    size_t length = 0;
+    for (int lane = 0; lane < LANE_COUNT; lane++)
+        length += queue_length(service->lanes[lane]);
+    return (uint32_t)length;
+}
+
 void service_announce(struct service *service)
 {
     struct edition *edition = editions_hold(&service->editions);
     percuss_v1_ServerStatus status = {
         .process = (uint32_t)getpid(),
-        .workers = (uint32_t)service->worker_count,
+        .workers = service->settings->workers,
         .bodies = (uint32_t)edition->set->count,
-        .queue_length = (uint32_t)queue_length(service->queue),
-        .queue_capacity = service->settings->queue_capacity,
+        .queue_length = waiting(service),
+        .queue_capacity = LANE_COUNT * service->settings->queue_capacity,
         .answered = atomic_load(&service->answered),
         .refused = atomic_load(&service->refused),
         .uptime = clock_now() - service->started,
@@ -173,7 +188,11 @@ void service_begin_drain(struct service *service)
 
 bool service_drain(struct service *service, double seconds)
 {
-    return queue_drain(service->queue, seconds);
+    double end = clock_now() + seconds;
+    bool drained = true;
+    for (int lane = 0; lane < LANE_COUNT; lane++)
+        drained = queue_drain(service->lanes[lane], fmax(0.0, end - clock_now())) && drained;
+    return drained;
 }
 
 struct envelope service_envelope(const struct service *service, const struct request_name *name,

@@ -12,22 +12,28 @@
 #include "endpoint/endpoint.h"
 #include "endpoint/reply_store.h"
 
+/* What is solved within milliseconds does not wait behind what takes seconds. The long lane has one
+ * thread of low priority. */
+enum lane { LANE_SHORT, LANE_LONG, LANE_COUNT };
+
 struct service {
     const struct settings *settings;
     struct editions editions;
     struct endpoint *endpoint;
     struct token_store *tokens;
     struct reply_store *replies;
-    struct queue *queue;
+    struct queue *lanes[LANE_COUNT];
     struct seat *desk; /* of the reading thread, which solves what is cheap itself */
-    double started;    /* monotonic, s */
+    uint8_t last_client[16];
+    double company_until; /* monotonic, s: till then several clients count as asking */
+    double started;       /* monotonic, s */
     atomic_bool draining;
     atomic_ullong answered, refused; /* replies with and without results */
     atomic_ullong undelivered;       /* replies their clients did not take */
     unsigned long long reported;     /* of those, in the log */
     pthread_t reader;
     bool reader_runs;
-    struct worker *workers; /* see workers.c */
+    struct worker *workers; /* see workers.c; the last one works on the long lane */
     size_t worker_count;    /* that run */
 };
 

@@ -6,6 +6,7 @@
 #define PERCUSS_DAEMON_TASK_H
 
 #include <stdatomic.h>
+#include <stdbool.h>
 
 #include "daemon/edition.h"
 #include "endpoint/answer.h"
@@ -21,6 +22,7 @@ struct task {
     size_t next;             /* first request no worker has taken; the queue's */
     atomic_size_t left;      /* to be answered; whoever answers the last one sends the reply */
     struct answer **answers; /* of the requests */
+    atomic_bool abandoned;   /* nobody waits for the reply any more */
 };
 
 /* A task for copies of `count` >= 1 requests; client, sequence, arrival and edition are the

@@ -4,11 +4,16 @@
 #include "daemon/workers.h"
 
 #include <stdlib.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "endpoint/batch.h"
 
+static const int long_lane_nice = 10;
+
 struct worker {
     struct service *service;
+    enum lane lane;
     struct seat *seat;
     pthread_t thread;
 };
@@ -40,7 +45,9 @@ static struct answer *assemble(const struct service *service, struct task *task)
 static void finish(struct service *service, struct task *task)
 {
     struct request_name name = task_name(task);
-    if (task->exchange == EXCHANGE_BATCH) {
+    if (atomic_load(&task->abandoned)) {
+        reply_store_forget(service->replies, &name);
+    } else if (task->exchange == EXCHANGE_BATCH) {
         struct answer *answer = assemble(service, task);
         service_deliver(service, &name, answer);
         answer_release(answer);
@@ -63,7 +70,10 @@ static void work_on(struct worker *worker, struct task *task, size_t index)
         .arrival = task->arrival,
         .in_batch = task->exchange == EXCHANGE_BATCH,
     };
-    task->answers[index] = respond(worker->seat, service->tokens, &question);
+    if (reply_store_is_gone(service->replies, task->client))
+        atomic_store(&task->abandoned, true);
+    else
+        task->answers[index] = respond(worker->seat, service->tokens, &question);
     if (atomic_fetch_sub(&task->left, 1) == 1)
         finish(service, task);
 }
@@ -71,9 +81,11 @@ static void work_on(struct worker *worker, struct task *task, size_t index)
 static void *work(void *argument)
 {
     struct worker *worker = argument;
-    struct queue *queue = worker->service->queue;
+    struct queue *queue = worker->service->lanes[worker->lane];
     struct task *task;
     size_t index;
+    if (worker->lane == LANE_LONG)
+        setpriority(PRIO_PROCESS, (id_t)gettid(), long_lane_nice);
     while ((task = queue_take(queue, &index))) {
         work_on(worker, task, index);
         queue_done(queue);
@@ -84,6 +96,7 @@ static void *work(void *argument)
 static bool worker_start(struct worker *worker, struct service *service)
 {
     worker->service = service;
+    worker->lane = service->worker_count < service->settings->workers ? LANE_SHORT : LANE_LONG;
     worker->seat = seat_create();
     if (worker->seat && pthread_create(&worker->thread, NULL, work, worker) == 0)
         return true;
@@ -93,7 +106,7 @@ static bool worker_start(struct worker *worker, struct service *service)
 
 bool workers_start(struct service *service)
 {
-    size_t count = service->settings->workers;
+    size_t count = service->settings->workers + 1;
     service->workers = calloc(count, sizeof *service->workers);
     while (service->workers && service->worker_count < count &&
            worker_start(&service->workers[service->worker_count], service))

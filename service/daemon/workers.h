@@ -7,11 +7,11 @@
 
 #include "daemon/service.h"
 
-/* Starts settings->workers threads. False: not all of them could be started; workers_join ends
- * those that run. */
+/* Starts settings->workers threads for the short lane and one for the long one. False: not all of
+ * them could be started; workers_join ends those that run. */
 bool workers_start(struct service *service);
 
-/* Waits for their end, which comes when the queue is closed and empty. */
+/* Waits for their end, which comes when the queues are closed and empty. */
 void workers_join(struct service *service);
 
 #endif

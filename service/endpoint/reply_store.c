@@ -29,7 +29,8 @@ struct session {
     struct key_map replies;
     TAILQ_HEAD(reply_turns, kept_reply) turns; /* oldest first */
     unsigned readers;                          /* of replies, that are there */
-    double seen;                               /* last request, or when its reader went */
+    bool was_present;
+    double seen; /* last request, or when its reader went */
 };
 
 struct reply_store {
@@ -235,11 +236,21 @@ void reply_store_set_present(struct reply_store *store, const uint8_t client[16]
         present ? session_open(store, client, now) : session_find(store, client);
     if (session && present) {
         session->readers++;
+        session->was_present = true;
     } else if (session && session->readers > 0) {
         session->readers--;
         session_seen(store, session, now);
     }
     pthread_mutex_unlock(&store->lock);
+}
+
+bool reply_store_is_gone(struct reply_store *store, const uint8_t client[16])
+{
+    pthread_mutex_lock(&store->lock);
+    const struct session *session = session_find(store, client);
+    bool gone = session && session->was_present && session->readers == 0;
+    pthread_mutex_unlock(&store->lock);
+    return gone;
 }
 
 void reply_store_sweep(struct reply_store *store, double now)

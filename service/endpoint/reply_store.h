@@ -54,6 +54,9 @@ void reply_store_forget(struct reply_store *store, const struct request_name *na
 void reply_store_set_present(struct reply_store *store, const uint8_t client[16], bool present,
                              double now);
 
+/* Whether the client was there to read replies and is not any more. */
+bool reply_store_is_gone(struct reply_store *store, const uint8_t client[16]);
+
 /* Forgets clients gone too long. */
 void reply_store_sweep(struct reply_store *store, double now);
 

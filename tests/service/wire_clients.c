@@ -64,6 +64,7 @@ static void *ask_many(void *argument)
                 "sequence %llu: never sent, or answered before", (unsigned long long)sequence);
         if (reply->status == percuss_v1_STATUS_BUSY) {
             load->busy++;
+            dds_sleepfor(DDS_MSECS(1));
             send_numbered(&peer, scene, load->index, sequence);
         } else {
             check_reply(&peer, reply, speed_of(load->index, sequence));

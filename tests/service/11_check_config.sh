@@ -1,0 +1,60 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+# Settings and catalogues are checked before a daemon starts.
+. "$(dirname "$0")/lib.sh"
+
+check() {
+    "$bin/percussd" --config "$work/percussd.yaml" --check-config "$@"
+}
+
+# refused LINE TEXT SETTING...
+refused() {
+    line=$1
+    text=$2
+    shift 2
+    settings "$@"
+    expect 1 check
+    says "percussd.yaml:$line: $text"
+    [ ! -s "$out" ] || fail "it prints something on stdout"
+}
+
+say "what is shipped is good"
+expect 0 "$bin/percussd" --config "$source_dir/config/percussd.yaml" --check-config
+shows "ok"
+[ ! -s "$err" ] || fail "it says something on stderr"
+
+say "every setting is understood"
+settings "domain: 7" "workers: 3" "queue_capacity: 10" "inline_solves: false" \
+    "tokens: {count: 10, megabytes: 1, minutes: 0.5}" "replies: {per_client: 10, megabytes: 1}" \
+    "session_minutes: 1" "drain_seconds: 0" "log_level: debug"
+expect 0 check
+
+say "bad settings are refused with file, line and what is allowed"
+refused 2 "wrokers: unknown key: must be one of catalogue, domain, workers" "wrokers: 3"
+refused 2 "workers: 0: must be a whole number, 1 to 256" "workers: 0"
+refused 2 "workers: 2.5: must be a whole number, 1 to 256" "workers: 2.5"
+refused 2 "domain: 231: must be a whole number, 0 to 230" "domain: 231"
+refused 3 "inline_solves: maybe: must be true or false" "domain: 1" "inline_solves: maybe"
+refused 2 "log_level: loud: must be error, warning, info or debug" "log_level: loud"
+refused 2 "tokens: 5: must be a mapping of keys" "tokens: 5"
+refused 2 "tokens.size: unknown key" "tokens: {size: 5}"
+refused 2 "session_minutes: long: must be a number" "session_minutes: long"
+refused 3 "workers: stands twice" "workers: 1" "workers: 2"
+refused 3 "must be valid YAML" "tokens: {"
+
+say "a missing file"
+expect 1 "$bin/percussd" --config "$work/none.yaml" --check-config
+says "none.yaml: cannot be read"
+
+say "a bad catalogue is refused, by --check-config and by a daemon that should start"
+settings
+sed -i 's/^  al-beam: {shape: beam/  al-beam: {shape: beem/' "$work/catalogue.yaml"
+expect 1 check
+says "catalogue.yaml:"
+says "beem"
+expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain"
+says "beem"
+
+say "the command line goes before the settings"
+expect 0 check --catalogue "$source_dir/config/catalogue.yaml"
