@@ -7,7 +7,7 @@
 # usage: dependencies.sh [build|test]
 set -eu
 
-build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-dev
+build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-serial-dev
 liblapacke-dev libyaml-dev libjansson-dev"
 test="libcmocka-dev"
 

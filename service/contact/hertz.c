@@ -20,8 +20,8 @@ static double curvature_ratio(double q)
     return elliptic_rd0(1.0, q) / elliptic_rd0(q, 1.0);
 }
 
-/* q = (b/a)^2 for B/A = ratio >= 1: the ratio falls from infinity to 1 as q rises to 1; regula falsi
- * with bisection in log q against log ratio, which is nearly a straight line. */
+/* q = (b/a)^2 for B/A = ratio >= 1: the ratio falls from infinity to 1 as q rises to 1; regula
+ * falsi with bisection in log q against log ratio, which is nearly a straight line. */
 static double axis_ratio_squared(double ratio)
 {
     if (ratio <= 1.0)

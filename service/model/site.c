@@ -36,8 +36,7 @@ static void add_ball(struct face *face, double x, double radius, const double p[
         scale3(1.0 / length, d, face->outward);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            face->curvature[3 * i + j] =
-                ((i == j) - face->outward[i] * face->outward[j]) / radius;
+            face->curvature[3 * i + j] = ((i == j) - face->outward[i] * face->outward[j]) / radius;
 }
 
 /* Lateral surface of a round bar along x. */

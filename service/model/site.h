@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Where on a body a contact is: from a point and a normal in the world to a place on its surface. */
+/* Where on a body a contact is: from a point and a normal in the world to a place on its surface.
+ */
 #ifndef PERCUSS_MODEL_SITE_H
 #define PERCUSS_MODEL_SITE_H
 
@@ -24,11 +25,11 @@ enum site_face {
 
 struct site {
     enum site_face face;
-    double point[3];        /* body frame */
-    double outward[3];      /* the surface's normal, body frame */
-    double curvature[9];    /* symmetric tensor, body frame, 1/m; 0 where flat */
-    double distance;        /* of the stated point from the surface, > 0 outside */
-    bool at_edge;           /* within the allowed distance of the surface's edge */
+    double point[3];     /* body frame */
+    double outward[3];   /* the surface's normal, body frame */
+    double curvature[9]; /* symmetric tensor, body frame, 1/m; 0 where flat */
+    double distance;     /* of the stated point from the surface, > 0 outside */
+    bool at_edge;        /* within the allowed distance of the surface's edge */
 };
 
 /* Finds the face of `body` that has `point` (world) within `allowed` metres and the surface normal
@@ -39,9 +40,10 @@ enum percuss_status site_locate(const struct body *body, const struct pose *pose
                                 const double point[3], const double outward[3], double allowed,
                                 const char *field, struct site *site, struct fault *fault);
 
-/* Principal relative curvatures A <= B of the gap A x^2 + B y^2 between two surfaces that touch with
- * the world normal `normal`; sites in the frames of their poses. */
+/* Principal relative curvatures A <= B of the gap A x^2 + B y^2 between two surfaces that touch
+ * with the world normal `normal`; sites in the frames of their poses. */
 void site_relative_curvature(const struct site *a, const struct pose *pose_a, const struct site *b,
-                             const struct pose *pose_b, const double normal[3], double curvature[2]);
+                             const struct pose *pose_b, const double normal[3],
+                             double curvature[2]);
 
 #endif

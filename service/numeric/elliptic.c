@@ -20,9 +20,9 @@ double elliptic_rf0(double y, double z)
 
 double elliptic_rd0(double y, double z)
 {
-    /* duplication theorem until the arguments agree to 1e-3, then the fifth-order series whose error
-     * is below 3e-18 there (Carlson, Numerical computation of real or complex elliptic integrals,
-     * 1995, section 2; DLMF 19.36.2) */
+    /* duplication theorem until the arguments agree to 1e-3, then the fifth-order series whose
+     * error is below 3e-18 there (Carlson, Numerical computation of real or complex elliptic
+     * integrals, 1995, section 2; DLMF 19.36.2) */
     double x = 0.0;
     double sum = 0.0;
     double factor = 1.0;

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Tableau of w - m z - 1 z0 = q: n rows; columns w (n), z (n), z0, q. (Cottle, Pang, Stone, The Linear
- * Complementarity Problem, algorithm 4.4.5 and section 4.9.) */
+/* Tableau of w - m z - 1 z0 = q: n rows; columns w (n), z (n), z0, q. (Cottle, Pang, Stone, The
+ * Linear Complementarity Problem, algorithm 4.4.5 and section 4.9.) */
 struct tableau {
     size_t n, width;
     double *cell;

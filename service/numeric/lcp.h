@@ -10,7 +10,8 @@
 
 /* Lemke's method with the lexicographic ratio test for an n x n row-major symmetric positive
  * semidefinite m; its diagonal is raised by 1e-10 of itself so that singular matrices are safe. z
- * receives the solution. False: no solution (or its residual exceeds 1e-8 of max |q|), or memory. */
+ * receives the solution. False: no solution (or its residual exceeds 1e-8 of max |q|), or memory.
+ */
 bool lcp_solve(size_t n, const double *m, const double *q, double *z);
 
 #endif

@@ -56,8 +56,8 @@ bool linear_solve(size_t n, double *a, double *b)
 
 bool linear_symmetric_eigen(size_t n, double *a, double *eigenvalues)
 {
-    /* a symmetric matrix is its own transpose: column-major avoids LAPACKE's copies, and column i of
-     * the result is row i of ours */
+    /* a symmetric matrix is its own transpose: column-major avoids LAPACKE's copies, and column i
+     * of the result is row i of ours */
     lapack_int order = (lapack_int)n;
     return LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'U', order, a, order, eigenvalues) == 0;
 }

@@ -35,8 +35,8 @@ bool ode_set_longest_step(struct ode *ode, double step);
 
 enum ode_event { ODE_REACHED, ODE_ROOT, ODE_STEP, ODE_FAILED };
 
-/* Makes one internal step towards `until` (never beyond). *t and y become the new point; at ODE_ROOT
- * found[i] is +1 or -1 where root i rises or falls through zero. */
+/* Makes one internal step towards `until` (never beyond). *t and y become the new point; at
+ * ODE_ROOT found[i] is +1 or -1 where root i rises or falls through zero. */
 enum ode_event ode_step(struct ode *ode, double until, double *t, double *y, int *found);
 
 /* Right-hand sides and steps since creation. */
