@@ -40,15 +40,22 @@ static enum percuss_result read_into(dds_entity_t reader, int room, struct annou
     return all->count == room ? PERCUSS_RESULT_PENDING : PERCUSS_RESULT_OK;
 }
 
-enum percuss_result announcements_read(dds_entity_t reader, struct announcements *all)
+/* Cyclone DDS 0.10.2 keeps the loan of an earlier read and fills all of it: a later read on the
+ * same reader must never offer less room. So the room only grows, and one thread reads at a time.
+ */
+enum percuss_result announcements_read(struct percuss_client *client, dds_entity_t reader,
+                                       struct announcements *all)
 {
-    int room = FIRST_ROOM;
-    enum percuss_result result = read_into(reader, room, all);
+    pthread_mutex_lock(&client->lock);
+    if (client->announcement_room == 0)
+        client->announcement_room = FIRST_ROOM;
+    enum percuss_result result = read_into(reader, client->announcement_room, all);
     while (result == PERCUSS_RESULT_PENDING) {
         announcements_release(all);
-        room *= 2;
-        result = read_into(reader, room, all);
+        client->announcement_room *= 2;
+        result = read_into(reader, client->announcement_room, all);
     }
+    pthread_mutex_unlock(&client->lock);
     return result;
 }
 

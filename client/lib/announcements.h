@@ -23,7 +23,8 @@ enum percuss_result announcements_open(struct percuss_client *client, dds_entity
                                        const dds_topic_descriptor_t *descriptor, const char *topic);
 
 /* Lends all samples; some may be without valid data. NO_MEMORY or TRANSPORT: nothing to release. */
-enum percuss_result announcements_read(dds_entity_t reader, struct announcements *all);
+enum percuss_result announcements_read(struct percuss_client *client, dds_entity_t reader,
+                                       struct announcements *all);
 void announcements_release(struct announcements *all);
 
 /* The id of the connected server; false when there is none. */

@@ -30,11 +30,12 @@ static int compare_ids(const void *left, const void *right)
 }
 
 /* One look at the bodies of a server. PENDING: fewer than `expected`. */
-static enum percuss_result look_at_bodies(dds_entity_t reader, const struct percuss_server *server,
+static enum percuss_result look_at_bodies(struct percuss_client *client, dds_entity_t reader,
+                                          const struct percuss_server *server,
                                           struct percuss_body_list *list)
 {
     struct announcements all;
-    enum percuss_result result = announcements_read(reader, &all);
+    enum percuss_result result = announcements_read(client, reader, &all);
     if (result != PERCUSS_RESULT_OK)
         return result;
     list->count = 0;
@@ -86,7 +87,7 @@ enum percuss_result percuss_bodies(struct percuss_client *client, double timeout
         result = find_connected(client, timeout, &server);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    while ((result = look_at_bodies(client->body_reader, &server, list)) ==
+    while ((result = look_at_bodies(client, client->body_reader, &server, list)) ==
            PERCUSS_RESULT_PENDING) {
         if (receive_now() >= deadline)
             return error_set(PERCUSS_RESULT_TIMEOUT,

@@ -30,6 +30,7 @@ struct percuss_client {
     struct pending_table pending;
     dds_entity_t batch_writer, batch_reader; /* 0 until the first batch */
     dds_entity_t server_reader, body_reader; /* 0 until asked for */
+    int announcement_room;                   /* of the largest read so far, see announcements.c */
 };
 
 /* A reader or writer with its topic in the client's participant. `qos` is released. A negative

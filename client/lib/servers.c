@@ -31,11 +31,11 @@ static void convert_server(const percuss_v1_ServerStatus *wire, struct percuss_s
 }
 
 /* One look at the servers. PENDING: the one that is wanted (NULL: any) is not among them. */
-static enum percuss_result look_at_servers(dds_entity_t reader, const uint8_t *wanted,
-                                           struct percuss_server_list *list)
+static enum percuss_result look_at_servers(struct percuss_client *client, dds_entity_t reader,
+                                           const uint8_t *wanted, struct percuss_server_list *list)
 {
     struct announcements all;
-    enum percuss_result result = announcements_read(reader, &all);
+    enum percuss_result result = announcements_read(client, reader, &all);
     if (result != PERCUSS_RESULT_OK)
         return result;
     bool found = false;
@@ -69,7 +69,7 @@ enum percuss_result percuss_servers(struct percuss_client *client, double timeou
     if (result != PERCUSS_RESULT_OK)
         return result;
     const uint8_t *wanted = announcements_server(client, server) ? server : NULL;
-    while ((result = look_at_servers(client->server_reader, wanted, list)) ==
+    while ((result = look_at_servers(client, client->server_reader, wanted, list)) ==
            PERCUSS_RESULT_PENDING) {
         if (receive_now() >= deadline)
             return error_set(wanted ? PERCUSS_RESULT_TIMEOUT : PERCUSS_RESULT_NO_SERVER,

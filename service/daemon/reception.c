@@ -28,9 +28,10 @@ static struct answer *refusal(const struct envelope *envelope, enum exchange exc
     return encode_refusal(envelope, status, message);
 }
 
-/* Sends a refusal that is not stored: the request may be asked again. */
-static void refuse(struct service *service, const struct request_name *name,
-                   enum percuss_status status, const char *message)
+/* Sends a reply that is not stored: a refusal, after which the number may be used again, or the
+ * answer to a ping. */
+static void reply_at_once(struct service *service, const struct request_name *name,
+                          enum percuss_status status, const char *message)
 {
     struct edition *edition = editions_hold(&service->editions);
     struct envelope envelope = service_envelope(service, name, edition);
@@ -54,7 +55,7 @@ static void turn_away(struct service *service, const struct request_name *name)
     else
         snprintf(message, sizeof message, "%u requests are waiting: ask again later",
                  service->settings->queue_capacity);
-    refuse(service, name, PERCUSS_BUSY, message);
+    reply_at_once(service, name, PERCUSS_BUSY, message);
 }
 
 /* Answers what has been asked before, and what misuses its number. True: the request is new. */
@@ -72,7 +73,7 @@ static bool admit(struct service *service, const struct request_name *name, stru
         snprintf(message, sizeof message,
                  "sequence: %llu: was used for another request: must be a new number",
                  (unsigned long long)name->sequence);
-        refuse(service, name, PERCUSS_BAD_REQUEST, message);
+        reply_at_once(service, name, PERCUSS_BAD_REQUEST, message);
         return false;
     case ADMISSION_PENDING:
         return false;
@@ -164,7 +165,7 @@ static void receive_single(void *context, const percuss_v1_Request *request, boo
     double arrival = clock_now();
     struct request_name name = {request->client, EXCHANGE_SINGLE, request->sequence};
     if (request->sequence == 0) {
-        refuse(service, &name, PERCUSS_OK, "");
+        reply_at_once(service, &name, PERCUSS_OK, "");
         return;
     }
     if (!admit(service, &name, question_digest_single(request), arrival))
@@ -184,9 +185,10 @@ static void receive_batch(void *context, const percuss_v1_BatchRequest *batch)
     double arrival = clock_now();
     struct request_name name = {batch->client, EXCHANGE_BATCH, batch->sequence};
     if (batch->sequence == 0)
-        refuse(service, &name, PERCUSS_BAD_REQUEST, "sequence: 0: must be > 0 for a batch");
+        reply_at_once(service, &name, PERCUSS_BAD_REQUEST, "sequence: 0: must be > 0 for a batch");
     else if (batch->requests._length == 0)
-        refuse(service, &name, PERCUSS_BAD_REQUEST, "requests: none given: must be 1 to 256");
+        reply_at_once(service, &name, PERCUSS_BAD_REQUEST,
+                      "requests: none given: must be 1 to 256");
     else if (admit(service, &name, question_digest_batch(batch), arrival))
         enqueue(service, &name, batch->requests._buffer, batch->requests._length, arrival);
 }
@@ -194,8 +196,8 @@ static void receive_batch(void *context, const percuss_v1_BatchRequest *batch)
 static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *request)
 {
     struct request_name name = {request->client, EXCHANGE_ENSEMBLE, request->sequence};
-    refuse(context, &name, PERCUSS_BAD_REQUEST,
-           "ensembles are not available from this server version");
+    reply_at_once(context, &name, PERCUSS_BAD_REQUEST,
+                  "ensembles are not available from this server version");
 }
 
 static void note_presence(void *context, const uint8_t client[16], bool present)

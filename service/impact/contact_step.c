@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "impact/kernel.h"
+#include "impact/node_solver.h"
 #include "numeric/linear.h"
 
 enum { MAX_ITERATIONS = 40 };
@@ -20,22 +21,23 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, s
     step->force = arena_take(arena, n, sizeof *step->force);
     step->end_indentation = arena_take(arena, n, sizeof(double));
     step->matrix = arena_take(arena, unknowns * unknowns, sizeof(double));
-    step->unknown = arena_take(arena, 2 * unknowns, sizeof(double));
+    step->residual = arena_take(arena, unknowns, sizeof(double));
+    step->target = arena_take(arena, n, sizeof *step->target);
     step->approach = arena_take(arena, n, sizeof(double));
     step->end_force = arena_take(arena, n, sizeof(double));
     return step->indentation && step->force && step->end_indentation && step->matrix &&
-           step->unknown && step->approach && step->end_force &&
+           step->residual && step->target && step->approach && step->end_force &&
            motion_create(&step->end, scene, arena);
 }
 
 /* What a unit force of contact b at node j does to the approach of contact a at node i, with the
  * residual flexibility: rigid double integral, modes, and the series compliance at the same node.
  */
-static const double *coupling_of_level(struct contact_step *step, const struct scene *scene,
-                                       int level)
+static const double (*coupling_of_level(struct contact_step *step, const struct scene *scene,
+                                        int level))[NODES][NODES]
 {
     if (step->coupling[level])
-        return step->coupling[level];
+        return (const double(*)[NODES][NODES])step->coupling[level];
     size_t n = scene->contacts;
     double h = step_length(level);
     double(*all)[NODES][NODES] = arena_take(step->arena, n * n, sizeof *all);
@@ -61,8 +63,8 @@ static const double *coupling_of_level(struct contact_step *step, const struct s
             }
         }
     }
-    step->coupling[level] = (double *)all;
-    return step->coupling[level];
+    step->coupling[level] = all;
+    return (const double(*)[NODES][NODES])all;
 }
 
 /* Approach at the nodes if no force acted on this step. */
@@ -92,67 +94,6 @@ static size_t active_list(const struct scene *scene, const bool *active, size_t 
         if (active[c])
             list[count++] = c;
     return count;
-}
-
-/* Forces, residual and Jacobian of d_i + sum coupling F(d) = free approach; returns the residual.
- */
-static void assemble(struct contact_step *step, const struct scene *scene, const size_t *list,
-                     size_t count, const double *coupling, const double *target)
-{
-    size_t n = scene->contacts;
-    size_t size = count * NODES;
-    double stiffness[PERCUSS_MAX_CONTACTS][NODES];
-    for (size_t a = 0; a < count; a++)
-        for (int i = 0; i < NODES; i++)
-            step->force[list[a]][i] = contact_law_force(
-                &scene->laws[list[a]], NULL, step->indentation[list[a]][i], &stiffness[a][i]);
-    for (size_t a = 0; a < count; a++) {
-        for (int i = 0; i < NODES; i++) {
-            size_t row = a * NODES + (size_t)i;
-            double sum = step->indentation[list[a]][i] - target[row];
-            for (size_t b = 0; b < count; b++) {
-                const double *m = coupling + ((list[a] * n + list[b]) * NODES + (size_t)i) * NODES;
-                for (int j = 0; j < NODES; j++) {
-                    sum += m[j] * step->force[list[b]][j];
-                    step->matrix[row * size + b * NODES + (size_t)j] = m[j] * stiffness[b][j];
-                }
-            }
-            step->matrix[row * size + row] += 1.0;
-            step->unknown[row] = sum;
-        }
-    }
-}
-
-/* Newton's method for the local indentations at the nodes. */
-static bool solve_nodes(struct contact_step *step, const struct scene *scene, const size_t *list,
-                        size_t count, const double *coupling)
-{
-    size_t size = count * NODES;
-    const double *target = step->unknown + scene->contacts * NODES;
-    double previous = INFINITY;
-    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        assemble(step, scene, list, count, coupling, target);
-        if (!linear_solve(size, step->matrix, step->unknown))
-            return false;
-        step->iterations++;
-        double change = 0.0;
-        double scale = 0.0;
-        for (size_t u = 0; u < size; u++) {
-            double *d = &step->indentation[list[u / NODES]][u % NODES];
-            *d -= step->unknown[u];
-            change = fmax(change, fabs(step->unknown[u]));
-            scale = fmax(scale, fmax(fabs(*d), fabs(target[u])));
-        }
-        if (!isfinite(change))
-            return false;
-        /* quadratic: after a change of 1e-8 the rest is rounding; or no progress above rounding */
-        if (change <= 1e-8 * scale || (change <= 1e-12 * scale && change >= previous)) {
-            assemble(step, scene, list, count, coupling, target);
-            return true;
-        }
-        previous = change;
-    }
-    return false;
 }
 
 static void push_rigid(struct contact_step *step, const struct scene *scene, const size_t *list,
@@ -220,18 +161,36 @@ static void advance(struct contact_step *step, const struct scene *scene,
     }
 }
 
-bool contact_local_indentation(const struct scene *scene, const bool *active,
-                               const double *approach, double *indentation, double *force,
-                               double *matrix)
+/* One contact: Newton's method for d + c F(d) = approach. */
+static bool local_of_one(const struct contact_law *law, double c, double approach,
+                         double *indentation, double *force)
+{
+    double d = *indentation;
+    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+        double stiffness;
+        *force = contact_law_force(law, NULL, d, &stiffness);
+        double change = (d + c * *force - approach) / (1.0 + c * stiffness);
+        d -= change;
+        /* quadratic in the indentation, or down to the approach's rounding */
+        if (fabs(change) <= 1e-7 * fabs(d) || fabs(change) <= 1e-15 * fabs(approach)) {
+            *force = fmax(0.0, *force - stiffness * change);
+            *indentation = d;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool local_of_many(const struct scene *scene, const size_t *list, size_t count,
+                          const double *approach, double *indentation, double *force,
+                          double *matrix)
 {
     size_t n = scene->contacts;
-    size_t list[PERCUSS_MAX_CONTACTS];
-    size_t count = active_list(scene, active, list);
     double unknown[PERCUSS_MAX_CONTACTS];
     double stiffness[PERCUSS_MAX_CONTACTS];
-    memset(force, 0, n * sizeof *force);
-    bool converged = count == 0;
-    for (int iteration = 0; iteration < MAX_ITERATIONS && !converged; iteration++) {
+    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+        double change = 0.0;
+        double scale = 0.0;
         for (size_t a = 0; a < count; a++)
             force[list[a]] =
                 contact_law_force(&scene->laws[list[a]], NULL, indentation[list[a]], &stiffness[a]);
@@ -245,17 +204,33 @@ bool contact_local_indentation(const struct scene *scene, const bool *active,
         }
         if (!linear_solve(count, matrix, unknown))
             return false;
-        double change = 0.0;
-        double scale = 0.0;
         for (size_t a = 0; a < count; a++) {
             indentation[list[a]] -= unknown[a];
             change = fmax(change, fabs(unknown[a]));
             scale = fmax(scale, fmax(fabs(indentation[list[a]]), fabs(approach[list[a]])));
         }
-        converged = change <= 1e-14 * scale;
-        if (!converged && iteration == MAX_ITERATIONS - 1)
-            converged = change <= 1e-9 * scale;
+        if (change <= (iteration + 1 < MAX_ITERATIONS ? 1e-14 : 1e-9) * scale)
+            return true;
     }
+    return false;
+}
+
+bool contact_local_indentation(const struct scene *scene, const bool *active,
+                               const double *approach, double *indentation, double *force,
+                               double *matrix)
+{
+    size_t n = scene->contacts;
+    size_t list[PERCUSS_MAX_CONTACTS];
+    size_t count = active_list(scene, active, list);
+    memset(force, 0, n * sizeof *force);
+    bool solved = count == 0;
+    if (count == 1) {
+        size_t c = list[0];
+        solved = local_of_one(&scene->laws[c], scene->residual[c * n + c], approach[c],
+                              &indentation[c], &force[c]);
+    }
+    if (!solved)
+        solved = local_of_many(scene, list, count, approach, indentation, force, matrix);
     for (size_t a = 0; a < n; a++) {
         if (active[a])
             continue;
@@ -263,27 +238,39 @@ bool contact_local_indentation(const struct scene *scene, const bool *active,
         for (size_t b = 0; b < count; b++)
             indentation[a] -= scene->residual[a * n + list[b]] * force[list[b]];
     }
-    return converged;
+    return solved;
 }
 
 bool contact_step_solve(struct contact_step *step, const struct scene *scene,
                         const struct motion *motion, const bool *active, int level,
-                        const double *indentation, const double *rate)
+                        const struct contact_start *start)
 {
     double h = step_length(level);
-    const double *coupling = coupling_of_level(step, scene, level);
+    const double(*coupling)[NODES][NODES] = coupling_of_level(step, scene, level);
     if (!coupling)
         return false;
     size_t list[PERCUSS_MAX_CONTACTS];
     size_t count = active_list(scene, active, list);
-    double *target = step->unknown + scene->contacts * NODES;
     for (size_t a = 0; a < count; a++) {
-        free_approach(scene, motion, list[a], level, target + a * NODES);
-        for (int i = 0; i < NODES; i++)
+        const struct contact_start *from = &start[list[a]];
+        free_approach(scene, motion, list[a], level, step->target[a]);
+        for (int i = 0; i < NODES; i++) {
+            double t = collocation.node[i] * h;
             step->indentation[list[a]][i] =
-                indentation[list[a]] + rate[list[a]] * collocation.node[i] * h;
+                from->indentation + t * (from->rate + 0.5 * from->curvature * t);
+        }
     }
-    if (!solve_nodes(step, scene, list, count, coupling))
+    struct node_problem problem = {
+        .laws = scene->laws,
+        .contacts = scene->contacts,
+        .list = list,
+        .count = count,
+        .coupling = coupling,
+        .target = (const double(*)[NODES])step->target,
+        .matrix = step->matrix,
+        .residual = step->residual,
+    };
+    if (!node_solve(&problem, step->indentation, step->force, &step->iterations))
         return false;
     advance(step, scene, motion, list, count, level);
     double ignored;

@@ -18,8 +18,9 @@ struct contact_step {
     double loss;              /* taken by damping, J */
     unsigned long iterations; /* Newton's, since creation */
 
-    double *coupling[STEP_LEVELS]; /* [contact][contact][node][node]: residual + response */
-    double *matrix, *unknown;      /* scratch */
+    double (*coupling[STEP_LEVELS])[NODES][NODES]; /* [contact][contact]: residual + response */
+    double (*target)[NODES];                       /* scratch */
+    double *matrix, *residual;
     double *approach, *end_force;
     struct arena *arena;
 };
@@ -27,12 +28,18 @@ struct contact_step {
 /* Memory for a scene from the arena. False: out of memory. */
 bool contact_step_create(struct contact_step *step, const struct scene *scene, struct arena *arena);
 
-/* Solves a step of a level from `motion` with the `active` contacts; `indentation` and `rate` are
- * local values at its start (the starting values of the iteration). False: no solution found (the
- * step is too long) or out of memory. `motion` is not changed. */
+/* Local values of a contact at the start of a step: starting values of the iteration. */
+struct contact_start {
+    double indentation; /* m */
+    double rate;        /* m/s */
+    double curvature;   /* m/s^2 */
+};
+
+/* Solves a step of a level from `motion` with the `active` contacts; `start` by contact. False: no
+ * solution found (the step is too long) or out of memory. `motion` is not changed. */
 bool contact_step_solve(struct contact_step *step, const struct scene *scene,
                         const struct motion *motion, const bool *active, int level,
-                        const double *indentation, const double *rate);
+                        const struct contact_start *start);
 
 /* Local indentation of every contact for approaches d: F_i = law(d_i - sum_j residual_ij F_j) for
  * the active ones, d_i - sum_j residual_ij F_j for the others. `indentation` holds starting values.

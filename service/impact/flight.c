@@ -21,9 +21,12 @@ bool flight_create(struct flight *flight, const struct scene *scene, struct aren
     *flight = (struct flight){0};
     flight->amplitude = arena_take(arena, scene->groups, sizeof *flight->amplitude);
     flight->bound = arena_take(arena, scene->contacts, sizeof *flight->bound);
+    flight->approach = arena_take(arena, scene->contacts, sizeof *flight->approach);
+    flight->rate = arena_take(arena, scene->contacts, sizeof *flight->rate);
     flight->all_modes = arena_take(arena, scene->contacts * STEP_LEVELS, sizeof(double));
     flight->slow_modes = arena_take(arena, scene->contacts * STEP_LEVELS, sizeof(double));
-    if (!flight->amplitude || !flight->bound || !flight->all_modes || !flight->slow_modes)
+    if (!flight->amplitude || !flight->bound || !flight->approach || !flight->rate ||
+        !flight->all_modes || !flight->slow_modes)
         return false;
     for (size_t g = 0; g < scene->groups; g++) {
         flight->amplitude[g] = arena_take(arena, scene->group[g].stride, sizeof(double));
@@ -78,8 +81,8 @@ static void find_remainders(struct flight *flight, const struct scene *scene, in
 }
 
 /* Rigid approach and rate plus those of the modes slower than `fastest`. */
-static void partial_approach(const struct flight *flight, const struct scene *scene, size_t contact,
-                             double fastest, double *approach, double *rate)
+static void slow_approach(const struct flight *flight, const struct scene *scene, size_t contact,
+                          double fastest, double *approach, double *rate)
 {
     double d = 0.0;
     double d_rate = 0.0;
@@ -100,15 +103,14 @@ static bool stays_open(const struct flight *flight, const struct scene *scene, s
 {
     double h = step_length(level);
     double pull = -0.5 * scene->gap_acceleration[c] * h * h; /* what acceleration closes */
-    double d;
-    double rate;
+    double d = flight->approach[c];
+    double rate = flight->rate[c];
     /* a parabola that opens upward is largest at its ends */
-    partial_approach(flight, scene, c, INFINITY, &d, &rate);
     double rise = fmax(0.0, flight->all_modes[c * STEP_LEVELS + (size_t)level] + pull);
     if (d <= 0.0 && d + rate * h + rise < 0.0)
         return true;
-    partial_approach(flight, scene, c, SLOW_ANGLE / h, &d, &rate);
     double margin = flight->slow_modes[c * STEP_LEVELS + (size_t)level];
+    slow_approach(flight, scene, c, SLOW_ANGLE / h, &d, &rate);
     return fmax(d, d + rate * h + fmax(0.0, pull)) + margin < 0.0;
 }
 
@@ -140,6 +142,12 @@ static double completion(const struct flight *flight, const struct scene *scene,
     return from <= until ? from : INFINITY;
 }
 
+static void find_approaches(struct flight *flight, const struct scene *scene)
+{
+    for (size_t c = 0; c < scene->contacts; c++)
+        motion_approach(&flight->probe, scene, c, &flight->approach[c], &flight->rate[c]);
+}
+
 /* The next step of the scan, along exact motion. */
 static bool move_probe(struct flight *flight, const struct scene *scene, int level)
 {
@@ -157,6 +165,7 @@ static bool move_probe(struct flight *flight, const struct scene *scene, int lev
                        flight->probe.q[g], flight->probe.v[g]);
     }
     flight->probe.time += h;
+    find_approaches(flight, scene);
     return true;
 }
 
@@ -190,7 +199,9 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
     int floor = floor_level(scene, allowed);
     int level = floor;
     int passed = 0;
+    int wait = 1;
     motion_copy(&flight->probe, motion, scene);
+    find_approaches(flight, scene);
     find_amplitudes(flight, scene, motion);
     double complete = completion(flight, scene, motion);
     for (unsigned long i = 1; flight->probe.time - motion->time < fmin(complete, allowed); i++) {
@@ -200,6 +211,7 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
         if (!open && level < floor) {
             level++;
             passed = 0;
+            wait = 2;
             continue;
         }
         if (!open && touch_within(scene, motion, from, step_length(level), time, contact) &&
@@ -207,11 +219,11 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
             return FLIGHT_TOUCH;
         if (!move_probe(flight, scene, level) || i >= intervals)
             return FLIGHT_LIMIT;
-        /* twice in a row on the safe side: try steps twice as long */
+        /* after a refusal two steps before the next try of longer ones */
         passed = open ? passed + 1 : 0;
-        if (passed >= 2 && level > 0) {
+        if (passed >= wait && level > 0) {
             level--;
-            passed = 0;
+            wait = 1;
         }
         if (i % REFRESH == 0) {
             find_amplitudes(flight, scene, &flight->probe);

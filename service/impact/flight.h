@@ -20,10 +20,11 @@ enum flight_end {
 
 struct flight {
     struct motion probe;
-    double **amplitude; /* [group][stride] */
-    double *bound;      /* [contact]: sum of participation times amplitude */
-    double *all_modes;  /* [contact][level]: remainder when all modes are followed */
-    double *slow_modes; /* [contact][level]: remainder when the slow ones are */
+    double **amplitude;      /* [group][stride] */
+    double *bound;           /* [contact]: sum of participation times amplitude */
+    double *approach, *rate; /* [contact] of the probe */
+    double *all_modes;       /* [contact][level]: remainder when all modes are followed */
+    double *slow_modes;      /* [contact][level]: remainder when the slow ones are */
     bool known[STEP_LEVELS];
     unsigned long intervals; /* examined, since creation */
 };

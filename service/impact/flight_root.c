@@ -31,15 +31,46 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
     *last = -rate / acceleration;
 }
 
-/* Root of the approach in [low, high] with approach(low) <= 0 < approach(high): bisection kept
- * safe, Newton where it stays inside. */
+/* Where the cubic with the values and rates of both ends crosses zero, as a share of the interval.
+ */
+static double cubic_root(double d0, double rate0, double d1, double rate1)
+{
+    double low = 0.0;
+    double high = 1.0;
+    double s = d0 / (d0 - d1);
+    for (int i = 0; i < 40; i++) {
+        double c3 = rate0 + rate1 - 2.0 * (d1 - d0);
+        double c2 = 3.0 * (d1 - d0) - 2.0 * rate0 - rate1;
+        double value = ((c3 * s + c2) * s + rate0) * s + d0;
+        double slope = (3.0 * c3 * s + 2.0 * c2) * s + rate0;
+        if (value > 0.0)
+            high = s;
+        else
+            low = s;
+        double next = s - value / slope;
+        if (!(next > low && next < high))
+            next = 0.5 * (low + high);
+        if (fabs(next - s) < 1e-12)
+            return next;
+        s = next;
+    }
+    return s;
+}
+
+/* Root of the approach in [low, high] with approach(low) <= 0 < approach(high). Starts where the
+ * cubic through both ends has it; bisection kept safe, Newton where it stays inside. */
 static double rising_root(const struct motion *motion, const struct scene *scene, size_t contact,
                           double low, double high)
 {
-    double t = 0.5 * (low + high);
+    double d;
+    double rate;
+    double d1;
+    double rate1;
+    motion_approach_at(motion, scene, contact, low, &d, &rate);
+    motion_approach_at(motion, scene, contact, high, &d1, &rate1);
+    double h = high - low;
+    double t = low + h * cubic_root(d, h * rate, d1, h * rate1);
     for (int i = 0; i < 100; i++) {
-        double d;
-        double rate;
         motion_approach_at(motion, scene, contact, t, &d, &rate);
         if (d > 0.0)
             high = t;
@@ -48,7 +79,8 @@ static double rising_root(const struct motion *motion, const struct scene *scene
         double next = rate > 0.0 ? t - d / rate : low;
         if (!(next > low && next < high))
             next = 0.5 * (low + high);
-        if (fabs(next - t) <= 1e-16 * fabs(t) || high - low <= 1e-16 * fabs(high))
+        /* Newton's method squares its change relative to the interval */
+        if (fabs(next - t) <= 1e-8 * h || high - low <= 1e-16 * fabs(high))
             return next;
         t = next;
     }

@@ -23,7 +23,8 @@ struct modal_run {
     struct contact_step step;
     struct flight flight;
     bool *active;                  /* [contact] */
-    double *indentation, *rate;    /* [contact], local, now */
+    struct contact_start *now;     /* [contact], local */
+    double *final;                 /* [contact], indentation at the end of the window */
     struct impact_scale *scales;   /* [contact], of the sub-impact under way */
     double *longest;               /* [contact], stable step, s */
     double damping;                /* J taken so far */
@@ -82,8 +83,7 @@ static double longest_stable_step(const struct scene *scene, size_t contact,
 static void activate(struct modal_run *run, size_t contact, double indentation, double rate)
 {
     run->active[contact] = true;
-    run->indentation[contact] = indentation;
-    run->rate[contact] = rate;
+    run->now[contact] = (struct contact_start){indentation, rate, 0.0};
     run->scales[contact] = impact_scale_of(run->scene, contact, rate);
     run->longest[contact] = longest_stable_step(run->scene, contact, &run->scales[contact]);
     track_open(&run->outcome->tracks[contact], run->motion->time, run->motion->gap_rate[contact]);
@@ -114,8 +114,8 @@ static int limit_level(const struct modal_run *run, int level, int finest)
         if (!run->active[c])
             continue;
         double left = run->longest[c];
-        if (run->rate[c] < 0.0)
-            left = fmin(left, 0.75 * run->indentation[c] / -run->rate[c]);
+        if (run->now[c].rate < 0.0)
+            left = fmin(left, 0.75 * run->now[c].indentation / -run->now[c].rate);
         while (level < finest && step_length(level) > left)
             level++;
     }
@@ -173,7 +173,7 @@ static double release_time(const struct modal_run *run, size_t contact, double s
     double s[NODES + 2];
     double d[NODES + 2];
     s[0] = 0.0;
-    d[0] = run->indentation[contact];
+    d[0] = run->now[contact].indentation;
     for (int j = 0; j < NODES; j++) {
         s[j + 1] = collocation.node[j];
         d[j + 1] = run->step.indentation[contact][j];
@@ -187,14 +187,17 @@ static double release_time(const struct modal_run *run, size_t contact, double s
     return start + h * (s[last] + share * (s[last + 1] - s[last]));
 }
 
-/* Rate of the local indentation at the end of the step: from the cubic through its nodes. */
-static double end_rate(const double values[NODES], double h)
+/* Local values at the end of the step: derivatives of the cubic through its nodes. */
+static struct contact_start end_values(const double values[NODES], double h, double indentation)
 {
-    double sum = 0.0;
-    for (int j = 0; j < NODES; j++)
-        for (int m = 1; m < NODES; m++)
-            sum += values[j] * m * collocation.monomial[j][m];
-    return sum / h;
+    double rate = 0.0;
+    double curvature = 0.0;
+    for (int j = 0; j < NODES; j++) {
+        const double *c = collocation.monomial[j];
+        rate += values[j] * (c[1] + 2.0 * c[2] + 3.0 * c[3]);
+        curvature += values[j] * (2.0 * c[2] + 6.0 * c[3]);
+    }
+    return (struct contact_start){indentation, rate / h, curvature / (h * h)};
 }
 
 /* Makes the step just solved the present. */
@@ -210,12 +213,12 @@ static void accept(struct modal_run *run, int level)
     for (size_t c = 0; c < run->scene->contacts; c++) {
         double end = run->step.end_indentation[c];
         if (run->active[c]) {
-            track_step(&run->outcome->tracks[c], start, h, run->step.indentation[c],
-                       run->step.force[c], end);
+            struct track_values values = {run->now[c].indentation, end, run->step.indentation[c],
+                                          run->step.force[c]};
+            track_step(&run->outcome->tracks[c], start, h, &values);
             if (end <= 0.0)
                 deactivate(run, c, release_time(run, c, start, h));
-            run->rate[c] = end_rate(run->step.indentation[c], h);
-            run->indentation[c] = end;
+            run->now[c] = end_values(run->step.indentation[c], h, end);
         } else if (end > 0.0) {
             double d;
             double rate;
@@ -239,8 +242,8 @@ static enum percuss_end_reason contact_phase(struct modal_run *run)
         if (run->motion->time + h == run->motion->time ||
             run->settings->horizon - run->motion->time < step_length(finest))
             return PERCUSS_END_IN_CONTACT;
-        bool solved = contact_step_solve(&run->step, run->scene, run->motion, run->active, level,
-                                         run->indentation, run->rate);
+        bool solved =
+            contact_step_solve(&run->step, run->scene, run->motion, run->active, level, run->now);
         double roughness = solved ? step_roughness(run) : INFINITY;
         bool fine = level >= finest;
         if (!solved || (!fine && (roughness > 3.0 * allowed || has_event(run)))) {
@@ -293,11 +296,11 @@ static enum percuss_end_reason fly(struct modal_run *run)
 static bool run_create(struct modal_run *run, const struct scene *scene, struct arena *arena)
 {
     run->active = arena_take(arena, scene->contacts, sizeof *run->active);
-    run->indentation = arena_take(arena, scene->contacts, sizeof *run->indentation);
-    run->rate = arena_take(arena, scene->contacts, sizeof *run->rate);
+    run->now = arena_take(arena, scene->contacts, sizeof *run->now);
+    run->final = arena_take(arena, scene->contacts, sizeof *run->final);
     run->scales = arena_take(arena, scene->contacts, sizeof *run->scales);
     run->longest = arena_take(arena, scene->contacts, sizeof *run->longest);
-    return run->active && run->indentation && run->rate && run->scales && run->longest &&
+    return run->active && run->now && run->final && run->scales && run->longest &&
            contact_step_create(&run->step, scene, arena) &&
            flight_create(&run->flight, scene, arena);
 }
@@ -330,15 +333,14 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
         end = contact_phase(&run);
     }
     for (size_t c = 0; c < scene->contacts; c++) {
+        run.final[c] = run.active[c] ? run.now[c].indentation : 0.0;
         if (run.active[c])
             deactivate(&run, c, run.motion->time);
-        else
-            run.indentation[c] = 0.0;
         track_mark_negligible(&outcome->tracks[c]);
     }
     outcome->end_reason = end;
     outcome->window = run.motion->time;
     outcome->intervals = run.flight.intervals;
-    return energy_audit(scene, run.indentation, run.damping, arena, outcome) ? PERCUSS_OK
-                                                                             : PERCUSS_INTERNAL;
+    return energy_audit(scene, run.final, run.damping, arena, outcome) ? PERCUSS_OK
+                                                                       : PERCUSS_INTERNAL;
 }

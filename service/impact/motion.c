@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "impact/kernel.h"
 #include "impact/oscillator.h"
 
 bool motion_create(struct motion *motion, const struct scene *scene, struct arena *arena)
@@ -95,11 +96,15 @@ void motion_approach(const struct motion *motion, const struct scene *scene, siz
     double d = 0.0;
     double d_rate = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {
-        const double *phi = scene->group[g].participation[contact];
-        for (size_t k = 0; phi && k < scene->group[g].count; k++) {
-            d += phi[k] * motion->q[g][k];
-            d_rate += phi[k] * motion->v[g][k];
-        }
+        const struct scene_group *group = &scene->group[g];
+        double part;
+        double part_rate;
+        if (!group->participation[contact])
+            continue;
+        kernel_dot2(group->stride, group->participation[contact], motion->q[g], motion->v[g], &part,
+                    &part_rate);
+        d += part;
+        d_rate += part_rate;
     }
     *approach = -motion->gap[contact] - d;
     *rate = -motion->gap_rate[contact] - d_rate;

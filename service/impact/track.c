@@ -25,39 +25,69 @@ void track_open(struct track *track, double time, double gap_rate)
         .start = time, .compression_end = time, .end = time, .gap_rate_before = gap_rate};
 }
 
-/* Where the cubic through the nodes is largest inside the step, in the step's time; < 0: at an end.
- */
-static double interior_peak(const double values[NODES])
+enum { POINTS = NODES + 2 }; /* start, nodes, end of a step */
+
+/* Polynomial through the step's six values at s in 0..1 (Lagrange). */
+static double through_points(const double place[POINTS], const double value[POINTS], double s)
 {
-    double c[NODES] = {0};
-    for (int m = 0; m < NODES; m++)
-        for (int j = 0; j < NODES; j++)
-            c[m] += values[j] * collocation.monomial[j][m];
-    /* the derivative c1 + 2 c2 s + 3 c3 s^2 falls through zero where its slope 2 (c2 + 3 c3 s) is
-     * -2 root: s = (-c2 - root) / (3 c3), in the form without cancellation */
-    double discriminant = c[2] * c[2] - 3.0 * c[3] * c[1];
-    if (discriminant <= 0.0)
-        return -1.0;
-    double root = sqrt(discriminant);
-    double s = c[2] < 0.0 ? c[1] / (root - c[2]) : -(c[2] + root) / (3.0 * c[3]);
-    return s > 0.0 && s < 1.0 ? s : -1.0;
+    double sum = 0.0;
+    for (int i = 0; i < POINTS; i++) {
+        double term = value[i];
+        for (int j = 0; j < POINTS; j++)
+            if (j != i)
+                term *= (s - place[j]) / (place[i] - place[j]);
+        sum += term;
+    }
+    return sum;
 }
 
-void track_step(struct track *track, double time, double h, const double indentation[NODES],
-                const double force[NODES], double end_indentation)
+/* Where that polynomial is largest around point i: Newton's method on central differences, kept
+ * between the neighbouring points. */
+static double peak_around(const double place[POINTS], const double value[POINTS], int i)
+{
+    double low = place[i > 0 ? i - 1 : 0];
+    double high = place[i + 1 < POINTS ? i + 1 : i];
+    double s = fmin(fmax(place[i], 0.05), 0.95);
+    for (int iteration = 0; iteration < 4; iteration++) {
+        const double e = 0.01;
+        double before = through_points(place, value, s - e);
+        double here = through_points(place, value, s);
+        double after = through_points(place, value, s + e);
+        double bend = before - 2.0 * here + after;
+        if (!(bend < 0.0))
+            break;
+        s = fmin(fmax(s - 0.5 * e * (after - before) / bend, low), high);
+    }
+    return through_points(place, value, s) > value[i] ? s : place[i];
+}
+
+void track_step(struct track *track, double time, double h, const struct track_values *values)
 {
     struct sub_impact *open = &track->open;
-    double s = interior_peak(indentation);
-    double largest = s > 0.0 ? collocation_value(indentation, s) : end_indentation;
-    if (s < 0.0)
-        s = 1.0;
-    if (largest > open->max_indentation) {
-        open->max_indentation = largest;
-        open->compression_end = time + s * h;
-        open->compression_impulse = open->impulse + h * collocation_integral(force, s);
+    double place[POINTS] = {0.0};
+    double value[POINTS] = {values->start};
+    int largest = 0;
+    place[POINTS - 1] = 1.0;
+    value[POINTS - 1] = values->end;
+    for (int j = 0; j < NODES; j++) {
+        place[j + 1] = collocation.node[j];
+        value[j + 1] = values->indentation[j];
+    }
+    for (int i = 1; i < POINTS; i++)
+        if (value[i] > value[largest])
+            largest = i;
+    /* past the peak by a thousandth there is no need to look closer */
+    if (value[largest] > 0.999 * open->max_indentation) {
+        double s = peak_around(place, value, largest);
+        double indentation = through_points(place, value, s);
+        if (indentation > open->max_indentation) {
+            open->max_indentation = indentation;
+            open->compression_end = time + s * h;
+            open->compression_impulse = open->impulse + h * collocation_integral(values->force, s);
+        }
     }
     for (int j = 0; j < NODES; j++)
-        open->impulse += h * collocation.weight[j] * force[j];
+        open->impulse += h * collocation.weight[j] * values->force[j];
 }
 
 void track_close(struct track *track, const struct contact_law *law, double time, double gap_rate)

@@ -29,10 +29,14 @@ void track_clear(struct track *track);
 
 void track_open(struct track *track, double time, double gap_rate);
 
-/* Adds a step of length h from `time` with the indentations and forces at its nodes and the
- * indentation at its end. */
-void track_step(struct track *track, double time, double h, const double indentation[NODES],
-                const double force[NODES], double end_indentation);
+/* One contact on one step: local indentations at its start, nodes and end, forces at the nodes. */
+struct track_values {
+    double start, end;
+    const double *indentation, *force; /* [NODES] */
+};
+
+/* Adds a step of length h from `time`. */
+void track_step(struct track *track, double time, double h, const struct track_values *values);
 
 /* Ends the one under way: separation, or the end of the window. */
 void track_close(struct track *track, const struct contact_law *law, double time, double gap_rate);

@@ -149,6 +149,25 @@ static void forgets_clients_gone_too_long(void **state)
     reply_store_free(store);
 }
 
+/* Gone is who was there: of a client never seen to read, the reader may just not be known yet. */
+static void knows_who_has_gone(void **state)
+{
+    (void)state;
+    struct reply_store *store = reply_store_create(&roomy);
+    assert_false(reply_store_is_gone(store, sample_client));
+    admit(store, sample_client, 1, this_content, 0.0);
+    assert_false(reply_store_is_gone(store, sample_client));
+    reply_store_set_present(store, sample_client, true, 0.0);
+    reply_store_set_present(store, sample_client, true, 0.0);
+    reply_store_set_present(store, sample_client, false, 0.0);
+    assert_false(reply_store_is_gone(store, sample_client));
+    reply_store_set_present(store, sample_client, false, 0.0);
+    assert_true(reply_store_is_gone(store, sample_client));
+    reply_store_set_present(store, sample_client, true, 0.0);
+    assert_false(reply_store_is_gone(store, sample_client));
+    reply_store_free(store);
+}
+
 static void remembers_a_bounded_number_of_clients(void **state)
 {
     (void)state;
@@ -183,6 +202,7 @@ int main(void)
         cmocka_unit_test(keeps_the_last_ones_of_each_client),
         cmocka_unit_test(stays_within_its_memory),
         cmocka_unit_test(forgets_clients_gone_too_long),
+        cmocka_unit_test(knows_who_has_gone),
         cmocka_unit_test(remembers_a_bounded_number_of_clients),
         cmocka_unit_test(an_answer_may_come_too_late),
     };

@@ -1,0 +1,165 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/node_solver.h"
+
+#include <math.h>
+
+#include "numeric/linear.h"
+
+enum { MAX_ITERATIONS = 40 };
+/* Newton's method squares the relative change (the force is smooth on the scale of the
+ * indentation), so that what is left after this one is rounding. */
+static const double LAST_CHANGE = 1e-7;
+
+/* Elimination of a 4 x 4 system in the order given; its matrix is the identity plus a small causal
+ * one. False: a pivot is too small for that order. */
+static bool eliminate(double a[NODES][NODES], double b[NODES])
+{
+    for (int c = 0; c < NODES; c++) {
+        if (!(fabs(a[c][c]) > 0.1))
+            return false;
+        double inverse = 1.0 / a[c][c];
+        for (int i = c + 1; i < NODES; i++) {
+            double factor = a[i][c] * inverse;
+            for (int k = c + 1; k < NODES; k++)
+                a[i][k] -= factor * a[c][k];
+            b[i] -= factor * b[c];
+        }
+    }
+    for (int i = NODES - 1; i >= 0; i--) {
+        for (int k = i + 1; k < NODES; k++)
+            b[i] -= a[i][k] * b[k];
+        b[i] /= a[i][i];
+    }
+    return true;
+}
+
+/* What an update changed, against the indentations and against the approaches without force: these
+ * can be far larger in a long contact, and set the rounding. */
+struct progress {
+    double change, previous;
+    double indentation, target;
+};
+
+static void look_at(struct progress *progress, double change, double indentation, double target)
+{
+    progress->change = fmax(progress->change, fabs(change));
+    progress->indentation = fmax(progress->indentation, fabs(indentation));
+    progress->target = fmax(progress->target, fabs(target));
+}
+
+static bool settled(const struct progress *progress)
+{
+    return progress->change <= LAST_CHANGE * progress->indentation ||
+           progress->change <= 1e-15 * progress->target ||
+           (progress->change <= 1e-12 * progress->target && progress->change >= progress->previous);
+}
+
+/* Forces after the last, tiny update: the slope that it was made with carries them along. */
+static void follow(double force[NODES], const double stiffness[NODES], const double change[NODES])
+{
+    for (int i = 0; i < NODES; i++)
+        force[i] = fmax(0.0, force[i] - stiffness[i] * change[i]);
+}
+
+/* One active contact: the usual case, without scratch memory. */
+static bool solve_one(const struct node_problem *problem, double d[NODES], double force[NODES],
+                      unsigned long *iterations)
+{
+    size_t contact = problem->list[0];
+    const struct contact_law *law = &problem->laws[contact];
+    const double(*m)[NODES] = problem->coupling[contact * problem->contacts + contact];
+    const double *target = problem->target[0];
+    double previous = INFINITY;
+    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+        double stiffness[NODES];
+        double jacobian[NODES][NODES];
+        double residual[NODES];
+        for (int i = 0; i < NODES; i++)
+            force[i] = contact_law_force(law, NULL, d[i], &stiffness[i]);
+        for (int i = 0; i < NODES; i++) {
+            residual[i] = d[i] - target[i];
+            for (int j = 0; j < NODES; j++) {
+                residual[i] += m[i][j] * force[j];
+                jacobian[i][j] = m[i][j] * stiffness[j];
+            }
+            jacobian[i][i] += 1.0;
+        }
+        if (!eliminate(jacobian, residual))
+            return false;
+        ++*iterations;
+        struct progress progress = {.previous = previous};
+        for (int i = 0; i < NODES; i++) {
+            d[i] -= residual[i];
+            look_at(&progress, residual[i], d[i], target[i]);
+        }
+        if (!isfinite(progress.change))
+            return false;
+        if (settled(&progress)) {
+            follow(force, stiffness, residual);
+            return true;
+        }
+        previous = progress.change;
+    }
+    return false;
+}
+
+/* Forces, residual and Jacobian of all active contacts. */
+static void assemble(const struct node_problem *problem, double (*indentation)[NODES],
+                     double (*force)[NODES], double (*stiffness)[NODES])
+{
+    size_t size = problem->count * NODES;
+    for (size_t a = 0; a < problem->count; a++) {
+        size_t c = problem->list[a];
+        for (int i = 0; i < NODES; i++)
+            force[c][i] =
+                contact_law_force(&problem->laws[c], NULL, indentation[c][i], &stiffness[a][i]);
+    }
+    for (size_t row = 0; row < size; row++) {
+        size_t a = problem->list[row / NODES];
+        size_t i = row % NODES;
+        double sum = indentation[a][i] - problem->target[row / NODES][i];
+        for (size_t column = 0; column < size; column++) {
+            size_t b = problem->list[column / NODES];
+            double m = problem->coupling[a * problem->contacts + b][i][column % NODES];
+            sum += m * force[b][column % NODES];
+            problem->matrix[row * size + column] =
+                m * stiffness[column / NODES][column % NODES] + (row == column);
+        }
+        problem->residual[row] = sum;
+    }
+}
+
+bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
+                double (*force)[NODES], unsigned long *iterations)
+{
+    size_t first = problem->list[0];
+    if (problem->count == 1 && solve_one(problem, indentation[first], force[first], iterations))
+        return true;
+    size_t size = problem->count * NODES;
+    double stiffness[PERCUSS_MAX_CONTACTS][NODES];
+    double previous = INFINITY;
+    for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+        assemble(problem, indentation, force, stiffness);
+        if (!linear_solve(size, problem->matrix, problem->residual))
+            return false;
+        ++*iterations;
+        struct progress progress = {.previous = previous};
+        for (size_t row = 0; row < size; row++) {
+            double *d = &indentation[problem->list[row / NODES]][row % NODES];
+            *d -= problem->residual[row];
+            look_at(&progress, problem->residual[row], *d,
+                    problem->target[row / NODES][row % NODES]);
+        }
+        if (!isfinite(progress.change))
+            return false;
+        if (settled(&progress)) {
+            for (size_t a = 0; a < problem->count; a++)
+                follow(force[problem->list[a]], stiffness[a], problem->residual + a * NODES);
+            return true;
+        }
+        previous = progress.change;
+    }
+    return false;
+}

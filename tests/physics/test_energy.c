@@ -1,0 +1,158 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The energy audit of physics notes, section 4: every term by itself, |closure| at most 1e-9 of what
+ * was available at a tolerance of 1e-8 or less, ten times the tolerance otherwise. */
+#include "physics/support.h"
+
+static const double dampings[] = {0.0, 1e-5, 1e-3, 0.02, 0.2, 0.7, 0.97};
+
+enum { SCENES = 6 };
+
+static struct lab *lab_with_damping(double damping)
+{
+    struct lab *lab = lab_create();
+    struct body rod = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 0.6);
+    struct body tipped = make_bar(SHAPE_ROD, STEEL, 0.008, 0.3);
+    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct body flat = make_supported(make_body(SHAPE_BEAM, STEEL), SUPPORT_PINNED, SUPPORT_FREE);
+    tipped.tip_radius = 0.012;
+    flat.width = 0.02;
+    flat.height = 0.008;
+    flat.length = 0.4;
+    rod.damping = tipped.damping = beam.damping = flat.damping = damping;
+    lab_add(lab, "ball", make_sphere(STEEL, 0.015));
+    lab_add(lab, "rod", rod);
+    lab_add(lab, "tipped", tipped);
+    lab_add(lab, "beam", beam);
+    lab_add(lab, "flat", flat);
+    return lab;
+}
+
+static struct solve_request scene(int index)
+{
+    const struct spot ball = sphere_spot("ball", 0.015);
+    const struct spot flat = {"flat", {0.1, 0.002, 0.004}, {0.0, 0.0, 1.0}, 0.0};
+    switch (index) {
+    case 0:
+        return strike(ball, end_spot("rod", 0.6), 0.3);
+    case 1:
+        return strike(ball, side_spot("beam", 0.1, 0.010, 0.5), 0.2);
+    case 2:
+        return strike(end_spot("tipped", 0.3), end_spot("rod", 0.6), 0.4);
+    case 3:
+        return strike(end_spot("tipped", 0.3), side_spot("beam", 0.0, 0.010, 0.0), 0.2);
+    case 4:
+        return strike(ball, flat, 0.3);
+    default:
+        return strike(ball, end_spot("beam", 1.0), 0.3);
+    }
+}
+
+static double share(const struct solve_result *result)
+{
+    return result->energy.closure / result->energy.available;
+}
+
+static void check_terms(const struct solve_result *result, bool damped)
+{
+    const struct impact_energy *energy = &result->energy;
+    double vibration = 0.0;
+    for (size_t b = 0; b < result->body_count; b++)
+        vibration += result->bodies[b].vibration;
+    measured_relative("vibration by body", vibration, energy->vibration, 1e-12);
+    assert_true(energy->plastic == 0.0);
+    assert_true(energy->rigid_after >= 0.0 && energy->vibration >= 0.0);
+    assert_true(damped ? energy->damping > 0.0 : energy->damping == 0.0);
+    double sum = energy->rigid_after + energy->vibration + energy->damping + energy->plastic +
+                 energy->stored;
+    measured("closure is the difference", energy->available - sum, energy->closure,
+             1e-14 * energy->available);
+}
+
+static void every_scene_closes(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static const double tolerances[] = {1e-3, 1e-6, 1e-8};
+    for (size_t d = 0; d < COUNT(dampings); d++) {
+        struct lab *lab = lab_with_damping(dampings[d]);
+        for (int i = 0; i < SCENES; i++) {
+            for (size_t t = 0; t < COUNT(tolerances); t++) {
+                struct solve_request request = scene(i);
+                char what[64];
+                request.options.tolerance = tolerances[t];
+                lab_solve(lab, &request, &result);
+                snprintf(what, sizeof what, "closure, tolerance %g", tolerances[t]);
+                /* the notes' bounds */
+                measured(what, share(&result), 0.0, t < 2 ? 10.0 * tolerances[t] : 1e-9);
+                assert_true(result.energy.stored == 0.0);
+                check_terms(&result, dampings[d] > 0.0);
+            }
+        }
+        lab_free(lab);
+    }
+}
+
+/* Forces that the rigid motion feels all the time: their work is part of what is available. */
+static void acceleration_and_gaps_close(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static const double accelerations[] = {-30.0, -9.81, 9.81, 30.0};
+    static const double gaps[] = {-2e-4, 0.0, 1e-4};
+    for (size_t d = 0; d < 4; d += 3) {
+        struct lab *lab = lab_with_damping(dampings[d]);
+        for (int i = 0; i < SCENES; i++) {
+            for (size_t k = 0; k < COUNT(accelerations) * COUNT(gaps); k++) {
+                struct solve_request request = scene(i);
+                request.contacts[0].gap_acceleration = accelerations[k / COUNT(gaps)];
+                request.contacts[0].gap = gaps[k % COUNT(gaps)];
+                request.options.tolerance = 1e-8;
+                enum percuss_status status =
+                    solve(lab->workspace, &lab->set, &request, &result);
+                /* a pressed body may rattle beyond the horizon */
+                assert_true(status == PERCUSS_OK || status == PERCUSS_TRUNCATED);
+                /* what is available shrinks as a pulling acceleration spends it: compare with the
+                 * approach's energy at least */
+                double v = request.bodies[0].velocity[2];
+                double w = result.contacts[0].inverse_effective_mass;
+                double scale = fmax(result.energy.available, 0.5 * v * v / w);
+                measured("closure, acceleration", result.energy.closure / scale, 0.0, 1e-9);
+            }
+        }
+        lab_free(lab);
+    }
+}
+
+/* A horizon inside the contact: the law and the residual flexibility hold energy then. */
+static void an_unfinished_contact_stores_energy(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_with_damping(0.02);
+    for (int i = 0; i < SCENES; i++) {
+        for (double horizon = 2e-5; horizon < 9e-5; horizon += 3e-5) {
+            struct solve_request request = scene(i);
+            request.options.tolerance = 1e-8;
+            request.options.horizon = horizon;
+            assert_int_equal(solve(lab->workspace, &lab->set, &request, &result),
+                             PERCUSS_TRUNCATED);
+            assert_int_equal(result.end_reason, PERCUSS_END_IN_CONTACT);
+            assert_true(result.energy.stored > 0.0);
+            measured("closure, in contact", share(&result), 0.0, 1e-9);
+            check_terms(&result, true);
+        }
+    }
+    lab_free(lab);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_scene_closes),
+        cmocka_unit_test(acceleration_and_gaps_close),
+        cmocka_unit_test(an_unfinished_contact_stores_energy),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
