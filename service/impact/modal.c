@@ -11,8 +11,6 @@
 
 /* See longest_stable_step. */
 static const double RESOLVED = 2.0;
-static const double COUPLING =
-    0.25; /* 0.5 still closes the audit to 1e-5 over 20 wave passages, 2 does not */
 
 /* A run of the modal method. */
 struct modal_run {
@@ -55,12 +53,18 @@ static bool any_active(const struct modal_run *run)
     return false;
 }
 
+/* 0.5 still closes the audit to 1e-5 over 20 wave passages, 2 does not; 0.02 closes it to 1e-11. */
+static double allowed_coupling(double accuracy)
+{
+    return fmin(0.25, 3.2 * pow(accuracy, 0.2));
+}
+
 /* A mode that the step does not resolve sees the law at four instants only and can be pumped by it.
  * Its coupling to the contact within a step, phi^2 (dF/dd) h / omega, must then stay small; the
  * strongest unresolved mode is the slowest one, omega h = RESOLVED. Long contacts on light bodies
  * need this (hundreds of steps); an ordinary impact takes such steps anyway. */
 static double longest_stable_step(const struct scene *scene, size_t contact,
-                                  const struct impact_scale *scale)
+                                  const struct impact_scale *scale, double accuracy)
 {
     double stiffness;
     double longest = INFINITY;
@@ -73,7 +77,7 @@ static double longest_stable_step(const struct scene *scene, size_t contact,
         double largest = 0.0;
         for (size_t k = 0; k < group->count; k++)
             largest = fmax(largest, phi[k] * phi[k]);
-        double coupled = sqrt(RESOLVED * COUPLING / (largest * stiffness));
+        double coupled = sqrt(RESOLVED * allowed_coupling(accuracy) / (largest * stiffness));
         double resolved = RESOLVED / group->set->omega[group->count - 1];
         longest = fmin(longest, fmax(coupled, resolved));
     }
@@ -85,7 +89,8 @@ static void activate(struct modal_run *run, size_t contact, double indentation, 
     run->active[contact] = true;
     run->now[contact] = (struct contact_start){indentation, rate, 0.0};
     run->scales[contact] = impact_scale_of(run->scene, contact, rate);
-    run->longest[contact] = longest_stable_step(run->scene, contact, &run->scales[contact]);
+    run->longest[contact] =
+        longest_stable_step(run->scene, contact, &run->scales[contact], run->settings->accuracy);
     track_open(&run->outcome->tracks[contact], run->motion->time, run->motion->gap_rate[contact]);
 }
 

@@ -13,6 +13,8 @@ static const double CUT_RATIO = 1.6;
  * 1/(1.6^2 - 1) = 0.64. */
 static const double REMAINDER = 0.64;
 enum { MAX_RAISES = 6, MAX_TIGHTENINGS = 3, MAX_SCENE_MODES = 1200 };
+/* Finest accuracy of the time steps that is tried. */
+static const double FINEST = 1e-17;
 /* One solution: steps times modes. About a tenth of a second by the modal method. */
 static const double MAX_WORK = 2e7;
 /* CVODE's steps are cheaper and many more. */
@@ -71,7 +73,7 @@ static double sequence_cut(const struct search *search, double duration)
  * tolerance is 1e-8 or less. */
 static double first_accuracy(double tolerance)
 {
-    return fmax(tolerance <= 1e-8 ? 1e-3 * tolerance : 0.1 * tolerance, 1e-14);
+    return fmax(tolerance <= 1e-8 ? 1e-3 * tolerance : 0.1 * tolerance, FINEST);
 }
 
 static double default_horizon(const struct scene *scene)
@@ -297,11 +299,11 @@ static enum percuss_status search_steps(const struct search *search, struct atte
             fabs(energy->closure) <=
             closure_allowed * fmax(energy->available, approach_energy(search));
         if ((accuracy->restitution_time <= 0.3 * search->tolerance && accuracy->energy_closes) ||
-            i >= MAX_TIGHTENINGS || best->accuracy < 1.01e-14 ||
+            i >= MAX_TIGHTENINGS || best->accuracy < 1.01 * FINEST ||
             best->outcome.end_reason == PERCUSS_END_LIMIT)
             break;
         coarse = *best;
-        best->accuracy = fmax(best->accuracy / 100.0, 1e-14);
+        best->accuracy = fmax(best->accuracy / 100.0, FINEST);
         status = run(search, best, &best->assembly->scene);
     }
     return status;
