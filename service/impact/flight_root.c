@@ -11,15 +11,12 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
     *first = INFINITY;
     *last = INFINITY;
     if (acceleration >= 0.0) {
-        if (rate >= 0.0 && excess >= 0.0)
-            *first = 0.0;
-        else if (acceleration > 0.0) {
-            /* the later root, when it is above and opening */
-            double discriminant = rate * rate - 2.0 * acceleration * excess;
-            double turn = fmax(0.0, -rate / acceleration);
-            *first =
-                discriminant > 0.0 ? fmax(turn, (sqrt(discriminant) - rate) / acceleration) : turn;
-        } else if (rate > 0.0)
+        double discriminant = rate * rate - 2.0 * acceleration * excess;
+        if (excess >= 0.0 && (rate >= 0.0 || (acceleration > 0.0 && discriminant < 0.0)))
+            *first = 0.0; /* opens, or turns before it falls below */
+        else if (acceleration > 0.0)
+            *first = (sqrt(fmax(0.0, discriminant)) - rate) / acceleration;
+        else if (rate > 0.0)
             *first = -excess / rate;
         return;
     }
@@ -79,8 +76,7 @@ static double rising_root(const struct motion *motion, const struct scene *scene
         double next = rate > 0.0 ? t - d / rate : low;
         if (!(next > low && next < high))
             next = 0.5 * (low + high);
-        /* Newton's method squares its change relative to the interval */
-        if (fabs(next - t) <= 1e-8 * h || high - low <= 1e-16 * fabs(high))
+        if (fabs(next - t) <= 1e-16 * fabs(t) || high - low <= 1e-16 * fabs(high))
             return next;
         t = next;
     }

@@ -41,12 +41,24 @@ bool impact_find_start(const struct scene *scene, double longest, struct motion 
     return true;
 }
 
+/* What a step costs, in modes: the modes themselves, and the equations of the contacts. */
+static double step_cost(const struct scene *scene)
+{
+    double n = (double)scene->contacts;
+    double modes = 16.0 * n * n * n;
+    for (size_t g = 0; g < scene->groups; g++)
+        modes += (double)scene->group[g].count;
+    return modes;
+}
+
 unsigned long impact_max_steps(const struct scene *scene, const struct impact_settings *settings)
 {
-    size_t modes = 0;
-    for (size_t g = 0; g < scene->groups; g++)
-        modes += scene->group[g].count;
-    return (unsigned long)(settings->max_work / (double)(modes + 16));
+    return (unsigned long)(fmax(0.0, settings->max_work) / step_cost(scene));
+}
+
+double impact_work(const struct scene *scene, const struct impact_outcome *outcome)
+{
+    return (double)(outcome->steps + outcome->rejected + outcome->intervals) * step_cost(scene);
 }
 
 /* Inverse mass that a contact feels within `duration`: rigid, and every mode that is slower than

@@ -13,7 +13,7 @@
 struct impact_settings {
     double accuracy; /* relative error of an impulse that the time steps may cause */
     double horizon;  /* s from the stated instant */
-    double max_work; /* contact steps and flight intervals, times modes + 16 */
+    double max_work; /* contact steps and flight intervals, times (modes + 16 contacts^3) */
 };
 
 /* Everything here lives in the arena given to impact_create. */
@@ -58,6 +58,9 @@ bool impact_find_start(const struct scene *scene, double longest, struct motion 
 
 /* How many steps and intervals the work allowed is on a scene. */
 unsigned long impact_max_steps(const struct scene *scene, const struct impact_settings *settings);
+
+/* The work that a solution took, in the same unit. */
+double impact_work(const struct scene *scene, const struct impact_outcome *outcome);
 
 /* Scales of a contact that begins at an approach rate: those of an elastic collision of the masses
  * that it feels meanwhile. */

@@ -20,7 +20,8 @@ struct modal_run {
     struct motion *motion; /* the outcome's: the current state */
     struct contact_step step;
     struct flight flight;
-    bool *active;                  /* [contact] */
+    bool *active;   /* [contact] */
+    bool *everyone; /* [contact] true: all contacts are in the equations of a contact phase */
     struct contact_start *now;     /* [contact], local */
     double *final;                 /* [contact], indentation at the end of the window */
     struct impact_scale *scales;   /* [contact], of the sub-impact under way */
@@ -84,21 +85,23 @@ static double longest_stable_step(const struct scene *scene, size_t contact,
     return longest;
 }
 
-static void activate(struct modal_run *run, size_t contact, double indentation, double rate)
+/* A sub-impact begins at `time` with an approach rate. */
+static void activate(struct modal_run *run, size_t contact, double time, double rate)
 {
     run->active[contact] = true;
-    run->now[contact] = (struct contact_start){indentation, rate, 0.0};
     run->scales[contact] = impact_scale_of(run->scene, contact, rate);
     run->longest[contact] =
         longest_stable_step(run->scene, contact, &run->scales[contact], run->settings->accuracy);
-    track_open(&run->outcome->tracks[contact], run->motion->time, run->motion->gap_rate[contact]);
+    track_open(&run->outcome->tracks[contact], time, run->motion->gap_rate[contact]);
 }
 
+/* It ends at `time`; the motion may be a little later. */
 static void deactivate(struct modal_run *run, size_t contact, double time)
 {
     run->active[contact] = false;
+    double late = run->motion->time - time;
     track_close(&run->outcome->tracks[contact], &run->scene->laws[contact], time,
-                run->motion->gap_rate[contact]);
+                run->motion->gap_rate[contact] - run->scene->gap_acceleration[contact] * late);
 }
 
 /* The finest level that events and grading need. */
@@ -150,8 +153,6 @@ static double step_roughness(const struct modal_run *run)
 {
     double worst = 0.0;
     for (size_t c = 0; c < run->scene->contacts; c++) {
-        if (!run->active[c])
-            continue;
         double highest = 0.0;
         for (int j = 0; j < NODES; j++)
             highest += collocation.highest[j] * run->step.force[c][j];
@@ -160,15 +161,18 @@ static double step_roughness(const struct modal_run *run)
     return worst;
 }
 
-/* A contact that opens or closes inside the step. */
+/* The only closed contact ends inside the step: the step is cut there, as its force has no
+ * derivative there. While several are closed they open and close all the time, mostly with little
+ * force: all of them are in the equations throughout, and roughness alone decides. */
 static bool has_event(const struct modal_run *run)
 {
+    size_t closed = 0;
+    bool ends = false;
     for (size_t c = 0; c < run->scene->contacts; c++) {
-        bool closed = run->step.end_indentation[c] > 0.0;
-        if (closed != run->active[c])
-            return true;
+        closed += run->active[c];
+        ends = ends || (run->active[c] && !(run->step.end_indentation[c] > 0.0));
     }
-    return false;
+    return closed == 1 && ends;
 }
 
 /* Last instant with positive indentation on the step just made: linear between the nodes around it.
@@ -205,31 +209,73 @@ static struct contact_start end_values(const double values[NODES], double h, dou
     return (struct contact_start){indentation, rate / h, curvature / (h * h)};
 }
 
+/* First instant with positive indentation on the step just made, likewise. */
+static double closing_time(const struct modal_run *run, size_t contact, double start, double h)
+{
+    double before = run->now[contact].indentation;
+    double at = 0.0;
+    for (int j = 0; j <= NODES; j++) {
+        double s = j < NODES ? collocation.node[j] : 1.0;
+        double d =
+            j < NODES ? run->step.indentation[contact][j] : run->step.end_indentation[contact];
+        if (d > 0.0)
+            return start + h * (at + (s - at) * fmax(0.0, -before) / (d + fmax(0.0, -before)));
+        before = d;
+        at = s;
+    }
+    return start + h;
+}
+
+/* Whether a contact bears a force at any node of the step. */
+static bool bears(const struct modal_run *run, size_t contact)
+{
+    for (int j = 0; j < NODES; j++)
+        if (run->step.force[contact][j] > 0.0)
+            return true;
+    return false;
+}
+
+/* The books of one contact after a step: sub-impacts begin, go on, end (also all of it within one
+ * step of a group). */
+static void keep_books(struct modal_run *run, size_t c, double start, double h)
+{
+    double end = run->step.end_indentation[c];
+    struct track_values values = {run->now[c].indentation, end, run->step.indentation[c],
+                                  run->step.force[c]};
+    struct contact_start after = end_values(run->step.indentation[c], h, end);
+    if (!run->active[c] && (end > 0.0 || bears(run, c)))
+        activate(run, c, closing_time(run, c, start, h), fmax(run->now[c].rate, after.rate));
+    if (run->active[c]) {
+        track_step(&run->outcome->tracks[c], start, h, &values);
+        if (end <= 0.0)
+            deactivate(run, c, release_time(run, c, start, h));
+    }
+    run->now[c] = after;
+}
+
 /* Makes the step just solved the present. */
 static void accept(struct modal_run *run, int level)
 {
-    double h = step_length(level);
     double start = run->motion->time;
     struct motion old = *run->motion;
     *run->motion = run->step.end;
     run->step.end = old;
     run->damping += run->step.loss;
     run->outcome->steps++;
+    for (size_t c = 0; c < run->scene->contacts; c++)
+        keep_books(run, c, start, step_length(level));
+}
+
+/* Starting values of the contacts that are open while another one is closed. */
+static void begin_phase(struct modal_run *run)
+{
     for (size_t c = 0; c < run->scene->contacts; c++) {
-        double end = run->step.end_indentation[c];
-        if (run->active[c]) {
-            struct track_values values = {run->now[c].indentation, end, run->step.indentation[c],
-                                          run->step.force[c]};
-            track_step(&run->outcome->tracks[c], start, h, &values);
-            if (end <= 0.0)
-                deactivate(run, c, release_time(run, c, start, h));
-            run->now[c] = end_values(run->step.indentation[c], h, end);
-        } else if (end > 0.0) {
-            double d;
-            double rate;
-            motion_approach(run->motion, run->scene, c, &d, &rate);
-            activate(run, c, end, rate);
-        }
+        double d;
+        double rate;
+        if (run->active[c])
+            continue;
+        motion_approach(run->motion, run->scene, c, &d, &rate);
+        run->now[c] = (struct contact_start){fmin(d, 0.0), rate, 0.0};
     }
 }
 
@@ -238,17 +284,20 @@ static enum percuss_end_reason contact_phase(struct modal_run *run)
 {
     double allowed = allowed_roughness(run);
     int level = finest_level(run);
+    begin_phase(run);
     while (any_active(run)) {
         if (++run->used > run->max_steps)
             return PERCUSS_END_LIMIT;
         int finest = finest_level(run);
-        level = limit_level(run, level < finest ? level : finest, finest);
+        /* roughness may ask for more than events do: a graze is shorter than its scale */
+        int deepest = finest + 8;
+        level = limit_level(run, level < deepest ? level : deepest, finest);
         double h = step_length(level);
         if (run->motion->time + h == run->motion->time ||
             run->settings->horizon - run->motion->time < step_length(finest))
             return PERCUSS_END_IN_CONTACT;
         bool solved =
-            contact_step_solve(&run->step, run->scene, run->motion, run->active, level, run->now);
+            contact_step_solve(&run->step, run->scene, run->motion, run->everyone, level, run->now);
         double roughness = solved ? step_roughness(run) : INFINITY;
         bool fine = level >= finest;
         if (!solved || (!fine && (roughness > 3.0 * allowed || has_event(run)))) {
@@ -294,18 +343,22 @@ static enum percuss_end_reason fly(struct modal_run *run)
     double d;
     double rate;
     motion_approach(run->motion, run->scene, contact, &d, &rate);
-    activate(run, contact, 0.0, rate);
+    activate(run, contact, run->motion->time, rate);
+    run->now[contact] = (struct contact_start){0.0, rate, 0.0};
     return PERCUSS_END_NONE;
 }
 
 static bool run_create(struct modal_run *run, const struct scene *scene, struct arena *arena)
 {
     run->active = arena_take(arena, scene->contacts, sizeof *run->active);
+    run->everyone = arena_take(arena, scene->contacts, sizeof *run->everyone);
+    for (size_t c = 0; run->everyone && c < scene->contacts; c++)
+        run->everyone[c] = true;
     run->now = arena_take(arena, scene->contacts, sizeof *run->now);
     run->final = arena_take(arena, scene->contacts, sizeof *run->final);
     run->scales = arena_take(arena, scene->contacts, sizeof *run->scales);
     run->longest = arena_take(arena, scene->contacts, sizeof *run->longest);
-    return run->active && run->now && run->final && run->scales && run->longest &&
+    return run->active && run->everyone && run->now && run->final && run->scales && run->longest &&
            contact_step_create(&run->step, scene, arena) &&
            flight_create(&run->flight, scene, arena);
 }

@@ -42,11 +42,17 @@ struct progress {
     double indentation, target;
 };
 
+/* fmax is a call; these are plain comparisons (a NaN change is caught by the caller's isfinite). */
+static double larger(double a, double b)
+{
+    return b > a || isnan(b) ? b : a;
+}
+
 static void look_at(struct progress *progress, double change, double indentation, double target)
 {
-    progress->change = fmax(progress->change, fabs(change));
-    progress->indentation = fmax(progress->indentation, fabs(indentation));
-    progress->target = fmax(progress->target, fabs(target));
+    progress->change = larger(progress->change, fabs(change));
+    progress->indentation = larger(progress->indentation, fabs(indentation));
+    progress->target = larger(progress->target, fabs(target));
 }
 
 static bool settled(const struct progress *progress)

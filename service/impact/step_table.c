@@ -4,6 +4,7 @@
 #include "impact/step_table.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,7 +40,12 @@ void oscillators_free(struct oscillators *set)
 
 double step_length(int level)
 {
-    return ldexp(1.0, -level);
+    /* the bits of 2^-level: this is in the inner loop */
+    union {
+        uint64_t bits;
+        double value;
+    } power = {.bits = (uint64_t)(1023 - level) << 52};
+    return power.value;
 }
 
 int step_level(double h)

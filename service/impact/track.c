@@ -76,8 +76,13 @@ void track_step(struct track *track, double time, double h, const struct track_v
     for (int i = 1; i < POINTS; i++)
         if (value[i] > value[largest])
             largest = i;
-    /* past the peak by a thousandth there is no need to look closer */
-    if (value[largest] > 0.999 * open->max_indentation) {
+    /* still rising: the end will do, the next step looks closer; past the peak by a thousandth
+     * there is no need to look */
+    if (largest == POINTS - 1 && values->end > open->max_indentation) {
+        open->max_indentation = values->end;
+        open->compression_end = time + h;
+        open->compression_impulse = open->impulse + h * collocation_integral(values->force, 1.0);
+    } else if (value[largest] > 0.999 * open->max_indentation) {
         double s = peak_around(place, value, largest);
         double indentation = through_points(place, value, s);
         if (indentation > open->max_indentation) {

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numeric/linear.h"
+
 /* Tableau of w - m z - 1 z0 = q: n rows; columns w (n), z (n), z0, q. (Cottle, Pang, Stone, The
  * Linear Complementarity Problem, algorithm 4.4.5 and section 4.9.) */
 struct tableau {
@@ -115,6 +117,41 @@ static bool lemke(struct tableau *t)
     return false;
 }
 
+/* The final basis solved afresh, without the tableau's rounding: m_BB z_B = -q_B with the raised
+ * diagonal, and one step of refinement. False: singular after all (the tableau's values stay). */
+static bool polish(const struct tableau *t, const double *m, const double *q, double *z)
+{
+    size_t n = t->n;
+    size_t *list = calloc(n, sizeof *list);
+    double *a = calloc(n * n, sizeof *a);
+    double *b = calloc(n, sizeof *b);
+    size_t count = 0;
+    bool done = list && a && b;
+    for (size_t j = 0; done && j < n; j++)
+        for (size_t i = 0; i < n; i++)
+            if (t->basis[i] == n + j)
+                list[count++] = j;
+    for (int round = 0; done && round < 2; round++) {
+        for (size_t i = 0; i < count; i++) {
+            b[i] = -q[list[i]];
+            for (size_t j = 0; j < count; j++) {
+                double raise = i == j ? 1e-10 * m[list[i] * n + list[i]] : 0.0;
+                a[i * count + j] = m[list[i] * n + list[j]] + raise;
+                b[i] -= round ? a[i * count + j] * z[list[j]] : 0.0;
+            }
+        }
+        done = linear_solve(count, a, b);
+        for (size_t i = 0; done && i < count; i++)
+            z[list[i]] = round ? z[list[i]] + b[i] : b[i];
+    }
+    for (size_t i = 0; done && i < count; i++)
+        z[list[i]] = fmax(0.0, z[list[i]]);
+    free(list);
+    free(a);
+    free(b);
+    return done;
+}
+
 /* The independent judge: complementarity of the answer itself. */
 static bool solves(size_t n, const double *m, const double *q, const double *z)
 {
@@ -140,6 +177,8 @@ bool lcp_solve(size_t n, const double *m, const double *q, double *z)
     for (size_t i = 0; solved && i < n; i++)
         if (t.basis[i] >= n && t.basis[i] < 2 * n)
             z[t.basis[i] - n] = fmax(0.0, row_of(&t, i)[t.width - 1]);
+    if (solved)
+        polish(&t, m, q, z);
     free(t.cell);
     free(t.basis);
     return solved && solves(n, m, q, z);

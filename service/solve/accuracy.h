@@ -14,7 +14,9 @@ struct accuracy {
     struct impact_outcome outcome; /* the answer */
     double restitution_time, restitution_modes;
     double impulse_time, impulse_modes;
+    double amplification;        /* of a relative error of the first sub-impact into e */
     double restitution_by_speed; /* NAN unless asked for */
+    double energy_defect;        /* |closure| against what is available or approaches */
     bool energy_closes;          /* as the tolerance demands */
     bool tolerance_met;
 };

@@ -180,9 +180,11 @@ static bool add_family(const struct addition *add, double *residual)
         assembly->all_modes += group->count;
         assembly->highest = fmax(assembly->highest, group->set->omega[group->count - 1]);
     }
-    if (body->modes == 0 && add->count < add->prepared->modes->count)
-        assembly->lowest_omitted =
-            fmin(assembly->lowest_omitted, add->prepared->modes->rank[add->count]);
+    if (body->modes == 0 && add->count < add->prepared->modes->count) {
+        double omitted = add->prepared->modes->rank[add->count];
+        assembly->lowest_omitted = fmin(assembly->lowest_omitted, omitted);
+        assembly->omitted[add->body] = fmin(assembly->omitted[add->body], omitted);
+    }
     return true;
 }
 
@@ -230,6 +232,8 @@ bool assemble(struct assembly *assembly, const struct geometry *geometry,
     double *residual = arena_take(arena, n * n, sizeof *residual);
     memset(assembly->modes, 0, sizeof assembly->modes);
     assembly->scene = (struct scene){.residual = residual};
+    for (size_t b = 0; b < PERCUSS_MAX_BODIES; b++)
+        assembly->omitted[b] = INFINITY;
     assembly->all_modes = 0;
     assembly->capped = false;
     assembly->highest = 0.0;

@@ -16,11 +16,12 @@ struct assembly {
     struct scene_group groups[SCENE_MAX_GROUPS];
     const struct prepared_group *sources[SCENE_MAX_GROUPS]; /* of each group */
     enum mode_family families[SCENE_MAX_GROUPS];
-    size_t modes[PERCUSS_MAX_BODIES]; /* taking part, by body */
-    size_t all_modes;                 /* taking part, of all bodies */
-    bool capped;                      /* a family has more modes below the cut than are allowed */
-    double highest;                   /* of the frequencies that take part, rad/s */
-    double lowest_omitted;            /* rad/s; INFINITY: no more modes to be had */
+    size_t modes[PERCUSS_MAX_BODIES];   /* taking part, by body */
+    double omitted[PERCUSS_MAX_BODIES]; /* lowest frequency that does not, rad/s; INFINITY: none */
+    size_t all_modes;                   /* taking part, of all bodies */
+    bool capped;                        /* a family has more modes below the cut than are allowed */
+    double highest;                     /* of the frequencies that take part, rad/s */
+    double lowest_omitted;              /* rad/s; INFINITY: no more modes to be had */
 };
 
 /* Most modes of one family of one body. */

@@ -14,6 +14,8 @@
 
 /* Faster approaches are outside everything that the models describe. */
 static const double MAX_SPEED = 1e4;
+/* So is a mass beyond these. */
+static const double MIN_INVERSE_MASS = 1e-100;
 
 static enum percuss_status find_bodies(struct geometry *geometry, const struct body_set *catalogue,
                                        const struct solve_request *request, struct fault *fault)
@@ -142,12 +144,14 @@ static enum percuss_status choose_w(struct geometry *geometry, const struct solv
     memcpy(geometry->w, request->delassus ? request->delassus : geometry->service_w,
            n * n * sizeof *geometry->w);
     for (size_t i = 0; i < n; i++) {
-        if (geometry->w[i * n + i] > 0.0)
+        if (geometry->w[i * n + i] >= MIN_INVERSE_MASS &&
+            geometry->w[i * n + i] <= 1.0 / MIN_INVERSE_MASS)
             continue;
         if (geometry->from_client)
             return fault_set(fault, PERCUSS_BAD_REQUEST,
-                             "delassus[%zu]: %g: the diagonal must be > 0", i * n + i,
-                             geometry->w[i * n + i]);
+                             "delassus[%zu]: %g: the diagonal must be between %g and %g 1/kg",
+                             i * n + i, geometry->w[i * n + i], MIN_INVERSE_MASS,
+                             1.0 / MIN_INVERSE_MASS);
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "contacts[%zu]: neither %s nor %s can move rigidly there: at least one "
                          "partner must (or send the simulator's delassus)",

@@ -204,6 +204,12 @@ void report_fill(const struct geometry *geometry, const struct solve_request *re
     fill_model(geometry, request, accuracy, result);
     fill_end(accuracy, result);
     validity_warn(geometry, request, catalogue, result);
+    if (accuracy->energy_defect > 0.01)
+        result->status =
+            fault_set(&result->fault, PERCUSS_INTERNAL,
+                      "energy.closure: %.3g J of %.3g J available: the solution does not "
+                      "keep the energy and is not to be used",
+                      result->energy.closure, result->energy.available);
     if (!is_finite(result))
         result->status = fault_set(&result->fault, PERCUSS_INTERNAL,
                                    "no finite answer: the numbers of the request are out of scale");

@@ -62,6 +62,30 @@ static enum percuss_status check_counts(const struct solve_request *request, str
     return PERCUSS_OK;
 }
 
+/* The endpoint has checked the wire's numbers; this guards the library's own entrance. */
+static enum percuss_status check_finite(const struct solve_request *request, struct fault *fault)
+{
+    for (size_t c = 0; c < request->contact_count; c++) {
+        const struct solve_contact *contact = &request->contacts[c];
+        if (!(fabs(contact->gap) <= 1e3))
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "contacts[%zu].gap: %g: must be within +-1000 m", c, contact->gap);
+        if (!(fabs(contact->gap_acceleration) <= 1e9))
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "contacts[%zu].gap_acceleration: %g: must be within +-1e9 m/s^2", c,
+                             contact->gap_acceleration);
+    }
+    const struct solve_options *options = &request->options;
+    if (!(options->horizon >= 0.0 && options->horizon <= 1e12))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.horizon: %g: must be 0 (the default) to 1e12 s",
+                         options->horizon);
+    if (!(options->tolerance >= 0.0 && options->tolerance <= 1.0))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.tolerance: %g: must be 0 (the default) to 1", options->tolerance);
+    return PERCUSS_OK;
+}
+
 /* What later versions will answer is refused by name, never ignored. */
 static enum percuss_status check_supported(const struct solve_options *options, struct fault *fault)
 {
@@ -103,6 +127,8 @@ enum percuss_status solve(struct solve_workspace *workspace, const struct body_s
     arena_reset(&workspace->arena);
     prepared_cache_use(workspace->cache, catalogue->revision);
     result->status = check_counts(request, &result->fault);
+    if (!result->status)
+        result->status = check_finite(request, &result->fault);
     if (!result->status)
         result->status = check_supported(&request->options, &result->fault);
     if (!result->status)

@@ -77,7 +77,8 @@ static void the_paper_s_beam_at_four_speeds(void **state)
     lab_free(lab);
 }
 
-/* Impulse of the first and start of the second sub-impact that is not negligible; INFINITY: none. */
+/* Impulse of the first and start of the second sub-impact that is not negligible; INFINITY: none.
+ */
 struct outline {
     double first_impulse, second_start, restitution;
     size_t count;
@@ -111,12 +112,10 @@ static void compare(const char *what, struct outline value, struct outline expec
         measured(text, value.second_start, expected.second_start, 1e-6);
 }
 
-static const enum support ends[][2] = {{SUPPORT_FREE, SUPPORT_FREE},
-                                       {SUPPORT_PINNED, SUPPORT_PINNED},
-                                       {SUPPORT_CLAMPED, SUPPORT_CLAMPED},
-                                       {SUPPORT_CLAMPED, SUPPORT_FREE},
-                                       {SUPPORT_FREE, SUPPORT_PINNED},
-                                       {SUPPORT_PINNED, SUPPORT_CLAMPED}};
+static const enum support ends[][2] = {
+    {SUPPORT_FREE, SUPPORT_FREE},       {SUPPORT_PINNED, SUPPORT_PINNED},
+    {SUPPORT_CLAMPED, SUPPORT_CLAMPED}, {SUPPORT_CLAMPED, SUPPORT_FREE},
+    {SUPPORT_FREE, SUPPORT_PINNED},     {SUPPORT_PINNED, SUPPORT_CLAMPED}};
 
 /* Every theory, support and two sites: a tolerance of 1e-6 against one of 1e-8. */
 static void every_beam_against_its_converged_solution(void **state)

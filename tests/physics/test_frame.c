@@ -76,8 +76,7 @@ static void turned_and_carried_scenes_are_the_same(void **state)
             lab_solve(lab, &moved, &there);
             /* 10 m and 30 m/s leave roundings of 1e-14 in lever arms and gap rates */
             measured("e", there.contacts[0].restitution, here.contacts[0].restitution, 1e-9);
-            assert_int_equal(there.contacts[0].sub_impact_count,
-                             here.contacts[0].sub_impact_count);
+            assert_int_equal(there.contacts[0].sub_impact_count, here.contacts[0].sub_impact_count);
             rotation_matrix(q, rotation);
             for (int b = 0; b < 2; b++) {
                 double expected[3];
@@ -170,7 +169,8 @@ static void velocities_after_show_the_restitution(void **state)
         /* the definition of e by Eqs. (4) and (6), rounding only */
         measured("e by velocities", -rate[1] / rate[0], contact->restitution, 1e-12);
         measured("last gap rate",
-                 contact->sub_impacts[contact->sub_impact_count - 1].gap_rate_after, rate[1], 1e-12);
+                 contact->sub_impacts[contact->sub_impact_count - 1].gap_rate_after, rate[1],
+                 1e-12);
         measured("first gap rate", contact->sub_impacts[0].gap_rate_before, rate[0], 1e-12);
     }
     lab_free(lab);

@@ -103,8 +103,7 @@ static void compact_bodies_return_everything(void **state)
     struct spot drum_across = drum_side;
     drum_across.roll = 1.2;
     struct solve_request requests[] = {
-        strike(ball, block_off_centre, 0.5),
-        strike(ball, drum_side, 0.5),
+        strike(ball, block_off_centre, 0.5), strike(ball, drum_side, 0.5),
         strike(drum_side, drum_across, 0.5), /* crossed cylinders */
     };
     for (size_t i = 0; i < COUNT(requests); i++) {
@@ -128,9 +127,9 @@ static void the_clients_w_rules_the_dynamics(void **state)
     uint64_t seed = 11;
     for (int i = 0; i < 12; i++) {
         double w = pow(10.0, random_between(&seed, -4.0, 5.0));
-        struct solve_request request =
-            strike(sphere_spot("ball", 0.012), i % 2 ? wall_spot("wall") : sphere_spot("ball", 0.012),
-                   random_between(&seed, 0.01, 3.0));
+        struct solve_request request = strike(
+            sphere_spot("ball", 0.012), i % 2 ? wall_spot("wall") : sphere_spot("ball", 0.012),
+            random_between(&seed, 0.01, 3.0));
         request.delassus = &w;
         request.options.tolerance = 1e-12;
         request.options.horizon = 1.0; /* heavy pairs meet for long */

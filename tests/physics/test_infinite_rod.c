@@ -9,8 +9,8 @@
 
 enum { MODES = 500 };
 
-/* Rod with c = 1, Z = 1, so rho A = E A = 1; a mass m strikes its end at unit speed. The first MODES
- * modes take part, the residual flexibility stands for the others. */
+/* Rod with c = 1, Z = 1, so rho A = E A = 1; a mass m strikes its end at unit speed. The first
+ * MODES modes take part, the residual flexibility stands for the others. */
 static void build(struct toy *toy, double mass, struct contact_law law, double length)
 {
     static double omega[MODES], shape[MODES];

@@ -1,17 +1,20 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Exact modal propagation against CVODE on random scenes with fixed numbers of modes: the same model,
- * two independent integrations in time. */
+/* Exact modal propagation against CVODE on random scenes with fixed numbers of modes: the same
+ * model, two independent integrations in time. */
 #include "physics/support.h"
 
 enum { SCENES = 28 };
 
 static struct material random_material(uint64_t *seed)
 {
-    return (struct material){"random", random_between(seed, 30e9, 220e9),
-                             random_between(seed, 0.1, 0.4), random_between(seed, 2000.0, 8000.0),
-                             INFINITY, 0.0};
+    return (struct material){"random",
+                             random_between(seed, 30e9, 220e9),
+                             random_between(seed, 0.1, 0.4),
+                             random_between(seed, 2000.0, 8000.0),
+                             INFINITY,
+                             0.0};
 }
 
 static double maybe(uint64_t *seed, double low, double high)
@@ -56,7 +59,8 @@ static struct spot random_target(struct lab *lab, uint64_t *seed, int kind)
         body.radius = 0.0;
         body.width = random_between(seed, 0.01, 0.04);
         body.height = random_between(seed, 0.006, 0.02);
-        spot = (struct spot){"target", {x, 0.2 * body.width, 0.5 * body.height}, {0.0, 0.0, 1.0}, 0.0};
+        spot =
+            (struct spot){"target", {x, 0.2 * body.width, 0.5 * body.height}, {0.0, 0.0, 1.0}, 0.0};
     } else if (kind == 2) {
         spot = end_spot("target", length);
     } else if (kind == 3) {
@@ -64,8 +68,8 @@ static struct spot random_target(struct lab *lab, uint64_t *seed, int kind)
         spot = wall_spot("target");
     }
     if (body.shape == SHAPE_BEAM) {
-        body.theory = random_between(seed, 0.0, 1.0) < 0.5 ? THEORY_TIMOSHENKO
-                                                            : THEORY_EULER_BERNOULLI;
+        body.theory =
+            random_between(seed, 0.0, 1.0) < 0.5 ? THEORY_TIMOSHENKO : THEORY_EULER_BERNOULLI;
         for (int end = 0; end < 2; end++)
             body.supports[end] = (enum support)random_between(seed, 0.0, 2.999);
     }
@@ -147,8 +151,8 @@ static void random_scenes_agree(void **state)
         if (getenv("PERCUSS_MEASURE"))
             print_message("scene %d: %s on %s, %s, %zu sub-impacts, end %u %s\n", i,
                           shape_name(lab->bodies[0].shape), shape_name(lab->bodies[1].shape),
-                          status_name(status), modal.contacts[0].sub_impact_count,
-                          modal.end_reason, modal.fault.text);
+                          status_name(status), modal.contacts[0].sub_impact_count, modal.end_reason,
+                          modal.fault.text);
         assert_true(status == PERCUSS_OK || status == PERCUSS_TRUNCATED);
         /* the sub-impacts listed belong to the workspace */
         struct solve_workspace *other = solve_workspace_create();

@@ -2,9 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The elementary rod a second way: d'Alembert's waves. A force F on the free end of a uniform rod
- * moves it at F/Z, Z = rho c A, and every return of the wave adds 2 F/Z of 2 L/c, 4 L/c, ... before;
- * so a sphere on a rod is one delay equation, which a fine Runge-Kutta integration solves here
- * without modes, truncation or residual flexibility. */
+ * moves it at F/Z, Z = rho c A, and every return of the wave adds 2 F/Z of 2 L/c, 4 L/c, ...
+ * before; so a sphere on a rod is one delay equation, which a fine Runge-Kutta integration solves
+ * here without modes, truncation or residual flexibility. */
 #include "physics/support.h"
 
 struct wave_rod {
@@ -43,8 +43,8 @@ static void rates(const struct wave_rod *rod, double back, const double y[2], do
     rate[1] = -force / rod->mass;
 }
 
-/* Total impulse over `periods` returns of the wave, sphere at speed v on the rod at rest. The middle
- * of a step by Hermite's cubic; the kinks of the force fall on step ends. */
+/* Total impulse over `periods` returns of the wave, sphere at speed v on the rod at rest. The
+ * middle of a step by Hermite's cubic; the kinks of the force fall on step ends. */
 static double wave_impulse(const struct wave_rod *rod, double v, size_t per_period, size_t periods)
 {
     struct history past = {per_period, per_period * periods, NULL};
@@ -70,8 +70,7 @@ static double wave_impulse(const struct wave_rod *rod, double v, size_t per_peri
             y[i] += h / 6.0 * (k[0][i] + 2.0 * k[1][i] + 2.0 * k[2][i] + k[3][i]);
         double slope[2];
         rates(rod, back[2], y, slope);
-        past.force[2 * n + 1] =
-            hertz(rod, 0.5 * (old + y[0]) + 0.125 * h * (k[0][0] - slope[0]));
+        past.force[2 * n + 1] = hertz(rod, 0.5 * (old + y[0]) + 0.125 * h * (k[0][0] - slope[0]));
         past.force[2 * n + 2] = hertz(rod, y[0]);
     }
     free(past.force);
@@ -104,18 +103,25 @@ static void modes_and_waves_agree(void **state)
     static struct solve_result result;
     static const struct {
         double length, ball, bar; /* radii */
-    } sizes[] = {{1.0, 0.013, 0.010}, {0.6, 0.009, 0.012}, {0.3, 0.018, 0.008}, {0.12, 0.010, 0.015},
-                 {0.5, 0.020, 0.006}, {0.25, 0.025, 0.007}, {0.4, 0.030, 0.005}, {0.1, 0.020, 0.010},
-                 {0.8, 0.030, 0.006}, {0.2, 0.015, 0.004}};
+    } sizes[] = {{1.0, 0.013, 0.010},  {0.6, 0.009, 0.012}, {0.3, 0.018, 0.008},
+                 {0.12, 0.010, 0.015}, {0.5, 0.020, 0.006}, {0.25, 0.025, 0.007},
+                 {0.4, 0.030, 0.005},  {0.1, 0.020, 0.010}, {0.8, 0.030, 0.006},
+                 {0.2, 0.015, 0.004}};
     struct lab *lab = lab_create();
     uint64_t seed = 5;
     for (size_t i = 0; i < COUNT(sizes); i++) {
-        struct material hard = {"hard", random_between(&seed, 100e9, 300e9),
-                                random_between(&seed, 0.1, 0.4), random_between(&seed, 3e3, 9e3),
-                                INFINITY, 0.0};
-        struct material soft = {"soft", random_between(&seed, 20e9, 200e9),
-                                random_between(&seed, 0.1, 0.4), random_between(&seed, 2e3, 9e3),
-                                INFINITY, 0.0};
+        struct material hard = {"hard",
+                                random_between(&seed, 100e9, 300e9),
+                                random_between(&seed, 0.1, 0.4),
+                                random_between(&seed, 3e3, 9e3),
+                                INFINITY,
+                                0.0};
+        struct material soft = {"soft",
+                                random_between(&seed, 20e9, 200e9),
+                                random_between(&seed, 0.1, 0.4),
+                                random_between(&seed, 2e3, 9e3),
+                                INFINITY,
+                                0.0};
         double radius = sizes[i].ball;
         double length = sizes[i].length;
         double v = random_between(&seed, 0.05, 1.0);

@@ -83,7 +83,8 @@ static void the_force_lasts_for_a_round_trip(void **state)
         double horizons[2] = {2.0, 2.0 + 8.0 / k};
         for (int i = 0; i < 2; i++) {
             struct impact_outcome outcome = meet(&toy, k, 200, horizons[i]);
-            /* truncation as above, with half the modes; the cut falls into a force of 1/2 that Gibbs' waves disturb */
+            /* truncation as above, with half the modes; the cut falls into a force of 1/2 that
+             * Gibbs' waves disturb */
             measured("impulse", outcome.tracks[0].impulse, wave_impulse(k, outcome.window),
                      i ? 3e-8 * k * k : 1e-6 * k);
             assert_true(outcome.end_reason == PERCUSS_END_IN_CONTACT ||

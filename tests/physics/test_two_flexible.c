@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Two flexible bodies in one contact, and what must not matter: which of them is called a, and how a
- * round beam is turned about its axis. */
+/* Two flexible bodies in one contact, and what must not matter: which of them is called a, and how
+ * a round beam is turned about its axis. */
 #include "physics/support.h"
 
 static struct lab *lab_of_bars(void)

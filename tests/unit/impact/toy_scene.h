@@ -29,8 +29,8 @@ struct toy {
     struct arena arena;
 };
 
-/* W = identity, at rest, touching, Hertz contacts of unit stiffness; no oscillators yet. The toy must
- * stay where it is. */
+/* W = identity, at rest, touching, Hertz contacts of unit stiffness; no oscillators yet. The toy
+ * must stay where it is. */
 static inline void toy_init(struct toy *toy, size_t contacts)
 {
     memset(toy, 0, sizeof *toy);
@@ -100,8 +100,7 @@ static inline void toy_free(struct toy *toy)
 static inline struct impact_outcome toy_run(struct toy *toy, double accuracy, double horizon)
 {
     struct impact_outcome outcome;
-    struct impact_settings settings = {
-        .accuracy = accuracy, .horizon = horizon, .max_work = 1e12};
+    struct impact_settings settings = {.accuracy = accuracy, .horizon = horizon, .max_work = 1e12};
     assert_true(impact_create(&outcome, &toy->scene, &toy->arena));
     assert_int_equal(impact_modal(&toy->scene, &settings, &toy->arena, &outcome), PERCUSS_OK);
     return outcome;

@@ -1,0 +1,278 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* States handed from one impact to the next: vibration goes on freely in between, and a ringing
+ * body answers differently from a silent one. */
+#include "physics/support.h"
+
+struct ringing {
+    struct lab *lab;
+    struct body_state *state; /* of the beam after one impact */
+    double vibration;
+};
+
+static struct body_state *copy_state(const struct body_state *state)
+{
+    struct body_state *copy = malloc(body_state_size(state));
+    assert_non_null(copy);
+    memcpy(copy, state, body_state_size(state));
+    return copy;
+}
+
+static struct solve_request blow(double speed, double tolerance)
+{
+    struct solve_request request =
+        strike(sphere_spot("ball", 0.015), side_spot("beam", 0.12, 0.010, 0.6), speed);
+    request.options.tolerance = tolerance;
+    return request;
+}
+
+/* A beam that was hit off its centre in both planes. */
+static struct ringing ring(double damping, unsigned modes)
+{
+    static struct solve_result result;
+    struct ringing ringing = {.lab = lab_create()};
+    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    beam.damping = damping;
+    beam.modes = modes;
+    lab_add(ringing.lab, "ball", make_sphere(STEEL, 0.015));
+    lab_add(ringing.lab, "beam", beam);
+    struct solve_request request = blow(0.2, 1e-8);
+    lab_solve(ringing.lab, &request, &result);
+    assert_null(result.bodies[0].state_after);
+    assert_non_null(result.bodies[1].state_after);
+    ringing.state = copy_state(result.bodies[1].state_after);
+    ringing.vibration = result.bodies[1].vibration;
+    return ringing;
+}
+
+static void ring_free(struct ringing *ringing)
+{
+    free(ringing->state);
+    lab_free(ringing->lab);
+}
+
+/* Energy of a state with the frequencies of the model itself. */
+static double state_energy(const struct body *body, const struct body_state *state)
+{
+    double sum = 0.0;
+    for (int f = 0; f < FAMILY_COUNT; f++) {
+        if (!state->count[f])
+            continue;
+        struct modal_family *modes =
+            modal_family_create(body, (enum mode_family)f, state->count[f]);
+        const double *pairs = body_state_family(state, f);
+        assert_non_null(modes);
+        for (size_t k = 0; k < state->count[f]; k++) {
+            double spring = modes->omega[k] * pairs[2 * k];
+            sum += 0.5 * (spring * spring + pairs[2 * k + 1] * pairs[2 * k + 1]);
+        }
+        modal_family_free(modes);
+    }
+    return sum;
+}
+
+static void a_state_holds_the_vibration(void **state)
+{
+    (void)state;
+    struct ringing ringing = ring(0.0, 100);
+    assert_true(ringing.state->count[FAMILY_BENDING_Y] > 0);
+    assert_true(ringing.state->count[FAMILY_BENDING_Z] > 0);
+    assert_int_equal(ringing.state->count[FAMILY_AXIAL], 0);
+    /* two sums of the same terms in different order */
+    measured_relative("energy of the state", state_energy(&ringing.lab->bodies[1], ringing.state),
+                      ringing.vibration, 1e-12);
+    ring_free(&ringing);
+}
+
+/* Flights for `shares` parts of 30 ms by a distant ball that misses: the state after each. */
+static struct body_state *fly(const struct ringing *ringing, int parts)
+{
+    static struct solve_result result;
+    struct body_state *state = copy_state(ringing->state);
+    for (int i = 0; i < parts; i++) {
+        struct solve_request request = blow(1e-3, 1e-6);
+        request.contacts[0].gap = 0.5; /* 500 s away */
+        request.options.horizon = 0.02 / parts;
+        request.bodies[1].state = state;
+        request.bodies[1].elapsed = 0.01 / parts;
+        assert_int_equal(solve(ringing->lab->workspace, &ringing->lab->set, &request, &result),
+                         PERCUSS_TRUNCATED);
+        struct body_state *next = copy_state(result.bodies[1].state_after);
+        free(state);
+        state = next;
+    }
+    return state;
+}
+
+static void flights_add_up(void **state)
+{
+    (void)state;
+    static const double dampings[] = {0.0, 0.003};
+    for (size_t d = 0; d < COUNT(dampings); d++) {
+        struct ringing ringing = ring(dampings[d], 100);
+        const struct body *beam = &ringing.lab->bodies[1];
+        struct body_state *whole = fly(&ringing, 1);
+        struct body_state *parts = fly(&ringing, 2);
+        double scale = sqrt(ringing.vibration);
+        assert_memory_equal(whole->count, parts->count, sizeof whole->count);
+        for (int f = 0; f < FAMILY_COUNT; f++) {
+            if (!whole->count[f])
+                continue;
+            struct modal_family *modes =
+                modal_family_create(beam, (enum mode_family)f, whole->count[f]);
+            const double *a = body_state_family(whole, f);
+            const double *b = body_state_family(parts, f);
+            assert_non_null(modes);
+            for (size_t k = 0; k < whole->count[f]; k++) {
+                /* the phase omega t of up to 1e6 rad is rounded to 1e-16 of itself */
+                double allowed = scale * (1e-12 + 4e-16 * modes->omega[k] * 0.03);
+                measured("q", modes->omega[k] * a[2 * k], modes->omega[k] * b[2 * k], allowed);
+                measured("v", a[2 * k + 1], b[2 * k + 1], allowed);
+            }
+            modal_family_free(modes);
+        }
+        double energy = state_energy(beam, whole);
+        if (dampings[d] == 0.0)
+            /* rotations: rounding of each */
+            measured_relative("energy", energy, ringing.vibration, 1e-12);
+        else
+            assert_true(energy < ringing.vibration);
+        free(whole);
+        free(parts);
+        ring_free(&ringing);
+    }
+}
+
+static void a_ringing_beam_answers_differently(void **state)
+{
+    (void)state;
+    static struct solve_result silent, result;
+    static const double dampings[] = {0.0, 0.003};
+    for (size_t d = 0; d < COUNT(dampings); d++) {
+        struct ringing ringing = ring(dampings[d], 40);
+        struct solve_request request = blow(0.2, 1e-8);
+        lab_solve(ringing.lab, &request, &silent);
+        double e = silent.contacts[0].restitution;
+        for (double elapsed = 0.0; elapsed < 0.02; elapsed += 0.0037) {
+            request.bodies[1].state = ringing.state;
+            request.bodies[1].elapsed = elapsed;
+            lab_solve(ringing.lab, &request, &result);
+            assert_true(fabs(result.contacts[0].restitution - e) > 1e-3);
+            double w = result.contacts[0].inverse_effective_mass;
+            /* notes, section 4 */
+            measured("closure", result.energy.closure / result.energy.available, 0.0, 1e-9);
+            if (dampings[d] == 0.0)
+                measured_relative("available", result.energy.available,
+                                  0.5 * 0.04 / w + ringing.vibration, 1e-12);
+            /* dP_c is the rigid motion's, ringing or not */
+            measured_relative("compression", result.contacts[0].impulse_compression, 0.2 / w,
+                              1e-14);
+            /* the touch is where the vibration puts it, within its reach of some 0.1 mm */
+            assert_true(fabs(result.time_shift) < 5e-4 / 0.2);
+            measured("start", result.contacts[0].sub_impacts[0].start, result.time_shift, 1e-18);
+        }
+        ring_free(&ringing);
+    }
+}
+
+/* Modal against CVODE with a ringing start: gap, overlap, damping. */
+static void a_ringing_start_agrees_with_cvode(void **state)
+{
+    (void)state;
+    static struct solve_result modal, cvode;
+    static const double gaps[] = {0.0, 2e-4, -2e-4};
+    for (int damped = 0; damped < 2; damped++) {
+        struct ringing ringing = ring(damped * 0.01, 8);
+        for (size_t i = 0; i < COUNT(gaps); i++) {
+            struct solve_request request = blow(0.3, 1e-7);
+            request.contacts[0].gap = gaps[i];
+            request.bodies[1].state = ringing.state;
+            request.bodies[1].elapsed = 0.002;
+            lab_solve(ringing.lab, &request, &modal);
+            struct solve_workspace *other = solve_workspace_create();
+            assert_non_null(other);
+            request.options.method = PERCUSS_METHOD_CVODE;
+            assert_int_equal(solve(other, &ringing.lab->set, &request, &cvode), PERCUSS_OK);
+            /* tolerance 1e-7 each, amplified by a sequence */
+            measured("e", modal.contacts[0].restitution, cvode.contacts[0].restitution, 1e-5);
+            measured("time shift", modal.time_shift, cvode.time_shift, 1e-9);
+            solve_workspace_free(other);
+        }
+        ring_free(&ringing);
+    }
+}
+
+/* An overlap of a strongly damped ringing body: the way back to the touch must not blow rounding up
+ * by exp(zeta omega t), whatever the number of modes. */
+static void a_damped_overlap_stays_tame(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static const unsigned modes[] = {20, 60, 200};
+    double e[COUNT(modes)];
+    for (size_t i = 0; i < COUNT(modes); i++) {
+        struct ringing ringing = ring(0.05, modes[i]);
+        struct solve_request request = blow(0.2, 1e-6);
+        request.contacts[0].gap = -3e-4;
+        request.bodies[1].state = ringing.state;
+        lab_solve(ringing.lab, &request, &result);
+        e[i] = result.contacts[0].restitution;
+        measured("closure", result.energy.closure / result.energy.available, 0.0, 1e-5);
+        /* some 0.2 mm of vibration move the touch by a millisecond at most */
+        measured("time shift", result.time_shift, -3e-4 / 0.2, 1e-3);
+        ring_free(&ringing);
+    }
+    /* the residual flexibility leaves 20 modes an error of some 1e-3; a blown-up mode would leave
+     * nothing of the digits */
+    measured("e, 20 modes", e[0], e[2], 1e-2);
+    measured("e, 60 modes", e[1], e[2], 1e-3);
+}
+
+/* What took no part in the second impact rings on: hit at a vibration node, or in the other plane.
+ */
+static void modes_that_take_no_part_ring_on(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct ringing ringing = ring(0.0, 100);
+    const struct body *beam = &ringing.lab->bodies[1];
+    struct solve_request request =
+        strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.2);
+    request.bodies[1].state = ringing.state;
+    request.options.tolerance = 1e-8;
+    lab_solve(ringing.lab, &request, &result);
+    const struct body_state *after = result.bodies[1].state_after;
+    /* along z at the centre: nothing of the plane y, nothing odd of the plane z */
+    const double *y0 = body_state_family(ringing.state, FAMILY_BENDING_Y);
+    const double *y1 = body_state_family(after, FAMILY_BENDING_Y);
+    size_t count = ringing.state->count[FAMILY_BENDING_Y];
+    struct modal_family *modes = modal_family_create(beam, FAMILY_BENDING_Y, count);
+    assert_non_null(modes);
+    assert_int_equal(after->count[FAMILY_BENDING_Y], count);
+    for (size_t k = 0; k < count; k++) {
+        double w = modes->omega[k];
+        double t = result.window;
+        double allowed = 1e-12 + 4e-16 * w * 0.02;
+        /* rotation by omega t from the stated instant to the end of the window */
+        measured("q", w * y1[2 * k], w * y0[2 * k] * cos(w * t) + y0[2 * k + 1] * sin(w * t),
+                 allowed);
+        measured("v", y1[2 * k + 1], -w * y0[2 * k] * sin(w * t) + y0[2 * k + 1] * cos(w * t),
+                 allowed);
+    }
+    modal_family_free(modes);
+    ring_free(&ringing);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_state_holds_the_vibration),
+        cmocka_unit_test(flights_add_up),
+        cmocka_unit_test(a_ringing_beam_answers_differently),
+        cmocka_unit_test(a_ringing_start_agrees_with_cvode),
+        cmocka_unit_test(a_damped_overlap_stays_tame),
+        cmocka_unit_test(modes_that_take_no_part_ring_on),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,81 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/contact/law_hertz.c and law_linear.c: force, slope, stored energy and inverse of
+ * one law fit together. The pattern for the test of a new law. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "contact/law.h"
+
+static void near(double value, double expected, double relative)
+{
+    if (!(fabs(value - expected) <= relative * fabs(expected)))
+        fail_msg("%.17g is not %.17g", value, expected);
+}
+
+/* What every elastic law owes its callers. */
+static void check_law(const struct contact_law *law)
+{
+    const struct contact_law_operations *of = law->operations;
+    double slope;
+    assert_int_equal(of->history_size, 0);
+    assert_true(contact_law_force(law, NULL, 0.0, &slope) == 0.0);
+    assert_true(contact_law_force(law, NULL, -1e-6, &slope) == 0.0 && slope == 0.0);
+    assert_true(of->stored(law, NULL, -1e-6) == 0.0 && of->stored(law, NULL, 0.0) == 0.0);
+    double before = 0.0;
+    for (double d = 1e-12; d < 1e-2; d *= 3.7) {
+        double force = contact_law_force(law, NULL, d, &slope);
+        double ignored;
+        double step = 1e-5 * d;
+        double above = contact_law_force(law, NULL, d + step, &ignored);
+        double below = contact_law_force(law, NULL, d - step, &ignored);
+        assert_true(force > before);
+        /* central differences: second order, (1e-5)^2 */
+        near(slope, (above - below) / (2.0 * step), 1e-9);
+        near(force,
+             (of->stored(law, NULL, d + step) - of->stored(law, NULL, d - step)) / (2.0 * step),
+             1e-9);
+        near(of->indentation(law, force), d, 4e-15); /* a few roundings */
+        before = force;
+    }
+    assert_true(isnan(contact_law_force(law, NULL, NAN, &slope)) ||
+                contact_law_force(law, NULL, NAN, &slope) == 0.0);
+}
+
+static void hertz_fits_together(void **state)
+{
+    (void)state;
+    struct contact_law law = contact_law_hertz(7.7e9);
+    double slope;
+    check_law(&law);
+    assert_int_equal(law.operations->model, PERCUSS_CONTACT_HERTZ);
+    near(contact_law_force(&law, NULL, 1e-4, &slope), 7.7e9 * 1e-6, 1e-15);
+    near(slope, 1.5 * 7.7e9 * 1e-2, 1e-15);
+    near(law.operations->stored(&law, NULL, 1e-4), 0.4 * 7.7e9 * 1e-10, 1e-15);
+}
+
+static void linear_fits_together(void **state)
+{
+    (void)state;
+    struct contact_law law = contact_law_linear(3e6);
+    double slope;
+    check_law(&law);
+    near(contact_law_force(&law, NULL, 1e-4, &slope), 300.0, 1e-15);
+    near(slope, 3e6, 0.0);
+    near(law.operations->stored(&law, NULL, 1e-4), 0.015, 1e-15);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hertz_fits_together),
+        cmocka_unit_test(linear_fits_together),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

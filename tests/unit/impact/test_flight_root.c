@@ -1,0 +1,190 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/impact/flight_root.c: parabolas by their closed roots, touches of one oscillator
+ * by arc cosine, grazes and misses of a picometre. */
+#include "impact/flight_root.h"
+#include "unit/impact/toy_scene.h"
+
+static void near(double value, double expected, double allowed)
+{
+    if (!(value == expected || fabs(value - expected) <= allowed))
+        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
+}
+
+static void parabolas_exceed(void **state)
+{
+    (void)state;
+    static const struct {
+        double excess, rate, acceleration, first, last;
+    } cases[] = {
+        {1.0, 0.0, 0.0, 0.0, INFINITY},
+        {1.0, 2.0, 0.0, 0.0, INFINITY},
+        {-1.0, 2.0, 0.0, 0.5, INFINITY},
+        {1.0, -2.0, 0.0, INFINITY, INFINITY},
+        {-1.0, 0.0, 0.0, INFINITY, INFINITY},
+        {1.0, 2.0, 3.0, 0.0, INFINITY},
+        {-1.0, 0.0, 2.0, 1.0, INFINITY},              /* t^2 = 1 */
+        {1.0, -1.0, 2.0, 0.0, INFINITY},              /* turns before it falls below */
+        {2.0, -3.0, 2.0, 2.0, INFINITY},              /* (t - 1)(t - 2) */
+        {-1.0, 1.0, -0.1, 1.05572809000084122, 10.0}, /* until the top of the way */
+        {1.0, 1.0, -2.0, 0.0, 0.5},
+        {-1.0, 1.0, -2.0, INFINITY, INFINITY},
+        {1.0, -1.0, -2.0, INFINITY, INFINITY},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double first, last;
+        flight_root_exceeds(cases[i].excess, cases[i].rate, cases[i].acceleration, &first, &last);
+        near(first, cases[i].first, 1e-15);
+        if (isfinite(cases[i].first))
+            near(last, cases[i].last, 1e-15);
+    }
+}
+
+/* Approach -gap - rate t + cos(omega t) by one mode of unit amplitude that starts at its far end.
+ */
+static void ring(struct toy *toy, double omega, double gap, double rate)
+{
+    const double shape = -1.0, q = 1.0, v = 0.0;
+    toy_init(toy, 1);
+    toy->gap[0] = gap;
+    toy->gap_rate[0] = rate;
+    toy_ring(toy, toy_add(toy, 0, 1, &omega, 0.0, &shape), &q, &v);
+}
+
+static void start(struct toy *toy, struct motion *motion)
+{
+    assert_true(motion_create(motion, &toy->scene, &toy->arena));
+    motion_start(motion, &toy->scene);
+}
+
+static void touches_by_arc_cosine(void **state)
+{
+    (void)state;
+    for (double gap = -0.9; gap < 0.95; gap += 0.1) {
+        struct toy toy;
+        struct motion motion;
+        double time = -1.0;
+        ring(&toy, 2.0, gap, 0.0);
+        start(&toy, &motion);
+        /* cos(2t) rises through gap at 2t = 2 pi - acos(gap) */
+        double expected = M_PI - 0.5 * acos(gap);
+        assert_true(
+            flight_root_touch(&motion, &toy.scene, 0, expected - 0.1, expected + 0.05, &time));
+        near(time, expected, 4e-16 * expected / fmax(0.1, sqrt(1.0 - gap * gap)));
+        assert_false(
+            flight_root_touch(&motion, &toy.scene, 0, expected - 0.1, expected - 0.01, &time));
+        toy_free(&toy);
+    }
+}
+
+/* The peak of cos at 2t = 2 pi, with the gap a hair below and above it. */
+static void tells_a_graze_from_a_miss(void **state)
+{
+    (void)state;
+    for (double depth = 1e-3; depth > 5e-15; depth *= 0.1) {
+        for (int misses = 0; misses < 2; misses++) {
+            for (double left = 0.03; left < 0.2; left += 0.03) {
+                struct toy toy;
+                struct motion motion;
+                double time = -1.0;
+                ring(&toy, 2.0, misses ? 1.0 + depth : 1.0 - depth, 0.0);
+                start(&toy, &motion);
+                bool touches = flight_root_touch(&motion, &toy.scene, 0, M_PI - left,
+                                                 M_PI + 0.21 - left, &time);
+                assert_true(touches == !misses);
+                /* the root lies asin(sqrt(depth/2)) before the peak; a rounding of the cosine moves
+                 * it by 1e-16 over the slope there */
+                if (touches)
+                    near(time, M_PI - asin(sqrt(0.5 * depth)), 1e-15 + 2e-16 / sqrt(depth));
+                toy_free(&toy);
+            }
+        }
+    }
+}
+
+/* At the very start of a flight: approaching counts, leaving does not. */
+static void a_touch_at_once(void **state)
+{
+    (void)state;
+    for (int closing = 0; closing < 2; closing++) {
+        struct toy toy;
+        struct motion motion;
+        double time = -1.0;
+        toy_init(&toy, 1);
+        toy.gap_rate[0] = closing ? -1.0 : 1.0;
+        start(&toy, &motion);
+        assert_true(flight_root_touch(&motion, &toy.scene, 0, 0.0, 1.0, &time) == (closing == 1));
+        if (closing)
+            near(time, 0.0, 0.0);
+        toy_free(&toy);
+    }
+}
+
+static void finds_the_touch_behind(void **state)
+{
+    (void)state;
+    static const struct {
+        double gap, rate, acceleration, expected;
+    } cases[] = {
+        {-0.1, -2.0, 0.0, -0.05},
+        {-0.1, -2.0, 3.0, -0.048214}, /* was faster */
+        {-0.1, -2.0, -3.0, -0.052},   /* was slower: the nearer root */
+        {-0.1, 2.0, 0.0, -INFINITY},  /* opening: overlapped ever more before */
+        {-1.0, -2.0, -3.0, -INFINITY} /* turned inside */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct toy toy;
+        struct motion motion;
+        toy_init(&toy, 1);
+        toy.gap[0] = cases[i].gap;
+        toy.gap_rate[0] = cases[i].rate;
+        toy.gap_acceleration[0] = cases[i].acceleration;
+        start(&toy, &motion);
+        double t = flight_root_back(&motion, &toy.scene, 0, 10.0);
+        near(t, cases[i].expected, 1e-3);
+        if (isfinite(t)) {
+            double a = cases[i].acceleration;
+            near(cases[i].gap + t * (cases[i].rate + 0.5 * a * t), 0.0, 1e-16);
+        }
+        toy_free(&toy);
+    }
+}
+
+/* With vibration: the latest instant before now at which the approach rose through zero. */
+static void finds_the_touch_behind_a_ringing_body(void **state)
+{
+    (void)state;
+    struct toy toy;
+    struct motion motion;
+    ring(&toy, 2.0, 0.5, 0.0); /* cos(2t) - 0.5: overlap of 0.5 now, since 2t = -acos(0.5) */
+    start(&toy, &motion);
+    near(flight_root_back(&motion, &toy.scene, 0, 10.0), -0.5 * acos(0.5), 1e-15);
+    toy_free(&toy);
+    ring(&toy, 2.0, -1.5, 0.0); /* never apart */
+    start(&toy, &motion);
+    near(flight_root_back(&motion, &toy.scene, 0, 10.0), -INFINITY, 0.0);
+    toy_free(&toy);
+    ring(&toy, 2.0, -1.5, -0.3); /* 1.5 + 0.3 t + cos(2t) at t < 0 */
+    start(&toy, &motion);
+    double t = flight_root_back(&motion, &toy.scene, 0, 20.0);
+    near(1.5 + 0.3 * t + cos(2.0 * t), 0.0, 1e-14);
+    /* it rises there, and stays positive from there to now */
+    assert_true(0.3 - 2.0 * sin(2.0 * t) > 0.0);
+    for (double s = t + 1e-6; s < 0.0; s += 1e-4)
+        assert_true(1.5 + 0.3 * s + cos(2.0 * s) > 0.0);
+    toy_free(&toy);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parabolas_exceed),
+        cmocka_unit_test(touches_by_arc_cosine),
+        cmocka_unit_test(tells_a_graze_from_a_miss),
+        cmocka_unit_test(a_touch_at_once),
+        cmocka_unit_test(finds_the_touch_behind),
+        cmocka_unit_test(finds_the_touch_behind_a_ringing_body),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

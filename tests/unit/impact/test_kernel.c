@@ -1,0 +1,163 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/impact/kernel.c: each loop against its sum written out, in any length of lanes.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "impact/kernel.h"
+
+enum { LONGEST = 40 };
+
+struct vectors {
+    _Alignas(32) double phi[LONGEST], psi[LONGEST], q[LONGEST], v[LONGEST];
+    _Alignas(32) double q_end[LONGEST], v_end[LONGEST];
+    struct oscillators *set;
+    const struct step_table *table;
+    size_t stride;
+};
+
+static double uniform(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-52 - 1.0;
+}
+
+static void make(struct vectors *x, size_t count)
+{
+    double omega[LONGEST];
+    uint64_t seed = count;
+    memset(x, 0, sizeof *x);
+    for (size_t k = 0; k < count; k++) {
+        omega[k] = 100.0 * (double)(k + 1) * (double)(k + 1);
+        x->phi[k] = uniform(&seed);
+        x->psi[k] = uniform(&seed);
+        x->q[k] = uniform(&seed);
+        x->v[k] = uniform(&seed);
+    }
+    x->set = oscillators_create(count, omega, 0.0);
+    assert_non_null(x->set);
+    x->table = oscillators_table(x->set, 13);
+    assert_non_null(x->table);
+    x->stride = x->set->stride;
+}
+
+static void near(double value, double expected)
+{
+    /* sums of at most 40 terms of order one in another order */
+    if (!(fabs(value - expected) <= 2e-14 * (1.0 + fabs(expected))))
+        fail_msg("%.17g is not %.17g", value, expected);
+}
+
+static void nodes_and_dots(void **state)
+{
+    (void)state;
+    for (size_t count = 1; count <= LONGEST; count += 3) {
+        struct vectors x;
+        double sums[NODES] = {1.0, 2.0, 3.0, 4.0};
+        double a = 0.0, b = 0.0, pq = 0.0, pv = 0.0;
+        make(&x, count);
+        kernel_nodes(x.table, x.stride, x.phi, x.q, x.v, sums);
+        for (int i = 0; i < NODES; i++) {
+            double expected = i + 1.0; /* adds to what is there */
+            for (size_t k = 0; k < count; k++)
+                expected +=
+                    x.phi[k] * (x.table->node_q[i][k] * x.q[k] + x.table->node_v[i][k] * x.v[k]);
+            near(sums[i], expected);
+        }
+        kernel_dot2(x.stride, x.phi, x.q, x.v, &a, &b);
+        for (size_t k = 0; k < count; k++) {
+            pq += x.phi[k] * x.q[k];
+            pv += x.phi[k] * x.v[k];
+        }
+        near(a, pq);
+        near(b, pv);
+        oscillators_free(x.set);
+    }
+}
+
+static void advance_and_push(void **state)
+{
+    (void)state;
+    const double force[NODES] = {0.5, -1.0, 2.0, 0.25};
+    for (size_t count = 1; count <= LONGEST; count += 3) {
+        struct vectors x;
+        make(&x, count);
+        kernel_advance(x.table, x.stride, x.q, x.v, x.q_end, x.v_end);
+        kernel_push(x.table, x.stride, x.phi, force, x.q_end, x.v_end);
+        for (size_t k = 0; k < count; k++) {
+            double q = x.table->end_qq[k] * x.q[k] + x.table->end_qv[k] * x.v[k];
+            double v = x.table->end_vq[k] * x.q[k] + x.table->end_vv[k] * x.v[k];
+            for (int j = 0; j < NODES; j++) {
+                q += x.phi[k] * x.table->force_q[j][k] * force[j];
+                v += x.phi[k] * x.table->force_v[j][k] * force[j];
+            }
+            near(x.q_end[k], q);
+            near(x.v_end[k], v);
+        }
+        for (size_t k = count; k < x.stride; k++)
+            assert_true(x.q_end[k] == 0.0 && x.v_end[k] == 0.0);
+        /* in place, as the flight uses it */
+        double kept[LONGEST];
+        kernel_advance(x.table, x.stride, x.q, x.v, x.q_end, x.v_end);
+        memcpy(kept, x.q_end, sizeof kept);
+        kernel_advance(x.table, x.stride, x.q, x.v, x.q, x.v);
+        assert_memory_equal(kept, x.q, x.stride * sizeof *kept);
+        assert_memory_equal(x.v_end, x.v, x.stride * sizeof *kept);
+        oscillators_free(x.set);
+    }
+}
+
+static void responses(void **state)
+{
+    (void)state;
+    for (size_t count = 1; count <= LONGEST; count += 3) {
+        struct vectors x;
+        double sums[NODES][NODES] = {{0.0}};
+        make(&x, count);
+        sums[1][2] = 7.0;
+        kernel_response(x.table, x.stride, x.phi, x.psi, sums);
+        for (int i = 0; i < NODES; i++) {
+            for (int j = 0; j < NODES; j++) {
+                double expected = i == 1 && j == 2 ? 7.0 : 0.0;
+                for (size_t k = 0; k < count; k++)
+                    expected += x.phi[k] * x.psi[k] * x.table->response[i][j][k];
+                near(sums[i][j], expected);
+            }
+        }
+        oscillators_free(x.set);
+    }
+}
+
+/* Fixed lanes, fixed order: more padding at the end changes no bit. */
+static void padding_changes_no_bit(void **state)
+{
+    (void)state;
+    struct vectors x;
+    double a[2], b[2];
+    make(&x, 13);
+    kernel_dot2(16, x.phi, x.q, x.v, &a[0], &b[0]);
+    kernel_dot2(40, x.phi, x.q, x.v, &a[1], &b[1]);
+    assert_memory_equal(&a[0], &a[1], sizeof *a);
+    assert_memory_equal(&b[0], &b[1], sizeof *b);
+    oscillators_free(x.set);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(nodes_and_dots),
+        cmocka_unit_test(advance_and_push),
+        cmocka_unit_test(responses),
+        cmocka_unit_test(padding_changes_no_bit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

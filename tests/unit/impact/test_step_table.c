@@ -1,0 +1,111 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/impact/step_table.c: the ladder of steps and tables that hold the oscillators'
+ * maps bit by bit. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "impact/oscillator.h"
+#include "impact/oscillator_loss.h"
+#include "impact/step_table.h"
+
+static const double omegas[] = {10.0, 200.0, 3e3, 4e4, 5e5, 6e6};
+enum { MODES = 6 };
+
+static void the_ladder_halves(void **state)
+{
+    (void)state;
+    for (int level = 0; level < STEP_LEVELS; level++) {
+        assert_true(step_length(level) == ldexp(1.0, -level));
+        assert_int_equal(step_level(step_length(level)), level);
+        /* the finest level whose step is not longer: just below one, the next */
+        int below = step_level(nextafter(step_length(level), 0.0));
+        assert_int_equal(below, level + 1 < STEP_LEVELS ? level + 1 : level);
+        assert_int_equal(step_level(1.5 * step_length(level)), level);
+    }
+    assert_int_equal(step_level(100.0), 0);
+    assert_int_equal(step_level(1e-30), STEP_LEVELS - 1);
+}
+
+static void tables_hold_the_maps(void **state)
+{
+    (void)state;
+    struct oscillators *set = oscillators_create(MODES, omegas, 0.02);
+    assert_non_null(set);
+    assert_int_equal(set->stride, 8);
+    for (int level = 8; level < 24; level += 5) {
+        const struct step_table *table = oscillators_table(set, level);
+        assert_non_null(table);
+        assert_ptr_equal(table, oscillators_table(set, level));
+        double h = step_length(level);
+        for (size_t k = 0; k < MODES; k++) {
+            double to_q[NODES + 2], to_v[NODES + 2];
+            for (int i = 0; i < NODES; i++) {
+                oscillator_map(omegas[k], 0.02, h, collocation.node[i], to_q, to_v);
+                assert_true(table->node_q[i][k] == to_q[0] && table->node_v[i][k] == to_q[1]);
+                for (int j = 0; j < NODES; j++)
+                    assert_true(table->response[i][j][k] == to_q[2 + j]);
+            }
+            oscillator_map(omegas[k], 0.02, h, 1.0, to_q, to_v);
+            assert_true(table->end_qq[k] == to_q[0] && table->end_qv[k] == to_q[1]);
+            assert_true(table->end_vq[k] == to_v[0] && table->end_vv[k] == to_v[1]);
+            for (int j = 0; j < NODES; j++)
+                assert_true(table->force_q[j][k] == to_q[2 + j] &&
+                            table->force_v[j][k] == to_v[2 + j]);
+            double form[LOSS_INPUTS][LOSS_INPUTS];
+            oscillator_loss_form(omegas[k], 0.02, h, form);
+            for (int r = 0, term = 0; r < LOSS_INPUTS; r++)
+                for (int s = 0; s <= r; s++, term++)
+                    assert_true(table->loss[term][k] == form[r][s]);
+        }
+    }
+    oscillators_free(set);
+}
+
+/* Vector loops read whole lanes: padding must be zero and rows aligned. */
+static void padding_is_zero(void **state)
+{
+    (void)state;
+    struct oscillators *set = oscillators_create(MODES, omegas, 0.0);
+    assert_non_null(set);
+    const struct step_table *table = oscillators_table(set, 12);
+    assert_non_null(table);
+    const double *rows[] = {table->node_q[0],      table->node_v[3],     table->end_qq,
+                            table->end_vv,         table->force_q[1],    table->force_v[2],
+                            table->response[0][0], table->response[3][3]};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_int_equal((uintptr_t)rows[i] % 32, 0);
+        for (size_t k = MODES; k < set->stride; k++)
+            assert_true(rows[i][k] == 0.0);
+    }
+    assert_null(table->loss[0]); /* undamped: none */
+    oscillators_free(set);
+    oscillators_free(NULL);
+}
+
+static void an_empty_set_is_a_set(void **state)
+{
+    (void)state;
+    struct oscillators *set = oscillators_create(0, omegas, 0.1);
+    assert_non_null(set);
+    assert_int_equal(set->stride, 0);
+    assert_non_null(oscillators_table(set, 10));
+    oscillators_free(set);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_ladder_halves),
+        cmocka_unit_test(tables_hold_the_maps),
+        cmocka_unit_test(padding_is_zero),
+        cmocka_unit_test(an_empty_set_is_a_set),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
