@@ -1,0 +1,89 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Counts the instructions of warm solves and compares them with the recorded ones: more than 10 %
+# above them fails.
+# usage: instructions.sh [--record] PROGRAM    (build/tests/bench/solve_once)
+#
+# What is counted is the work of this project's own code: callgrind books instructions by the object
+# file they are in, and only those of the program itself count, which holds the static libraries.
+# libm and libc choose variants by the processor, so of them only the number of calls counts. The
+# program is built with PERCUSS_ONE_KERNEL, without AVX2 clones. The same compiler then gives the same
+# counts on every x86-64.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+recorded=$here/instructions.txt
+
+record=no
+if [ "${1:-}" = --record ]; then
+    record=yes
+    shift
+fi
+[ $# -eq 1 ] || {
+    echo "usage: instructions.sh [--record] PROGRAM" >&2
+    exit 2
+}
+program=$1
+command -v valgrind >/dev/null || {
+    echo "instructions: valgrind is not installed (Debian: apt-get install valgrind): not counted" >&2
+    exit 77
+}
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# one warm solve: instructions within the program, and calls from it into shared libraries
+count() {
+    if ! valgrind --tool=callgrind \
+        --toggle-collect=counted_solve --callgrind-out-file="$work/out" --compress-strings=no \
+        "$program" "$1" "$2" >"$work/log" 2>&1; then
+        cat "$work/log" >&2
+        return 1
+    fi
+    # self cost; the line after calls= is a callee's inclusive cost
+    awk -v own="$(basename "$program")" '
+        /^ob=/ { n = split($0, part, "/"); mine = (part[n] == own) }
+        /^cob=/ { n = split($0, part, "/"); away = (part[n] != own); next }
+        /^calls=/ { if (mine && away) { split($1, call, "="); calls += call[2] }
+                    away = 0; skip = 1; next }
+        /^(\+|-|\*|[0-9])/ { if (skip) skip = 0; else if (mine) sum += $2 }
+        END { printf "%d %d\n", sum, calls }' "$work/out"
+}
+
+# compare SCENE TOLERANCE COLUMN COUNT
+compare() {
+    what=instructions
+    [ "$3" -eq 3 ] || what="library calls"
+    before=$(awk -v s="$1" -v t="$2" -v c="$3" '$1 == s && $2 == t { print $c }' "$recorded")
+    echo "$1 $2: $4 $what, recorded ${before:-none}"
+    if [ "$4" -le 0 ] || [ -z "$before" ]; then
+        echo "instructions: $1 at $2: nothing counted or nothing recorded (--record)" >&2
+        return 1
+    fi
+    [ "$(($4 * 10))" -le "$((before * 11))" ] && return 0
+    echo "instructions: $1 at $2: $4 $what, more than 10 % above the recorded $before" >&2
+    return 1
+}
+
+: >"$work/counts"
+bad=0
+for scene in rod beam; do
+    for tolerance in 1e-3 1e-4; do
+        counted=$(count "$scene" "$tolerance")
+        echo "$scene $tolerance $counted" >>"$work/counts"
+        [ "$record" = no ] || continue
+        for column in 3 4; do
+            now=$(echo "$scene $tolerance $counted" | cut -d ' ' -f "$column")
+            compare "$scene" "$tolerance" "$column" "$now" || bad=1
+        done
+    done
+done
+if [ "$record" = yes ]; then
+    {
+        echo "# instructions of one warm solve: scene, tolerance, instructions, library calls (instructions.sh --record)"
+        cat "$work/counts"
+    } >"$recorded"
+    cat "$recorded"
+fi
+exit $bad
