@@ -1,0 +1,198 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/impact/impact.c, modal.c, reference.c and energy.c: whole impacts of toys, by
+ * both methods, with their scales, starts and audits. */
+#include "unit/impact/toy_scene.h"
+
+static void near(const char *what, double value, double expected, double allowed)
+{
+    if (!(fabs(value - expected) <= allowed))
+        fail_msg("%s: %.17g is not %.17g within %g", what, value, expected, allowed);
+}
+
+static struct impact_outcome run(struct toy *toy, bool cvode, double accuracy, double horizon)
+{
+    struct impact_outcome outcome;
+    struct impact_settings settings = {.accuracy = accuracy, .horizon = horizon, .max_work = 1e9};
+    assert_true(impact_create(&outcome, &toy->scene, &toy->arena));
+    enum percuss_status status =
+        (cvode ? impact_cvode : impact_modal)(&toy->scene, &settings, &toy->arena, &outcome);
+    assert_int_equal(status, PERCUSS_OK);
+    return outcome;
+}
+
+/* A mass on a linear spring: half a period of contact, everything returned. */
+static void a_mass_bounces_off_a_spring(void **state)
+{
+    (void)state;
+    for (int cvode = 0; cvode < 2; cvode++) {
+        struct toy toy;
+        toy_init(&toy, 1);
+        toy.laws[0] = contact_law_linear(100.0);
+        toy.w[0] = 0.5;
+        toy.gap_rate[0] = -2.0;
+        struct impact_outcome outcome = run(&toy, cvode, 1e-9, 10.0);
+        const struct sub_impact *sub = outcome.tracks[0].list;
+        double omega = sqrt(50.0);
+        assert_int_equal(outcome.tracks[0].count, 1);
+        assert_int_equal(outcome.end_reason, PERCUSS_END_SEPARATED);
+        /* accuracy 1e-9 of an impulse; the instants as good, the peak on a polynomial */
+        near("impulse", outcome.tracks[0].impulse, 8.0, 1e-8);
+        near("end", sub->end, M_PI / omega, 1e-7);
+        near("rate after", sub->gap_rate_after, 2.0, 1e-8);
+        near("indentation", sub->max_indentation, 2.0 / omega, 1e-6);
+        near("force", sub->peak_force, 200.0 / omega, 1e-4);
+        near("available", outcome.energy.available, 4.0, 1e-15);
+        near("closure", outcome.energy.closure, 0.0, 1e-7);
+        toy_free(&toy);
+    }
+}
+
+/* The closed form of a rigid pair against the integration, and e = 1 by both. */
+static void the_closed_form_of_a_rigid_pair_agrees(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        struct toy toy;
+        struct impact_outcome closed;
+        struct impact_settings settings = {.accuracy = 1e-11, .horizon = 1e3, .max_work = 1e9};
+        double v = pow(10.0, i - 5.0), w = pow(7.0, 3.0 - i);
+        toy_init(&toy, 1);
+        toy.laws[0] = i % 2 ? contact_law_linear(1e5) : contact_law_hertz(1e8);
+        toy.gap_rate[0] = -v;
+        toy.gap[0] = (i % 3 - 1) * 1e-4 * v;
+        toy.w[0] = w;
+        assert_true(impact_is_rigid_pair(&toy.scene));
+        assert_true(impact_create(&closed, &toy.scene, &toy.arena));
+        assert_int_equal(impact_rigid_pair(&toy.scene, &settings, &toy.arena, &closed), PERCUSS_OK);
+        struct impact_outcome modal = run(&toy, false, 1e-11, 1e3);
+        const struct sub_impact *a = closed.tracks[0].list, *b = modal.tracks[0].list;
+        double impulse = 2.0 * v / w, lasts = a->end - a->start;
+        near("impulse", closed.tracks[0].impulse, impulse, 1e-15 * impulse);
+        /* accuracy 1e-11, a thousand steps' rounding */
+        near("impulse, modal", modal.tracks[0].impulse, impulse, 1e-10 * impulse);
+        near("start", b->start, a->start, 1e-15 * (1.0 + fabs(a->start)));
+        near("end", b->end, a->end, 1e-8 * lasts);
+        /* a flat top, on a polynomial */
+        near("compression end", b->compression_end, a->compression_end, 1e-4 * lasts);
+        near("indentation", b->max_indentation, a->max_indentation, 1e-7 * a->max_indentation);
+        near("force", b->peak_force, a->peak_force, 1e-6 * a->peak_force);
+        near("window", modal.window, closed.window, 1e-4 * lasts);
+        near("available", modal.energy.available, closed.energy.available, 0.0);
+        toy_free(&toy);
+    }
+}
+
+/* One mode, one mass, damping, pressed, apart at first: both methods, sub-impact by sub-impact. */
+static void both_methods_agree_on_toys(void **state)
+{
+    (void)state;
+    static const double omega = 30.0, shape = 0.8;
+    for (int i = 0; i < 8; i++) {
+        struct impact_outcome outcomes[2];
+        struct toy toy;
+        toy_init(&toy, 1);
+        toy.laws[0] = contact_law_hertz(2000.0);
+        toy.residual[0] = 1e-5;
+        toy.gap[0] = i & 1 ? 0.01 : 0.0;
+        toy.gap_rate[0] = -0.5;
+        toy.gap_acceleration[0] = i & 2 ? -0.3 : 0.0;
+        struct scene_group *group = toy_add(&toy, 0, 1, &omega, i & 4 ? 0.04 : 0.0, &shape);
+        toy_ring(&toy, group, &(double){0.001}, &(double){-0.03});
+        for (int cvode = 0; cvode < 2; cvode++)
+            outcomes[cvode] = run(&toy, cvode, 1e-9, 20.0);
+        const struct track *a = outcomes[0].tracks, *b = outcomes[1].tracks;
+        assert_int_equal(a->count, b->count);
+        assert_int_equal(outcomes[0].end_reason, outcomes[1].end_reason);
+        near("impulse", a->impulse, b->impulse, 1e-6);
+        near("shift", outcomes[0].time_shift, outcomes[1].time_shift, 1e-9);
+        for (size_t k = 0; k < a->count; k++) {
+            near("start", a->list[k].start, b->list[k].start, 1e-6);
+            near("sub-impulse", a->list[k].impulse, b->list[k].impulse, 1e-6);
+        }
+        for (int cvode = 0; cvode < 2; cvode++)
+            near("closure", outcomes[cvode].energy.closure / outcomes[cvode].energy.available, 0.0,
+                 1e-7);
+        toy_free(&toy);
+    }
+}
+
+/* The scales of a rigid Hertz collision: stored = kinetic at the largest indentation. */
+static void scales_follow_from_the_energy(void **state)
+{
+    (void)state;
+    struct toy toy;
+    toy_init(&toy, 1);
+    toy.w[0] = 4.0; /* m = 1/4 */
+    for (double k = 1.0; k < 1e12; k *= 1e3) {
+        for (double v = 1e-6; v < 1e3; v *= 1e2) {
+            toy.laws[0] = contact_law_hertz(k);
+            struct impact_scale scale = impact_scale_of(&toy.scene, 0, -v);
+            double depth = pow(1.25 * 0.25 * v * v / k, 0.4);
+            near("indentation", scale.indentation, depth, 1e-9 * depth);
+            near("duration", scale.duration, depth / v, 1e-9 * depth / v);
+            near("force", scale.force, k * pow(depth, 1.5), 1e-8 * k * pow(depth, 1.5));
+        }
+    }
+    struct impact_scale rest = impact_scale_of(&toy.scene, 0, 0.0);
+    assert_true(isfinite(rest.duration) && rest.indentation >= 0.0 && rest.duration > 0.0);
+    toy_free(&toy);
+}
+
+static void overlaps_go_back_to_their_touch(void **state)
+{
+    (void)state;
+    struct toy toy;
+    struct motion motion;
+    double shift = 9.0;
+    toy_init(&toy, 2);
+    toy.gap[0] = -0.1;
+    toy.gap_rate[0] = -1.0;
+    toy.gap[1] = -0.3; /* touched earlier: 0.15 s ago */
+    toy.gap_rate[1] = -2.0;
+    assert_true(motion_create(&motion, &toy.scene, &toy.arena));
+    motion_start(&motion, &toy.scene);
+    assert_true(impact_find_start(&toy.scene, 1.0, &motion, &shift));
+    near("shift", shift, -0.15, 1e-16);
+    near("gap", motion.gap[0], 0.05, 1e-16);
+    near("gap", motion.gap[1], 0.0, 1e-16);
+    near("time", motion.time, -0.15, 1e-16);
+    toy.gap_rate[1] = 0.1; /* opens: it was never apart */
+    motion_start(&motion, &toy.scene);
+    assert_false(impact_find_start(&toy.scene, 1.0, &motion, &shift));
+    toy_free(&toy);
+}
+
+/* The work allowed bounds the effort and is said. */
+static void effort_is_bounded(void **state)
+{
+    (void)state;
+    static const double omega = 30.0, shape = 0.8;
+    struct toy toy;
+    struct impact_outcome outcome;
+    struct impact_settings settings = {.accuracy = 1e-12, .horizon = 10.0, .max_work = 17.0 * 50.0};
+    toy_init(&toy, 1);
+    toy.gap_rate[0] = -1.0;
+    toy.laws[0] = contact_law_hertz(1e4);
+    toy_add(&toy, 0, 1, &omega, 0.0, &shape);
+    assert_true(impact_create(&outcome, &toy.scene, &toy.arena));
+    assert_int_equal(impact_modal(&toy.scene, &settings, &toy.arena, &outcome), PERCUSS_OK);
+    assert_int_equal(outcome.end_reason, PERCUSS_END_LIMIT);
+    assert_true(outcome.steps + outcome.rejected <= 51);
+    assert_int_equal(impact_max_steps(&toy.scene, &settings), 50);
+    toy_free(&toy);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_mass_bounces_off_a_spring),
+        cmocka_unit_test(the_closed_form_of_a_rigid_pair_agrees),
+        cmocka_unit_test(both_methods_agree_on_toys),
+        cmocka_unit_test(scales_follow_from_the_energy),
+        cmocka_unit_test(overlaps_go_back_to_their_touch),
+        cmocka_unit_test(effort_is_bounded),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

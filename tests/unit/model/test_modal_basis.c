@@ -1,0 +1,226 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/model/modal_basis.c: which families a load drives, frequencies and participations
+ * of rods in closed form, and compliances that the modal sums approach. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "model/modal_basis.h"
+
+static void near(double value, double expected, double allowed)
+{
+    if (!(fabs(value - expected) <= allowed))
+        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
+}
+
+static struct body bar(enum shape shape, enum support left, enum support right)
+{
+    struct body body = {
+        .id = "bar",
+        .material = {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0},
+        .shape = shape,
+        .radius = 0.01,
+        .length = 1.0,
+        .tip_radius = INFINITY,
+        .supports = {left, right},
+    };
+    assert_int_equal(body_complete(&body, NULL), PERCUSS_OK);
+    return body;
+}
+
+static struct site site(enum site_face face, double x, double y, double z)
+{
+    return (struct site){.face = face, .point = {x, y, z}};
+}
+
+static void loads_drive_what_they_should(void **state)
+{
+    (void)state;
+    const struct body rod = bar(SHAPE_ROD, SUPPORT_FREE, SUPPORT_FREE);
+    const struct body beam = bar(SHAPE_BEAM, SUPPORT_FREE, SUPPORT_FREE);
+    const struct body ball = {.shape = SHAPE_SPHERE, .radius = 1.0};
+    struct site end = site(SITE_END, 0.5, 0.0, 0.0), side = site(SITE_BEAM_SIDE, 0.2, 0.0, 0.01);
+    struct site beside = site(SITE_END, -0.5, 0.003, 0.0);
+    const double along[3] = {-1.0, 0.0, 0.0}, down[3] = {0.0, 0.0, -1.0};
+    struct site_load load = site_load_make(&rod, &end, along);
+    assert_true(load.acts[FAMILY_AXIAL] && !load.acts[FAMILY_BENDING_Y]);
+    assert_true(load.axial == -1.0 && load.end == 1);
+    load = site_load_make(&beam, &side, down);
+    assert_true(!load.acts[FAMILY_AXIAL] && !load.acts[FAMILY_BENDING_Y]);
+    assert_true(load.acts[FAMILY_BENDING_Z]);
+    near(load.bending[1].x, 0.2, 0.0);
+    near(load.bending[1].force, -1.0, 0.0);
+    near(load.bending[1].moment, 0.0, 0.0);
+    /* beside the axis a hit on the end bends too: psi moves a point at y by -y psi */
+    load = site_load_make(&beam, &beside, (double[]){1.0, 0.0, 0.0});
+    assert_true(load.acts[FAMILY_AXIAL] && load.acts[FAMILY_BENDING_Y]);
+    assert_false(load.acts[FAMILY_BENDING_Z]);
+    near(load.bending[0].moment, -0.003, 0.0);
+    near(load.bending[0].x, -0.5, 0.0);
+    assert_int_equal(load.end, 0);
+    /* rounding of the pose drives nothing */
+    load = site_load_make(&beam, &side, (double[]){1e-10, 1e-10, 1.0});
+    assert_true(!load.acts[FAMILY_AXIAL] && !load.acts[FAMILY_BENDING_Y]);
+    load = site_load_make(&ball, &end, along);
+    assert_false(load.acts[0] || load.acts[1] || load.acts[2]);
+}
+
+/* omega_k = k pi c/L and sqrt(2/M), signs (-1)^k at the far end; held at one end (k - 1/2). */
+static void rods_have_closed_forms(void **state)
+{
+    (void)state;
+    double c = sqrt(70e9 / 2700.0);
+    for (int held = 0; held < 2; held++) {
+        struct body rod = bar(SHAPE_ROD, held ? SUPPORT_CLAMPED : SUPPORT_FREE, SUPPORT_FREE);
+        struct modal_family *modes = modal_family_create(&rod, FAMILY_AXIAL, 50);
+        struct site_load right = {.acts = {true}, .axial = 1.0, .end = 1};
+        struct site_load left = {.acts = {true}, .axial = 1.0, .end = 0};
+        assert_non_null(modes);
+        for (size_t k = 0; k < 50; k++) {
+            double number = (double)k + (held ? 0.5 : 1.0);
+            near(modes->omega[k], number * M_PI * c, 1e-15 * modes->omega[k]);
+            double at_right = modal_participation(&rod, modes, k, &right);
+            near(fabs(at_right), sqrt(2.0 / rod.mass), 1e-15);
+            if (!held) {
+                /* even modes move both ends alike */
+                double at_left = modal_participation(&rod, modes, k, &left);
+                near(at_left, k % 2 ? at_right : -at_right, 1e-15);
+            }
+        }
+        modal_family_free(modes);
+    }
+    modal_family_free(NULL);
+}
+
+/* Rayleigh-Love: omega/sqrt(1 + (nu k r_p)^2), r_p^2 = r^2/2. */
+static void lateral_inertia_slows_waves(void **state)
+{
+    (void)state;
+    struct body rod = bar(SHAPE_ROD, SUPPORT_FREE, SUPPORT_FREE);
+    rod.lateral_inertia = true;
+    struct modal_family *modes = modal_family_create(&rod, FAMILY_AXIAL, 200);
+    assert_non_null(modes);
+    double c = sqrt(70e9 / 2700.0);
+    for (size_t k = 0; k < 200; k++) {
+        double wave = (double)(k + 1) * M_PI;
+        double share = 0.33 * 0.33 * wave * wave * 0.5e-4;
+        near(modes->omega[k], wave * c / sqrt(1.0 + share), 1e-13 * wave * c);
+        struct site_load load = {.acts = {true}, .axial = 1.0, .end = 1};
+        double phi = modal_participation(&rod, modes, k, &load);
+        near(phi * phi, 2.0 / (rod.mass * (1.0 + share)), 1e-13 / rod.mass);
+    }
+    modal_family_free(modes);
+}
+
+/* Sum of phi_i phi_j/omega^2 over N modes; the rest falls like 1/N. */
+static double modal_sum(const struct body *body, enum mode_family family, size_t count,
+                        const struct site_load *i, const struct site_load *j)
+{
+    struct modal_family *modes = modal_family_create(body, family, count);
+    double sum = 0.0;
+    assert_non_null(modes);
+    for (size_t k = count; k-- > 0;)
+        sum += modal_participation(body, modes, k, i) * modal_participation(body, modes, k, j) /
+               (modes->omega[k] * modes->omega[k]);
+    modal_family_free(modes);
+    return sum;
+}
+
+static void compliances_complete_the_modal_sums(void **state)
+{
+    (void)state;
+    static const enum support ends[][2] = {{SUPPORT_FREE, SUPPORT_FREE},
+                                           {SUPPORT_CLAMPED, SUPPORT_FREE},
+                                           {SUPPORT_FREE, SUPPORT_CLAMPED}};
+    for (int s = 0; s < 3; s++) {
+        for (int love = 0; love < 2; love++) {
+            struct body rod = bar(SHAPE_ROD, ends[s][0], ends[s][1]);
+            rod.lateral_inertia = love;
+            int end = ends[s][1] == SUPPORT_FREE;
+            struct site_load i = {.acts = {true}, .axial = 0.9, .end = end};
+            struct site_load j = {.acts = {true}, .axial = -0.7, .end = end};
+            double exact = modal_compliance(&rod, FAMILY_AXIAL, &i, &j);
+            /* the terms left out: 2 L/(EA pi^2) sum 1/k^2 = 1/N of it */
+            near(modal_sum(&rod, FAMILY_AXIAL, 4000, &i, &j), exact, 3e-4 * fabs(exact));
+            if (s == 0) {
+                j.end = 1 - end;
+                /* alternating terms: 1/N^2 */
+                exact = modal_compliance(&rod, FAMILY_AXIAL, &i, &j);
+                near(modal_sum(&rod, FAMILY_AXIAL, 4000, &i, &j), exact, 1e-6 * fabs(exact));
+            }
+        }
+    }
+}
+
+/* The notes' compliances of the paper's beam at three sites, and the rod's L/(3EA). */
+static void compliances_of_the_notes(void **state)
+{
+    (void)state;
+    static const double rows[][2] = {{0.0, 5.695448e-6}, {0.31 - 0.5, 2.324630e-6}};
+    const struct body beam = bar(SHAPE_BEAM, SUPPORT_FREE, SUPPORT_FREE);
+    const struct body rod = bar(SHAPE_ROD, SUPPORT_FREE, SUPPORT_FREE);
+    for (int i = 0; i < 2; i++) {
+        struct site_load load = {.acts = {false, false, true},
+                                 .bending = {{0}, {.x = rows[i][0], .force = 1.0}}};
+        near(modal_compliance(&beam, FAMILY_BENDING_Z, &load, &load), rows[i][1], 6e-13);
+        load.acts[FAMILY_BENDING_Z] = false;
+        near(modal_compliance(&beam, FAMILY_BENDING_Z, &load, &load), 0.0, 0.0);
+    }
+    struct site_load end = {.acts = {true}, .axial = 1.0, .end = 1};
+    near(modal_compliance(&rod, FAMILY_AXIAL, &end, &end), 1.0 / (3.0 * 70e9 * M_PI * 1e-4), 1e-20);
+}
+
+/* Rectangular sections bend in two different planes; even and odd shapes are told apart. */
+static void planes_and_parities(void **state)
+{
+    (void)state;
+    struct body flat = bar(SHAPE_BEAM, SUPPORT_FREE, SUPPORT_FREE);
+    flat.radius = 0.0;
+    flat.width = 0.04;
+    flat.height = 0.01;
+    assert_int_equal(body_complete(&flat, NULL), PERCUSS_OK);
+    struct modal_family *wide = modal_family_create(&flat, FAMILY_BENDING_Y, 6);
+    struct modal_family *thin = modal_family_create(&flat, FAMILY_BENDING_Z, 6);
+    assert_true(wide && thin);
+    /* Euler-Bernoulli's ratio of 4, less a few percent of shear in the stiffer plane */
+    near(wide->omega[0] / thin->omega[0], 4.0, 0.05);
+    struct site_load centre = {.acts = {false, false, true}, .bending = {{0}, {.force = 1.0}}};
+    for (size_t k = 0; k < 6; k++) {
+        assert_int_equal(thin->odd[k], k % 2);
+        double phi = modal_participation(&flat, thin, k, &centre);
+        if (k % 2)
+            assert_true(phi == 0.0);
+        else
+            assert_true(fabs(phi) > 0.1);
+    }
+    struct beam_plane plane = modal_beam_plane(&flat, FAMILY_BENDING_Y);
+    near(plane.bending_stiffness, 70e9 * 0.01 * 0.04 * 0.04 * 0.04 / 12.0, 1e-6);
+    near(plane.line_mass, 2700.0 * 4e-4, 1e-15);
+    modal_family_free(wide);
+    modal_family_free(thin);
+    flat.supports[0] = SUPPORT_PINNED;
+    thin = modal_family_create(&flat, FAMILY_BENDING_Z, 6);
+    assert_non_null(thin);
+    for (size_t k = 0; k < 6; k++)
+        assert_int_equal(thin->odd[k], 0); /* no symmetry, no parity */
+    modal_family_free(thin);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(loads_drive_what_they_should),
+        cmocka_unit_test(rods_have_closed_forms),
+        cmocka_unit_test(lateral_inertia_slows_waves),
+        cmocka_unit_test(compliances_complete_the_modal_sums),
+        cmocka_unit_test(compliances_of_the_notes),
+        cmocka_unit_test(planes_and_parities),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

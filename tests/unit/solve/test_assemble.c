@@ -1,0 +1,211 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/solve/assemble.c: which modes take part, and the residual flexibility of the
+ * rest. */
+#include "physics/support.h"
+#include "solve/assemble.h"
+
+struct bench {
+    struct lab *lab;
+    struct arena arena;
+    struct prepared_cache *cache;
+    struct geometry geometry;
+    struct assembly assembly;
+};
+
+static struct bench *bench_create(void)
+{
+    struct bench *bench = calloc(1, sizeof *bench);
+    assert_non_null(bench);
+    bench->lab = lab_create();
+    bench->cache = prepared_cache_create();
+    assert_non_null(bench->cache);
+    lab_add(bench->lab, "ball", make_sphere(STEEL, 0.015));
+    lab_add(bench->lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(bench->lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
+    return bench;
+}
+
+static void bench_free(struct bench *bench)
+{
+    prepared_cache_free(bench->cache);
+    arena_release(&bench->arena);
+    lab_free(bench->lab);
+    free(bench);
+}
+
+static const struct assembly *put_together(struct bench *bench, const struct solve_request *request,
+                                           double cut, double share)
+{
+    struct fault fault = {""};
+    struct assemble_choice choice = {.cut = cut, .fixed_share = share};
+    prepared_cache_use(bench->cache, bench->lab->set.revision);
+    if (geometry_find(&bench->geometry, &bench->lab->set, request, &bench->arena, &fault))
+        fail_msg("%s", fault.text);
+    assert_true(assemble(&bench->assembly, &bench->geometry, request, bench->cache, &choice,
+                         &bench->arena));
+    return &bench->assembly;
+}
+
+static struct solve_request on_beam(double x, double about)
+{
+    return strike(sphere_spot("ball", 0.015), side_spot("beam", x, 0.010, about), 0.2);
+}
+
+/* What a static force of 1 N finds: kept modes and residual together are the exact compliance. */
+static void modes_and_residual_are_the_compliance(void **state)
+{
+    (void)state;
+    struct bench *bench = bench_create();
+    const struct solve_request requests[] = {
+        on_beam(0.0, 0.0), on_beam(0.31, 0.0), on_beam(0.31, 0.7),
+        strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), 0.2)};
+    double side = NAN;
+    for (size_t i = 0; i < COUNT(requests); i++) {
+        double all = NAN;
+        for (double cut = 0.0; cut < 3e6; cut = 4.0 * cut + 1e3) {
+            const struct assembly *assembly = put_together(bench, &requests[i], cut, 1.0);
+            double sum = assembly->scene.residual[0];
+            double residual = sum;
+            for (size_t g = 0; g < assembly->scene.groups; g++)
+                for (size_t k = 0; k < assembly->groups[g].count; k++) {
+                    double phi = assembly->groups[g].participation[0][k];
+                    double omega = assembly->groups[g].set->omega[k];
+                    assert_true(omega <= cut);
+                    sum += phi * phi / (omega * omega);
+                }
+            all = cut == 0.0 ? sum : all;
+            measured_relative("compliance", sum, all, 1e-14);
+            /* less remains with every mode, and never less than nothing but rounding */
+            assert_true(residual > -1e-14 * all);
+            assert_true(cut == 0.0 ? assembly->all_modes == 0 : residual <= all);
+            assert_true(assembly->lowest_omitted > cut);
+            assert_true(assembly->highest <= cut);
+        }
+        /* the notes' compliances, to their digits */
+        if (i == 0)
+            measured("centre", all, 5.695448e-6, 5e-13);
+        side = i == 1 ? all : side;
+        if (i == 2)
+            measured_relative("the same in any plane", all, side, 1e-13);
+        if (i == 3)
+            measured_relative("rod", all, 1.0 / (3.0 * 70e9 * M_PI * 1e-4), 1e-13);
+    }
+    bench_free(bench);
+}
+
+/* Odd shapes have a node in the middle: not there. Off it they are. */
+static void modes_with_a_node_there_stay_out(void **state)
+{
+    (void)state;
+    struct bench *bench = bench_create();
+    struct solve_request centre = on_beam(0.0, 0.0), beside = on_beam(0.01, 0.0);
+    struct solve_request turned = on_beam(0.01, 0.5);
+    const struct assembly *assembly = put_together(bench, &centre, 1e5, 1.0);
+    assert_int_equal(assembly->scene.groups, 1);
+    size_t even = assembly->all_modes;
+    assert_int_equal(assembly->modes[0], 0);
+    assert_int_equal(assembly->modes[1], even);
+    assembly = put_together(bench, &beside, 1e5, 1.0);
+    assert_int_equal(assembly->scene.groups, 2);
+    size_t all = assembly->all_modes;
+    assert_in_range(all, 2 * even - 1, 2 * even + 1);
+    assembly = put_together(bench, &turned, 1e5, 1.0);
+    assert_int_equal(assembly->all_modes, 2 * all);
+    bench_free(bench);
+}
+
+static void a_fixed_number_is_that_number(void **state)
+{
+    (void)state;
+    struct bench *bench = bench_create();
+    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct solve_request request = on_beam(0.1, 0.0);
+    beam.modes = 16;
+    lab_add(bench->lab, "beam", beam);
+    assert_int_equal(put_together(bench, &request, 1.0, 1.0)->all_modes, 16);
+    assert_int_equal(put_together(bench, &request, 1e9, 1.0)->all_modes, 16);
+    assert_int_equal(put_together(bench, &request, 1e9, 0.5)->all_modes, 8);
+    assert_true(bench->assembly.lowest_omitted == INFINITY);
+    bench_free(bench);
+}
+
+/* Modes of an initial state take part whatever the cut, moved on by the time since. */
+static void a_state_brings_its_modes(void **state)
+{
+    (void)state;
+    struct bench *bench = bench_create();
+    struct solve_request request = on_beam(0.1, 0.0);
+    const size_t count = 12;
+    struct body_state *ringing =
+        calloc(1, sizeof *ringing + 2 * count * sizeof *ringing->coordinates);
+    assert_non_null(ringing);
+    ringing->count[FAMILY_BENDING_Z] = count;
+    for (size_t k = 0; k < count; k++)
+        ringing->coordinates[2 * k] = 1e-6 * (double)(k + 1);
+    request.bodies[1].state = ringing;
+    request.bodies[1].elapsed = 1e-4;
+    const struct assembly *assembly = put_together(bench, &request, 0.0, 0.0);
+    assert_int_equal(assembly->all_modes, count);
+    size_t seen = 0;
+    for (size_t g = 0; g < assembly->scene.groups; g++) {
+        const struct scene_group *group = &assembly->groups[g];
+        for (size_t k = 0; k < group->count; k++, seen++) {
+            double mode = (double)assembly->sources[g]->mode[k] + 1.0;
+            double angle = group->set->omega[k] * 1e-4;
+            measured_relative("q", group->q[k], 1e-6 * mode * cos(angle), 1e-12);
+            measured("v", group->v[k], -1e-6 * mode * group->set->omega[k] * sin(angle),
+                     1e-12 * group->set->omega[k] * 1e-6 * mode);
+        }
+    }
+    assert_int_equal(seen, count);
+    free(ringing);
+    bench_free(bench);
+}
+
+/* Two contacts on one beam share its modes: off-diagonal residuals complete the cross compliance.
+ */
+static void residuals_couple_contacts(void **state)
+{
+    (void)state;
+    struct bench *bench = bench_create();
+    struct solve_request request = on_beam(0.1, 0.0);
+    request.body_count = 3;
+    request.contact_count = 2;
+    request.bodies[2] = request.bodies[0];
+    request.bodies[2].position[0] = -0.35;
+    request.contacts[1] = request.contacts[0];
+    request.contacts[1].a = 2;
+    request.contacts[1].point[0] = -0.35;
+    double all[4];
+    for (int few = 0; few < 2; few++) {
+        const struct assembly *assembly = put_together(bench, &request, few ? 2e4 : 0.0, 1.0);
+        for (int ij = 0; ij < 4; ij++) {
+            double sum = assembly->scene.residual[ij];
+            for (size_t g = 0; g < assembly->scene.groups; g++)
+                for (size_t k = 0; k < assembly->groups[g].count; k++) {
+                    double omega = assembly->groups[g].set->omega[k];
+                    sum += assembly->groups[g].participation[ij / 2][k] *
+                           assembly->groups[g].participation[ij % 2][k] / (omega * omega);
+                }
+            all[ij] = few ? all[ij] : sum;
+            measured("compliance", sum, all[ij], 1e-14 * all[0]);
+        }
+    }
+    measured_relative("symmetric", all[1], all[2], 1e-13);
+    assert_true(all[1] * all[1] < all[0] * all[3]);
+    bench_free(bench);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(modes_and_residual_are_the_compliance),
+        cmocka_unit_test(modes_with_a_node_there_stay_out),
+        cmocka_unit_test(a_fixed_number_is_that_number),
+        cmocka_unit_test(a_state_brings_its_modes),
+        cmocka_unit_test(residuals_couple_contacts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,112 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/solve/prepared.c: a hit and a miss give the same bits, growing keeps what scenes
+ * point at, a new revision forgets. */
+#include "physics/support.h"
+#include "solve/prepared.h"
+
+static struct body beam(const char *id, double length)
+{
+    struct body body = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, length);
+    snprintf(body.id, sizeof body.id, "%s", id);
+    assert_int_equal(body_complete(&body, NULL), PERCUSS_OK);
+    return body;
+}
+
+static void more_modes_change_no_bit(void **state)
+{
+    (void)state;
+    struct body body = beam("beam", 1.0);
+    struct prepared_cache *cache = prepared_cache_create();
+    assert_non_null(cache);
+    prepared_cache_use(cache, "one");
+    const struct prepared_family *few = prepared_family_get(cache, &body, FAMILY_BENDING_Z, 5);
+    assert_non_null(few);
+    assert_true(few->modes->count >= 5);
+    size_t count = few->modes->count;
+    const struct prepared_family *many = prepared_family_get(cache, &body, FAMILY_BENDING_Z, 300);
+    assert_non_null(many);
+    assert_true(many != few && many->modes->count >= 300);
+    /* the smaller one is still there: a scene may hold it */
+    assert_memory_equal(few->modes->omega, many->modes->omega, count * sizeof(double));
+    assert_memory_equal(few->modes->beam, many->modes->beam, count * sizeof *few->modes->beam);
+    assert_memory_equal(few->modes->odd, many->modes->odd, count);
+    assert_ptr_equal(prepared_family_get(cache, &body, FAMILY_BENDING_Z, 4), many);
+    prepared_cache_free(cache);
+}
+
+/* Even and odd modes of equal ends, in two groups that list all modes once, ascending. */
+static void groups_split_by_parity(void **state)
+{
+    (void)state;
+    struct body body = beam("beam", 1.0);
+    struct prepared_cache *cache = prepared_cache_create();
+    assert_non_null(cache);
+    prepared_cache_use(cache, "one");
+    const struct prepared_family *family = prepared_family_get(cache, &body, FAMILY_BENDING_Y, 40);
+    assert_non_null(family);
+    assert_int_equal(family->group_count, 2);
+    size_t seen = 0;
+    for (size_t g = 0; g < 2; g++) {
+        const struct prepared_group *group = &family->groups[g];
+        for (size_t k = 0; k < group->set->count; k++, seen++) {
+            assert_int_equal(family->modes->odd[group->mode[k]], g);
+            assert_true(group->set->omega[k] == family->modes->omega[group->mode[k]]);
+            assert_true(k == 0 || group->mode[k] > group->mode[k - 1]);
+        }
+    }
+    assert_int_equal(seen, family->modes->count);
+    body.supports[0] = SUPPORT_CLAMPED;
+    snprintf(body.id, sizeof body.id, "cantilever");
+    family = prepared_family_get(cache, &body, FAMILY_BENDING_Y, 40);
+    assert_non_null(family);
+    assert_int_equal(family->group_count, 1);
+    prepared_cache_free(cache);
+}
+
+static void bodies_and_revisions_are_kept_apart(void **state)
+{
+    (void)state;
+    struct body first = beam("first", 1.0), second = beam("second", 0.5);
+    struct prepared_cache *cache = prepared_cache_create();
+    assert_non_null(cache);
+    prepared_cache_use(cache, "one");
+    double omega[2];
+    omega[0] = prepared_family_get(cache, &first, FAMILY_BENDING_Z, 8)->modes->omega[0];
+    omega[1] = prepared_family_get(cache, &second, FAMILY_BENDING_Z, 8)->modes->omega[0];
+    assert_true(omega[1] > 3.0 * omega[0]);
+    /* the same revision remembers, another one looks again */
+    second.length = 0.25;
+    assert_int_equal(body_complete(&second, NULL), PERCUSS_OK);
+    prepared_cache_use(cache, "one");
+    assert_true(prepared_family_get(cache, &second, FAMILY_BENDING_Z, 8)->modes->omega[0] ==
+                omega[1]);
+    prepared_cache_use(cache, "two");
+    assert_true(prepared_family_get(cache, &second, FAMILY_BENDING_Z, 8)->modes->omega[0] >
+                2.0 * omega[1]);
+    /* several hundred bodies share buckets */
+    for (int i = 0; i < 400; i++) {
+        char id[32];
+        snprintf(id, sizeof id, "beam-%d", i);
+        struct body body = beam(id, 0.5 + 0.001 * i);
+        assert_non_null(prepared_family_get(cache, &body, FAMILY_AXIAL, 1));
+    }
+    struct body again = beam("beam-7", 0.507);
+    double c = sqrt(70e9 / 2700.0);
+    measured_relative("beam-7",
+                      prepared_family_get(cache, &again, FAMILY_AXIAL, 1)->modes->omega[0],
+                      M_PI * c / 0.507, 1e-14);
+    prepared_cache_free(cache);
+    prepared_cache_free(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(more_modes_change_no_bit),
+        cmocka_unit_test(groups_split_by_parity),
+        cmocka_unit_test(bodies_and_revisions_are_kept_apart),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,183 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/solve/report.c, accuracy.c and validity.c: what an answer says about itself. */
+#include "physics/support.h"
+
+static struct solve_result result;
+
+static struct lab *shapes(void)
+{
+    struct lab *lab = lab_create();
+    struct body love = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0);
+    struct body slim = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct material soft = ALUMINIUM;
+    love.lateral_inertia = true;
+    slim.theory = THEORY_EULER_BERNOULLI;
+    soft.yield = 205e6;
+    lab_add(lab, "ball", make_sphere(STEEL, 0.015));
+    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "love", love);
+    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "slim", slim);
+    lab_add(lab, "soft", make_bar(SHAPE_ROD, soft, 0.010, 1.0));
+    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    lab_add(lab, "bead", make_bar(SHAPE_ROD, STEEL, 0.02, 0.04));
+    return lab;
+}
+
+static bool warns(const char *words)
+{
+    for (size_t i = 0; i < result.warning_count; i++)
+        if (strstr(result.warnings[i], words))
+            return true;
+    return false;
+}
+
+static struct solve_request on_end(const char *id, double speed)
+{
+    return strike(sphere_spot("ball", 0.015), end_spot(id, 1.0), speed);
+}
+
+static void names_theories_and_models(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    struct solve_request requests[] = {
+        on_end("rod", 0.1), on_end("love", 0.1),
+        strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.1),
+        strike(sphere_spot("ball", 0.015), side_spot("slim", 0.0, 0.010, 0.0), 0.1)};
+    static const char *const theories[] = {"rod", "rayleigh-love", "timoshenko", "euler-bernoulli"};
+    for (size_t i = 0; i < COUNT(requests); i++) {
+        lab_solve(lab, &requests[i], &result);
+        assert_string_equal(result.bodies[0].id, "ball");
+        assert_string_equal(result.bodies[0].theory, "rigid");
+        assert_string_equal(result.bodies[1].theory, theories[i]);
+        assert_true(result.bodies[0].rigid && !result.bodies[1].rigid);
+        assert_true(result.bodies[1].modes > 0);
+        assert_int_equal(result.contact_model, PERCUSS_CONTACT_HERTZ);
+        assert_int_equal(result.compliance, PERCUSS_COMPLIANCE_HALF_SPACE);
+        assert_int_equal(result.method, PERCUSS_METHOD_MODAL);
+        assert_true(strlen(result.reason) > 20);
+        assert_true(result.omitted_error > 0.0 && result.omitted_error < 1e-2);
+        assert_string_equal(result.fault.text, "");
+    }
+    /* Cowper 1966 */
+    lab_solve(lab, &requests[2], &result);
+    measured("shear factor", result.bodies[1].shear_factor, 6.0 * 1.33 / (7.0 + 6.0 * 0.33), 1e-15);
+    lab_free(lab);
+}
+
+/* A short stiff rod rings far above the contact's frequency: it is rigid within the tolerance. */
+static void a_compact_rod_is_rigid(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    struct solve_request request = strike(sphere_spot("ball", 0.015), end_spot("bead", 0.04), 0.02);
+    request.options.tolerance = 1e-2;
+    lab_solve(lab, &request, &result);
+    assert_true(result.bodies[1].rigid && result.bodies[1].modes == 0);
+    double e = result.contacts[0].restitution;
+    assert_true(result.tolerance_met);
+    request.options.tolerance = 1e-7;
+    lab_solve(lab, &request, &result);
+    assert_false(result.bodies[1].rigid);
+    measured("e, rigid", e, result.contacts[0].restitution, 1e-2);
+    lab_free(lab);
+}
+
+static void warns_where_models_end(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    struct solve_request request = on_end("soft", 0.3);
+    lab_solve(lab, &request, &result);
+    assert_true(warns("yield") && warns("soft"));
+    request = on_end("rod", 0.3);
+    lab_solve(lab, &request, &result);
+    assert_int_equal(result.warning_count, 0);
+    request = on_end("rod", 60.0); /* 1.2 % of 5 km/s */
+    lab_solve(lab, &request, &result);
+    assert_true(warns("wave speed"));
+    request = strike(sphere_spot("ball", 0.015), side_spot("beam", 0.4996, 0.010, 0.0), 0.1);
+    lab_solve(lab, &request, &result);
+    assert_true(warns("edge"));
+    double w = 1.02 * 11.0;
+    request = on_end("rod", 0.3);
+    request.delassus = &w;
+    lab_solve(lab, &request, &result);
+    assert_true(warns("delassus"));
+    assert_int_equal(result.delassus_source, PERCUSS_DELASSUS_CLIENT);
+    lab->set.compliance = PERCUSS_COMPLIANCE_MATCHED;
+    request.delassus = NULL;
+    lab_solve(lab, &request, &result);
+    assert_true(warns("compliance"));
+    lab_free(lab);
+}
+
+/* Waves into the half-space: Hunter's 1.04 (v/c)^(3/5) of the energy, half of it in e. */
+static void states_what_it_leaves_out(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    struct solve_request request = strike(sphere_spot("ball", 0.015), wall_spot("wall"), 0.5);
+    lab_solve(lab, &request, &result);
+    double c = sqrt(210e9 / 7800.0);
+    double hunter = 0.5 * 1.04 * pow(0.5 / c, 0.6);
+    /* and the sphere's own vibration beside it, hundreds of times less */
+    measured_relative("omitted", result.omitted_error, hunter, 2e-2);
+    lab_free(lab);
+}
+
+/* de/dv against a difference of whole solutions. */
+static void conditioning_is_a_derivative(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    double e[2];
+    struct solve_request request = on_end("rod", 0.3);
+    request.options.tolerance = 1e-7;
+    lab_solve(lab, &request, &result);
+    assert_true(isnan(result.restitution_by_speed));
+    request.options.conditioning = true;
+    lab_solve(lab, &request, &result);
+    double slope = result.restitution_by_speed;
+    for (int i = 0; i < 2; i++) {
+        struct solve_request shifted = on_end("rod", i ? 0.303 : 0.297);
+        shifted.options.tolerance = 1e-8;
+        lab_solve(lab, &shifted, &result);
+        e[i] = result.contacts[0].restitution;
+    }
+    /* step of 1 %: second order, 1e-4 relative; the tolerances 1e-8 over 6e-3 m/s */
+    measured_relative("slope", slope, (e[1] - e[0]) / 0.006, 1e-3);
+    lab_free(lab);
+}
+
+static void refusals_leave_a_clean_answer(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    struct solve_request request = on_end("rod", -0.3);
+    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_NOT_APPROACHING);
+    assert_false(result.complete);
+    assert_int_equal(result.contact_count, 0);
+    assert_true(strlen(result.fault.text) > 0);
+    /* and the next request is answered as ever */
+    request = on_end("rod", 0.3);
+    lab_solve(lab, &request, &result);
+    measured("e", result.contacts[0].restitution, 0.6433, 1e-3);
+    lab_free(lab);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_theories_and_models),
+        cmocka_unit_test(a_compact_rod_is_rigid),
+        cmocka_unit_test(warns_where_models_end),
+        cmocka_unit_test(states_what_it_leaves_out),
+        cmocka_unit_test(conditioning_is_a_derivative),
+        cmocka_unit_test(refusals_leave_a_clean_answer),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
