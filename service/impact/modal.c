@@ -107,7 +107,8 @@ static void deactivate(struct modal_run *run, size_t contact, double time)
 /* The finest level that events and grading need. */
 static int finest_level(const struct modal_run *run)
 {
-    double shortest = INFINITY;
+    /* a contact that opens without speed has no duration of its own */
+    double shortest = 0.01 * run->settings->horizon;
     for (size_t c = 0; c < run->scene->contacts; c++)
         if (run->active[c])
             shortest = fmin(shortest, run->scales[c].duration);

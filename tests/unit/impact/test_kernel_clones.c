@@ -1,0 +1,100 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/impact/kernel.c: the vector unit chosen at start gives the bits of the baseline.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* The source once more, under other names and for the baseline only. */
+#define PERCUSS_ONE_KERNEL
+#define kernel_nodes    baseline_nodes
+#define kernel_advance  baseline_advance
+#define kernel_push     baseline_push
+#define kernel_dot2     baseline_dot2
+#define kernel_response baseline_response
+#include "impact/kernel.c"
+#undef kernel_nodes
+#undef kernel_advance
+#undef kernel_push
+#undef kernel_dot2
+#undef kernel_response
+
+void kernel_nodes(const struct step_table *table, size_t length, const double *phi, const double *q,
+                  const double *v, double sums[NODES]);
+void kernel_advance(const struct step_table *table, size_t length, const double *q, const double *v,
+                    double *q_end, double *v_end);
+void kernel_push(const struct step_table *table, size_t length, const double *phi,
+                 const double force[NODES], double *q_end, double *v_end);
+void kernel_dot2(size_t length, const double *a, const double *x, const double *y, double *ax,
+                 double *ay);
+void kernel_response(const struct step_table *table, size_t length, const double *phi_a,
+                     const double *phi_b, double sums[NODES][NODES]);
+
+enum { LONGEST = 64 };
+
+static double uniform(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-52 - 1.0;
+}
+
+static void same(const double *a, const double *b, size_t count)
+{
+    assert_memory_equal(a, b, count * sizeof *a);
+}
+
+static void every_vector_unit_gives_the_same_bits(void **state)
+{
+    (void)state;
+    static const double force[NODES] = {0.3, -1.7, 2.1, 0.9};
+    uint64_t seed = 8;
+    for (size_t count = 1; count <= LONGEST; count++) {
+        _Alignas(32) double phi[LONGEST] = {0.0}, psi[LONGEST] = {0.0}, q[LONGEST] = {0.0};
+        _Alignas(32) double v[LONGEST] = {0.0}, end[4][LONGEST];
+        double omega[LONGEST], sums[2][NODES] = {{0.0}}, dots[4],
+                               response[2][NODES][NODES] = {{{0}}};
+        for (size_t k = 0; k < count; k++) {
+            omega[k] = 50.0 * (double)(k + 1) * (double)(k + 1);
+            phi[k] = uniform(&seed);
+            psi[k] = uniform(&seed);
+            q[k] = uniform(&seed);
+            v[k] = uniform(&seed);
+        }
+        struct oscillators *set = oscillators_create(count, omega, 0.01);
+        assert_non_null(set);
+        const struct step_table *table = oscillators_table(set, 12);
+        assert_non_null(table);
+        size_t n = set->stride;
+        kernel_nodes(table, n, phi, q, v, sums[0]);
+        baseline_nodes(table, n, phi, q, v, sums[1]);
+        same(sums[0], sums[1], NODES);
+        kernel_advance(table, n, q, v, end[0], end[1]);
+        baseline_advance(table, n, q, v, end[2], end[3]);
+        kernel_push(table, n, phi, force, end[0], end[1]);
+        baseline_push(table, n, phi, force, end[2], end[3]);
+        same(end[0], end[2], n);
+        same(end[1], end[3], n);
+        kernel_dot2(n, phi, q, v, &dots[0], &dots[1]);
+        baseline_dot2(n, phi, q, v, &dots[2], &dots[3]);
+        same(dots, dots + 2, 2);
+        kernel_response(table, n, phi, psi, response[0]);
+        baseline_response(table, n, phi, psi, response[1]);
+        same(response[0][0], response[1][0], NODES * NODES);
+        oscillators_free(set);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_vector_unit_gives_the_same_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
