@@ -160,6 +160,16 @@ static enum percuss_status choose_w(struct geometry *geometry, const struct solv
     }
     if (n == 1)
         return PERCUSS_OK;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < i; j++) {
+            double scale = sqrt(geometry->w[i * (n + 1)]) * sqrt(geometry->w[j * (n + 1)]);
+            double a = geometry->w[i * n + j];
+            double b = geometry->w[j * n + i];
+            if (!(fabs(a - b) <= 1e-9 * scale))
+                return fault_set(fault, PERCUSS_BAD_REQUEST,
+                                 "delassus[%zu] and [%zu]: %g and %g: the matrix must be symmetric",
+                                 i * n + j, j * n + i, a, b);
+        }
     double *scratch = arena_take(arena, n * (2 * n + 1), sizeof *scratch);
     if (!scratch)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
