@@ -45,7 +45,7 @@ static struct arena_block *block_with_room(struct arena *arena, size_t bytes)
     return block;
 }
 
-void *arena_take(struct arena *arena, size_t count, size_t size)
+void *arena_reserve(struct arena *arena, size_t count, size_t size)
 {
     if (size && count > (SIZE_MAX - 2 * ALIGNMENT) / size)
         return NULL;
@@ -55,7 +55,13 @@ void *arena_take(struct arena *arena, size_t count, size_t size)
         return NULL;
     void *memory = block->bytes + block->used;
     block->used += bytes;
-    return memset(memory, 0, bytes);
+    return memory;
+}
+
+void *arena_take(struct arena *arena, size_t count, size_t size)
+{
+    void *memory = arena_reserve(arena, count, size);
+    return memory ? memset(memory, 0, count * size) : NULL;
 }
 
 void arena_reset(struct arena *arena)

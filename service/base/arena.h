@@ -17,6 +17,9 @@ struct arena {
 /* 32-byte aligned, zeroed memory for `count` items of `size` bytes; NULL: out of memory. */
 void *arena_take(struct arena *arena, size_t count, size_t size);
 
+/* The same, not zeroed. */
+void *arena_reserve(struct arena *arena, size_t count, size_t size);
+
 /* Everything taken is free again; no memory goes back to the system. */
 void arena_reset(struct arena *arena);
 

@@ -15,6 +15,7 @@ struct collocation {
     double position[NODES][NODES]; /* [i][j]: its double integral */
     double position_end[NODES];    /* double integral from 0 to 1 */
     double highest[NODES];         /* coefficient of the Legendre polynomial of degree 3 */
+    double slopes[NODES][NODES];   /* integral of the product of two polynomials' derivatives */
 };
 
 extern const struct collocation collocation;

@@ -19,14 +19,15 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, s
     *step = (struct contact_step){.arena = arena};
     step->indentation = arena_take(arena, n, sizeof *step->indentation);
     step->force = arena_take(arena, n, sizeof *step->force);
+    step->stiffness = arena_take(arena, n, sizeof *step->stiffness);
     step->end_indentation = arena_take(arena, n, sizeof(double));
     step->matrix = arena_take(arena, unknowns * unknowns, sizeof(double));
     step->residual = arena_take(arena, unknowns, sizeof(double));
     step->target = arena_take(arena, n, sizeof *step->target);
     step->approach = arena_take(arena, n, sizeof(double));
     step->end_force = arena_take(arena, n, sizeof(double));
-    return step->indentation && step->force && step->end_indentation && step->matrix &&
-           step->residual && step->target && step->approach && step->end_force &&
+    return step->indentation && step->force && step->stiffness && step->end_indentation &&
+           step->matrix && step->residual && step->target && step->approach && step->end_force &&
            motion_create(&step->end, scene, arena);
 }
 
@@ -270,7 +271,7 @@ bool contact_step_solve(struct contact_step *step, const struct scene *scene,
         .matrix = step->matrix,
         .residual = step->residual,
     };
-    if (!node_solve(&problem, step->indentation, step->force, &step->iterations))
+    if (!node_solve(&problem, step->indentation, step->force, step->stiffness, &step->iterations))
         return false;
     advance(step, scene, motion, list, count, level);
     double ignored;

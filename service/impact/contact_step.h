@@ -14,9 +14,10 @@ struct contact_step {
     struct motion end;            /* the state after the step */
     double (*indentation)[NODES]; /* [contact] local, at the nodes; active contacts only */
     double (*force)[NODES];
-    double *end_indentation;  /* [contact], all contacts */
-    double loss;              /* taken by damping, J */
-    unsigned long iterations; /* Newton's, since creation */
+    double (*stiffness)[NODES]; /* of the law, dF/d(indentation) */
+    double *end_indentation;    /* [contact], all contacts */
+    double loss;                /* taken by damping, J */
+    unsigned long iterations;   /* Newton's, since creation */
 
     double (*coupling[STEP_LEVELS])[NODES][NODES]; /* [contact][contact]: residual + response */
     double (*target)[NODES];                       /* scratch */

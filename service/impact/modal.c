@@ -242,7 +242,7 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
 {
     double end = run->step.end_indentation[c];
     struct track_values values = {run->now[c].indentation, end, run->step.indentation[c],
-                                  run->step.force[c]};
+                                  run->step.force[c], run->step.stiffness[c]};
     struct contact_start after = end_values(run->step.indentation[c], h, end);
     if (!run->active[c] && (end > 0.0 || bears(run, c)))
         activate(run, c, closing_time(run, c, start, h), fmax(run->now[c].rate, after.rate));

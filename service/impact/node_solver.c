@@ -71,7 +71,7 @@ static void follow(double force[NODES], const double stiffness[NODES], const dou
 
 /* One active contact: the usual case, without scratch memory. */
 static bool solve_one(const struct node_problem *problem, double d[NODES], double force[NODES],
-                      unsigned long *iterations)
+                      double stiffness[NODES], unsigned long *iterations)
 {
     size_t contact = problem->list[0];
     const struct contact_law *law = &problem->laws[contact];
@@ -79,7 +79,6 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
     const double *target = problem->target[0];
     double previous = INFINITY;
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        double stiffness[NODES];
         double jacobian[NODES][NODES];
         double residual[NODES];
         for (int i = 0; i < NODES; i++)
@@ -120,7 +119,7 @@ static void assemble(const struct node_problem *problem, double (*indentation)[N
         size_t c = problem->list[a];
         for (int i = 0; i < NODES; i++)
             force[c][i] =
-                contact_law_force(&problem->laws[c], NULL, indentation[c][i], &stiffness[a][i]);
+                contact_law_force(&problem->laws[c], NULL, indentation[c][i], &stiffness[c][i]);
     }
     for (size_t row = 0; row < size; row++) {
         size_t a = problem->list[row / NODES];
@@ -131,20 +130,20 @@ static void assemble(const struct node_problem *problem, double (*indentation)[N
             double m = problem->coupling[a * problem->contacts + b][i][column % NODES];
             sum += m * force[b][column % NODES];
             problem->matrix[row * size + column] =
-                m * stiffness[column / NODES][column % NODES] + (row == column);
+                m * stiffness[b][column % NODES] + (row == column);
         }
         problem->residual[row] = sum;
     }
 }
 
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
-                double (*force)[NODES], unsigned long *iterations)
+                double (*force)[NODES], double (*stiffness)[NODES], unsigned long *iterations)
 {
     size_t first = problem->list[0];
-    if (problem->count == 1 && solve_one(problem, indentation[first], force[first], iterations))
+    if (problem->count == 1 &&
+        solve_one(problem, indentation[first], force[first], stiffness[first], iterations))
         return true;
     size_t size = problem->count * NODES;
-    double stiffness[PERCUSS_MAX_CONTACTS][NODES];
     double previous = INFINITY;
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
         assemble(problem, indentation, force, stiffness);
@@ -162,7 +161,8 @@ bool node_solve(const struct node_problem *problem, double (*indentation)[NODES]
             return false;
         if (settled(&progress)) {
             for (size_t a = 0; a < problem->count; a++)
-                follow(force[problem->list[a]], stiffness[a], problem->residual + a * NODES);
+                follow(force[problem->list[a]], stiffness[problem->list[a]],
+                       problem->residual + a * NODES);
             return true;
         }
         previous = progress.change;

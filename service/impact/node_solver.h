@@ -24,6 +24,6 @@ struct node_problem {
  * contacts][node] `indentation` holds starting values and becomes the solution, `force` belongs to
  * it. False: no convergence. Adds to *iterations. */
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
-                double (*force)[NODES], unsigned long *iterations);
+                double (*force)[NODES], double (*stiffness)[NODES], unsigned long *iterations);
 
 #endif

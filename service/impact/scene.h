@@ -17,8 +17,6 @@
 #include "contact/law.h"
 #include "impact/step_table.h"
 
-enum { SCENE_MAX_GROUPS = 6 * PERCUSS_MAX_BODIES };
-
 /* Oscillators of one body. Arrays are padded with zeros to `stride` and 32-byte aligned. */
 struct scene_group {
     struct oscillators *set;      /* borrowed; at least `count` oscillators */

@@ -7,7 +7,7 @@
 
 bool track_create(struct track *track, struct arena *arena)
 {
-    track->list = arena_take(arena, PERCUSS_MAX_SUB_IMPACTS, sizeof *track->list);
+    track->list = arena_reserve(arena, PERCUSS_MAX_SUB_IMPACTS, sizeof *track->list);
     track_clear(track);
     return track->list != NULL;
 }
@@ -16,6 +16,7 @@ void track_clear(struct track *track)
 {
     track->count = 0;
     track->impulse = 0.0;
+    track->inertia = track->viscosity = 0.0;
     track->end_time = 0.0;
 }
 
@@ -93,6 +94,17 @@ void track_step(struct track *track, double time, double h, const struct track_v
     }
     for (int j = 0; j < NODES; j++)
         open->impulse += h * collocation.weight[j] * values->force[j];
+    double inertia = 0.0;
+    double viscosity = 0.0;
+    for (int i = 0; i < NODES; i++) {
+        double sum = 0.0;
+        for (int j = 0; j < NODES; j++)
+            sum += collocation.slopes[i][j] * values->force[j];
+        inertia += values->stiffness[i] * sum;
+        viscosity += values->force[i] * sum;
+    }
+    track->inertia += inertia / h;
+    track->viscosity += viscosity / h;
 }
 
 void track_close(struct track *track, const struct contact_law *law, double time, double gap_rate)

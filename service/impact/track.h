@@ -20,6 +20,9 @@ struct track {
     double impulse;          /* of all of them, N s */
     double end_time;         /* of the last one */
     struct sub_impact open;  /* the one under way */
+    /* what omitted inertia and viscosity would do: integrals of K' F' (N^2/(m s)) and of F'^2
+     * (N^2/s) over all of them, K the law's stiffness */
+    double inertia, viscosity;
 };
 
 /* Memory from the arena. False: out of memory. */
@@ -32,7 +35,7 @@ void track_open(struct track *track, double time, double gap_rate);
 /* One contact on one step: local indentations at its start, nodes and end, forces at the nodes. */
 struct track_values {
     double start, end;
-    const double *indentation, *force; /* [NODES] */
+    const double *indentation, *force, *stiffness; /* [NODES] */
 };
 
 /* Adds a step of length h from `time`. */

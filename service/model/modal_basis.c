@@ -79,8 +79,7 @@ static void axial_modes(const struct body *body, struct modal_family *modes)
     double speed = sqrt(body->material.young / body->material.density);
     for (size_t k = 0; k < modes->count; k++) {
         double wave_number = axial_wave_number(body, k);
-        modes->rank[k] = wave_number * speed;
-        modes->omega[k] = modes->rank[k] / sqrt(1.0 + lateral_share(body, wave_number));
+        modes->omega[k] = wave_number * speed / sqrt(1.0 + lateral_share(body, wave_number));
     }
 }
 
@@ -90,7 +89,7 @@ static void bending_modes(const struct body *body, struct modal_family *modes)
     beam_modes(&plane, modes->count, modes->beam);
     bool alike = plane.supports[0] == plane.supports[1];
     for (size_t k = 0; k < modes->count; k++) {
-        modes->omega[k] = modes->rank[k] = modes->beam[k].omega;
+        modes->omega[k] = modes->beam[k].omega;
         modes->odd[k] = alike && modes->beam[k].even[0] == 0.0 && modes->beam[k].even[1] == 0.0;
     }
 }
@@ -104,11 +103,10 @@ struct modal_family *modal_family_create(const struct body *body, enum mode_fami
     modes->family = family;
     modes->count = count;
     modes->omega = calloc(count + 1, sizeof *modes->omega);
-    modes->rank = calloc(count + 1, sizeof *modes->rank);
     modes->odd = calloc(count + 1, sizeof *modes->odd);
     if (family != FAMILY_AXIAL)
         modes->beam = calloc(count + 1, sizeof *modes->beam);
-    if (!modes->omega || !modes->rank || !modes->odd || (family != FAMILY_AXIAL && !modes->beam)) {
+    if (!modes->omega || !modes->odd || (family != FAMILY_AXIAL && !modes->beam)) {
         modal_family_free(modes);
         return NULL;
     }
@@ -124,7 +122,6 @@ void modal_family_free(struct modal_family *modes)
     if (!modes)
         return;
     free(modes->omega);
-    free(modes->rank);
     free(modes->odd);
     free(modes->beam);
     free(modes);
@@ -179,4 +176,11 @@ double modal_compliance(const struct body *body, enum mode_family family, const 
     struct beam_plane plane = modal_beam_plane(body, family);
     return beam_compliance(&plane, &i->bending[family - FAMILY_BENDING_Y],
                            &j->bending[family - FAMILY_BENDING_Y]);
+}
+
+double modal_remainder_frequency(const struct body *body, const struct modal_family *modes,
+                                 size_t first)
+{
+    bool crowded = modes->family == FAMILY_AXIAL && body->lateral_inertia;
+    return (crowded ? 1.0 : sqrt(3.0)) * modes->omega[first];
 }

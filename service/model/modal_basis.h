@@ -33,9 +33,7 @@ struct site_load site_load_make(const struct body *body, const struct site *site
 struct modal_family {
     enum mode_family family;
     size_t count;
-    double *omega; /* [count], ascending */
-    double *rank;  /* [count], rad/s: what a cut-off compares; omega, but for Rayleigh-Love, whose
-                      infinitely many modes stay below a limit, that without lateral inertia */
+    double *omega;      /* [count], ascending */
     unsigned char *odd; /* [count]: shape odd about the middle; all 0 unless supports are alike */
     struct beam_mode *beam; /* [count]; NULL for the longitudinal family */
 };
@@ -54,6 +52,13 @@ double modal_participation(const struct body *body, const struct modal_family *m
  * is free): the sum of participation_i participation_j / omega^2 over all modes. */
 double modal_compliance(const struct body *body, enum mode_family family, const struct site_load *i,
                         const struct site_load *j);
+
+/* Frequency (rad/s) of one oscillator that stands for all modes from index `first` on (below
+ * modes->count): with their compliance C it has their inertia sum phi^2/omega^4 = C/omega^2. Evenly
+ * spaced frequencies and equal shapes give sqrt(3) times the first one's; those of Rayleigh-Love
+ * crowd below a limit, so that the first one's itself is a bound. */
+double modal_remainder_frequency(const struct body *body, const struct modal_family *modes,
+                                 size_t first);
 
 /* One plane of bending of a beam. */
 struct beam_plane modal_beam_plane(const struct body *body, enum mode_family family);

@@ -1,29 +1,22 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The tolerance on the restitution decides the number of modes and the time steps; the error is
- * estimated from solutions with fewer modes and longer steps. */
+/* The tolerance on the restitution decides the number of modes (mode_search.h) and the time steps
+ * (step_search.h). */
 #ifndef PERCUSS_SOLVE_ACCURACY_H
 #define PERCUSS_SOLVE_ACCURACY_H
 
-#include "impact/impact.h"
-#include "solve/assemble.h"
+#include "solve/mode_search.h"
+#include "solve/step_search.h"
 
 struct accuracy {
     struct assembly *assembly;     /* of the answer */
     struct impact_outcome outcome; /* the answer */
-    double restitution_time, restitution_modes;
-    double impulse_time, impulse_modes;
-    double amplification;        /* of a relative error of the first sub-impact into e */
+    struct mode_error modes;
+    struct step_error steps;
     double restitution_by_speed; /* NAN unless asked for */
-    double energy_defect;        /* |closure| against what is available or approaches */
-    bool energy_closes;          /* as the tolerance demands */
     bool tolerance_met;
 };
-
-/* Restitution of a contact, NAN where the compression impulse is 0: Eq. (6). */
-double accuracy_restitution(const struct geometry *geometry, const struct impact_outcome *outcome,
-                            size_t contact);
 
 /* Solves until the estimated error fits the tolerance or the effort allowed is spent. `memory`
  * holds everything that is returned. PERCUSS_OK or PERCUSS_INTERNAL. */

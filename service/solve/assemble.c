@@ -25,43 +25,12 @@ struct addition {
     struct arena *arena;
 };
 
-/* The load of contact c on a body, with the family's part in it, or NULL. */
-static const struct site_load *load_on(const struct geometry *geometry, size_t contact, size_t body,
-                                       enum mode_family family)
-{
-    for (int which = 0; which < 2; which++) {
-        const struct contact_side *side = &geometry->sides[contact][which];
-        if (side->body == body && side->load.acts[family])
-            return &side->load;
-    }
-    return NULL;
-}
-
 static bool family_is_loaded(const struct geometry *geometry, size_t body, enum mode_family family)
 {
     for (size_t c = 0; c < geometry->contact_count; c++)
-        if (load_on(geometry, c, body, family))
+        if (geometry_load(geometry, c, body, family))
             return true;
     return false;
-}
-
-/* Number of modes up to `cut`, found by asking for more until they exceed it. */
-static size_t count_below(struct prepared_cache *cache, const struct body *body,
-                          enum mode_family family, double cut)
-{
-    for (size_t ask = 8;; ask *= 2) {
-        if (ask > ASSEMBLE_MAX_MODES)
-            ask = ASSEMBLE_MAX_MODES;
-        const struct prepared_family *prepared = prepared_family_get(cache, body, family, ask);
-        if (!prepared)
-            return ASSEMBLE_MAX_MODES + 1;
-        /* never more than asked for, whatever the cache holds already: same request, same answer */
-        size_t count = 0;
-        while (count < ask && prepared->modes->rank[count] <= cut)
-            count++;
-        if (count < ask || ask == ASSEMBLE_MAX_MODES)
-            return count;
-    }
 }
 
 /* Initial coordinates of the group's modes: the state, `elapsed` later. */
@@ -123,7 +92,7 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
     double scale = participation_scale(add->geometry->bodies[add->body]);
     *added = false;
     for (size_t c = 0; c < n && group->count; c++) {
-        const struct site_load *load = load_on(add->geometry, c, add->body, add->family);
+        const struct site_load *load = geometry_load(add->geometry, c, add->body, add->family);
         if (!load)
             continue;
         double *row = arena_take(add->arena, group->stride, sizeof *row);
@@ -149,16 +118,40 @@ static double held_compliance(const struct scene_group *group, size_t i, size_t 
     return sum;
 }
 
+/* What the modes from add->count on hold at each contact and the groups from `first` do not. */
+static void add_omitted(const struct addition *add, size_t first)
+{
+    struct assembly *assembly = add->assembly;
+    const struct body *body = add->geometry->bodies[add->body];
+    double omega = add->prepared->modes->omega[add->count];
+    double stand_in = modal_remainder_frequency(body, add->prepared->modes, add->count);
+    for (size_t i = 0; i < add->geometry->contact_count; i++) {
+        const struct site_load *load = geometry_load(add->geometry, i, add->body, add->family);
+        if (!load)
+            continue;
+        double left = modal_compliance(body, add->family, load, load);
+        for (size_t g = first; g < assembly->scene.groups; g++)
+            left -= held_compliance(&assembly->groups[g], i, i);
+        left = fmax(left, 0.0);
+        assembly->omitted[i].inertia += left / (stand_in * stand_in);
+        assembly->omitted[i].viscosity += body->damping * left / omega;
+        assembly->parts[assembly->part_count++] =
+            (struct omitted_part){add->body, i, add->family, add->count, left};
+    }
+    assembly->lowest_omitted = fmin(assembly->lowest_omitted, omega);
+}
+
 static bool add_family(const struct addition *add, double *residual)
 {
     struct assembly *assembly = add->assembly;
     const struct geometry *geometry = add->geometry;
     const struct body *body = geometry->bodies[add->body];
     size_t n = geometry->contact_count;
+    size_t first_group = assembly->scene.groups;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++) {
-            const struct site_load *a = load_on(geometry, i, add->body, add->family);
-            const struct site_load *b = load_on(geometry, j, add->body, add->family);
+            const struct site_load *a = geometry_load(geometry, i, add->body, add->family);
+            const struct site_load *b = geometry_load(geometry, j, add->body, add->family);
             if (a && b)
                 residual[i * n + j] += modal_compliance(body, add->family, a, b);
         }
@@ -180,11 +173,7 @@ static bool add_family(const struct addition *add, double *residual)
         assembly->all_modes += group->count;
         assembly->highest = fmax(assembly->highest, group->set->omega[group->count - 1]);
     }
-    if (body->modes == 0 && add->count < add->prepared->modes->count) {
-        double omitted = add->prepared->modes->rank[add->count];
-        assembly->lowest_omitted = fmin(assembly->lowest_omitted, omitted);
-        assembly->omitted[add->body] = fmin(assembly->omitted[add->body], omitted);
-    }
+    add_omitted(add, first_group);
     return true;
 }
 
@@ -214,32 +203,44 @@ static bool fill_scene(struct assembly *assembly, const struct geometry *geometr
 }
 
 /* How many modes of the family take part. */
-static size_t wanted(struct prepared_cache *cache, const struct body *body, enum mode_family family,
-                     const struct body_state *state, const struct assemble_choice *choice)
+static size_t wanted(const struct addition *add, const struct scene *rigid,
+                     struct prepared_cache *cache, const struct mode_choice *choice)
 {
-    size_t count = body->modes ? (size_t)(body->modes * choice->fixed_share)
-                               : count_below(cache, body, family, choice->cut);
-    if (state && state->count[family] > count)
-        count = state->count[family];
+    size_t fixed = add->geometry->bodies[add->body]->modes;
+    size_t count =
+        fixed ? fixed
+              : mode_choice_count(choice, add->geometry, rigid, cache, add->body, add->family);
+    if (add->state && add->state->count[add->family] > count)
+        count = add->state->count[add->family];
     return count;
+}
+
+static bool create(struct assembly *assembly, const struct geometry *geometry, struct arena *arena)
+{
+    size_t groups = 2 * FAMILY_COUNT * geometry->body_count;
+    *assembly = (struct assembly){.lowest_omitted = INFINITY};
+    assembly->groups = arena_take(arena, groups, sizeof *assembly->groups);
+    assembly->sources = arena_take(arena, groups, sizeof(struct prepared_group *));
+    assembly->families = arena_take(arena, groups, sizeof *assembly->families);
+    /* either side of a contact, every family */
+    assembly->parts =
+        arena_take(arena, 2 * FAMILY_COUNT * geometry->contact_count, sizeof *assembly->parts);
+    assembly->omitted = arena_take(arena, geometry->contact_count, sizeof *assembly->omitted);
+    return assembly->groups && assembly->sources && assembly->families && assembly->parts &&
+           assembly->omitted;
 }
 
 bool assemble(struct assembly *assembly, const struct geometry *geometry,
               const struct solve_request *request, struct prepared_cache *cache,
-              const struct assemble_choice *choice, struct arena *arena)
+              const struct mode_choice *choice, struct arena *arena)
 {
     size_t n = geometry->contact_count;
     double *residual = arena_take(arena, n * n, sizeof *residual);
-    memset(assembly->modes, 0, sizeof assembly->modes);
-    assembly->scene = (struct scene){.residual = residual};
-    for (size_t b = 0; b < PERCUSS_MAX_BODIES; b++)
-        assembly->omitted[b] = INFINITY;
-    assembly->all_modes = 0;
-    assembly->capped = false;
-    assembly->highest = 0.0;
-    assembly->lowest_omitted = INFINITY;
-    if (!residual || !fill_scene(assembly, geometry, request, arena))
+    if (!residual || !create(assembly, geometry, arena) ||
+        !fill_scene(assembly, geometry, request, arena))
         return false;
+    assembly->scene.residual = residual;
+    const struct scene rigid = assembly->scene;
     for (size_t b = 0; b < geometry->body_count; b++) {
         const struct body *body = geometry->bodies[b];
         for (int f = 0; f < FAMILY_COUNT && body_is_flexible(body); f++) {
@@ -252,14 +253,44 @@ bool assemble(struct assembly *assembly, const struct geometry *geometry,
                                    .arena = arena};
             if (!family_is_loaded(geometry, b, add.family))
                 continue;
-            add.count = wanted(cache, body, add.family, add.state, choice);
-            if (add.count > ASSEMBLE_MAX_MODES)
+            add.count = wanted(&add, &rigid, cache, choice);
+            if (add.count > MODE_CHOICE_MOST)
                 return false;
-            assembly->capped = assembly->capped || add.count == ASSEMBLE_MAX_MODES;
+            assembly->adjustable = assembly->adjustable || body->modes == 0;
+            assembly->capped = assembly->capped || add.count == choice->most;
             add.prepared = prepared_family_get(cache, body, add.family, add.count + 1);
             if (!add.prepared || !add_family(&add, residual))
                 return false;
         }
+    }
+    return true;
+}
+
+bool assemble_remainder(const struct assembly *assembly, const struct geometry *geometry,
+                        struct prepared_cache *cache, struct arena *arena, struct scene *scene)
+{
+    size_t n = geometry->contact_count;
+    *scene = assembly->scene;
+    scene->group = arena_take(arena, scene->groups + assembly->part_count, sizeof *scene->group);
+    double *residual = arena_take(arena, n * n, sizeof *residual);
+    if (!scene->group || !residual)
+        return false;
+    memcpy(scene->group, assembly->groups, scene->groups * sizeof *scene->group);
+    memcpy(residual, assembly->scene.residual, n * n * sizeof *residual);
+    scene->residual = residual;
+    for (size_t p = 0; p < assembly->part_count; p++) {
+        const struct omitted_part *part = &assembly->parts[p];
+        struct scene_group *group = &scene->group[scene->groups++];
+        double *row = arena_take(arena, LANES, sizeof *row);
+        *group = (struct scene_group){.body = part->body, .count = 1, .stride = LANES};
+        group->participation = arena_take(arena, n, sizeof *group->participation);
+        group->set =
+            prepared_remainder_get(cache, geometry->bodies[part->body], part->family, part->first);
+        if (!row || !group->participation || !group->set)
+            return false;
+        row[0] = sqrt(part->compliance) * group->set->omega[0];
+        group->participation[part->contact] = row;
+        residual[part->contact * n + part->contact] -= part->compliance;
     }
     return true;
 }

@@ -7,37 +7,50 @@
 #define PERCUSS_SOLVE_ASSEMBLE_H
 
 #include "impact/scene.h"
-#include "solve/geometry.h"
-#include "solve/prepared.h"
+#include "solve/mode_choice.h"
+
+/* The modes from `first` on of a family of a body, omitted, as one contact on it sees them. */
+struct omitted_part {
+    size_t body, contact;
+    enum mode_family family;
+    size_t first;
+    double compliance; /* m/N */
+};
+
+/* What the omitted modes of all bodies do to a contact besides residual flexibility: their response
+ * to a slow force F is C F - viscosity F' - inertia F'' + ... */
+struct omitted {
+    double inertia;   /* sum phi^2/omega^4, m s^2/N */
+    double viscosity; /* sum 2 damping phi^2/omega^3, m s/N */
+};
 
 /* A scene with what is needed to read its result. */
 struct assembly {
     struct scene scene;
-    struct scene_group groups[SCENE_MAX_GROUPS];
-    const struct prepared_group *sources[SCENE_MAX_GROUPS]; /* of each group */
-    enum mode_family families[SCENE_MAX_GROUPS];
-    size_t modes[PERCUSS_MAX_BODIES];   /* taking part, by body */
-    double omitted[PERCUSS_MAX_BODIES]; /* lowest frequency that does not, rad/s; INFINITY: none */
-    size_t all_modes;                   /* taking part, of all bodies */
-    bool capped;                        /* a family has more modes below the cut than are allowed */
-    double highest;                     /* of the frequencies that take part, rad/s */
-    double lowest_omitted;              /* rad/s; INFINITY: no more modes to be had */
-};
-
-/* Most modes of one family of one body. */
-enum { ASSEMBLE_MAX_MODES = 5000 };
-
-/* Which modes: all up to the angular frequency `cut`, as far as a contact excites them; where the
- * catalogue fixes a body's number of modes, that many times `fixed_share`. */
-struct assemble_choice {
-    double cut;         /* rad/s */
-    double fixed_share; /* 1, or less for an error estimate */
+    struct scene_group *groups;
+    const struct prepared_group **sources; /* of each group */
+    enum mode_family *families;            /* of each group */
+    struct omitted_part *parts;
+    size_t part_count;
+    struct omitted *omitted;          /* [contact] */
+    size_t modes[PERCUSS_MAX_BODIES]; /* taking part, by body */
+    size_t all_modes;                 /* taking part, of all bodies */
+    bool adjustable;                  /* the choice decided about some of them */
+    bool capped;                      /* a family wants more modes than are allowed */
+    double highest;                   /* of the frequencies that take part, rad/s */
+    double lowest_omitted;            /* rad/s; INFINITY: no more modes to be had */
 };
 
 /* Modes of a given initial state always take part. Arrays come from the arena. False: out of
  * memory. */
 bool assemble(struct assembly *assembly, const struct geometry *geometry,
               const struct solve_request *request, struct prepared_cache *cache,
-              const struct assemble_choice *choice, struct arena *arena);
+              const struct mode_choice *choice, struct arena *arena);
+
+/* The same scene with one oscillator for the omitted modes of each body at each contact in the
+ * place of their own residual flexibility: the next better model, for an error estimate. Valid as
+ * long as the assembly. False: out of memory. */
+bool assemble_remainder(const struct assembly *assembly, const struct geometry *geometry,
+                        struct prepared_cache *cache, struct arena *arena, struct scene *scene);
 
 #endif

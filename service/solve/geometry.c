@@ -252,3 +252,14 @@ enum percuss_status geometry_find(struct geometry *geometry, const struct body_s
         status = find_compression(geometry, fault);
     return status;
 }
+
+const struct site_load *geometry_load(const struct geometry *geometry, size_t contact, size_t body,
+                                      enum mode_family family)
+{
+    for (int which = 0; which < 2; which++) {
+        const struct contact_side *side = &geometry->sides[contact][which];
+        if (side->body == body && side->load.acts[family])
+            return &side->load;
+    }
+    return NULL;
+}

@@ -9,10 +9,18 @@
 
 enum { BUCKETS = 256, ROUNDING = 8 };
 
+/* Stands for all modes from index `first` on. */
+struct remainder {
+    struct remainder *next;
+    size_t first;
+    struct oscillators *set;
+};
+
 struct entry {
     struct entry *next;
     char id[PERCUSS_ID_SIZE];
     struct prepared_family *families[FAMILY_COUNT];
+    struct remainder *remainders[FAMILY_COUNT];
 };
 
 struct prepared_cache {
@@ -80,13 +88,25 @@ struct prepared_cache *prepared_cache_create(void)
     return calloc(1, sizeof(struct prepared_cache));
 }
 
+static void remainders_free(struct remainder *list)
+{
+    while (list) {
+        struct remainder *next = list->next;
+        oscillators_free(list->set);
+        free(list);
+        list = next;
+    }
+}
+
 static void forget(struct prepared_cache *cache)
 {
     for (size_t b = 0; b < BUCKETS; b++) {
         for (struct entry *entry = cache->buckets[b]; entry;) {
             struct entry *next = entry->next;
-            for (int f = 0; f < FAMILY_COUNT; f++)
+            for (int f = 0; f < FAMILY_COUNT; f++) {
                 family_free(entry->families[f]);
+                remainders_free(entry->remainders[f]);
+            }
             free(entry);
             entry = next;
         }
@@ -159,4 +179,29 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
     }
     entry->families[family] = made;
     return made;
+}
+
+struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
+                                           enum mode_family family, size_t first)
+{
+    const struct prepared_family *modes = prepared_family_get(cache, body, family, first + 1);
+    struct entry *entry = modes ? find_entry(cache, body->id) : NULL;
+    if (!entry)
+        return NULL;
+    for (struct remainder *known = entry->remainders[family]; known; known = known->next)
+        if (known->first == first)
+            return known->set;
+    struct remainder *made = calloc(1, sizeof *made);
+    if (!made)
+        return NULL;
+    double omega = modal_remainder_frequency(body, modes->modes, first);
+    made->first = first;
+    made->set = oscillators_create(1, &omega, body->damping);
+    made->next = entry->remainders[family];
+    if (!made->set) {
+        free(made);
+        return NULL;
+    }
+    entry->remainders[family] = made;
+    return made->set;
 }

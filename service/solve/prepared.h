@@ -38,4 +38,8 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
                                                   const struct body *body, enum mode_family family,
                                                   size_t count);
 
+/* The oscillator of modal_remainder_frequency, with its step tables. NULL: out of memory. */
+struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
+                                           enum mode_family family, size_t first);
+
 #endif

@@ -37,7 +37,7 @@ static void fill_contacts(const struct geometry *geometry, const struct solve_re
         *contact = (struct solve_contact_result){
             .impulse = track->impulse,
             .impulse_compression = geometry->impulse_compression[c],
-            .restitution = accuracy_restitution(geometry, &accuracy->outcome, c),
+            .restitution = attempt_restitution(geometry, &accuracy->outcome, c),
             .inverse_effective_mass = geometry->w[c * n + c],
             .end_time = track->end_time,
             .sub_impact_count = track->count,
@@ -134,15 +134,15 @@ static void fill_model(const struct geometry *geometry, const struct solve_reque
                  "; every mode is too fast to matter (lowest %.4g Hz): static flexibility only",
                  assembly->lowest_omitted / (2.0 * M_PI));
     result->omitted_error =
-        accuracy->restitution_modes + validity_wave_loss(geometry, request, result);
+        accuracy->modes.restitution + validity_wave_loss(geometry, request, result);
 }
 
 static void fill_errors(const struct accuracy *accuracy, struct solve_result *result)
 {
-    result->restitution_time = accuracy->restitution_time;
-    result->restitution_modes = accuracy->restitution_modes;
-    result->impulse_time = accuracy->impulse_time;
-    result->impulse_modes = accuracy->impulse_modes;
+    result->restitution_time = accuracy->steps.restitution;
+    result->restitution_modes = accuracy->modes.restitution;
+    result->impulse_time = accuracy->steps.impulse;
+    result->impulse_modes = accuracy->modes.impulse;
     result->restitution_by_speed = accuracy->restitution_by_speed;
     result->tolerance_met = accuracy->tolerance_met;
     result->energy = accuracy->outcome.energy;
@@ -154,7 +154,7 @@ static void fill_errors(const struct accuracy *accuracy, struct solve_result *re
             "error.tolerance_met: false: the estimated error of the restitution is %.2g: "
             "the sequence of sub-impacts amplifies small differences (or the effort allowed "
             "is spent)",
-            accuracy->restitution_time + accuracy->restitution_modes);
+            accuracy->steps.restitution + accuracy->modes.restitution);
 }
 
 static bool ever_touches(const struct solve_result *result)
@@ -204,7 +204,7 @@ void report_fill(const struct geometry *geometry, const struct solve_request *re
     fill_model(geometry, request, accuracy, result);
     fill_end(accuracy, result);
     validity_warn(geometry, request, catalogue, result);
-    if (accuracy->energy_defect > 0.01)
+    if (accuracy->steps.energy_defect > 0.01)
         result->status =
             fault_set(&result->fault, PERCUSS_INTERNAL,
                       "energy.closure: %.3g J of %.3g J available: the solution does not "

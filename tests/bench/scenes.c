@@ -185,7 +185,7 @@ struct solve_request bench_request(const struct bench_scene *scene, double toler
 static bool build(struct fixed_scene *fixed, bool residual)
 {
     struct fault fault = {0};
-    struct assemble_choice choice = {.cut = 0.0, .fixed_share = 1.0};
+    struct mode_choice choice = {.cut = 0.0, .most = MODE_CHOICE_MOST};
     fixed->cache = prepared_cache_create();
     if (!fixed->cache)
         return false;

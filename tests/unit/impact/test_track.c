@@ -19,7 +19,8 @@ static void feed_sine(struct track *track, int steps)
         double values[NODES];
         for (int j = 0; j < NODES; j++)
             values[j] = sin(M_PI * (n + collocation.node[j]) * h);
-        struct track_values step = {sin(M_PI * n * h), sin(M_PI * (n + 1) * h), values, values};
+        struct track_values step = {sin(M_PI * n * h), sin(M_PI * (n + 1) * h), values, values,
+                                    values};
         track_step(track, 5.0 + n * h, h, &step);
     }
 }
@@ -51,6 +52,9 @@ static void follows_half_a_sine(void **state)
         near(sub->peak_force, 2.0 * sub->max_indentation, 1e-15);
         near(sub->compression_end, 5.5, 1e-3);
         near(sub->compression_impulse, 1.0 / M_PI, 1e-3);
+        /* integral of the squared slope of sin(pi t), by cubics */
+        near(track.inertia, 0.5 * M_PI * M_PI, 2e-2);
+        near(track.viscosity, 0.5 * M_PI * M_PI, 2e-2);
     }
     arena_release(&arena);
 }
@@ -73,7 +77,8 @@ static void finds_the_peak_of_a_parabola_exactly(void **state)
                 values[j] = 10.0 - t * t;
             }
             struct track_values step = {10.0 - (n - peak) * (n - peak),
-                                        10.0 - (n + 1 - peak) * (n + 1 - peak), values, values};
+                                        10.0 - (n + 1 - peak) * (n + 1 - peak), values, values,
+                                        values};
             track_step(&track, n, 1.0, &step);
         }
         track_close(&track, &law, 3.0, 1.0);
@@ -99,7 +104,7 @@ static void knows_monotonous_steps(void **state)
         double values[NODES];
         for (int j = 0; j < NODES; j++)
             values[j] = 2.0 + slopes[i] * collocation.node[j];
-        struct track_values step = {2.0, 2.0 + slopes[i], values, values};
+        struct track_values step = {2.0, 2.0 + slopes[i], values, values, values};
         track_clear(&track);
         track_open(&track, 0.0, -1.0);
         track_step(&track, 0.0, 1.0, &step);
@@ -118,7 +123,7 @@ static void counts_beyond_the_list(void **state)
     struct contact_law law = contact_law_linear(1.0);
     assert_true(track_create(&track, &arena));
     double values[NODES] = {1.0, 1.0, 1.0, 1.0};
-    struct track_values step = {1.0, 1.0, values, values};
+    struct track_values step = {1.0, 1.0, values, values, values};
     for (int i = 0; i < 300; i++) {
         track_open(&track, i, -1.0);
         /* the first weighs as much as all, one in ten next to nothing */

@@ -36,10 +36,10 @@ static void bench_free(struct bench *bench)
 }
 
 static const struct assembly *put_together(struct bench *bench, const struct solve_request *request,
-                                           double cut, double share)
+                                           double cut)
 {
     struct fault fault = {""};
-    struct assemble_choice choice = {.cut = cut, .fixed_share = share};
+    struct mode_choice choice = {.cut = cut, .most = MODE_CHOICE_MOST};
     prepared_cache_use(bench->cache, bench->lab->set.revision);
     if (geometry_find(&bench->geometry, &bench->lab->set, request, &bench->arena, &fault))
         fail_msg("%s", fault.text);
@@ -65,7 +65,7 @@ static void modes_and_residual_are_the_compliance(void **state)
     for (size_t i = 0; i < COUNT(requests); i++) {
         double all = NAN;
         for (double cut = 0.0; cut < 3e6; cut = 4.0 * cut + 1e3) {
-            const struct assembly *assembly = put_together(bench, &requests[i], cut, 1.0);
+            const struct assembly *assembly = put_together(bench, &requests[i], cut);
             double sum = assembly->scene.residual[0];
             double residual = sum;
             for (size_t g = 0; g < assembly->scene.groups; g++)
@@ -102,16 +102,16 @@ static void modes_with_a_node_there_stay_out(void **state)
     struct bench *bench = bench_create();
     struct solve_request centre = on_beam(0.0, 0.0), beside = on_beam(0.01, 0.0);
     struct solve_request turned = on_beam(0.01, 0.5);
-    const struct assembly *assembly = put_together(bench, &centre, 1e5, 1.0);
+    const struct assembly *assembly = put_together(bench, &centre, 1e5);
     assert_int_equal(assembly->scene.groups, 1);
     size_t even = assembly->all_modes;
     assert_int_equal(assembly->modes[0], 0);
     assert_int_equal(assembly->modes[1], even);
-    assembly = put_together(bench, &beside, 1e5, 1.0);
+    assembly = put_together(bench, &beside, 1e5);
     assert_int_equal(assembly->scene.groups, 2);
     size_t all = assembly->all_modes;
     assert_in_range(all, 2 * even - 1, 2 * even + 1);
-    assembly = put_together(bench, &turned, 1e5, 1.0);
+    assembly = put_together(bench, &turned, 1e5);
     assert_int_equal(assembly->all_modes, 2 * all);
     bench_free(bench);
 }
@@ -124,10 +124,9 @@ static void a_fixed_number_is_that_number(void **state)
     struct solve_request request = on_beam(0.1, 0.0);
     beam.modes = 16;
     lab_add(bench->lab, "beam", beam);
-    assert_int_equal(put_together(bench, &request, 1.0, 1.0)->all_modes, 16);
-    assert_int_equal(put_together(bench, &request, 1e9, 1.0)->all_modes, 16);
-    assert_int_equal(put_together(bench, &request, 1e9, 0.5)->all_modes, 8);
-    assert_true(bench->assembly.lowest_omitted == INFINITY);
+    assert_int_equal(put_together(bench, &request, 1.0)->all_modes, 16);
+    assert_int_equal(put_together(bench, &request, 1e9)->all_modes, 16);
+    assert_false(bench->assembly.adjustable);
     bench_free(bench);
 }
 
@@ -146,7 +145,7 @@ static void a_state_brings_its_modes(void **state)
         ringing->coordinates[2 * k] = 1e-6 * (double)(k + 1);
     request.bodies[1].state = ringing;
     request.bodies[1].elapsed = 1e-4;
-    const struct assembly *assembly = put_together(bench, &request, 0.0, 0.0);
+    const struct assembly *assembly = put_together(bench, &request, 0.0);
     assert_int_equal(assembly->all_modes, count);
     size_t seen = 0;
     for (size_t g = 0; g < assembly->scene.groups; g++) {
@@ -180,7 +179,7 @@ static void residuals_couple_contacts(void **state)
     request.contacts[1].point[0] = -0.35;
     double all[4];
     for (int few = 0; few < 2; few++) {
-        const struct assembly *assembly = put_together(bench, &request, few ? 2e4 : 0.0, 1.0);
+        const struct assembly *assembly = put_together(bench, &request, few ? 2e4 : 0.0);
         for (int ij = 0; ij < 4; ij++) {
             double sum = assembly->scene.residual[ij];
             for (size_t g = 0; g < assembly->scene.groups; g++)

@@ -1,0 +1,90 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/attempt.h"
+
+#include <math.h>
+
+static double default_horizon(const struct scene *scene)
+{
+    return fmax(0.020, 2.0 * scene_longest_period(scene));
+}
+
+enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
+                                const struct scene *scene)
+{
+    struct impact_settings settings = {
+        .accuracy = attempt->accuracy,
+        .horizon = context->request->options.horizon,
+        .max_work = context->work,
+    };
+    if (settings.horizon == 0.0)
+        settings.horizon = default_horizon(scene);
+    if (!impact_create(&attempt->outcome, scene, context->arena))
+        return PERCUSS_INTERNAL;
+    enum percuss_status status;
+    if (context->request->options.method == PERCUSS_METHOD_CVODE)
+        status = impact_cvode(scene, &settings, context->arena, &attempt->outcome);
+    else if (impact_is_rigid_pair(scene))
+        status = impact_rigid_pair(scene, &settings, context->arena, &attempt->outcome);
+    else
+        status = impact_modal(scene, &settings, context->arena, &attempt->outcome);
+    context->work -= impact_work(scene, &attempt->outcome);
+    return status;
+}
+
+enum percuss_status attempt_solve(struct attempt_context *context, struct attempt *attempt)
+{
+    attempt->assembly = arena_take(context->arena, 1, sizeof *attempt->assembly);
+    if (!attempt->assembly || !assemble(attempt->assembly, context->geometry, context->request,
+                                        context->cache, &attempt->choice, context->arena))
+        return PERCUSS_INTERNAL;
+    return attempt_run(context, attempt, &attempt->assembly->scene);
+}
+
+enum percuss_status attempt_run_scaled(struct attempt_context *context, struct attempt *attempt,
+                                       double factor)
+{
+    size_t n = context->geometry->contact_count;
+    struct scene scene = attempt->assembly->scene;
+    double *scaled = arena_take(context->arena, n, sizeof *scaled);
+    if (!scaled)
+        return PERCUSS_INTERNAL;
+    for (size_t c = 0; c < n; c++)
+        scaled[c] = factor * scene.gap_rate[c];
+    scene.gap_rate = scaled;
+    enum percuss_status status = attempt_run(context, attempt, &scene);
+    for (size_t c = 0; !status && c < n; c++)
+        attempt->outcome.tracks[c].impulse /= factor;
+    return status;
+}
+
+double attempt_restitution(const struct geometry *geometry, const struct impact_outcome *outcome,
+                           size_t contact)
+{
+    double compression = geometry->impulse_compression[contact];
+    return compression > 0.0 ? outcome->tracks[contact].impulse / compression - 1.0 : NAN;
+}
+
+struct attempt_difference attempt_compare(const struct attempt_context *context,
+                                          const struct attempt *a, const struct attempt *b)
+{
+    struct attempt_difference largest = {0.0, 0.0};
+    for (size_t c = 0; c < context->geometry->contact_count; c++) {
+        double change = fabs(a->outcome.tracks[c].impulse - b->outcome.tracks[c].impulse);
+        double compression = context->geometry->impulse_compression[c];
+        largest.impulse = fmax(largest.impulse, change);
+        if (compression > 0.0)
+            largest.restitution = fmax(largest.restitution, change / compression);
+    }
+    return largest;
+}
+
+bool attempt_is_sequence(const struct attempt *attempt)
+{
+    size_t contacts = attempt->assembly->scene.contacts;
+    for (size_t c = 0; c < contacts; c++)
+        if (attempt->outcome.tracks[c].count > 1)
+            return true;
+    return contacts > 1;
+}

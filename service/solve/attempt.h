@@ -1,0 +1,54 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* One solution of a request with given modes and time steps, and comparisons between two. */
+#ifndef PERCUSS_SOLVE_ATTEMPT_H
+#define PERCUSS_SOLVE_ATTEMPT_H
+
+#include "impact/impact.h"
+#include "solve/assemble.h"
+
+/* What all attempts at a request share. */
+struct attempt_context {
+    const struct geometry *geometry;
+    const struct solve_request *request;
+    struct prepared_cache *cache;
+    struct arena *arena;
+    double tolerance; /* on the restitution */
+    double work;      /* left for the request: steps times (modes + 16 contacts^3) */
+};
+
+struct attempt {
+    struct mode_choice choice;
+    double accuracy; /* of the time steps, see impact_settings */
+    struct assembly *assembly;
+    struct impact_outcome outcome;
+};
+
+/* Solves a scene by the request's method: the attempt's own, or one derived from it. */
+enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
+                                const struct scene *scene);
+
+/* Assembles the attempt's scene and solves it. PERCUSS_OK or PERCUSS_INTERNAL. */
+enum percuss_status attempt_solve(struct attempt_context *context, struct attempt *attempt);
+
+/* The same with all gap rates times `factor`; impulses are divided by it. */
+enum percuss_status attempt_run_scaled(struct attempt_context *context, struct attempt *attempt,
+                                       double factor);
+
+/* Restitution of a contact, NAN where the compression impulse is 0: Eq. (6). */
+double attempt_restitution(const struct geometry *geometry, const struct impact_outcome *outcome,
+                           size_t contact);
+
+/* Largest differences between two solutions over the contacts. */
+struct attempt_difference {
+    double restitution, impulse;
+};
+struct attempt_difference attempt_compare(const struct attempt_context *context,
+                                          const struct attempt *a, const struct attempt *b);
+
+/* Whether a contact closes more than once, or there are several: later sub-impacts amplify what the
+ * first ones miss. */
+bool attempt_is_sequence(const struct attempt *attempt);
+
+#endif

@@ -1,0 +1,86 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/mode_choice.h"
+
+#include <math.h>
+
+#include "impact/impact.h"
+
+/* One contact that excites the family. */
+struct demand {
+    const struct site_load *load;
+    double left;   /* compliance that the modes so far do not hold, m/N */
+    double weight; /* effect of omitted inertia on the restitution, N/(m s^2) */
+    double delay;  /* effect of omitted viscosity over that of inertia, s */
+};
+
+/* With F = k d^(3/2), K = dF/dd and d'^2 = v^2 (1 - (d/d_m)^(5/2)) the integrals of K' F' and of
+ * F'^2 over an elastic collision (see track.h) are 1.78 k^2 v d_m and 1.6 k^2 v d_m^2; the
+ * compression impulse is v/W. */
+static struct demand make_demand(const struct scene *scene, size_t contact,
+                                 const struct site_load *load)
+{
+    struct impact_scale scale = impact_scale_of(scene, contact, scene->gap_rate[contact]);
+    double stiffness = scale.force / scale.indentation;
+    double w = scene->w[contact * scene->contacts + contact];
+    return (struct demand){
+        .load = load, .weight = 1.78 * stiffness * stiffness * w, .delay = 0.9 * scale.duration};
+}
+
+/* The approaching contacts that load the family. */
+static size_t find_demands(const struct geometry *geometry, const struct scene *scene, size_t body,
+                           enum mode_family family, struct demand *demands)
+{
+    size_t count = 0;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        const struct site_load *load = geometry_load(geometry, c, body, family);
+        if (!load || !(scene->gap_rate[c] < 0.0))
+            continue;
+        demands[count] = make_demand(scene, c, load);
+        demands[count++].left = modal_compliance(geometry->bodies[body], family, load, load);
+    }
+    return count;
+}
+
+/* Whether the modes from `first` on matter too little for each contact. */
+static bool suffices(const struct body *body, const struct modal_family *modes, size_t first,
+                     const struct demand *demands, size_t count, double allowed)
+{
+    double stand_in = modal_remainder_frequency(body, modes, first);
+    for (size_t i = 0; i < count; i++) {
+        double inertia = demands[i].left / (stand_in * stand_in);
+        double viscosity = body->damping * demands[i].left / modes->omega[first];
+        if (!((inertia + viscosity * demands[i].delay) * demands[i].weight <= allowed))
+            return false;
+    }
+    return true;
+}
+
+size_t mode_choice_count(const struct mode_choice *choice, const struct geometry *geometry,
+                         const struct scene *scene, struct prepared_cache *cache, size_t body,
+                         enum mode_family family)
+{
+    struct demand demands[PERCUSS_MAX_CONTACTS];
+    const struct body *owner = geometry->bodies[body];
+    size_t loads = find_demands(geometry, scene, body, family, demands);
+    const struct modal_family *modes = NULL;
+    for (size_t k = 0; k < choice->most; k++) {
+        /* asked for in powers of two: outgrown families are remade */
+        if (!modes || k >= modes->count) {
+            const struct prepared_family *known =
+                prepared_family_get(cache, owner, family, modes ? 2 * k : 32);
+            if (!known)
+                return MODE_CHOICE_MOST + 1;
+            modes = known->modes;
+        }
+        if (modes->omega[k] > choice->cut ||
+            suffices(owner, modes, k, demands, loads, choice->allowed))
+            return k;
+        for (size_t i = 0; i < loads; i++) {
+            double shape = modal_participation(owner, modes, k, demands[i].load);
+            demands[i].left -= shape * shape / (modes->omega[k] * modes->omega[k]);
+        }
+    }
+    return choice->most;
+}

@@ -1,0 +1,29 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* How many modes of a body a scene needs. */
+#ifndef PERCUSS_SOLVE_MODE_CHOICE_H
+#define PERCUSS_SOLVE_MODE_CHOICE_H
+
+#include "impact/scene.h"
+#include "solve/geometry.h"
+#include "solve/prepared.h"
+
+/* Most modes of one family of one body. */
+enum { MODE_CHOICE_MOST = 5000 };
+
+/* From the lowest up, until they exceed `cut`, are `most`, or those left would change the
+ * restitution by less than `allowed`, as far as the collision of the rigid masses tells. */
+struct mode_choice {
+    double cut; /* rad/s */
+    double allowed;
+    size_t most; /* at most MODE_CHOICE_MOST */
+};
+
+/* The number of modes of a loaded family of a body; `scene` needs no groups yet. More than
+ * MODE_CHOICE_MOST: out of memory. */
+size_t mode_choice_count(const struct mode_choice *choice, const struct geometry *geometry,
+                         const struct scene *scene, struct prepared_cache *cache, size_t body,
+                         enum mode_family family);
+
+#endif

@@ -1,0 +1,25 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* More modes until those left out matter less than the tolerance. */
+#ifndef PERCUSS_SOLVE_MODE_SEARCH_H
+#define PERCUSS_SOLVE_MODE_SEARCH_H
+
+#include "solve/attempt.h"
+
+/* What the omitted modes do to the answer. */
+struct mode_error {
+    double restitution, impulse;
+    double amplification; /* of a relative error of the first sub-impact into the restitution */
+};
+
+/* Whether a contact bends a beam: then a sequence of sub-impacts is likely, which amplifies every
+ * error. */
+bool mode_search_expects_sequence(const struct geometry *geometry);
+
+/* Solves with as few modes as the tolerance allows; best->accuracy is given. PERCUSS_OK or
+ * PERCUSS_INTERNAL. An overlap without a touch before (outcome.always_overlapped) ends it. */
+enum percuss_status mode_search(struct attempt_context *context, struct attempt *best,
+                                struct mode_error *error);
+
+#endif

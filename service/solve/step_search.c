@@ -1,0 +1,96 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/step_search.h"
+
+#include <math.h>
+
+enum { MAX_TIGHTENINGS = 3 };
+/* Finest accuracy of the time steps that is tried. */
+static const double FINEST = 1e-17;
+/* From here down longer steps are tried for comparison. */
+static const double COMPARE_BELOW = 1e-5;
+
+/* The audit must close to 1e-9 where the tolerance is 1e-8 or less. */
+double step_search_first_accuracy(double tolerance, bool sequence)
+{
+    double share = tolerance <= 1e-8 ? 1e-3 : sequence ? 0.01 : 0.1;
+    return fmax(share * tolerance, FINEST);
+}
+
+/* Energy that stops the approach, J. */
+static double approach_energy(const struct geometry *geometry)
+{
+    double sum = 0.0;
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        sum += 0.5 * geometry->impulse_compression[c] * fabs(geometry->gap_rate[c]);
+    return sum;
+}
+
+/* Share of the energy that the solution gains or loses. What acceleration takes may leave next to
+ * nothing available: the approach counts too. */
+static double energy_defect(const struct attempt_context *context, const struct attempt *attempt)
+{
+    const struct impact_energy *energy = &attempt->outcome.energy;
+    return fabs(energy->closure) / fmax(energy->available, approach_energy(context->geometry));
+}
+
+/* Effect of the time steps on the restitution without a second solution: the energy that the phases
+ * gain or lose, as if all of it were the rebound's (e^2 is its share of what is available), and not
+ * less than what the accuracy asked for has been seen to leave (docs/accuracy.md). */
+static double error_of_steps(const struct attempt_context *context, const struct attempt *best,
+                             double amplification)
+{
+    double rebound = 0.2;
+    for (size_t c = 0; c < context->geometry->contact_count; c++) {
+        double e = attempt_restitution(context->geometry, &best->outcome, c);
+        if (isfinite(e))
+            rebound = fmax(rebound, 2.0 * fabs(e));
+    }
+    double defect = energy_defect(context, best);
+    return amplification * fmax(4.0 * defect / rebound, 0.1 * pow(best->accuracy, 0.8));
+}
+
+/* Compares with a solution of longer steps where the tolerance is tight, estimates otherwise. */
+static enum percuss_status estimate(struct attempt_context *context, const struct attempt *best,
+                                    double amplification, struct step_error *error)
+{
+    if (context->tolerance >= COMPARE_BELOW) {
+        double largest = 0.0;
+        for (size_t c = 0; c < context->geometry->contact_count; c++)
+            largest = fmax(largest, context->geometry->impulse_compression[c]);
+        error->restitution = error_of_steps(context, best, amplification);
+        error->impulse = error->restitution * largest;
+        return PERCUSS_OK;
+    }
+    struct attempt coarse = *best;
+    coarse.accuracy *= 100.0;
+    enum percuss_status status = attempt_run(context, &coarse, &best->assembly->scene);
+    if (status)
+        return status;
+    struct attempt_difference change = attempt_compare(context, best, &coarse);
+    error->restitution = change.restitution;
+    error->impulse = change.impulse;
+    return PERCUSS_OK;
+}
+
+enum percuss_status step_search(struct attempt_context *context, struct attempt *best,
+                                double amplification, struct step_error *error)
+{
+    double closure_allowed = context->tolerance <= 1e-8 ? 1e-9 : 10.0 * context->tolerance;
+    for (int i = 0;; i++) {
+        enum percuss_status status = estimate(context, best, amplification, error);
+        if (status)
+            return status;
+        error->energy_defect = energy_defect(context, best);
+        error->energy_closes = error->energy_defect <= closure_allowed;
+        bool enough = error->restitution <= 0.3 * context->tolerance && error->energy_closes;
+        if (enough || i >= MAX_TIGHTENINGS || best->accuracy < 1.01 * FINEST ||
+            best->outcome.end_reason == PERCUSS_END_LIMIT)
+            return PERCUSS_OK;
+        best->accuracy = fmax(best->accuracy / 100.0, FINEST);
+        status = attempt_run(context, best, &best->assembly->scene);
+        if (status)
+            return status;
+    }
+}

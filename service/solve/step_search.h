@@ -1,0 +1,27 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Shorter time steps until they matter less than the tolerance. */
+#ifndef PERCUSS_SOLVE_STEP_SEARCH_H
+#define PERCUSS_SOLVE_STEP_SEARCH_H
+
+#include "solve/attempt.h"
+
+/* What the time steps do to the answer. */
+struct step_error {
+    double restitution, impulse;
+    double energy_defect; /* |closure| against what is available or approaches */
+    bool energy_closes;   /* as the tolerance demands */
+};
+
+/* Accuracy of the time steps to begin with; a sequence of sub-impacts is expected to amplify their
+ * error. */
+double step_search_first_accuracy(double tolerance, bool sequence);
+
+/* Solves the attempt's scene again with shorter steps if its error is too large. `amplification`:
+ * of a relative error of the first sub-impact into the restitution. PERCUSS_OK or PERCUSS_INTERNAL.
+ */
+enum percuss_status step_search(struct attempt_context *context, struct attempt *best,
+                                double amplification, struct step_error *error);
+
+#endif
