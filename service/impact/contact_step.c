@@ -258,7 +258,8 @@ bool contact_step_solve(struct contact_step *step, const struct scene *scene,
         for (int i = 0; i < NODES; i++) {
             double t = collocation.node[i] * h;
             step->indentation[list[a]][i] =
-                from->indentation + t * (from->rate + 0.5 * from->curvature * t);
+                from->indentation +
+                t * (from->rate + t * (0.5 * from->curvature + t / 6.0 * from->bend));
         }
     }
     struct node_problem problem = {
@@ -270,6 +271,7 @@ bool contact_step_solve(struct contact_step *step, const struct scene *scene,
         .target = (const double(*)[NODES])step->target,
         .matrix = step->matrix,
         .residual = step->residual,
+        .last_change = node_solver_last_change(step->accuracy),
     };
     if (!node_solve(&problem, step->indentation, step->force, step->stiffness, &step->iterations))
         return false;

@@ -18,6 +18,7 @@ struct contact_step {
     double *end_indentation;    /* [contact], all contacts */
     double loss;                /* taken by damping, J */
     unsigned long iterations;   /* Newton's, since creation */
+    double accuracy;            /* relative, of the forces; 0: to rounding */
 
     double (*coupling[STEP_LEVELS])[NODES][NODES]; /* [contact][contact]: residual + response */
     double (*target)[NODES];                       /* scratch */
@@ -34,6 +35,7 @@ struct contact_start {
     double indentation; /* m */
     double rate;        /* m/s */
     double curvature;   /* m/s^2 */
+    double bend;        /* its rate, m/s^3 */
 };
 
 /* Solves a step of a level from `motion` with the `active` contacts; `start` by contact. False: no

@@ -25,8 +25,9 @@ bool flight_create(struct flight *flight, const struct scene *scene, struct aren
     flight->rate = arena_take(arena, scene->contacts, sizeof *flight->rate);
     flight->all_modes = arena_take(arena, scene->contacts * STEP_LEVELS, sizeof(double));
     flight->slow_modes = arena_take(arena, scene->contacts * STEP_LEVELS, sizeof(double));
-    if (!flight->amplitude || !flight->bound || !flight->approach || !flight->rate ||
-        !flight->all_modes || !flight->slow_modes)
+    flight->slow_count = arena_take(arena, scene->groups * STEP_LEVELS, sizeof(size_t));
+    if (!flight->slow_count || !flight->amplitude || !flight->bound || !flight->approach ||
+        !flight->rate || !flight->all_modes || !flight->slow_modes)
         return false;
     for (size_t g = 0; g < scene->groups; g++) {
         flight->amplitude[g] = arena_take(arena, scene->group[g].stride, sizeof(double));
@@ -54,48 +55,67 @@ static void find_amplitudes(struct flight *flight, const struct scene *scene,
     }
 }
 
+/* How many modes of a group are slow on a step; the others are bounded. */
+static size_t count_slow(const struct scene_group *group, double h)
+{
+    size_t count = 0;
+    while (count < group->count && group->set->omega[count] * h < SLOW_ANGLE)
+        count++;
+    return count;
+}
+
 /* Bounds of the modes' departure from tangent (slow) and from zero (fast) within a step of a level:
  * |q''| <= omega^2 a sqrt(1 + 4 zeta^2) by the energy bound. */
 static void find_remainders(struct flight *flight, const struct scene *scene, int level)
 {
     double h = step_length(level);
-    for (size_t c = 0; c < scene->contacts; c++) {
-        double all = 0.0;
-        double slow = 0.0;
-        for (size_t g = 0; g < scene->groups; g++) {
-            const struct scene_group *group = &scene->group[g];
+    double *all = flight->all_modes + level;
+    double *slow = flight->slow_modes + level;
+    for (size_t c = 0; c < scene->contacts; c++)
+        all[c * STEP_LEVELS] = slow[c * STEP_LEVELS] = 0.0;
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        double stiffer = sqrt(1.0 + 4.0 * group->set->damping * group->set->damping);
+        size_t followed = count_slow(group, h);
+        flight->slow_count[g * STEP_LEVELS + (size_t)level] = followed;
+        for (size_t c = 0; c < scene->contacts; c++) {
             const double *phi = group->participation[c];
-            double stiffer = sqrt(1.0 + 4.0 * group->set->damping * group->set->damping);
             for (size_t k = 0; phi && k < group->count; k++) {
                 double angle = group->set->omega[k] * h;
                 double reach = fabs(phi[k]) * flight->amplitude[g][k];
                 double bend = 0.5 * angle * angle * stiffer * reach;
-                all += bend;
-                slow += angle < SLOW_ANGLE ? bend : reach;
+                all[c * STEP_LEVELS] += bend;
+                slow[c * STEP_LEVELS] += k < followed ? bend : reach;
             }
         }
-        flight->all_modes[c * STEP_LEVELS + (size_t)level] = all;
-        flight->slow_modes[c * STEP_LEVELS + (size_t)level] = slow;
     }
     flight->known[level] = true;
 }
 
-/* Rigid approach and rate plus those of the modes slower than `fastest`. */
+/* Rigid approach and rate plus those of the modes that are slow on a step of the level. */
 static void slow_approach(const struct flight *flight, const struct scene *scene, size_t contact,
-                          double fastest, double *approach, double *rate)
+                          int level, double *approach, double *rate)
 {
-    double d = 0.0;
-    double d_rate = 0.0;
+    *approach = -flight->probe.gap[contact];
+    *rate = -flight->probe.gap_rate[contact];
     for (size_t g = 0; g < scene->groups; g++) {
-        const struct scene_group *group = &scene->group[g];
-        const double *phi = group->participation[contact];
-        for (size_t k = 0; phi && k < group->count && group->set->omega[k] < fastest; k++) {
-            d += phi[k] * flight->probe.q[g][k];
-            d_rate += phi[k] * flight->probe.v[g][k];
+        const double *phi = scene->group[g].participation[contact];
+        size_t count = flight->slow_count[g * STEP_LEVELS + (size_t)level];
+        double d;
+        double d_rate;
+        if (!phi || !count)
+            continue;
+        size_t whole = count / LANES * LANES;
+        const double *q = flight->probe.q[g];
+        const double *v = flight->probe.v[g];
+        kernel_dot2(whole, phi, q, v, &d, &d_rate);
+        for (size_t k = whole; k < count; k++) {
+            d += phi[k] * q[k];
+            d_rate += phi[k] * v[k];
         }
+        *approach -= d;
+        *rate -= d_rate;
     }
-    *approach = -flight->probe.gap[contact] - d;
-    *rate = -flight->probe.gap_rate[contact] - d_rate;
 }
 
 /* Whether contact c stays open for one step of the level. */
@@ -110,7 +130,7 @@ static bool stays_open(const struct flight *flight, const struct scene *scene, s
     if (d <= 0.0 && d + rate * h + rise < 0.0)
         return true;
     double margin = flight->slow_modes[c * STEP_LEVELS + (size_t)level];
-    slow_approach(flight, scene, c, SLOW_ANGLE / h, &d, &rate);
+    slow_approach(flight, scene, c, level, &d, &rate);
     return fmax(d, d + rate * h + fmax(0.0, pull)) + margin < 0.0;
 }
 
@@ -170,15 +190,16 @@ static bool move_probe(struct flight *flight, const struct scene *scene, int lev
 }
 
 /* Looks into the shortest interval [from, from + h] contact by contact. */
-static bool touch_within(const struct scene *scene, const struct motion *motion, double from,
+static bool touch_within(const struct flight *flight, const struct scene *scene, double from,
                          double h, double *time, size_t *contact)
 {
     bool found = false;
     for (size_t c = 0; c < scene->contacts; c++) {
         double t;
-        if (flight_root_touch(motion, scene, c, from, from + h, &t) && (!found || t < *time)) {
+        if (flight_root_touch(&flight->probe, scene, c, 0.0, h, &t) &&
+            (!found || from + t < *time)) {
             found = true;
-            *time = t;
+            *time = from + t;
             *contact = c;
         }
     }
@@ -214,7 +235,7 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
             wait = 2;
             continue;
         }
-        if (!open && touch_within(scene, motion, from, step_length(level), time, contact) &&
+        if (!open && touch_within(flight, scene, from, step_length(level), time, contact) &&
             *time < fmin(complete, allowed))
             return FLIGHT_TOUCH;
         if (!move_probe(flight, scene, level) || i >= intervals)

@@ -25,6 +25,7 @@ struct flight {
     double *approach, *rate; /* [contact] of the probe */
     double *all_modes;       /* [contact][level]: remainder when all modes are followed */
     double *slow_modes;      /* [contact][level]: remainder when the slow ones are */
+    size_t *slow_count;      /* [group][level]: how many are slow */
     bool known[STEP_LEVELS];
     unsigned long intervals; /* examined, since creation */
 };

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "impact/kernel.h"
+
 void flight_root_exceeds(double excess, double rate, double acceleration, double *first,
                          double *last)
 {
@@ -26,6 +28,69 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
         return;
     *first = excess >= 0.0 ? 0.0 : -2.0 * excess / (rate + sqrt(discriminant));
     *last = -rate / acceleration;
+}
+
+/* The approach at one contact along a free motion. */
+struct path {
+    const struct motion *motion;
+    const struct scene *scene;
+    size_t contact;
+    double length;            /* s; > 0: a power series in t/length, good on [0, length] */
+    double term[DERIVATIVES]; /* of that series, m */
+};
+
+/* omega t of the fastest mode up to which the series is exact to rounding: 0.5^16/16! = 7e-19. */
+static const double SERIES_ANGLE = 0.5;
+
+static bool is_slow(const struct scene *scene, double length)
+{
+    for (size_t g = 0; g < scene->groups; g++)
+        if (scene->group[g].count &&
+            scene->group[g].set->omega[scene->group[g].count - 1] * length > SERIES_ANGLE)
+            return false;
+    return true;
+}
+
+/* The path on [0, length] of the motion. */
+static struct path make_path(const struct motion *motion, const struct scene *scene, size_t contact,
+                             double length)
+{
+    struct path path = {.motion = motion, .scene = scene, .contact = contact};
+    if (!(length > 0.0) || !is_slow(scene, length))
+        return path;
+    double sums[DERIVATIVES] = {motion->gap[contact], motion->gap_rate[contact],
+                                scene->gap_acceleration[contact]};
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        if (group->participation[contact])
+            kernel_derivatives(group->stride, group->set->omega, group->set->damping,
+                               group->participation[contact], motion->q[g], motion->v[g], sums);
+    }
+    double scale = -1.0;
+    path.length = length;
+    for (int n = 0; n < DERIVATIVES; n++) {
+        path.term[n] = scale * sums[n];
+        scale *= length / (n + 1);
+    }
+    return path;
+}
+
+/* The approach and its rate at an instant of the path. */
+static void follow(const struct path *path, double time, double *approach, double *rate)
+{
+    if (!(path->length > 0.0)) {
+        motion_approach_at(path->motion, path->scene, path->contact, time, approach, rate);
+        return;
+    }
+    double s = time / path->length;
+    double value = 0.0;
+    double slope = 0.0;
+    for (int n = DERIVATIVES - 1; n >= 0; n--) {
+        slope = slope * s + value;
+        value = value * s + path->term[n];
+    }
+    *approach = value;
+    *rate = slope / path->length;
 }
 
 /* Where the cubic with the values and rates of both ends crosses zero, as a share of the interval.
@@ -56,19 +121,18 @@ static double cubic_root(double d0, double rate0, double d1, double rate1)
 
 /* Root of the approach in [low, high] with approach(low) <= 0 < approach(high). Starts where the
  * cubic through both ends has it; bisection kept safe, Newton where it stays inside. */
-static double rising_root(const struct motion *motion, const struct scene *scene, size_t contact,
-                          double low, double high)
+static double rising_root(const struct path *path, double low, double high)
 {
     double d;
     double rate;
     double d1;
     double rate1;
-    motion_approach_at(motion, scene, contact, low, &d, &rate);
-    motion_approach_at(motion, scene, contact, high, &d1, &rate1);
+    follow(path, low, &d, &rate);
+    follow(path, high, &d1, &rate1);
     double h = high - low;
     double t = low + h * cubic_root(d, h * rate, d1, h * rate1);
     for (int i = 0; i < 100; i++) {
-        motion_approach_at(motion, scene, contact, t, &d, &rate);
+        follow(path, t, &d, &rate);
         if (d > 0.0)
             high = t;
         else
@@ -84,14 +148,13 @@ static double rising_root(const struct motion *motion, const struct scene *scene
 }
 
 /* Instant of the peak in [low, high]: the rate falls through zero. */
-static double peak(const struct motion *motion, const struct scene *scene, size_t contact,
-                   double low, double high)
+static double peak(const struct path *path, double low, double high)
 {
     for (int i = 0; i < 60 && high - low > 1e-15 * fabs(high); i++) {
         double t = 0.5 * (low + high);
         double d;
         double rate;
-        motion_approach_at(motion, scene, contact, t, &d, &rate);
+        follow(path, t, &d, &rate);
         if (d > 0.0)
             return t;
         if (rate > 0.0)
@@ -105,27 +168,28 @@ static double peak(const struct motion *motion, const struct scene *scene, size_
 bool flight_root_touch(const struct motion *motion, const struct scene *scene, size_t contact,
                        double from, double to, double *time)
 {
+    struct path path = make_path(motion, scene, contact, from == 0.0 ? to : 0.0);
     double d0;
     double rate0;
     double d1;
     double rate1;
-    motion_approach_at(motion, scene, contact, from, &d0, &rate0);
+    follow(&path, from, &d0, &rate0);
     if (d0 >= 0.0 && rate0 > 0.0) {
         *time = from;
         return true;
     }
-    motion_approach_at(motion, scene, contact, to, &d1, &rate1);
+    follow(&path, to, &d1, &rate1);
     if (d1 > 0.0) {
-        *time = rising_root(motion, scene, contact, from, to);
+        *time = rising_root(&path, from, to);
         return true;
     }
     if (!(rate0 > 0.0 && rate1 < 0.0))
         return false;
-    double top = peak(motion, scene, contact, from, to);
-    motion_approach_at(motion, scene, contact, top, &d1, &rate1);
+    double top = peak(&path, from, to);
+    follow(&path, top, &d1, &rate1);
     if (!(d1 > 0.0))
         return false;
-    *time = rising_root(motion, scene, contact, from, top);
+    *time = rising_root(&path, from, top);
     return true;
 }
 
@@ -153,6 +217,7 @@ double flight_root_back(const struct motion *motion, const struct scene *scene, 
     double d;
     double rate;
     motion_approach(motion, scene, contact, &d, &rate);
+    struct path path = {.motion = motion, .scene = scene, .contact = contact};
     if (is_still(motion, scene, contact))
         return rigid_root_back(d, rate, scene->gap_acceleration[contact]);
     /* steps that follow the fastest mode, but never more than a million */
@@ -160,7 +225,7 @@ double flight_root_back(const struct motion *motion, const struct scene *scene, 
     for (double t = step; t <= longest; t += step) {
         motion_approach_at(motion, scene, contact, -t, &d, &rate);
         if (d <= 0.0)
-            return rising_root(motion, scene, contact, -t, -t + step);
+            return rising_root(&path, -t, -t + step);
     }
     return -INFINITY;
 }

@@ -10,7 +10,31 @@
 #include "impact/impact.h"
 
 /* See longest_stable_step. */
-static const double RESOLVED = 2.0;
+static const double RESOLVED = 4.0;
+
+/* What the accuracy asked for means to the steps. */
+struct step_limits {
+    /* A force's cubic is accurate enough when its highest Legendre coefficient is this share of the
+     * contact's force. The impulse converges with the eighth power of the step, the coefficient
+     * with the third, hence the exponent; the factor is measured (docs/accuracy.md). */
+    double roughness;
+    /* The step in which a contact opens or closes may be this part of the contact's duration: the
+     * impulse within it is about its 5/2 power. */
+    double event_share;
+    /* See longest_stable_step. 0.5 still closes the audit to 1e-5 over 20 wave passages, 2 does
+     * not; 0.02 closes it to 1e-11. */
+    double coupling;
+};
+
+static struct step_limits make_limits(double accuracy)
+{
+    double power = pow(accuracy, 0.2);
+    return (struct step_limits){
+        .roughness = fmin(0.02, 0.6 * power * power),
+        .event_share = fmin(0.05, 0.5 * power * power),
+        .coupling = fmin(0.25, 3.2 * power),
+    };
+}
 
 /* A run of the modal method. */
 struct modal_run {
@@ -18,6 +42,7 @@ struct modal_run {
     const struct impact_settings *settings;
     struct impact_outcome *outcome;
     struct motion *motion; /* the outcome's: the current state */
+    struct step_limits limits;
     struct contact_step step;
     struct flight flight;
     bool *active;   /* [contact] */
@@ -31,21 +56,6 @@ struct modal_run {
     unsigned long used, max_steps; /* contact steps and flight intervals */
 };
 
-/* A force's cubic is accurate enough when its highest Legendre coefficient is this share of the
- * contact's force. The impulse converges with the eighth power of the step, the coefficient with
- * the third, hence the exponent; the factor is measured (docs/accuracy.md). */
-static double allowed_roughness(const struct modal_run *run)
-{
-    return fmin(0.02, 0.6 * pow(run->settings->accuracy, 0.4));
-}
-
-/* The step in which a contact opens or closes may be this part of the contact's duration: the
- * impulse within it is about its 5/2 power. */
-static double event_share(const struct modal_run *run)
-{
-    return fmin(0.05, 0.5 * pow(run->settings->accuracy, 0.4));
-}
-
 static bool any_active(const struct modal_run *run)
 {
     for (size_t c = 0; c < run->scene->contacts; c++)
@@ -54,18 +64,12 @@ static bool any_active(const struct modal_run *run)
     return false;
 }
 
-/* 0.5 still closes the audit to 1e-5 over 20 wave passages, 2 does not; 0.02 closes it to 1e-11. */
-static double allowed_coupling(double accuracy)
-{
-    return fmin(0.25, 3.2 * pow(accuracy, 0.2));
-}
-
 /* A mode that the step does not resolve sees the law at four instants only and can be pumped by it.
  * Its coupling to the contact within a step, phi^2 (dF/dd) h / omega, must then stay small; the
  * strongest unresolved mode is the slowest one, omega h = RESOLVED. Long contacts on light bodies
  * need this (hundreds of steps); an ordinary impact takes such steps anyway. */
 static double longest_stable_step(const struct scene *scene, size_t contact,
-                                  const struct impact_scale *scale, double accuracy)
+                                  const struct impact_scale *scale, double coupling)
 {
     double stiffness;
     double longest = INFINITY;
@@ -78,7 +82,7 @@ static double longest_stable_step(const struct scene *scene, size_t contact,
         double largest = 0.0;
         for (size_t k = 0; k < group->count; k++)
             largest = fmax(largest, phi[k] * phi[k]);
-        double coupled = sqrt(RESOLVED * allowed_coupling(accuracy) / (largest * stiffness));
+        double coupled = sqrt(RESOLVED * coupling / (largest * stiffness));
         double resolved = RESOLVED / group->set->omega[group->count - 1];
         longest = fmin(longest, fmax(coupled, resolved));
     }
@@ -91,7 +95,7 @@ static void activate(struct modal_run *run, size_t contact, double time, double 
     run->active[contact] = true;
     run->scales[contact] = impact_scale_of(run->scene, contact, rate);
     run->longest[contact] =
-        longest_stable_step(run->scene, contact, &run->scales[contact], run->settings->accuracy);
+        longest_stable_step(run->scene, contact, &run->scales[contact], run->limits.coupling);
     track_open(&run->outcome->tracks[contact], time, run->motion->gap_rate[contact]);
 }
 
@@ -112,7 +116,7 @@ static int finest_level(const struct modal_run *run)
     for (size_t c = 0; c < run->scene->contacts; c++)
         if (run->active[c])
             shortest = fmin(shortest, run->scales[c].duration);
-    return step_level(shortest * event_share(run));
+    return step_level(shortest * run->limits.event_share);
 }
 
 /* A step must not jump over a contact's end (at most three quarters of the way there), nor pump a
@@ -202,12 +206,15 @@ static struct contact_start end_values(const double values[NODES], double h, dou
 {
     double rate = 0.0;
     double curvature = 0.0;
+    double bend = 0.0;
     for (int j = 0; j < NODES; j++) {
         const double *c = collocation.monomial[j];
         rate += values[j] * (c[1] + 2.0 * c[2] + 3.0 * c[3]);
         curvature += values[j] * (2.0 * c[2] + 6.0 * c[3]);
+        bend += values[j] * 6.0 * c[3];
     }
-    return (struct contact_start){indentation, rate / h, curvature / (h * h)};
+    double r = 1.0 / h;
+    return (struct contact_start){indentation, rate * r, curvature * (r * r), bend * (r * r * r)};
 }
 
 /* First instant with positive indentation on the step just made, likewise. */
@@ -276,14 +283,14 @@ static void begin_phase(struct modal_run *run)
         if (run->active[c])
             continue;
         motion_approach(run->motion, run->scene, c, &d, &rate);
-        run->now[c] = (struct contact_start){fmin(d, 0.0), rate, 0.0};
+        run->now[c] = (struct contact_start){fmin(d, 0.0), rate, 0.0, 0.0};
     }
 }
 
 /* From the first touch until every contact is open again, the horizon, or the limit. */
 static enum percuss_end_reason contact_phase(struct modal_run *run)
 {
-    double allowed = allowed_roughness(run);
+    double allowed = run->limits.roughness;
     int level = finest_level(run);
     begin_phase(run);
     while (any_active(run)) {
@@ -345,7 +352,7 @@ static enum percuss_end_reason fly(struct modal_run *run)
     double rate;
     motion_approach(run->motion, run->scene, contact, &d, &rate);
     activate(run, contact, run->motion->time, rate);
-    run->now[contact] = (struct contact_start){0.0, rate, 0.0};
+    run->now[contact] = (struct contact_start){0.0, rate, 0.0, 0.0};
     return PERCUSS_END_NONE;
 }
 
@@ -369,8 +376,10 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
 {
     struct modal_run run = {.scene = scene, .settings = settings, .outcome = outcome};
     run.motion = &outcome->motion;
+    run.limits = make_limits(settings->accuracy);
     if (!run_create(&run, scene, arena))
         return PERCUSS_INTERNAL;
+    run.step.accuracy = settings->accuracy;
     for (size_t c = 0; c < scene->contacts; c++)
         track_clear(&outcome->tracks[c]);
     outcome->steps = outcome->rejected = 0;

@@ -8,29 +8,28 @@
 #include "numeric/linear.h"
 
 enum { MAX_ITERATIONS = 40 };
-/* Newton's method squares the relative change (the force is smooth on the scale of the
- * indentation), so that what is left after this one is rounding. */
-static const double LAST_CHANGE = 1e-7;
+/* One row of a 4 x 4 system; the lanes' order of operations is that of scalars. */
+typedef double quad __attribute__((vector_size(NODES * sizeof(double))));
 
-/* Elimination of a 4 x 4 system in the order given; its matrix is the identity plus a small causal
+/* Solves a x = b by elimination in the order given; the matrix is the identity plus a small causal
  * one. False: a pivot is too small for that order. */
-static bool eliminate(double a[NODES][NODES], double b[NODES])
+static bool eliminate(quad a[NODES], double b[NODES])
 {
+    double inverse[NODES];
     for (int c = 0; c < NODES; c++) {
         if (!(fabs(a[c][c]) > 0.1))
             return false;
-        double inverse = 1.0 / a[c][c];
+        inverse[c] = 1.0 / a[c][c];
         for (int i = c + 1; i < NODES; i++) {
-            double factor = a[i][c] * inverse;
-            for (int k = c + 1; k < NODES; k++)
-                a[i][k] -= factor * a[c][k];
+            double factor = a[i][c] * inverse[c];
+            a[i] -= factor * a[c];
             b[i] -= factor * b[c];
         }
     }
     for (int i = NODES - 1; i >= 0; i--) {
-        for (int k = i + 1; k < NODES; k++)
-            b[i] -= a[i][k] * b[k];
-        b[i] /= a[i][i];
+        b[i] *= inverse[i];
+        for (int k = 0; k < i; k++)
+            b[k] -= a[k][i] * b[i];
     }
     return true;
 }
@@ -55,9 +54,9 @@ static void look_at(struct progress *progress, double change, double indentation
     progress->target = larger(progress->target, fabs(target));
 }
 
-static bool settled(const struct progress *progress)
+static bool settled(const struct progress *progress, double last_change)
 {
-    return progress->change <= LAST_CHANGE * progress->indentation ||
+    return progress->change <= last_change * progress->indentation ||
            progress->change <= 1e-15 * progress->target ||
            (progress->change <= 1e-12 * progress->target && progress->change >= progress->previous);
 }
@@ -79,16 +78,17 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
     const double *target = problem->target[0];
     double previous = INFINITY;
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        double jacobian[NODES][NODES];
+        quad jacobian[NODES];
         double residual[NODES];
         for (int i = 0; i < NODES; i++)
             force[i] = contact_law_force(law, NULL, d[i], &stiffness[i]);
+        const quad forces = {force[0], force[1], force[2], force[3]};
+        const quad slopes = {stiffness[0], stiffness[1], stiffness[2], stiffness[3]};
         for (int i = 0; i < NODES; i++) {
-            residual[i] = d[i] - target[i];
-            for (int j = 0; j < NODES; j++) {
-                residual[i] += m[i][j] * force[j];
-                jacobian[i][j] = m[i][j] * stiffness[j];
-            }
+            const quad coupling = {m[i][0], m[i][1], m[i][2], m[i][3]};
+            quad moved = coupling * forces;
+            residual[i] = d[i] - target[i] + ((moved[0] + moved[1]) + (moved[2] + moved[3]));
+            jacobian[i] = coupling * slopes;
             jacobian[i][i] += 1.0;
         }
         if (!eliminate(jacobian, residual))
@@ -101,7 +101,7 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
         }
         if (!isfinite(progress.change))
             return false;
-        if (settled(&progress)) {
+        if (settled(&progress, problem->last_change)) {
             follow(force, stiffness, residual);
             return true;
         }
@@ -159,7 +159,7 @@ bool node_solve(const struct node_problem *problem, double (*indentation)[NODES]
         }
         if (!isfinite(progress.change))
             return false;
-        if (settled(&progress)) {
+        if (settled(&progress, problem->last_change)) {
             for (size_t a = 0; a < problem->count; a++)
                 follow(force[problem->list[a]], stiffness[problem->list[a]],
                        problem->residual + a * NODES);

@@ -5,6 +5,7 @@
 #ifndef PERCUSS_IMPACT_NODE_SOLVER_H
 #define PERCUSS_IMPACT_NODE_SOLVER_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "impact/scene.h"
@@ -18,7 +19,16 @@ struct node_problem {
                                                the force of b at node j, m/N */
     const double (*target)[NODES];          /* [active]: approaches without force */
     double *matrix, *residual;              /* scratch: (count NODES)^2, count NODES */
+    double last_change; /* the iteration ends with a relative change of the indentations below */
 };
+
+/* Newton's method squares the relative change (the force is smooth on the scale of the
+ * indentation): the change after which the forces have a relative accuracy. */
+static inline double node_solver_last_change(double accuracy)
+{
+    double change = 0.1 * sqrt(accuracy);
+    return change > 1e-7 ? change : 1e-7; /* what is left after that is rounding */
+}
 
 /* Newton's method for indentation_i + sum coupling force(indentation) = target. [all
  * contacts][node] `indentation` holds starting values and becomes the solution, `force` belongs to

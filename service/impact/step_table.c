@@ -19,11 +19,13 @@ struct oscillators *oscillators_create(size_t count, const double *omega, double
     set->count = count;
     set->stride = (count + LANES - 1) / LANES * LANES;
     set->damping = damping;
-    set->omega = calloc(set->stride + 1, sizeof *set->omega);
+    size_t bytes = (set->stride + LANES) * sizeof *set->omega;
+    set->omega = aligned_alloc(32, bytes);
     if (!set->omega) {
         free(set);
         return NULL;
     }
+    memset(set->omega, 0, bytes);
     memcpy(set->omega, omega, count * sizeof *omega);
     return set;
 }

@@ -37,9 +37,14 @@ void solve_workspace_free(struct solve_workspace *workspace)
     free(workspace);
 }
 
+/* All but the lists, which are long and whose counts say what is filled. */
 static void clear(struct solve_result *result)
 {
-    memset(result, 0, sizeof *result);
+    const size_t lists = offsetof(struct solve_result, contacts);
+    const size_t after = offsetof(struct solve_result, delassus_source);
+    const size_t texts = offsetof(struct solve_result, warnings);
+    memset(result, 0, lists);
+    memset((char *)result + after, 0, texts - after);
     result->restitution_by_speed = NAN;
 }
 

@@ -95,7 +95,7 @@ static void start_values(const struct toy *toy, struct motion *motion,
         motion_approach(motion, &toy->scene, c, &approach[c], &rate[c]);
     local(toy, approach, d, force);
     for (size_t c = 0; c < 2; c++)
-        start[c] = (struct contact_start){d[c], rate[c], 0.0};
+        start[c] = (struct contact_start){d[c], rate[c], 0.0, 0.0};
 }
 
 /* Largest difference of a chain of `count` steps of a level from Runge and Kutta's. */
@@ -180,7 +180,7 @@ static void a_mass_on_a_spring(void **state)
     assert_true(contact_step_create(&step, &toy.scene, &toy.arena));
     assert_true(motion_create(&motion, &toy.scene, &toy.arena));
     motion_start(&motion, &toy.scene);
-    struct contact_start start = {1.0, 0.0, -9.0};
+    struct contact_start start = {1.0, 0.0, -9.0, 0.0};
     assert_true(contact_step_solve(&step, &toy.scene, &motion, active, 3, &start));
     near("gap", step.end.gap[0], -cos(3.0 / 8.0), 1e-10);
     near("rate", step.end.gap_rate[0], 3.0 * sin(3.0 / 8.0), 1e-10);

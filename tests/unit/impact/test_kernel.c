@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "impact/kernel.h"
+#include "impact/oscillator.h"
 
 enum { LONGEST = 40 };
 
@@ -80,6 +81,31 @@ static void nodes_and_dots(void **state)
         }
         near(a, pq);
         near(b, pv);
+        oscillators_free(x.set);
+    }
+}
+
+/* The power series of a free motion is that motion as long as omega t stays below one half. */
+static void derivatives_are_a_series_of_the_motion(void **state)
+{
+    (void)state;
+    static const double dampings[] = {0.0, 0.05, 0.9};
+    for (size_t i = 0; i < 3; i++) {
+        struct vectors x;
+        make(&x, 13);
+        double sums[DERIVATIVES] = {0.0};
+        double t = 0.5 / x.set->omega[12];
+        double series = 0.0, power = 1.0, expected = 0.0;
+        kernel_derivatives(x.stride, x.set->omega, dampings[i], x.phi, x.q, x.v, sums);
+        for (int n = 0; n < DERIVATIVES; n++) {
+            series += power * sums[n];
+            power *= t / (n + 1);
+        }
+        for (size_t k = 0; k < 13; k++) {
+            oscillator_advance(x.set->omega[k], dampings[i], t, &x.q[k], &x.v[k]);
+            expected += x.phi[k] * x.q[k];
+        }
+        near(series, expected);
         oscillators_free(x.set);
     }
 }
@@ -155,6 +181,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nodes_and_dots),
+        cmocka_unit_test(derivatives_are_a_series_of_the_motion),
         cmocka_unit_test(advance_and_push),
         cmocka_unit_test(responses),
         cmocka_unit_test(padding_changes_no_bit),

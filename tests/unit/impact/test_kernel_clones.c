@@ -14,17 +14,19 @@
 
 /* The source once more, under other names and for the baseline only. */
 #define PERCUSS_ONE_KERNEL
-#define kernel_nodes    baseline_nodes
-#define kernel_advance  baseline_advance
-#define kernel_push     baseline_push
-#define kernel_dot2     baseline_dot2
-#define kernel_response baseline_response
+#define kernel_nodes       baseline_nodes
+#define kernel_advance     baseline_advance
+#define kernel_push        baseline_push
+#define kernel_dot2        baseline_dot2
+#define kernel_response    baseline_response
+#define kernel_derivatives baseline_derivatives
 #include "impact/kernel.c"
 #undef kernel_nodes
 #undef kernel_advance
 #undef kernel_push
 #undef kernel_dot2
 #undef kernel_response
+#undef kernel_derivatives
 
 void kernel_nodes(const struct step_table *table, size_t length, const double *phi, const double *q,
                   const double *v, double sums[NODES]);
@@ -36,6 +38,8 @@ void kernel_dot2(size_t length, const double *a, const double *x, const double *
                  double *ay);
 void kernel_response(const struct step_table *table, size_t length, const double *phi_a,
                      const double *phi_b, double sums[NODES][NODES]);
+void kernel_derivatives(size_t length, const double *omega, double damping, const double *phi,
+                        const double *q, const double *v, double sums[DERIVATIVES]);
 
 enum { LONGEST = 64 };
 
@@ -87,6 +91,10 @@ static void every_vector_unit_gives_the_same_bits(void **state)
         kernel_response(table, n, phi, psi, response[0]);
         baseline_response(table, n, phi, psi, response[1]);
         same(response[0][0], response[1][0], NODES * NODES);
+        double derivatives[2][DERIVATIVES] = {{0.0}};
+        kernel_derivatives(n, set->omega, 0.01, phi, q, v, derivatives[0]);
+        baseline_derivatives(n, set->omega, 0.01, phi, q, v, derivatives[1]);
+        same(derivatives[0], derivatives[1], DERIVATIVES);
         oscillators_free(set);
     }
 }

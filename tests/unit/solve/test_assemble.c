@@ -130,6 +130,78 @@ static void a_fixed_number_is_that_number(void **state)
     bench_free(bench);
 }
 
+/* What is left out, by its own sum over thousands of modes: the rod's inertia to the evenly spaced
+ * frequencies' accuracy, 1/(2N) of it; of beams, whose frequencies spread, the estimate is a bound
+ * that is not far off. */
+static void omitted_inertia_is_a_bound(void **state)
+{
+    (void)state;
+    struct bench *bench = bench_create();
+    const struct solve_request requests[] = {
+        strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), 0.2), on_beam(0.0, 0.0),
+        on_beam(0.31, 0.0)};
+    for (size_t i = 0; i < COUNT(requests); i++) {
+        double all = 0.0;
+        const struct assembly *assembly = put_together(bench, &requests[i], 2e7);
+        for (size_t g = 0; g < assembly->scene.groups; g++)
+            for (size_t k = 0; k < assembly->groups[g].count; k++) {
+                double phi = assembly->groups[g].participation[0][k];
+                double omega = assembly->groups[g].set->omega[k];
+                all += omega > 2e5 ? phi * phi / pow(omega, 4.0) : 0.0;
+            }
+        double estimate = put_together(bench, &requests[i], 2e5)->omitted[0].inertia;
+        assert_true(estimate > 0.9 * all && estimate < 2.5 * all);
+        if (i == 0)
+            measured_relative("rod", estimate, all, 0.1);
+    }
+    bench_free(bench);
+}
+
+/* The next better model holds the same compliance, none of it without inertia. */
+static void a_remainder_takes_the_residual(void **state)
+{
+    (void)state;
+    struct bench *bench = bench_create();
+    struct solve_request request = on_beam(0.1, 0.0);
+    const struct assembly *assembly = put_together(bench, &request, 1e5);
+    struct scene next;
+    assert_true(assemble_remainder(assembly, &bench->geometry, bench->cache, &bench->arena, &next));
+    assert_int_equal(next.groups, assembly->scene.groups + 1);
+    const struct scene_group *group = &next.group[next.groups - 1];
+    double omega = group->set->omega[0];
+    double phi = group->participation[0][0];
+    measured_relative("compliance", phi * phi / (omega * omega), assembly->scene.residual[0],
+                      1e-12);
+    measured("left", next.residual[0], 0.0, 1e-12 * assembly->scene.residual[0]);
+    measured_relative("inertia", phi * phi / pow(omega, 4.0), assembly->omitted[0].inertia, 1e-12);
+    bench_free(bench);
+}
+
+/* The tolerance decides: less allowed, more modes; a stiff short bar needs none. */
+static void less_allowed_is_more_modes(void **state)
+{
+    (void)state;
+    struct bench *bench = bench_create();
+    struct solve_request request = on_beam(0.0, 0.0);
+    struct fault fault = {""};
+    size_t last = 0;
+    prepared_cache_use(bench->cache, bench->lab->set.revision);
+    assert_false(
+        geometry_find(&bench->geometry, &bench->lab->set, &request, &bench->arena, &fault));
+    for (double allowed = 1e-3; allowed > 1e-9; allowed /= 10.0) {
+        struct mode_choice choice = {.cut = INFINITY, .allowed = allowed, .most = 1000};
+        assert_true(assemble(&bench->assembly, &bench->geometry, &request, bench->cache, &choice,
+                             &bench->arena));
+        assert_true(bench->assembly.all_modes > last);
+        last = bench->assembly.all_modes;
+    }
+    struct mode_choice few = {.cut = INFINITY, .allowed = 0.0, .most = 10};
+    assert_true(
+        assemble(&bench->assembly, &bench->geometry, &request, bench->cache, &few, &bench->arena));
+    assert_true(bench->assembly.capped);
+    bench_free(bench);
+}
+
 /* Modes of an initial state take part whatever the cut, moved on by the time since. */
 static void a_state_brings_its_modes(void **state)
 {
@@ -203,6 +275,9 @@ int main(void)
         cmocka_unit_test(modes_and_residual_are_the_compliance),
         cmocka_unit_test(modes_with_a_node_there_stay_out),
         cmocka_unit_test(a_fixed_number_is_that_number),
+        cmocka_unit_test(omitted_inertia_is_a_bound),
+        cmocka_unit_test(a_remainder_takes_the_residual),
+        cmocka_unit_test(less_allowed_is_more_modes),
         cmocka_unit_test(a_state_brings_its_modes),
         cmocka_unit_test(residuals_couple_contacts),
     };
