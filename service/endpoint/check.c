@@ -13,20 +13,24 @@ static const double unit_tolerance = 1e-4;
 
 void check_enter(struct check *check, const char *name, size_t index)
 {
-    snprintf(check->place, sizeof check->place, "%s[%zu]", name, index);
+    check->place = name;
+    check->index = index;
 }
 
 void check_that(struct check *check, bool good, const char *format, ...)
 {
     if (good || check->status)
         return;
-    char message[sizeof check->fault->text];
+    char message[sizeof check->fault->text], place[32] = "";
     va_list args;
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    check->status = fault_set(check->fault, PERCUSS_BAD_REQUEST, "%s%s%s", check->place,
-                              check->place[0] ? "." : "", message);
+    if (check->place && check->index == CHECK_NO_LIST)
+        snprintf(place, sizeof place, "%s.", check->place);
+    else if (check->place)
+        snprintf(place, sizeof place, "%s[%zu].", check->place, check->index);
+    check->status = fault_set(check->fault, PERCUSS_BAD_REQUEST, "%s%s", place, message);
 }
 
 static bool is_within(double value, double low, double high)
@@ -66,8 +70,9 @@ void check_vector(struct check *check, const char *field, const double vector[3]
     bool good = true;
     for (size_t i = 0; i < 3; i++)
         good = good && is_within(vector[i], -limit, limit);
-    check_that(check, good, "%s: %s: each must be in [%g, %g]", field, vector_text(vector, 3).text,
-               -limit, limit);
+    if (!good)
+        check_that(check, false, "%s: %s: each must be in [%g, %g]", field,
+                   vector_text(vector, 3).text, -limit, limit);
 }
 
 void check_unit(struct check *check, const char *field, const double *vector, size_t size,
@@ -77,10 +82,10 @@ void check_unit(struct check *check, const char *field, const double *vector, si
     for (size_t i = 0; i < size; i++)
         square += vector[i] * vector[i];
     double norm = sqrt(square);
-    check_that(check, fabs(norm - 1.0) <= unit_tolerance,
-               "%s: %s: must be a unit %s (norm within %g of 1)", field,
-               vector_text(vector, size).text, size == 4 ? "quaternion (w, x, y, z)" : "vector",
-               unit_tolerance);
+    if (!(fabs(norm - 1.0) <= unit_tolerance))
+        check_that(check, false, "%s: %s: must be a unit %s (norm within %g of 1)", field,
+                   vector_text(vector, size).text, size == 4 ? "quaternion (w, x, y, z)" : "vector",
+                   unit_tolerance);
     for (size_t i = 0; i < size; i++)
         unit[i] = vector[i] / norm;
 }

@@ -8,16 +8,21 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/fault.h"
 
 struct check {
     enum percuss_status status; /* PERCUSS_OK or PERCUSS_BAD_REQUEST */
     struct fault *fault;
-    char place[32]; /* what the fields belong to: "bodies[3]" */
+    const char *place; /* what the fields belong to; NULL: the request itself */
+    size_t index;      /* in it; CHECK_NO_LIST: it is no list */
 };
 
-/* Sets the place to "NAME[INDEX]". */
+#define CHECK_NO_LIST SIZE_MAX
+
+/* Sets the place to "NAME[INDEX]" or "NAME"; the name stays the caller's and must outlive the
+ * checks of this place. Nothing is put into words before a check fails: most requests are good. */
 void check_enter(struct check *check, const char *name, size_t index);
 
 /* Finite and within low .. high. */

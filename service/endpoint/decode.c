@@ -4,10 +4,10 @@
 #include "endpoint/decode.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "endpoint/check.h"
+#include "endpoint/text.h"
 
 /* Beyond these no impact makes sense and sums of squares would lose their digits or overflow. */
 static const double max_length = 1e6;                         /* m */
@@ -35,7 +35,7 @@ static void decode_body(struct check *check, const percuss_v1_BodyMotion *wire,
                "specimen: %s: must be empty: durable specimens are not available from this server "
                "version",
                wire->specimen);
-    snprintf(body->id, sizeof body->id, "%s", wire->id);
+    COPY_TEXT(body->id, wire->id);
     memcpy(body->position, wire->position, sizeof body->position);
     memcpy(body->velocity, wire->velocity, sizeof body->velocity);
     memcpy(body->angular_velocity, wire->angular_velocity, sizeof body->angular_velocity);
@@ -144,10 +144,10 @@ enum percuss_status decode_request(const percuss_v1_Request *wire, struct solve_
         check_enter(&check, "contacts", i);
         decode_contact(&check, &wire->contacts._buffer[i], body_count, &request->contacts[i]);
     }
-    check.place[0] = '\0';
+    check_enter(&check, NULL, CHECK_NO_LIST);
     if (wire->delassus._length > 0)
         check_delassus(&check, &wire->delassus, contact_count);
-    snprintf(check.place, sizeof check.place, "options");
+    check_enter(&check, "options", CHECK_NO_LIST);
     decode_options(&check, &wire->options, &request->options);
     request->body_count = body_count;
     request->contact_count = contact_count;

@@ -4,8 +4,9 @@
 #include "endpoint/encode.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
+
+#include "endpoint/text.h"
 
 /* The fields that every kind of reply begins with. */
 #define FILL_ENVELOPE(wire, envelope)                                                              \
@@ -16,8 +17,6 @@
         COPY_TEXT((wire)->catalogue_revision, (envelope)->revision);                               \
         COPY_TEXT((wire)->version, (envelope)->version);                                           \
     } while (0)
-
-#define COPY_TEXT(array, text) snprintf(array, sizeof(array), "%s", text)
 
 /* Gives a sequence its elements; they live and die with the answer, not with the sample. */
 #define FILL_SEQUENCE(sequence, buffer, count)                                                     \

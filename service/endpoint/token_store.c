@@ -3,14 +3,15 @@
 
 #include "endpoint/token_store.h"
 
-#include <inttypes.h>
 #include <pthread.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/queue.h>
 
 #include "endpoint/key_map.h"
+#include "endpoint/text.h"
+
+static const char digits[] = "0123456789abcdef";
 
 struct stored_state {
     struct key_node node;
@@ -110,8 +111,8 @@ static struct stored_state *stored_create(struct digest key, const struct token_
     if (!stored)
         return NULL;
     *stored = (struct stored_state){.node.key = key, .holders = 1, .size = size};
-    snprintf(stored->revision, sizeof stored->revision, "%s", subject->revision);
-    snprintf(stored->body, sizeof stored->body, "%s", subject->body);
+    COPY_TEXT(stored->revision, subject->revision);
+    COPY_TEXT(stored->body, subject->body);
     memcpy(stored->state, state, size);
     return stored;
 }
@@ -138,6 +139,16 @@ static struct stored_state *find_or_store(struct token_store *store, struct dige
     return stored;
 }
 
+/* 32 lower-case hexadecimal digits. */
+static void print_token(struct digest key, char token[PERCUSS_ID_SIZE])
+{
+    for (int i = 0; i < 16; i++) {
+        token[i] = digits[key.first >> (60 - 4 * i) & 15];
+        token[16 + i] = digits[key.second >> (60 - 4 * i) & 15];
+    }
+    token[32] = '\0';
+}
+
 void token_store_put(struct token_store *store, const struct token_subject *subject,
                      const struct body_state *state, double now, char token[PERCUSS_ID_SIZE])
 {
@@ -148,25 +159,33 @@ void token_store_put(struct token_store *store, const struct token_subject *subj
     struct stored_state *stored = find_or_store(store, key, subject, state, size);
     if (stored) {
         touch(store, stored, now);
-        snprintf(token, PERCUSS_ID_SIZE, "%016" PRIx64 "%016" PRIx64, key.first, key.second);
+        print_token(key, token);
         drop_excess(store, now);
     }
     pthread_mutex_unlock(&store->lock);
 }
 
-/* Exactly what token_store_put writes: 32 lower-case hexadecimal digits. */
-static bool token_parse(const char *token, struct digest *key)
+/* Exactly what print_token writes. */
+static bool parse_token(const char *token, struct digest *key)
 {
-    if (strlen(token) != 32 || strspn(token, "0123456789abcdef") != 32)
+    *key = (struct digest){0};
+    if (strlen(token) != 32)
         return false;
-    return sscanf(token, "%16" SCNx64 "%16" SCNx64, &key->first, &key->second) == 2;
+    for (int i = 0; i < 32; i++) {
+        const char *digit = strchr(digits, token[i]);
+        if (!digit)
+            return false;
+        uint64_t *half = i < 16 ? &key->first : &key->second;
+        *half = *half << 4 | (uint64_t)(digit - digits);
+    }
+    return true;
 }
 
 static struct stored_state *find(struct token_store *store, const char *token,
                                  const struct token_subject *subject, struct fault *fault)
 {
     struct digest key;
-    struct key_node *node = token_parse(token, &key) ? key_map_find(&store->map, key) : NULL;
+    struct key_node *node = parse_token(token, &key) ? key_map_find(&store->map, key) : NULL;
     if (!node) {
         fault_set(fault, PERCUSS_UNKNOWN_STATE,
                   "%s: not known (any more): must be a token of a recent reply of this server",
