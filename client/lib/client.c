@@ -70,10 +70,11 @@ dds_entity_t client_reply_reader_create(struct percuss_client *client,
         client_reader_create(client, descriptor, topic, wire_qos_exchange(partition));
     if (reader < 0)
         return reader;
-    // a read condition stays triggered while anything is left to take; a status does not
-    dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
-    dds_return_t code =
-        condition < 0 ? condition : dds_waitset_attach(client->waitset, condition, 0);
+    // a read condition would wake us while DDS still holds the reader's lock; the status does so
+    // afterwards, once for new samples: whoever is woken takes all
+    dds_return_t code = dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
+    if (code == DDS_RETCODE_OK)
+        code = dds_waitset_attach(client->waitset, reader, 0);
     return code < 0 ? code : reader;
 }
 

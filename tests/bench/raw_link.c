@@ -37,9 +37,9 @@ static struct raw_link *create(uint32_t domain, const char *to, const char *from
     link->reader = dds_create_reader(link->participant, topic(link, from), qos, NULL);
     link->waitset = dds_create_waitset(link->participant);
     dds_delete_qos(qos);
-    dds_entity_t condition = dds_create_readcondition(link->reader, DDS_ANY_STATE);
+    dds_set_status_mask(link->reader, DDS_DATA_AVAILABLE_STATUS);
     if (link->data && link->writer > 0 &&
-        dds_waitset_attach(link->waitset, condition, 0) == DDS_RETCODE_OK)
+        dds_waitset_attach(link->waitset, link->reader, 0) == DDS_RETCODE_OK)
         return link;
     raw_link_close(link);
     return NULL;
