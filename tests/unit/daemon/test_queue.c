@@ -1,0 +1,189 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Tests daemon/queue.c: order, turns of batches, refusal when full or closed, draining, threads. */
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+#include "daemon/queue.h"
+#include "endpoint/clock.h"
+
+/* The queue looks at nothing of a task but how many requests it has. */
+static struct task task_of(size_t count)
+{
+    return (struct task){.count = count};
+}
+
+/* The next request must be this one. */
+static void takes(struct queue *queue, const struct task *expected, size_t expected_index)
+{
+    size_t index = 999;
+    assert_ptr_equal(queue_take(queue, &index), expected);
+    assert_int_equal(index, expected_index);
+}
+
+static void hands_out_in_order_and_refuses_when_full(void **state)
+{
+    (void)state;
+    struct task tasks[4] = {task_of(1), task_of(1), task_of(1), task_of(1)};
+    struct queue *queue = queue_create(3);
+    /* more often round than the ring is long */
+    for (int round = 0; round < 5; round++) {
+        for (int i = 0; i < 3; i++)
+            assert_true(queue_put(queue, &tasks[i]));
+        assert_false(queue_put(queue, &tasks[3]));
+        assert_int_equal(queue_length(queue), 3);
+        takes(queue, &tasks[0], 0);
+        assert_true(queue_put(queue, &tasks[3]));
+        for (int i = 1; i < 4; i++)
+            takes(queue, &tasks[i], 0);
+        assert_int_equal(queue_length(queue), 0);
+        for (int i = 0; i < 4; i++) {
+            tasks[i].next = 0;
+            queue_done(queue);
+        }
+    }
+    queue_free(queue);
+}
+
+static void a_batch_lets_others_in_between(void **state)
+{
+    (void)state;
+    struct task batch = task_of(3), single = task_of(1), pair = task_of(2);
+    struct queue *queue = queue_create(3);
+    assert_true(queue_put(queue, &batch));
+    assert_true(queue_put(queue, &single));
+    assert_true(queue_put(queue, &pair));
+    takes(queue, &batch, 0);
+    assert_int_equal(queue_length(queue), 3); /* its rest still counts as one */
+    takes(queue, &single, 0);
+    takes(queue, &pair, 0);
+    takes(queue, &batch, 1);
+    takes(queue, &pair, 1);
+    takes(queue, &batch, 2);
+    assert_int_equal(queue_length(queue), 0);
+    queue_free(queue);
+}
+
+static void a_closed_queue_gives_what_it_has(void **state)
+{
+    (void)state;
+    struct task batch = task_of(2), late = task_of(1);
+    size_t index;
+    struct queue *queue = queue_create(4);
+    assert_true(queue_put(queue, &batch));
+    queue_close(queue);
+    assert_false(queue_put(queue, &late));
+    takes(queue, &batch, 0);
+    takes(queue, &batch, 1);
+    assert_null(queue_take(queue, &index));
+    assert_null(queue_take(queue, &index));
+    queue_free(queue);
+}
+
+static void is_drained_when_all_is_done(void **state)
+{
+    (void)state;
+    struct task batch = task_of(2);
+    struct queue *queue = queue_create(4);
+    assert_true(queue_drain(queue, 0.0));
+    assert_true(queue_put(queue, &batch));
+    assert_false(queue_drain(queue, 0.0)); /* waits */
+    takes(queue, &batch, 0);
+    takes(queue, &batch, 1);
+    queue_done(queue);
+    double start = clock_now();
+    assert_false(queue_drain(queue, 0.05)); /* one still runs */
+    assert_true(clock_now() - start >= 0.05);
+    queue_done(queue);
+    assert_true(queue_drain(queue, 0.0));
+    queue_free(queue);
+}
+
+static void *done_later(void *queue)
+{
+    nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
+    queue_done(queue);
+    return NULL;
+}
+
+static void draining_ends_with_the_last_request(void **state)
+{
+    (void)state;
+    struct task task = task_of(1);
+    pthread_t thread;
+    struct queue *queue = queue_create(1);
+    assert_true(queue_put(queue, &task));
+    takes(queue, &task, 0);
+    assert_int_equal(pthread_create(&thread, NULL, done_later, queue), 0);
+    /* within seconds of a minute: it is woken */
+    double start = clock_now();
+    assert_true(queue_drain(queue, 60.0));
+    assert_true(clock_now() - start < 30.0);
+    pthread_join(thread, NULL);
+    queue_free(queue);
+}
+
+enum { WORKERS = 4, TASKS = 500, MOST_REQUESTS = 7 };
+
+struct crowd {
+    struct queue *queue;
+    struct task tasks[TASKS];
+    atomic_int taken[TASKS][MOST_REQUESTS];
+};
+
+static void *take_all(void *argument)
+{
+    struct crowd *crowd = argument;
+    struct task *task;
+    size_t index;
+    while ((task = queue_take(crowd->queue, &index))) {
+        atomic_fetch_add(&crowd->taken[task - crowd->tasks][index], 1);
+        queue_done(crowd->queue);
+    }
+    return NULL;
+}
+
+static void threads_take_every_request_once(void **state)
+{
+    (void)state;
+    static struct crowd crowd;
+    pthread_t threads[WORKERS];
+    crowd.queue = queue_create(8);
+    for (int i = 0; i < WORKERS; i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, take_all, &crowd), 0);
+    for (size_t i = 0; i < TASKS; i++) {
+        crowd.tasks[i] = task_of(1 + i % MOST_REQUESTS);
+        while (!queue_put(crowd.queue, &crowd.tasks[i]))
+            sched_yield();
+    }
+    assert_true(queue_drain(crowd.queue, 60.0));
+    queue_close(crowd.queue); /* wakes those that wait for more */
+    for (int i = 0; i < WORKERS; i++)
+        pthread_join(threads[i], NULL);
+    for (size_t i = 0; i < TASKS; i++) {
+        for (size_t j = 0; j < MOST_REQUESTS; j++)
+            assert_int_equal(atomic_load(&crowd.taken[i][j]), j < crowd.tasks[i].count);
+    }
+    queue_free(crowd.queue);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hands_out_in_order_and_refuses_when_full),
+        cmocka_unit_test(a_batch_lets_others_in_between),
+        cmocka_unit_test(a_closed_queue_gives_what_it_has),
+        cmocka_unit_test(is_drained_when_all_is_done),
+        cmocka_unit_test(draining_ends_with_the_last_request),
+        cmocka_unit_test(threads_take_every_request_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
