@@ -36,12 +36,38 @@ struct key_node *key_map_find(const struct key_map *map, struct digest key)
     return node;
 }
 
-void key_map_insert(struct key_map *map, struct key_node *node)
+static void link_in(struct key_map *map, struct key_node *node)
 {
     struct key_node **head = bucket(map, node->key);
     node->next = *head;
     *head = node;
     map->count++;
+}
+
+/* Twice the buckets; without memory for them the chains just get longer. */
+static void grow(struct key_map *map)
+{
+    size_t count = 2 * (map->mask + 1);
+    struct key_map larger = {.buckets = calloc(count, sizeof(struct key_node *)),
+                             .mask = count - 1};
+    if (!larger.buckets)
+        return;
+    for (size_t i = 0; i <= map->mask; i++) {
+        struct key_node *next;
+        for (struct key_node *node = map->buckets[i]; node; node = next) {
+            next = node->next;
+            link_in(&larger, node);
+        }
+    }
+    free(map->buckets);
+    *map = larger;
+}
+
+void key_map_insert(struct key_map *map, struct key_node *node)
+{
+    if (map->count > map->mask)
+        grow(map);
+    link_in(map, node);
 }
 
 void key_map_remove(struct key_map *map, struct key_node *node)

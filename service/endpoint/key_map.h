@@ -24,7 +24,7 @@ struct key_map {
     size_t mask, count;
 };
 
-/* Room for about `expected` nodes at full speed; more only make it slower. False: out of memory. */
+/* Room for about `expected` nodes; with more it grows. False: out of memory. */
 bool key_map_create(struct key_map *map, size_t expected);
 void key_map_release(struct key_map *map);
 
