@@ -142,6 +142,8 @@ void percuss_client_free(struct percuss_client *client)
     if (client->participant > 0)
         dds_delete(client->participant);
     pending_clear(&client->pending);
+    for (int i = 0; i < CLIENT_TAKE_AT_ONCE; ++i)
+        dds_sample_free(&client->taken[i], &percuss_v1_Reply_desc, DDS_FREE_CONTENTS);
     pthread_cond_destroy(&client->changed);
     pthread_mutex_destroy(&client->lock);
     free(client);

@@ -11,6 +11,8 @@
 #include "pending.h"
 #include "wire.h"
 
+enum { CLIENT_TAKE_AT_ONCE = 4 };
+
 struct percuss_client {
     /* constant once created */
     uint8_t id[16];
@@ -23,6 +25,8 @@ struct percuss_client {
     pthread_mutex_t lock; /* guards everything below */
     pthread_cond_t changed;
     bool leading; /* a thread is in the waitset, see receive.h */
+    /* Replies as they came, the leader's: kept, so that their lists need no memory each time. */
+    percuss_v1_Reply taken[CLIENT_TAKE_AT_ONCE];
     bool connected;
     uint8_t server[16]; /* who answered the ping of percuss_client_connect */
     uint64_t next_sequence;

@@ -12,8 +12,6 @@
 #include "convert.h"
 #include "error.h"
 
-/* Cyclone zeroes what it lent after every use, however little was taken: 2 KiB each. */
-enum { TAKE_AT_ONCE = 4 };
 static const double longest_wait = 1e6; /* s; so that infinity fits nanoseconds and a timespec */
 
 double receive_now(void)
@@ -50,18 +48,16 @@ static void file_reply(struct percuss_client *client, struct percuss_reply *repl
     percuss_reply_free(reply);
 }
 
-static void take_reply(struct percuss_client *client, const void *sample)
+static void take_reply(struct percuss_client *client, const percuss_v1_Reply *wire)
 {
-    const percuss_v1_Reply *wire = sample;
     struct percuss_reply reply;
     enum percuss_result result = convert_reply(wire, &reply);
     reply.sequence = wire->sequence;
     file_reply(client, &reply, result);
 }
 
-static void take_batch_reply(struct percuss_client *client, const void *sample)
+static void take_batch_reply(struct percuss_client *client, const percuss_v1_BatchReply *wire)
 {
-    const percuss_v1_BatchReply *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = pending_find(&client->pending, wire->sequence);
     if (pending && !pending->ready && pending->batch) {
@@ -72,21 +68,39 @@ static void take_batch_reply(struct percuss_client *client, const void *sample)
     pthread_mutex_unlock(&client->lock);
 }
 
-/* Takes everything that a reader holds. */
+static bool take_replies(struct percuss_client *client, dds_entity_t reader, dds_return_t *count)
+{
+    void *samples[CLIENT_TAKE_AT_ONCE];
+    dds_sample_info_t infos[CLIENT_TAKE_AT_ONCE];
+    for (int i = 0; i < CLIENT_TAKE_AT_ONCE; ++i)
+        samples[i] = &client->taken[i];
+    *count = dds_take(reader, samples, infos, CLIENT_TAKE_AT_ONCE, CLIENT_TAKE_AT_ONCE);
+    for (dds_return_t i = 0; i < *count; ++i)
+        if (infos[i].valid_data)
+            take_reply(client, &client->taken[i]);
+    return *count == CLIENT_TAKE_AT_ONCE;
+}
+
+static bool take_batch_part(struct percuss_client *client, dds_entity_t reader, dds_return_t *count)
+{
+    void *sample[1] = {NULL}; // NULL: lent by the reader
+    dds_sample_info_t info;
+    *count = dds_take(reader, sample, &info, 1, 1);
+    if (*count == 1 && info.valid_data)
+        take_batch_reply(client, sample[0]);
+    if (*count == 1)
+        dds_return_loan(reader, sample, 1);
+    return *count == 1;
+}
+
+/* Takes everything that a reader holds; `take` takes some and tells whether more may be left. */
 static enum percuss_result take_all(struct percuss_client *client, dds_entity_t reader,
-                                    void (*take)(struct percuss_client *, const void *))
+                                    bool (*take)(struct percuss_client *, dds_entity_t,
+                                                 dds_return_t *))
 {
     dds_return_t count;
-    do {
-        void *samples[TAKE_AT_ONCE] = {NULL}; // NULL: lent by the reader
-        dds_sample_info_t infos[TAKE_AT_ONCE];
-        count = dds_take(reader, samples, infos, TAKE_AT_ONCE, TAKE_AT_ONCE);
-        for (dds_return_t i = 0; i < count; ++i)
-            if (infos[i].valid_data)
-                take(client, samples[i]);
-        if (count > 0)
-            dds_return_loan(reader, samples, count);
-    } while (count == TAKE_AT_ONCE);
+    while (take(client, reader, &count))
+        continue;
     return count < 0 ? error_dds("taking replies", count) : PERCUSS_RESULT_OK;
 }
 
@@ -103,9 +117,9 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
     if (triggered < 0)
         result = error_dds("waiting for replies", triggered);
     if (triggered > 0)
-        result = take_all(client, client->reply_reader, take_reply);
+        result = take_all(client, client->reply_reader, take_replies);
     if (triggered > 0 && result == PERCUSS_RESULT_OK && batch_reader)
-        result = take_all(client, batch_reader, take_batch_reply);
+        result = take_all(client, batch_reader, take_batch_part);
 
     pthread_mutex_lock(&client->lock);
     client->leading = false;
