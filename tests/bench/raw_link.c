@@ -9,8 +9,9 @@
 #include "samples.h"
 #include "wire.h"
 
-/* Serialised before the octets of data: representation header, `wanted`, their number. */
-enum { HEAD_BYTES = 12, MOST_BYTES = 1 << 20 };
+/* Serialised before the octets of data: representation header, `wanted` with padding, `busy`, their
+ * number. */
+enum { HEAD_BYTES = 24, MOST_BYTES = 1 << 20 };
 
 static const double patience = 20.0; /* s */
 
@@ -55,35 +56,45 @@ void raw_link_close(struct raw_link *link)
     free(link);
 }
 
-static bool send(struct raw_link *link, size_t bytes, size_t wanted)
+/* What a sample asks for. */
+struct errand {
+    size_t wanted; /* octets of the answer, serialised */
+    double busy;   /* s */
+};
+
+static bool send(struct raw_link *link, size_t bytes, struct errand errand)
 {
     size_t most = bytes < MOST_BYTES ? bytes : MOST_BYTES;
     uint32_t count = most > HEAD_BYTES ? (uint32_t)(most - HEAD_BYTES) : 0;
     bench_Payload payload = {
-        .wanted = (uint32_t)wanted,
+        .wanted = (uint32_t)errand.wanted,
+        .busy = errand.busy,
         .data = {._buffer = link->data, ._length = count, ._maximum = count},
     };
     return dds_write(link->writer, &payload) == DDS_RETCODE_OK;
 }
 
-/* Takes one sample if there is one; true: it had data, and `wanted` is what it asks for. */
-static bool take(struct raw_link *link, size_t *wanted)
+/* Takes one sample if there is one; true: it had data. */
+static bool take(struct raw_link *link, struct errand *errand)
 {
     void *sample[1] = {NULL};
     dds_sample_info_t info;
     dds_return_t count = dds_take(link->reader, sample, &info, 1, 1);
     bool valid = count == 1 && info.valid_data;
-    if (valid)
-        *wanted = ((const bench_Payload *)sample[0])->wanted;
+    if (valid) {
+        const bench_Payload *payload = sample[0];
+        *errand = (struct errand){payload->wanted, payload->busy};
+    }
     if (count == 1)
         dds_return_loan(link->reader, sample, 1);
     return valid;
 }
 
-static bool receive(struct raw_link *link, double seconds, size_t *wanted)
+static bool receive(struct raw_link *link, double seconds)
 {
+    struct errand errand;
     double end = samples_now() + seconds;
-    while (!take(link, wanted)) {
+    while (!take(link, &errand)) {
         double left = end - samples_now();
         if (left <= 0.0)
             return false;
@@ -96,11 +107,10 @@ struct raw_link *raw_link_open(uint32_t domain)
 {
     struct raw_link *link = create(domain, "bench/Ping", "bench/Pong");
     double end = samples_now() + patience;
-    size_t wanted;
     /* until both directions are matched */
     while (link && samples_now() < end) {
-        if (send(link, 0, 0) && receive(link, 0.05, &wanted)) {
-            while (receive(link, 0.05, &wanted))
+        if (send(link, 0, (struct errand){0}) && receive(link, 0.05)) {
+            while (receive(link, 0.05))
                 continue;
             return link;
         }
@@ -109,21 +119,23 @@ struct raw_link *raw_link_open(uint32_t domain)
     return NULL;
 }
 
-double raw_link_trip(struct raw_link *link, size_t request, size_t reply)
+double raw_link_trip(struct raw_link *link, size_t request, size_t reply, double busy)
 {
-    size_t wanted;
     double start = samples_now();
-    bool answered = send(link, request, reply) && receive(link, patience, &wanted);
+    bool answered = send(link, request, (struct errand){reply, busy}) && receive(link, patience);
     return answered ? samples_now() - start : -1.0;
 }
 
 void raw_echo(uint32_t domain)
 {
     struct raw_link *link = create(domain, "bench/Pong", "bench/Ping");
-    size_t wanted;
+    struct errand errand;
     while (link && dds_waitset_wait(link->waitset, NULL, 0, DDS_INFINITY) >= 0) {
-        while (take(link, &wanted))
-            send(link, wanted, 0);
+        while (take(link, &errand)) {
+            for (double end = samples_now() + errand.busy; samples_now() < end;)
+                continue;
+            send(link, errand.wanted, (struct errand){0});
+        }
     }
     raw_link_close(link);
 }

@@ -17,8 +17,9 @@ struct raw_link *raw_link_open(uint32_t domain);
 void raw_link_close(struct raw_link *link);
 
 /* Seconds of a round trip of samples that take `request` and `reply` octets serialised, what DDS
- * puts before the data included. Negative: no answer. */
-double raw_link_trip(struct raw_link *link, size_t request, size_t reply);
+ * puts before the data included; the other end keeps its processor busy for `busy` seconds before
+ * it answers. Negative: no answer. */
+double raw_link_trip(struct raw_link *link, size_t request, size_t reply, double busy);
 
 /* The other process: answers until it is ended by a signal. Returns only if DDS fails. */
 void raw_echo(uint32_t domain);
