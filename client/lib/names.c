@@ -12,6 +12,11 @@ static const char *name_of(const char *const *names, size_t count, unsigned numb
     return number < count ? names[number] : "?";
 }
 
+const char *percuss_version(void)
+{
+    return PERCUSS_VERSION;
+}
+
 const char *percuss_result_text(enum percuss_result result)
 {
     static const char *const names[] = {PERCUSS_RESULT_LIST(NAME_TEXT)};

@@ -31,6 +31,9 @@ enum percuss_result { PERCUSS_RESULT_LIST(PERCUSS_RESULT_MEMBER) PERCUSS_RESULT_
 extern "C" {
 #endif
 
+/* The version of the library, "major.minor.patch". */
+PERCUSS_API const char *percuss_version(void);
+
 /* A few words for the result, never NULL. */
 PERCUSS_API const char *percuss_result_text(enum percuss_result result);
 
