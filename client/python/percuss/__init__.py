@@ -1,0 +1,108 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""Ask a percussd what an impact does.
+
+    import percuss
+
+    with percuss.connect() as client:
+        bodies = client.bodies()
+        question = percuss.contact_pair(bodies["steel-sphere"], bodies["al-beam"], speed=0.3)
+        reply = client.solve(question).raise_for_status()
+        print(reply.contacts[0].restitution, reply.contacts[0].sub_impacts["impulse"])
+
+SI units throughout. A call that fails raises a CallError; a refusal by the server is an answer whose
+status and message say why. No compiled part: it loads libpercuss, from PERCUSS_LIBRARY if that is set,
+else where the system's loader looks, else from a build folder of the source tree that it lies in.
+"""
+
+from ._library import VERSION as __version__
+from .client import Client, connect
+from .errors import (
+    AnswerTimeout,
+    CallError,
+    Incompatible,
+    InvalidArgument,
+    NoServer,
+    PercussError,
+    Refused,
+    TransportError,
+    UnknownSequence,
+    WindowFull,
+)
+from .reply import (
+    SUB_IMPACT,
+    BodyEnergy,
+    BodyModel,
+    BodyState,
+    BodyVelocity,
+    ContactResult,
+    Energy,
+    ErrorEstimate,
+    Model,
+    Reply,
+    Timing,
+)
+from .request import BodyMotion, Contact, Options, Request
+from .server import Body, Server, contact_pair
+from .vocabulary import (
+    MAX_BATCH,
+    MAX_BODIES,
+    MAX_CONTACTS,
+    MAX_SUB_IMPACTS,
+    Compliance,
+    ContactModel,
+    DelassusSource,
+    Dents,
+    EndReason,
+    Method,
+    Result,
+    Status,
+    Support,
+)
+
+__all__ = [
+    "MAX_BATCH",
+    "MAX_BODIES",
+    "MAX_CONTACTS",
+    "MAX_SUB_IMPACTS",
+    "SUB_IMPACT",
+    "AnswerTimeout",
+    "Body",
+    "BodyEnergy",
+    "BodyModel",
+    "BodyMotion",
+    "BodyState",
+    "BodyVelocity",
+    "CallError",
+    "Client",
+    "Compliance",
+    "Contact",
+    "ContactModel",
+    "ContactResult",
+    "DelassusSource",
+    "Dents",
+    "EndReason",
+    "Energy",
+    "ErrorEstimate",
+    "Incompatible",
+    "InvalidArgument",
+    "Method",
+    "Model",
+    "NoServer",
+    "Options",
+    "PercussError",
+    "Refused",
+    "Reply",
+    "Request",
+    "Result",
+    "Server",
+    "Status",
+    "Support",
+    "Timing",
+    "TransportError",
+    "UnknownSequence",
+    "WindowFull",
+    "__version__",
+    "connect",
+    "contact_pair",
+]

@@ -1,0 +1,298 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""The structs and functions of <percuss/percuss.h>; tests/test_abi.py compares them with the compiler's."""
+
+import ctypes
+from ctypes import POINTER, c_bool, c_char, c_char_p, c_double, c_int, c_size_t
+from ctypes import c_uint, c_uint8, c_uint32, c_uint64, c_void_p
+from typing import Any
+
+from ._library import load
+from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS
+
+_Id = c_char * ID_SIZE
+_Octets = c_uint8 * 16
+_Vector = c_double * 3
+
+
+class ClientConfig(ctypes.Structure):
+    _fields_ = [("domain", c_uint32), ("id", _Octets), ("first_sequence", c_uint64), ("window", c_uint)]
+
+
+class BodyMotion(ctypes.Structure):
+    _fields_ = [
+        ("id", _Id),
+        ("position", _Vector),
+        ("orientation", c_double * 4),
+        ("velocity", _Vector),
+        ("angular_velocity", _Vector),
+        ("state", _Id),
+        ("elapsed", c_double),
+        ("specimen", _Id),
+    ]
+
+
+class Contact(ctypes.Structure):
+    _fields_ = [
+        ("a", c_uint32),
+        ("b", c_uint32),
+        ("point", _Vector),
+        ("normal", _Vector),
+        ("gap", c_double),
+        ("gap_acceleration", c_double),
+    ]
+
+
+class Options(ctypes.Structure):
+    _fields_ = [
+        ("tolerance", c_double),
+        ("horizon", c_double),
+        ("contact_model", c_uint),
+        ("method", c_uint),
+        ("compliance", c_uint),
+        ("dents", c_uint),
+        ("conditioning", c_bool),
+        ("trace", c_bool),
+        ("deadline", c_double),
+    ]
+
+
+class Request(ctypes.Structure):
+    _fields_ = [
+        ("sequence", c_uint64),
+        ("body_count", c_size_t),
+        ("contact_count", c_size_t),
+        ("bodies", BodyMotion * MAX_BODIES),
+        ("contacts", Contact * MAX_CONTACTS),
+        ("delassus", POINTER(c_double)),
+        ("options", Options),
+    ]
+
+
+class SubImpact(ctypes.Structure):
+    _fields_ = [
+        ("start", c_double),
+        ("compression_end", c_double),
+        ("end", c_double),
+        ("impulse", c_double),
+        ("compression_impulse", c_double),
+        ("peak_force", c_double),
+        ("max_indentation", c_double),
+        ("gap_rate_before", c_double),
+        ("gap_rate_after", c_double),
+        ("negligible", c_bool),
+    ]
+
+
+class ContactResult(ctypes.Structure):
+    _fields_ = [
+        ("impulse", c_double),
+        ("impulse_vector", _Vector),
+        ("impulse_compression", c_double),
+        ("restitution", c_double),
+        ("inverse_effective_mass", c_double),
+        ("end_time", c_double),
+        ("sub_impact_count", c_uint32),
+        ("sub_impacts_listed", c_uint32),
+        ("sub_impacts", POINTER(SubImpact)),
+    ]
+
+
+class BodyVelocity(ctypes.Structure):
+    _fields_ = [("id", _Id), ("velocity", _Vector), ("angular_velocity", _Vector)]
+
+
+class BodyState(ctypes.Structure):
+    _fields_ = [("id", _Id), ("state", _Id)]
+
+
+class BodyEnergy(ctypes.Structure):
+    _fields_ = [("id", _Id), ("energy", c_double)]
+
+
+class Energy(ctypes.Structure):
+    _fields_ = [
+        ("available", c_double),
+        ("rigid_after", c_double),
+        ("vibration_count", c_size_t),
+        ("vibration", POINTER(BodyEnergy)),
+        ("damping", c_double),
+        ("plastic", c_double),
+        ("stored", c_double),
+        ("closure", c_double),
+    ]
+
+
+class ErrorEstimate(ctypes.Structure):
+    _fields_ = [
+        ("restitution_time", c_double),
+        ("restitution_modes", c_double),
+        ("impulse_time", c_double),
+        ("impulse_modes", c_double),
+        ("restitution_by_speed", c_double),
+        ("tolerance_met", c_bool),
+    ]
+
+
+class BodyModel(ctypes.Structure):
+    _fields_ = [
+        ("id", _Id),
+        ("modes", c_uint32),
+        ("rigid", c_bool),
+        ("theory", c_char * 32),
+        ("shear_factor", c_double),
+    ]
+
+
+class Model(ctypes.Structure):
+    _fields_ = [
+        ("body_count", c_size_t),
+        ("bodies", POINTER(BodyModel)),
+        ("contact_model", c_uint),
+        ("compliance", c_uint),
+        ("method", c_uint),
+        ("reason", c_char * 512),
+        ("omitted_error", c_double),
+    ]
+
+
+class Timing(ctypes.Structure):
+    _fields_ = [("queue", c_double), ("solve", c_double)]
+
+
+class Reply(ctypes.Structure):
+    _fields_ = [
+        ("client", _Octets),
+        ("sequence", c_uint64),
+        ("server", _Octets),
+        ("catalogue_revision", c_char * 64),
+        ("version", c_char * 32),
+        ("status", c_uint),
+        ("message", c_char * 1024),
+        ("complete", c_bool),
+        ("end_reason", c_uint),
+        ("window", c_double),
+        ("contact_count", c_size_t),
+        ("contacts", POINTER(ContactResult)),
+        ("delassus_source", c_uint),
+        ("velocity_after_count", c_size_t),
+        ("velocity_after", POINTER(BodyVelocity)),
+        ("states_after_count", c_size_t),
+        ("states_after", POINTER(BodyState)),
+        ("energy", Energy),
+        ("error", ErrorEstimate),
+        ("model", Model),
+        ("time_shift", c_double),
+        ("warning_count", c_size_t),
+        ("warnings", POINTER(c_char_p)),
+        ("timing", Timing),
+        ("storage", c_void_p),
+    ]
+
+
+class Body(ctypes.Structure):
+    _fields_ = [
+        ("id", _Id),
+        ("shape", c_char * 32),
+        ("material", _Id),
+        ("mass", c_double),
+        ("description", c_char * 256),
+        ("half_extents", _Vector),
+        ("radius", c_double),
+        ("tip_radius", c_double),
+        ("supports", c_uint * 2),
+    ]
+
+
+class BodyList(ctypes.Structure):
+    _fields_ = [("count", c_size_t), ("bodies", POINTER(Body))]
+
+
+class Server(ctypes.Structure):
+    _fields_ = [
+        ("server", _Octets),
+        ("version", c_char * 32),
+        ("catalogue_revision", c_char * 64),
+        ("catalogue", c_char * 256),
+        ("host", c_char * 64),
+        ("process", c_uint32),
+        ("state", c_char * 32),
+        ("workers", c_uint32),
+        ("bodies", c_uint32),
+        ("queue_length", c_uint32),
+        ("queue_capacity", c_uint32),
+        ("answered", c_uint64),
+        ("refused", c_uint64),
+        ("uptime", c_double),
+        ("activity", c_char * 256),
+        ("progress", c_double),
+    ]
+
+
+class ServerList(ctypes.Structure):
+    _fields_ = [("count", c_size_t), ("servers", POINTER(Server))]
+
+
+class Pair(ctypes.Structure):
+    _fields_ = [
+        ("a", POINTER(Body)),
+        ("b", POINTER(Body)),
+        ("speed", c_double),
+        ("at_a", c_double),
+        ("at_b", c_double),
+    ]
+
+
+# the C struct behind each class
+STRUCTS: dict[str, type[ctypes.Structure]] = {
+    "percuss_client_config": ClientConfig,
+    "percuss_body_motion": BodyMotion,
+    "percuss_contact": Contact,
+    "percuss_options": Options,
+    "percuss_request": Request,
+    "percuss_sub_impact": SubImpact,
+    "percuss_contact_result": ContactResult,
+    "percuss_body_velocity": BodyVelocity,
+    "percuss_body_state": BodyState,
+    "percuss_body_energy": BodyEnergy,
+    "percuss_energy": Energy,
+    "percuss_error_estimate": ErrorEstimate,
+    "percuss_body_model": BodyModel,
+    "percuss_model": Model,
+    "percuss_reply": Reply,
+    "percuss_body": Body,
+    "percuss_body_list": BodyList,
+    "percuss_server": Server,
+    "percuss_server_list": ServerList,
+    "percuss_pair": Pair,
+}
+
+library = load()
+_Client = c_void_p
+
+_FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
+    ("client_create", c_int, [POINTER(ClientConfig), POINTER(_Client)]),
+    ("client_free", None, [_Client]),
+    ("client_connect", c_int, [_Client, c_double]),
+    ("client_id", None, [_Client, _Octets]),
+    ("solve", c_int, [_Client, POINTER(Request), c_double, POINTER(Reply)]),
+    ("submit", c_int, [_Client, POINTER(Request), POINTER(c_uint64)]),
+    ("wait", c_int, [_Client, c_uint64, c_double, POINTER(Reply)]),
+    ("poll", c_int, [_Client, c_uint64, POINTER(Reply)]),
+    ("cancel", c_int, [_Client, c_uint64]),
+    ("solve_batch", c_int, [_Client, POINTER(Request), c_size_t, c_double, POINTER(Reply)]),
+    ("ping", c_int, [_Client, c_double, POINTER(c_double)]),
+    ("servers", c_int, [_Client, c_double, POINTER(ServerList)]),
+    ("bodies", c_int, [_Client, c_double, POINTER(BodyList)]),
+    ("reply_free", None, [POINTER(Reply)]),
+    ("body_list_free", None, [POINTER(BodyList)]),
+    ("server_list_free", None, [POINTER(ServerList)]),
+    ("contact_pair", c_int, [POINTER(Pair), POINTER(Request)]),
+    ("result_text", c_char_p, [c_int]),
+    ("error_text", c_char_p, []),
+)
+for _name, _result, _arguments in _FUNCTIONS:
+    _function = library[f"percuss_{_name}"]
+    _function.restype = _result
+    _function.argtypes = _arguments
+    setattr(library, f"percuss_{_name}", _function)

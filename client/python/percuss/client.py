@@ -1,0 +1,195 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""The client."""
+
+import ctypes
+from collections.abc import Sequence
+from types import TracebackType
+
+from . import _abi, reply, request, server
+from .errors import Incompatible, NoServer, check
+from .reply import Reply
+from .request import Request
+from .server import Body, Server
+from .vocabulary import Result
+
+_library = _abi.library
+
+
+class Client:
+    """A client of the percussd in a DDS domain; `connect` makes one that is connected.
+
+    Timeouts are seconds from the call, >= 0, math.inf allowed; a signal (Ctrl-C) takes effect when the
+    call returns. Methods may be called from several threads at once, except that `close` must be the
+    last; one outstanding request is waited for by one thread. Without CYCLONEDDS_URI in the environment
+    it talks to this machine only.
+    """
+
+    def __init__(
+        self, domain: int = 0, id: bytes | None = None, first_sequence: int = 1, window: int = 256
+    ) -> None:
+        """domain: 0..230. id: 16 octets, not all zero; None: random; a kept one lets a restarted client
+        repeat requests. first_sequence: of the first request, > 0; a kept id goes on where it stopped.
+        window: most outstanding requests, 1..1024."""
+        self._handle = ctypes.c_void_p()
+        if id is not None and (len(id) != 16 or not any(id)):
+            raise ValueError(f"id: {id!r}: 16 octets, not all zero, are allowed")
+        for name, number, most in (
+            ("domain", domain, 230),
+            ("first_sequence", first_sequence, 2**64 - 1),
+            ("window", window, 1024),
+        ):
+            # ctypes would cut off high bits; the library checks the rest
+            if not 0 <= number <= most:
+                raise ValueError(f"{name}: {number}: up to {most} is allowed")
+        octets = (ctypes.c_uint8 * 16)(*(id or bytes(16)))
+        config = _abi.ClientConfig(domain, octets, first_sequence, window)
+        check(_library.percuss_client_create(ctypes.byref(config), ctypes.byref(self._handle)))
+
+    def close(self) -> None:
+        """Forgets what is outstanding and leaves the domain; may be called again."""
+        handle, self._handle = self._handle, ctypes.c_void_p()
+        _library.percuss_client_free(handle)
+
+    def __enter__(self) -> "Client":
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        value: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        # without a handle when __init__ was given something impossible
+        if getattr(self, "_handle", None):
+            self.close()
+
+    @property
+    def _open(self) -> ctypes.c_void_p:
+        if not self._handle:
+            raise ValueError("the client is closed")
+        return self._handle
+
+    @property
+    def id(self) -> bytes:
+        """The client's 16 octets: those configured or drawn."""
+        octets = (ctypes.c_uint8 * 16)()
+        _library.percuss_client_id(self._open, octets)
+        return bytes(octets)
+
+    def connect(self, timeout: float = 3.0) -> None:
+        """Waits until a server answers. NoServer: none within the time; Incompatible: one is there but a
+        quality of service does not fit. To be called again after the server was restarted; what was
+        outstanding is lost then and may be submitted again as it was."""
+        check(_library.percuss_client_connect(self._open, timeout))
+
+    def solve(self, question: Request, timeout: float = 10.0) -> Reply:
+        """Asks and waits. A refusal is an answer: see Reply.status. AnswerTimeout: a late reply is
+        dropped; to repeat a question so that the server answers it once, set its sequence before."""
+        asked = _abi.Request()
+        kept = request.fill(question, asked)
+        answer = _abi.Reply()
+        check(
+            _library.percuss_solve(self._open, ctypes.byref(asked), timeout, ctypes.byref(answer))
+        )
+        del kept
+        return _take(answer)
+
+    def submit(self, question: Request) -> int:
+        """Sends a request and returns its sequence. WindowFull until replies are collected or cancelled.
+        Sending a sequence that is outstanding repeats it."""
+        asked = _abi.Request()
+        kept = request.fill(question, asked)
+        sequence = ctypes.c_uint64()
+        check(
+            _library.percuss_submit(self._open, ctypes.byref(asked), ctypes.byref(sequence))
+        )
+        del kept
+        return sequence.value
+
+    def wait(self, sequence: int = 0, timeout: float = 10.0) -> Reply:
+        """Waits for the reply of that sequence, or with 0 for any (Reply.sequence says which). After
+        AnswerTimeout it stays outstanding. UnknownSequence: never sent, collected, cancelled or waited for
+        by another thread; with 0: nothing is outstanding."""
+        answer = _abi.Reply()
+        check(_library.percuss_wait(self._open, sequence, timeout, ctypes.byref(answer)))
+        return _take(answer)
+
+    def poll(self, sequence: int = 0) -> Reply | None:
+        """As `wait`, without waiting: None if the reply is not there."""
+        answer = _abi.Reply()
+        code: int = _library.percuss_poll(self._open, sequence, ctypes.byref(answer))
+        if code == Result.PENDING:
+            return None
+        check(code)
+        return _take(answer)
+
+    def cancel(self, sequence: int) -> None:
+        """Forgets an outstanding request; its reply is dropped. The server is not told."""
+        check(_library.percuss_cancel(self._open, sequence))
+
+    def solve_batch(self, questions: Sequence[Request], timeout: float = 10.0) -> list[Reply]:
+        """Asks 1..256 questions in one sample and waits for all; replies in the order of the questions,
+        whose sequences are drawn by the client. A batch refused as a whole gives every reply that status.
+        Lists up to 16 sub-impacts a contact."""
+        count = len(questions)
+        asked = (_abi.Request * count)()
+        kept = [request.fill(question, asked[i]) for i, question in enumerate(questions)]
+        answers = (_abi.Reply * count)()
+        check(_library.percuss_solve_batch(self._open, asked, count, timeout, answers))
+        del kept
+        try:
+            return [reply.read(answer) for answer in answers]
+        finally:
+            for answer in answers:
+                _library.percuss_reply_free(ctypes.byref(answer))
+
+    def ping(self, timeout: float = 1.0) -> float:
+        """Sends an empty request and returns the time until it is answered, s."""
+        round_trip = ctypes.c_double()
+        check(_library.percuss_ping(self._open, timeout, ctypes.byref(round_trip)))
+        return round_trip.value
+
+    def servers(self, timeout: float = 3.0) -> list[Server]:
+        """The servers of the domain; need not be connected. Waits until the connected server, or else
+        any, has announced itself."""
+        found = _abi.ServerList()
+        check(_library.percuss_servers(self._open, timeout, ctypes.byref(found)))
+        try:
+            return [server.read_server(one) for one in found.servers[: found.count]]
+        finally:
+            _library.percuss_server_list_free(ctypes.byref(found))
+
+    def bodies(self, timeout: float = 3.0) -> dict[str, Body]:
+        """The catalogue of the connected server by id, sorted."""
+        found = _abi.BodyList()
+        check(_library.percuss_bodies(self._open, timeout, ctypes.byref(found)))
+        try:
+            bodies = [server.read_body(one) for one in found.bodies[: found.count]]
+        finally:
+            _library.percuss_body_list_free(ctypes.byref(found))
+        return {body.id: body for body in bodies}
+
+
+def _take(answer: _abi.Reply) -> Reply:
+    """Copies a C reply and frees it."""
+    try:
+        return reply.read(answer)
+    finally:
+        _library.percuss_reply_free(ctypes.byref(answer))
+
+
+def connect(
+    domain: int = 0, timeout: float = 3.0, id: bytes | None = None, first_sequence: int = 1, window: int = 256
+) -> Client:
+    """A connected client, to be used in a `with` statement; see Client and Client.connect."""
+    client = Client(domain, id, first_sequence, window)
+    try:
+        client.connect(timeout)
+    except (NoServer, Incompatible):
+        client.close()
+        raise
+    return client

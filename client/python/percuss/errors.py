@@ -1,0 +1,78 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""Exceptions: a call that failed, and a request that the server refused."""
+
+from . import _abi
+from .vocabulary import Result, Status
+
+
+class PercussError(Exception):
+    """Whatever this package raises of its own."""
+
+
+class CallError(PercussError):
+    """A call of the library did not succeed; the text names the field, its value and what is allowed."""
+
+    def __init__(self, result: Result, message: str) -> None:
+        super().__init__(message)
+        self.result = result
+
+
+class AnswerTimeout(CallError, TimeoutError):
+    """No answer in time."""
+
+
+class NoServer(CallError, ConnectionError):
+    """No server was found, or the client is not connected."""
+
+
+class Incompatible(CallError, ConnectionError):
+    """A server is there, but of another wire version or configuration."""
+
+
+class InvalidArgument(CallError, ValueError):
+    """An argument that cannot be sent."""
+
+
+class WindowFull(CallError):
+    """Too many outstanding requests."""
+
+
+class UnknownSequence(CallError, LookupError):
+    """Never sent, collected already, cancelled, or waited for by another thread."""
+
+
+class TransportError(CallError):
+    """DDS failed."""
+
+
+class Refused(PercussError):
+    """The server refused the request; raised by Reply.raise_for_status only."""
+
+    def __init__(self, status: Status, message: str) -> None:
+        super().__init__(f"{status.name}: {message}")
+        self.status = status
+
+
+_CLASSES: dict[Result, type[CallError]] = {
+    Result.TIMEOUT: AnswerTimeout,
+    Result.NO_SERVER: NoServer,
+    Result.INCOMPATIBLE: Incompatible,
+    Result.INVALID_ARGUMENT: InvalidArgument,
+    Result.WINDOW_FULL: WindowFull,
+    Result.UNKNOWN_SEQUENCE: UnknownSequence,
+    Result.TRANSPORT: TransportError,
+}
+
+
+def check(code: int) -> None:
+    """Raises the exception of a result other than OK. In the thread of the call, right after it."""
+    result = Result(code)
+    if result == Result.OK:
+        return
+    what: bytes = _abi.library.percuss_result_text(code)
+    why: bytes = _abi.library.percuss_error_text()
+    message = f"{what.decode()}: {why.decode(errors='replace')}"
+    if result == Result.NO_MEMORY:
+        raise MemoryError(message)
+    raise _CLASSES.get(result, CallError)(result, message)

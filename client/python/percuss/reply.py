@@ -1,0 +1,284 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""A reply: impulses, restitution, sub-impacts, and how they were computed.
+
+SI units; undefined numbers are nan.
+"""
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _abi
+from .errors import Refused
+from .request import FloatArray
+from .vocabulary import Compliance, ContactModel, DelassusSource, EndReason, Method, Status
+
+SUB_IMPACT = np.dtype(
+    [
+        ("start", np.float64),
+        ("compression_end", np.float64),
+        ("end", np.float64),
+        ("impulse", np.float64),
+        ("compression_impulse", np.float64),
+        ("peak_force", np.float64),
+        ("max_indentation", np.float64),
+        ("gap_rate_before", np.float64),
+        ("gap_rate_after", np.float64),
+        ("negligible", np.bool_),
+    ],
+    align=True,
+)
+"""A sub-impact: an interval in which the bodies are pressed together.
+
+start, compression_end, end: s from the stated instant. impulse, compression_impulse (up to the largest
+indentation): N s. peak_force: N. max_indentation: m. gap_rate_before, gap_rate_after: m/s. negligible:
+below 1 % of the contact's impulse.
+"""
+
+
+@dataclass(frozen=True)
+class ContactResult:
+    """What happened at one contact."""
+
+    impulse: float
+    """Of all sub-impacts, N s."""
+    impulse_vector: FloatArray
+    """On body a, world, N s."""
+    impulse_compression: float
+    """That stops the rigid approach, N s."""
+    restitution: float
+    """impulse / impulse_compression - 1."""
+    inverse_effective_mass: float
+    """1/kg."""
+    end_time: float
+    """End of the last sub-impact, s."""
+    sub_impact_count: int
+    """Exact, however many are listed."""
+    sub_impacts: NDArray[np.void]
+    """Those listed (at most 256; 16 in a batch), of dtype SUB_IMPACT: sub_impacts["impulse"] is an array."""
+
+
+@dataclass(frozen=True)
+class BodyVelocity:
+    """Velocity of a body after the impact."""
+
+    id: str
+    velocity: FloatArray
+    """Of the centre of mass, world, m/s."""
+    angular_velocity: FloatArray
+    """World, rad/s."""
+
+
+@dataclass(frozen=True)
+class BodyState:
+    """The token that names a body's vibration and dents after the impact; never changes its meaning."""
+
+    id: str
+    state: str
+
+
+@dataclass(frozen=True)
+class BodyEnergy:
+    """The vibration energy of a body, J."""
+
+    id: str
+    energy: float
+
+
+@dataclass(frozen=True)
+class Energy:
+    """The energy balance, J."""
+
+    available: float
+    rigid_after: float
+    vibration: tuple[BodyEnergy, ...]
+    damping: float
+    plastic: float
+    stored: float
+    closure: float
+    """available less all the others: a check of the solution."""
+
+
+@dataclass(frozen=True)
+class ErrorEstimate:
+    """Estimated errors."""
+
+    restitution_time: float
+    """Of the restitution, by the time steps."""
+    restitution_modes: float
+    """Of the restitution, by the modes left out."""
+    impulse_time: float
+    """N s."""
+    impulse_modes: float
+    """N s."""
+    restitution_by_speed: float
+    """d(restitution)/d(speed), s/m; nan unless Options.conditioning asked for it."""
+    tolerance_met: bool
+
+
+@dataclass(frozen=True)
+class BodyModel:
+    """How a body was modelled."""
+
+    id: str
+    modes: int
+    rigid: bool
+    theory: str
+    """rigid, rod, rayleigh-love, timoshenko, euler-bernoulli."""
+    shear_factor: float
+    """nan where there is none."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """How the impact was modelled."""
+
+    bodies: tuple[BodyModel, ...]
+    contact_model: ContactModel
+    compliance: Compliance
+    method: Method
+    reason: str
+    """Why this model."""
+    omitted_error: float
+    """Estimated effect on the restitution of what was left out."""
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Where the server's time went, s."""
+
+    queue: float
+    solve: float
+
+
+@dataclass(frozen=True)
+class Reply:
+    """The server's answer. A refusal is an answer too: see status and message."""
+
+    client: bytes
+    """16 octets."""
+    sequence: int
+    server: bytes
+    """16 octets."""
+    catalogue_revision: str
+    version: str
+    status: Status
+    message: str
+    """Names the field, its value and what is allowed; empty for OK."""
+    complete: bool
+    """False: the restitution is not the final one."""
+    end_reason: EndReason
+    window: float
+    """s; from then on vibration cannot cause a contact."""
+    contacts: tuple[ContactResult, ...]
+    """In the order of the request; empty when it was refused."""
+    delassus_source: DelassusSource
+    velocity_after: tuple[BodyVelocity, ...]
+    """Empty unless the server's own inverse mass matrix was used."""
+    states_after: tuple[BodyState, ...]
+    energy: Energy
+    error: ErrorEstimate
+    model: Model
+    time_shift: float
+    """The touch of a ringing body was found so long after the stated instant, s."""
+    warnings: tuple[str, ...]
+    timing: Timing
+
+    def raise_for_status(self) -> "Reply":
+        """Returns the reply if it holds contacts (OK, TRUNCATED); raises Refused otherwise."""
+        if self.status not in (Status.OK, Status.TRUNCATED):
+            raise Refused(self.status, self.message)
+        return self
+
+
+def text(octets: bytes) -> str:
+    """A string of the library; bytes that are not UTF-8 are shown as such rather than fatal."""
+    return octets.decode(errors="backslashreplace")
+
+
+def _read_contact(source: Any) -> ContactResult:
+    listed: int = source.sub_impacts_listed
+    octets = ctypes.string_at(source.sub_impacts, listed * SUB_IMPACT.itemsize)
+    return ContactResult(
+        source.impulse,
+        np.array(source.impulse_vector),
+        source.impulse_compression,
+        source.restitution,
+        source.inverse_effective_mass,
+        source.end_time,
+        source.sub_impact_count,
+        np.frombuffer(octets, dtype=SUB_IMPACT),
+    )
+
+
+def _read_energy(source: _abi.Energy) -> Energy:
+    return Energy(
+        source.available,
+        source.rigid_after,
+        tuple(
+            BodyEnergy(text(body.id), body.energy)
+            for body in source.vibration[: source.vibration_count]
+        ),
+        source.damping,
+        source.plastic,
+        source.stored,
+        source.closure,
+    )
+
+
+def _read_model(source: _abi.Model) -> Model:
+    return Model(
+        tuple(
+            BodyModel(text(body.id), body.modes, body.rigid, text(body.theory), body.shear_factor)
+            for body in source.bodies[: source.body_count]
+        ),
+        ContactModel(source.contact_model),
+        Compliance(source.compliance),
+        Method(source.method),
+        text(source.reason),
+        source.omitted_error,
+    )
+
+
+def read(source: _abi.Reply) -> Reply:
+    """Copies a C reply; nothing of it is kept."""
+    error = source.error
+    return Reply(
+        bytes(source.client),
+        source.sequence,
+        bytes(source.server),
+        text(source.catalogue_revision),
+        text(source.version),
+        Status(source.status),
+        text(source.message),
+        source.complete,
+        EndReason(source.end_reason),
+        source.window,
+        tuple(_read_contact(contact) for contact in source.contacts[: source.contact_count]),
+        DelassusSource(source.delassus_source),
+        tuple(
+            BodyVelocity(text(body.id), np.array(body.velocity), np.array(body.angular_velocity))
+            for body in source.velocity_after[: source.velocity_after_count]
+        ),
+        tuple(
+            BodyState(text(body.id), text(body.state))
+            for body in source.states_after[: source.states_after_count]
+        ),
+        _read_energy(source.energy),
+        ErrorEstimate(
+            error.restitution_time,
+            error.restitution_modes,
+            error.impulse_time,
+            error.impulse_modes,
+            error.restitution_by_speed,
+            error.tolerance_met,
+        ),
+        _read_model(source.model),
+        source.time_shift,
+        tuple(text(warning) for warning in source.warnings[: source.warning_count]),
+        Timing(source.timing.queue, source.timing.solve),
+    )

@@ -1,0 +1,234 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""A request: which bodies touch where.
+
+SI units. Quaternions are (w, x, y, z), world = R(q) body; body frame: origin in the centre of mass, rods
+and beams along x. Vectors may be given as anything that numpy makes an array of.
+"""
+
+import ctypes
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _abi
+from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS, Compliance, ContactModel, Dents, Method
+
+FloatArray: TypeAlias = NDArray[np.float64]
+
+
+class _Vector:
+    """A dataclass field that is a float array of fixed length, whatever was assigned to it."""
+
+    def __init__(self, *default: float) -> None:
+        self._default = default
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> tuple[float, ...]: ...
+
+    @overload
+    def __get__(self, instance: object, owner: type) -> FloatArray: ...
+
+    def __get__(self, instance: object | None, owner: type) -> FloatArray | tuple[float, ...]:
+        if instance is None:  # dataclass asks the class for the default
+            return self._default
+        vector: FloatArray = instance.__dict__[self._name]
+        return vector
+
+    def __set__(self, instance: object, value: ArrayLike) -> None:
+        vector = np.array(value, dtype=np.float64)
+        if vector.shape != (len(self._default),):
+            raise ValueError(f"{self._name}: shape {vector.shape}: {len(self._default)} numbers are allowed")
+        instance.__dict__[self._name] = vector
+
+
+@dataclass
+class BodyMotion:
+    """One body at the stated instant."""
+
+    id: str
+    """Its name in the server's catalogue, up to 63 bytes."""
+    position: _Vector = _Vector(0.0, 0.0, 0.0)
+    """Of the centre of mass, world, m."""
+    orientation: _Vector = _Vector(1.0, 0.0, 0.0, 0.0)
+    """Unit quaternion (w, x, y, z), world = R(q) body."""
+    velocity: _Vector = _Vector(0.0, 0.0, 0.0)
+    """Of the centre of mass, world, m/s."""
+    angular_velocity: _Vector = _Vector(0.0, 0.0, 0.0)
+    """World, rad/s."""
+    state: str = ""
+    """Token of an earlier reply (Reply.states_after); empty: at rest, without dents."""
+    elapsed: float = 0.0
+    """s since that state."""
+    specimen: str = ""
+    """Name of a durable object on a rig; empty: none."""
+
+
+@dataclass
+class Contact:
+    """A contact of bodies[a] on bodies[b]."""
+
+    a: int
+    b: int
+    point: _Vector = _Vector(0.0, 0.0, 0.0)
+    """World, m."""
+    normal: _Vector = _Vector(0.0, 0.0, 0.0)
+    """World, unit, from b to a."""
+    gap: float = 0.0
+    """m; negative: the bodies overlap already."""
+    gap_acceleration: float = 0.0
+    """n.(a_A - a_B), m/s^2; negative presses."""
+
+
+@dataclass
+class Options:
+    """What to compute, and how well; 0 selects a default."""
+
+    tolerance: float = 0.0
+    """On the restitution; 0: 1e-3."""
+    horizon: float = 0.0
+    """s; 0: the longer of 20 ms and two longest periods."""
+    contact_model: ContactModel = ContactModel.AUTO
+    method: Method = Method.MODAL
+    compliance: Compliance = Compliance.DEFAULT
+    dents: Dents = Dents.KEEP
+    conditioning: bool = False
+    """Also report d(restitution)/d(speed)."""
+    trace: bool = False
+    """The server also writes the force history on topic percuss/v1/Trace."""
+    deadline: float = 0.0
+    """s from arrival until the server gives up; 0: none."""
+
+
+@dataclass
+class Request:
+    """Up to 64 bodies and 64 contacts at one instant."""
+
+    bodies: list[BodyMotion] = field(default_factory=list)
+    contacts: list[Contact] = field(default_factory=list)
+    delassus: ArrayLike | None = None
+    """The caller's w^T M^-1 w, contacts x contacts, 1/kg; None: the server computes its own."""
+    options: Options = field(default_factory=Options)
+    sequence: int = 0
+    """0: the client counts. Set it to repeat a request after a time-out."""
+
+
+def _text(field_name: str, text: str) -> bytes:
+    octets = text.encode()
+    if len(octets) >= ID_SIZE or b"\0" in octets:
+        raise ValueError(f"{field_name}: {text!r}: up to {ID_SIZE - 1} bytes without zeros are allowed")
+    return octets
+
+
+def _vector(values: FloatArray) -> tuple[float, ...]:
+    return tuple(values.tolist())
+
+
+def _fill_bodies(bodies: Sequence[BodyMotion], target: Any) -> None:
+    for i, body in enumerate(bodies):
+        target[i] = _abi.BodyMotion(
+            _text(f"bodies[{i}].id", body.id),
+            _vector(body.position),
+            _vector(body.orientation),
+            _vector(body.velocity),
+            _vector(body.angular_velocity),
+            _text(f"bodies[{i}].state", body.state),
+            body.elapsed,
+            _text(f"bodies[{i}].specimen", body.specimen),
+        )
+
+
+def _index(field_name: str, index: int) -> int:
+    # ctypes would take it modulo 2^32
+    if not 0 <= index < MAX_BODIES:
+        raise ValueError(f"{field_name}: {index}: 0..{MAX_BODIES - 1} is allowed")
+    return index
+
+
+def _fill_contacts(contacts: Sequence[Contact], target: Any) -> None:
+    for i, contact in enumerate(contacts):
+        target[i] = _abi.Contact(
+            _index(f"contacts[{i}].a", contact.a),
+            _index(f"contacts[{i}].b", contact.b),
+            _vector(contact.point),
+            _vector(contact.normal),
+            contact.gap,
+            contact.gap_acceleration,
+        )
+
+
+def _check_count(field_name: str, count: int, most: int) -> None:
+    if count > most:
+        raise ValueError(f"{field_name}: {count} are too many; up to {most} are allowed")
+
+
+def _delassus(request: Request) -> FloatArray | None:
+    if request.delassus is None:
+        return None
+    n = len(request.contacts)
+    matrix = np.ascontiguousarray(request.delassus, dtype=np.float64)
+    if matrix.size != n * n or (matrix.ndim > 0 and matrix.shape != (n, n)):
+        raise ValueError(f"delassus: shape {matrix.shape}: ({n}, {n}), contacts x contacts, is allowed")
+    return matrix
+
+
+def fill(request: Request, target: _abi.Request) -> object:
+    """Writes the request into the C struct. The result must live as long as `target` is used."""
+    _check_count("bodies", len(request.bodies), MAX_BODIES)
+    _check_count("contacts", len(request.contacts), MAX_CONTACTS)
+    if not 0 <= request.sequence < 2**64:
+        raise ValueError(f"sequence: {request.sequence}: 0..2^64-1 is allowed")
+    matrix = _delassus(request)
+    target.sequence = request.sequence
+    target.body_count = len(request.bodies)
+    target.contact_count = len(request.contacts)
+    _fill_bodies(request.bodies, target.bodies)
+    _fill_contacts(request.contacts, target.contacts)
+    if matrix is not None:
+        target.delassus = matrix.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+    chosen = request.options
+    target.options = _abi.Options(
+        chosen.tolerance,
+        chosen.horizon,
+        chosen.contact_model,
+        chosen.method,
+        chosen.compliance,
+        chosen.dents,
+        chosen.conditioning,
+        chosen.trace,
+        chosen.deadline,
+    )
+    return matrix
+
+
+def _read_body(body: Any) -> BodyMotion:
+    return BodyMotion(
+        body.id.decode(),
+        body.position,
+        body.orientation,
+        body.velocity,
+        body.angular_velocity,
+        body.state.decode(),
+        body.elapsed,
+        body.specimen.decode(),
+    )
+
+
+def _read_contact(contact: Any) -> Contact:
+    return Contact(
+        contact.a, contact.b, contact.point, contact.normal, contact.gap, contact.gap_acceleration
+    )
+
+
+def read_scene(source: _abi.Request) -> Request:
+    """The bodies and contacts of a C struct, with default options."""
+    return Request(
+        [_read_body(body) for body in source.bodies[: source.body_count]],
+        [_read_contact(contact) for contact in source.contacts[: source.contact_count]],
+    )

@@ -1,0 +1,133 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a server announces of itself and its catalogue, and the placing of two of its bodies."""
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import _abi
+from .errors import check
+from .reply import text
+from .request import FloatArray, Request, read_scene
+from .vocabulary import Support
+
+
+@dataclass(frozen=True)
+class Body:
+    """A body of the catalogue."""
+
+    id: str
+    shape: str
+    """sphere, rod, beam, cylinder, block, half-space."""
+    material: str
+    mass: float
+    """kg; inf: half-space."""
+    description: str
+    """Dimensions, theory and ends in words."""
+    half_extents: FloatArray
+    """Half the size along the body's x, y, z, m; half-space: 0."""
+    radius: float
+    """Sphere, rod, round beam, cylinder, m; 0: none."""
+    tip_radius: float
+    """Of a rod's ends, m; inf: flat; other shapes: 0."""
+    supports: tuple[Support, Support]
+    """Of a rod or beam at its ends at -x and +x."""
+
+
+@dataclass(frozen=True)
+class Server:
+    """A server of the domain."""
+
+    server: bytes
+    """16 octets."""
+    version: str
+    catalogue_revision: str
+    catalogue: str
+    """File."""
+    host: str
+    process: int
+    state: str
+    """ready, draining."""
+    workers: int
+    bodies: int
+    queue_length: int
+    queue_capacity: int
+    answered: int
+    refused: int
+    uptime: float
+    """s."""
+    activity: str
+    """What a long computation is doing."""
+    progress: float
+    """0..1; nan: nothing is running."""
+
+
+def read_body(source: Any) -> Body:
+    """Copies a C body."""
+    first, second = source.supports
+    return Body(
+        text(source.id),
+        text(source.shape),
+        text(source.material),
+        source.mass,
+        text(source.description),
+        np.array(source.half_extents),
+        source.radius,
+        source.tip_radius,
+        (Support(first), Support(second)),
+    )
+
+
+def read_server(source: Any) -> Server:
+    """Copies a C server."""
+    return Server(
+        bytes(source.server),
+        text(source.version),
+        text(source.catalogue_revision),
+        text(source.catalogue),
+        text(source.host),
+        source.process,
+        text(source.state),
+        source.workers,
+        source.bodies,
+        source.queue_length,
+        source.queue_capacity,
+        source.answered,
+        source.refused,
+        source.uptime,
+        text(source.activity),
+        source.progress,
+    )
+
+
+def _write_body(body: Body) -> _abi.Body:
+    return _abi.Body(
+        body.id.encode(),
+        body.shape.encode(),
+        body.material.encode(),
+        body.mass,
+        body.description.encode(),
+        tuple(body.half_extents.tolist()),
+        body.radius,
+        body.tip_radius,
+        body.supports,
+    )
+
+
+def contact_pair(a: Body, b: Body, speed: float, at_a: float = 0.5, at_b: float = 0.5) -> Request:
+    """A request in which two bodies touch at their default sites; a moves with `speed` (m/s, > 0)
+    straight at b, and all else is at rest. at_a, at_b: where along a beam its site is, 0 (end at -x)
+    to 1 (end at +x).
+
+    Default sites: sphere and block: top (+z); half-space: origin; cylinder: end at +x; rod: end at +x if
+    that is free, else at -x; beam: +z side. b stands unrotated at the origin, the normal is the outward
+    one of its site. InvalidArgument for a shape that cannot be placed, or a number out of range.
+    """
+    first, second = _write_body(a), _write_body(b)
+    pair = _abi.Pair(ctypes.pointer(first), ctypes.pointer(second), speed, at_a, at_b)
+    request = _abi.Request()
+    check(_abi.library.percuss_contact_pair(ctypes.byref(pair), ctypes.byref(request)))
+    return read_scene(request)

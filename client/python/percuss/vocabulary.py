@@ -1,0 +1,125 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""The numbered choices of the wire. Numbers are those of the IDL and of <percuss/vocabulary.h>."""
+
+from enum import IntEnum
+from typing import TypeVar
+
+_Choice = TypeVar("_Choice", bound="Choice")
+
+
+class Choice(IntEnum):
+    """A number with a name; one that a newer server sends gets the name UNKNOWN_<number>."""
+
+    @classmethod
+    def _missing_(cls: type[_Choice], value: object) -> "_Choice | None":
+        if not isinstance(value, int) or value < 0:
+            return None
+        member = int.__new__(cls, value)
+        member._name_ = f"UNKNOWN_{value}"
+        member._value_ = value
+        return member
+
+
+class Status(Choice):
+    """The server's judgement of a request."""
+
+    OK = 0
+    TRUNCATED = 1
+    BAD_REQUEST = 2
+    NOT_APPROACHING = 3
+    UNKNOWN_BODY = 4
+    UNSUPPORTED_GEOMETRY = 5
+    UNKNOWN_STATE = 6
+    BUSY = 7
+    TIMEOUT = 8
+    INTERNAL = 9
+
+
+class EndReason(Choice):
+    """Why the fast time scale ended."""
+
+    NONE = 0
+    """The request was refused."""
+    SEPARATED = 1
+    """Vibration can no longer cause a contact."""
+    HANDED_BACK = 2
+    """As SEPARATED, but the bodies are pressed together: they meet again on the slow time scale."""
+    HORIZON = 3
+    """The horizon came first."""
+    IN_CONTACT = 4
+    """The horizon came first, and the bodies touch."""
+    LIMIT = 5
+    """A limit of the solver came first."""
+
+
+class ContactModel(Choice):
+    """The local contact model."""
+
+    AUTO = 0
+    HERTZ = 1
+    CLOSED_FORM = 2
+    TABLE = 3
+    CONCURRENT_FE = 4
+    COMPLETE_FE = 5
+
+
+class Method(Choice):
+    """The integrator of the fast time scale."""
+
+    MODAL = 0
+    CVODE = 1
+
+
+class Compliance(Choice):
+    """The local compliance of a contact."""
+
+    DEFAULT = 0
+    """The catalogue's choice."""
+    HALF_SPACE = 1
+    MATCHED = 2
+
+
+class Dents(Choice):
+    """What happens to the dents of earlier impacts."""
+
+    KEEP = 0
+    IGNORE = 1
+
+
+class DelassusSource(Choice):
+    """Whose Delassus matrix was used."""
+
+    SERVICE = 0
+    CLIENT = 1
+
+
+class Support(Choice):
+    """The support of a rod's or beam's end."""
+
+    FREE = 0
+    PINNED = 1
+    CLAMPED = 2
+
+
+class Result(Choice):
+    """How a call of the library ended."""
+
+    OK = 0
+    PENDING = 1
+    TIMEOUT = 2
+    NO_SERVER = 3
+    INCOMPATIBLE = 4
+    INVALID_ARGUMENT = 5
+    WINDOW_FULL = 6
+    UNKNOWN_SEQUENCE = 7
+    NO_MEMORY = 8
+    TRANSPORT = 9
+
+
+ID_SIZE = 64
+"""Bytes of an id, token or specimen's name with its terminating zero."""
+MAX_BODIES = 64
+MAX_CONTACTS = 64
+MAX_SUB_IMPACTS = 256
+MAX_BATCH = 256

@@ -1,0 +1,140 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""percuss/_abi.py and percuss/vocabulary.py against the public headers and the compiler.
+
+The structs are read from the headers; a C program made of their names prints each size and offset.
+"""
+
+import importlib.metadata
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from ctypes import Structure, c_char_p
+from pathlib import Path
+
+import percuss
+from percuss import _abi, vocabulary
+
+SOURCE = Path(os.environ["PERCUSS_SOURCE"])
+HEADERS = SOURCE / "client" / "include" / "percuss"
+VOCABULARY = SOURCE / "idl" / "percuss" / "vocabulary.h"
+
+
+def field_names(declarations: str) -> list[str]:
+    """The names in `double a[3], *b; struct { ... } c;`, in order."""
+    # a nested struct counts as one field
+    flat = re.sub(r"struct\s*{[^}]*}", "struct", declarations)
+    fields = []
+    for declaration in filter(None, map(str.strip, flat.split(";"))):
+        fields += [re.findall(r"\w+", re.sub(r"\[.*?\]", "", one))[-1] for one in declaration.split(",")]
+    return fields
+
+
+def public_structs() -> dict[str, list[str]]:
+    """Every struct that the headers define, with its fields."""
+    structs = {}
+    for header in HEADERS.glob("*.h"):
+        code = re.sub(r"/\*.*?\*/", "", header.read_text(), flags=re.DOTALL)
+        for name, body in re.findall(r"^struct (\w+) { *\n(.*?)^};", code, flags=re.DOTALL | re.MULTILINE):
+            structs[name] = field_names(body)
+    return structs
+
+
+def compiled_layouts(structs: dict[str, list[str]]) -> dict[tuple[str, ...], list[int]]:
+    """(struct,): [size]; (struct, field): [offset, size], as the compiler has them."""
+    lines = ["#include <percuss/percuss.h>", "#include <stdio.h>", "int main(void) {"]
+    for struct, fields in structs.items():
+        lines.append(f'printf("{struct} : %zu\\n", sizeof(struct {struct}));')
+        lines += [
+            f'printf("{struct} {field} : %zu %zu\\n", offsetof(struct {struct}, {field}),'
+            f" sizeof(((struct {struct} *)0)->{field}));"
+            for field in fields
+        ]
+    lines += ["}", ""]
+    with tempfile.TemporaryDirectory() as folder:
+        program = Path(folder) / "layouts"
+        program.with_suffix(".c").write_text("\n".join(lines))
+        include = [f"-I{HEADERS.parent}", f"-I{SOURCE / 'idl'}"]
+        compiler = os.environ.get("CC", "cc")
+        subprocess.run([compiler, *include, program.with_suffix(".c"), "-o", program], check=True)
+        output = subprocess.run([program], check=True, capture_output=True, text=True).stdout
+    pairs = (line.split(" : ") for line in output.splitlines())
+    return {tuple(names.split()): [int(number) for number in numbers.split()] for names, numbers in pairs}
+
+
+def our_layouts() -> dict[tuple[str, ...], list[int]]:
+    layouts: dict[tuple[str, ...], list[int]] = {}
+    for struct, ours in _abi.STRUCTS.items():
+        layouts[(struct,)] = [_size(ours)]
+        for field in ours._fields_:
+            descriptor = getattr(ours, field[0])
+            layouts[(struct, field[0])] = [descriptor.offset, descriptor.size]
+    return layouts
+
+
+def _size(struct: type[Structure]) -> int:
+    return len(bytes(struct()))
+
+
+class Abi(unittest.TestCase):
+    def test_layouts(self) -> None:
+        structs = public_structs()
+        self.assertEqual(
+            structs, {name: [field[0] for field in ours._fields_] for name, ours in _abi.STRUCTS.items()}
+        )
+        self.assertEqual(our_layouts(), compiled_layouts(structs))
+
+    def test_sub_impact_dtype(self) -> None:
+        fields = percuss.SUB_IMPACT.fields
+        assert fields is not None
+        offsets = {name: [field[1], field[0].itemsize] for name, field in fields.items()}
+        layouts = our_layouts()
+        for name, *_ in _abi.SubImpact._fields_:
+            self.assertEqual(offsets.pop(name), layouts["percuss_sub_impact", name])
+        self.assertEqual(offsets, {})
+        self.assertEqual([percuss.SUB_IMPACT.itemsize], layouts["percuss_sub_impact",])
+
+    def test_choices(self) -> None:
+        """Same names and numbers as in the lists of the C headers."""
+        code = VOCABULARY.read_text() + (HEADERS / "result.h").read_text()
+        for choices in vocabulary.Choice.__subclasses__():
+            if choices is percuss.Support:
+                continue
+            upper = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", choices.__name__).upper()
+            match = re.search(rf"PERCUSS_{upper}_LIST\(X\)(.*?)\n\n", code, flags=re.DOTALL)
+            assert match, upper
+            members = re.findall(r"X\((\w+),", match[1])
+            self.assertEqual([(choice.name, choice.value) for choice in choices], list(zip(members, range(99))))
+        supports = re.search(r"enum percuss_support {(.*?)}", (HEADERS / "server.h").read_text())
+        assert supports
+        self.assertEqual([f"PERCUSS_SUPPORT_{one.name}" for one in percuss.Support], re.findall(r"\w+", supports[1]))
+
+    def test_limits(self) -> None:
+        for name, number in re.findall(r"PERCUSS_((?:MAX_|ID_)\w+) = (\d+)", VOCABULARY.read_text()):
+            self.assertEqual(getattr(vocabulary, name), int(number), name)
+
+    def test_functions(self) -> None:
+        """Every public function is declared, or is one that Python does without."""
+        code = "".join(header.read_text() for header in HEADERS.glob("*.h"))
+        functions = set(re.findall(r"PERCUSS_API[^;(]*?\bpercuss_(\w+)\(", code))
+        unused = {
+            *(name for name in functions if name.endswith(("_name", "_default"))),
+            *("request_init", "request_add_body", "request_add_contact", "body_find"),
+        }
+        declared = {name for name, _, _ in _abi._FUNCTIONS}
+        self.assertEqual(declared | unused | {"version"}, functions)
+
+    def test_unknown_choice(self) -> None:
+        newer = percuss.Status(4711)
+        self.assertEqual((newer, newer.name), (4711, "UNKNOWN_4711"))
+
+    def test_version(self) -> None:
+        self.assertEqual(importlib.metadata.version("percuss"), percuss.__version__)
+        _abi.library.percuss_version.restype = c_char_p
+        self.assertEqual(_abi.library.percuss_version().decode(), percuss.__version__)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,264 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""percuss.Client beside a daemon with the shipped catalogue, in DDS domain PERCUSS_DOMAIN."""
+
+import dataclasses
+import json
+import math
+import os
+import subprocess
+import sys
+import threading
+import unittest
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import percuss
+
+DOMAIN = int(os.environ["PERCUSS_DOMAIN"])
+PROGRAM = Path(os.environ["PERCUSS_BUILD"]) / "bin" / "percuss"
+
+
+class Beside(unittest.TestCase):
+    """Tests with a connected client and the catalogue."""
+
+    client: percuss.Client
+    bodies: dict[str, percuss.Body]
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.client = percuss.connect(DOMAIN, timeout=10.0)
+        cls.bodies = cls.client.bodies()
+
+    @classmethod
+    def tearDownClass(cls) -> None:
+        cls.client.close()
+
+    def question(self, speed: float = 0.2, b: str = "al-beam", at: float = 0.5) -> percuss.Request:
+        return percuss.contact_pair(self.bodies["steel-sphere"], self.bodies[b], speed, at_b=at)
+
+
+def plain(value: Any) -> Any:
+    """A reply as the objects of its JSON form: nan is None, octets are hexadecimal."""
+    if dataclasses.is_dataclass(value):
+        return {field.name: plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
+    if isinstance(value, tuple):
+        return [plain(element) for element in value]
+    if isinstance(value, np.ndarray) and value.dtype.names:
+        return [{name: plain(element[name].item()) for name in value.dtype.names} for element in value]
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, bytes):
+        return value.hex()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+class Solving(Beside):
+    def test_same_as_the_program(self) -> None:
+        """Every member that `percuss query --json` prints, to the last bit; names of choices aside."""
+        question = self.question(0.276)
+        question.options.conditioning = True
+        reply = self.client.solve(question)
+        request = {
+            "bodies": [
+                {name: plain(getattr(body, name)) for name in ("id", "position", "orientation", "velocity")}
+                for body in question.bodies
+            ],
+            "contacts": [{"a": 0, "b": 1, "point": [0, 0, 0.01], "normal": [0, 0, 1]}],
+            "options": {"conditioning": True},
+        }
+        command = [str(PROGRAM), "query", "--request", "-", "--json", "--domain", str(DOMAIN)]
+        asked = subprocess.run(command, input=json.dumps(request), capture_output=True, text=True, check=True)
+        expected, ours = json.loads(asked.stdout), plain(reply)
+        for choice in ("status", "end_reason", "delassus_source"):
+            self.assertEqual(getattr(reply, choice).name.lower(), expected.pop(choice).lower())
+            del ours[choice]
+        for choice in ("contact_model", "compliance", "method"):
+            self.assertEqual(getattr(reply.model, choice).name.lower().replace("_", "-"), expected["model"].pop(choice))
+            del ours["model"][choice]
+        for differing in ("client", "sequence", "timing"):
+            del expected[differing], ours[differing]
+        self.assertEqual(ours, expected)
+
+    def test_numbers_fit_together(self) -> None:
+        reply = self.client.solve(self.question()).raise_for_status()
+        contact = reply.contacts[0]
+        self.assertEqual(contact.sub_impact_count, len(contact.sub_impacts))
+        self.assertAlmostEqual(contact.sub_impacts["impulse"].sum(), contact.impulse, delta=1e-15)
+        np.testing.assert_allclose(contact.impulse_vector, [0, 0, contact.impulse], rtol=1e-15)
+        # restitution by its definition, and from the velocities after the impact
+        self.assertAlmostEqual(contact.restitution, contact.impulse / contact.impulse_compression - 1, delta=1e-15)
+        after = reply.velocity_after
+        self.assertAlmostEqual((after[0].velocity - after[1].velocity)[2] / 0.2, contact.restitution, delta=1e-12)
+        self.assertEqual(reply.client, self.client.id)
+
+    def test_delassus_of_the_caller(self) -> None:
+        # a body held elsewhere is heavier to move: the impulse follows W in the dynamics
+        question = self.question()
+        question.delassus = [[9.0]]
+        reply = self.client.solve(question).raise_for_status()
+        self.assertEqual(reply.delassus_source, percuss.DelassusSource.CLIENT)
+        self.assertEqual(reply.contacts[0].inverse_effective_mass, 9.0)
+        self.assertAlmostEqual(reply.contacts[0].impulse_compression, 0.2 / 9.0, delta=1e-16)
+        self.assertTrue(any("delassus" in warning for warning in reply.warnings), reply.warnings)
+
+    def test_state_token(self) -> None:
+        question = self.question()
+        first = self.client.solve(question).raise_for_status()
+        question.bodies[1].state = first.states_after[1].state
+        question.bodies[1].elapsed = 0.01
+        ringing = self.client.solve(question).raise_for_status()
+        self.assertNotEqual(ringing.contacts[0].impulse, first.contacts[0].impulse)
+        self.assertNotEqual(ringing.time_shift, 0.0)
+        # immutable: the same again
+        self.assertEqual(self.client.solve(question).contacts[0].impulse, ringing.contacts[0].impulse)
+        question.bodies[1].state = "0" * 32
+        self.assertEqual(self.client.solve(question).status, percuss.Status.UNKNOWN_STATE)
+
+    def test_batch(self) -> None:
+        speeds = np.linspace(0.1, 0.4, 50)
+        questions = [self.question(speed) for speed in speeds]
+        questions[7].bodies[0].id = "nobody"
+        questions[9].delassus = np.array([[10.0]])
+        replies = self.client.solve_batch(questions, timeout=60.0)
+        self.assertEqual([reply.status for reply in replies].index(percuss.Status.UNKNOWN_BODY), 7)
+        for question, reply in zip(questions, replies):
+            alone = self.client.solve(question)
+            self.assertEqual(reply.message, alone.message)
+            for one, other in zip(reply.contacts, alone.contacts):
+                self.assertEqual(one.impulse, other.impulse)
+                np.testing.assert_array_equal(one.sub_impacts, other.sub_impacts[:16])
+
+    def test_outstanding(self) -> None:
+        sequences = [self.client.submit(self.question(speed)) for speed in (0.1, 0.2, 0.3)]
+        self.client.cancel(sequences[0])
+        second = self.client.wait(sequences[1])
+        self.assertEqual(second.sequence, sequences[1])
+        self.assertEqual(self.client.wait().sequence, sequences[2])
+        with self.assertRaises(percuss.UnknownSequence):
+            self.client.poll(sequences[0])
+
+    def test_repeated_sequence(self) -> None:
+        question = self.question()
+        question.sequence = 1_000_000
+        first, second = self.client.solve(question), self.client.solve(question)
+        # the stored reply comes again, states included
+        self.assertEqual(plain(dataclasses.replace(first, timing=second.timing)), plain(second))
+
+    def test_threads(self) -> None:
+        impulses: dict[float, float] = {}
+
+        def ask(speed: float) -> None:
+            impulses[speed] = self.client.solve(self.question(speed), timeout=60.0).contacts[0].impulse
+
+        threads = [threading.Thread(target=ask, args=(0.1 + 0.01 * i,)) for i in range(16)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(60)
+        for speed, impulse in impulses.items():
+            self.assertEqual(impulse, self.client.solve(self.question(speed)).contacts[0].impulse)
+        self.assertEqual(len(impulses), 16)
+
+
+class Announced(Beside):
+    def test_bodies(self) -> None:
+        beam, wall, rod = (self.bodies[name] for name in ("al-beam", "steel-wall", "al-rod"))
+        np.testing.assert_allclose(beam.half_extents, [0.5, 0.01, 0.01])
+        self.assertAlmostEqual(beam.mass, math.pi * 0.01**2 * 2700, delta=1e-12)
+        self.assertEqual(beam.supports, (percuss.Support.FREE, percuss.Support.FREE))
+        self.assertEqual((wall.shape, wall.mass, rod.tip_radius), ("half-space", math.inf, math.inf))
+        self.assertEqual(list(self.bodies), sorted(self.bodies))
+
+    def test_server(self) -> None:
+        self.assertGreater(self.client.ping(5.0), 0.0)
+        (server,) = self.client.servers()
+        reply = self.client.solve(self.question())
+        self.assertEqual((server.server, server.state), (reply.server, "ready"))
+        self.assertEqual((server.bodies, server.catalogue_revision), (len(self.bodies), reply.catalogue_revision))
+
+
+class Mistakes(Beside):
+    def test_refusal(self) -> None:
+        question = self.question()
+        question.bodies[0].id = "nobody"
+        reply = self.client.solve(question)
+        self.assertEqual((reply.status, reply.contacts), (percuss.Status.UNKNOWN_BODY, ()))
+        with self.assertRaisesRegex(percuss.Refused, r"UNKNOWN_BODY: bodies\[0\].id: 'nobody'"):
+            reply.raise_for_status()
+
+    def test_fields(self) -> None:
+        """What cannot be sent is named with its value and what is allowed."""
+        question = self.question()
+        with self.assertRaisesRegex(ValueError, r"normal: shape \(2,\): 3 numbers"):
+            question.contacts[0].normal = [0, 1]
+        cases: list[tuple[Any, str, Any, str]] = [
+            (question.bodies[1], "id", "x" * 64, r"bodies\[1\].id: .*63 bytes"),
+            (question.bodies[1], "state", "a\0b", r"bodies\[1\].state: .*63 bytes"),
+            (question.contacts[0], "a", -1, r"contacts\[0\].a: -1: 0..63"),
+            (question, "sequence", 2**64, "sequence: "),
+            (question, "delassus", np.eye(2), r"delassus: shape \(2, 2\): \(1, 1\)"),
+            (question, "bodies", [question.bodies[0]] * 65, "bodies: 65 are too many; up to 64"),
+            (question, "contacts", [question.contacts[0]] * 65, "contacts: 65 are too many; up to 64"),
+        ]
+        for target, name, value, message in cases:
+            good = getattr(target, name)
+            setattr(target, name, value)
+            with self.subTest(name), self.assertRaisesRegex(ValueError, message):
+                self.client.submit(question)
+            setattr(target, name, good)
+        self.client.solve(question).raise_for_status()
+
+    def test_calls(self) -> None:
+        with self.assertRaisesRegex(percuss.InvalidArgument, "timeout: -1"):
+            self.client.solve(self.question(), timeout=-1)
+        with self.assertRaisesRegex(percuss.InvalidArgument, "count: 0: 1..256"):
+            self.client.solve_batch([])
+        with self.assertRaisesRegex(percuss.InvalidArgument, "speed: -1"):
+            self.question(-1.0)
+        with self.assertRaises(percuss.AnswerTimeout):
+            self.client.solve(self.question(), timeout=0.0)
+        ids = ({"id": b"short"}, {"id": bytes(16)})
+        for config in ({"domain": 231}, {"window": 2**32 + 1}, {"first_sequence": 0}, *ids):
+            with self.subTest(config), self.assertRaises(ValueError):
+                percuss.Client(**config)
+
+    def test_window(self) -> None:
+        with percuss.Client(DOMAIN, window=1) as client:
+            client.connect(10.0)
+            client.submit(self.question())
+            with self.assertRaises(percuss.WindowFull):
+                client.submit(self.question())
+
+    def test_not_connected(self) -> None:
+        with percuss.Client(DOMAIN, id=bytes(range(16))) as client:
+            self.assertEqual(client.id, bytes(range(16)))
+            with self.assertRaises(percuss.NoServer):
+                client.solve(self.question())
+        client.close()
+        with self.assertRaisesRegex(ValueError, "closed"):
+            client.ping()
+
+    def test_no_server(self) -> None:
+        # no story's domain: tests/service/lib.sh keeps below 100
+        with self.assertRaises(ConnectionError):
+            percuss.connect(domain=229, timeout=0.2)
+
+    def test_library_is_looked_for(self) -> None:
+        environment = {**os.environ, "PERCUSS_LIBRARY": "/nowhere/libpercuss.so.0"}
+        command = [sys.executable, "-c", "import percuss"]
+        failed = subprocess.run(command, env=environment, capture_output=True, text=True)
+        self.assertIn("set PERCUSS_LIBRARY", failed.stderr)
+        self.assertIn("/nowhere/libpercuss.so.0", failed.stderr)
+        # the build tree beside the source, without any help
+        environment = {**os.environ, "PYTHONPATH": os.environ["PERCUSS_SOURCE"] + "/client/python"}
+        del environment["PERCUSS_LIBRARY"]
+        subprocess.run(command, env=environment, check=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
