@@ -3,6 +3,7 @@
 
 #include "endpoint/endpoint.h"
 
+#include <dds/ddsi/ddsi_serdata.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +11,7 @@
 #include <sys/random.h>
 
 #include "endpoint/describe.h"
+#include "endpoint/whole.h"
 
 enum { TAKEN_AT_ONCE = 32, WRITE_ATTEMPTS = 20 };
 
@@ -19,6 +21,7 @@ enum { SOURCE_SUBSCRIPTIONS = EXCHANGE_COUNT, SOURCE_STOP, SOURCE_COUNT };
 struct endpoint {
     dds_entity_t participant, waitset, stop;
     dds_entity_t readers[EXCHANGE_COUNT];
+    void *samples[EXCHANGE_COUNT]; /* the one at hand; its memory serves the next one */
     dds_entity_t status_writer, body_writer;
     struct reply_writers *writers;
     atomic_bool stopped;
@@ -47,6 +50,7 @@ static bool create_readers(struct endpoint *endpoint, struct fault *fault)
     dds_qos_t *qos = wire_qos_exchange(NULL);
     bool good = true;
     for (int i = 0; good && i < EXCHANGE_COUNT; i++) {
+        endpoint->samples[i] = dds_alloc(requests[i].type->m_size);
         dds_entity_t topic = dds_create_topic(endpoint->participant, requests[i].type,
                                               requests[i].topic, NULL, NULL);
         good = created(topic, requests[i].topic, fault);
@@ -133,6 +137,10 @@ void endpoint_free(struct endpoint *endpoint)
     if (endpoint->participant > 0)
         dds_delete(dds_get_parent(endpoint->participant));
     reply_writers_free(endpoint->writers);
+    for (int i = 0; i < EXCHANGE_COUNT; i++) {
+        if (endpoint->samples[i])
+            dds_sample_free(endpoint->samples[i], requests[i].type, DDS_FREE_ALL);
+    }
     free(endpoint);
 }
 
@@ -152,21 +160,30 @@ static void handle(const struct endpoint_handler *handler, enum exchange exchang
         handler->ensemble(handler->context, sample);
 }
 
+/* Decodes into the sample of this exchange, unless that would be the end of us. */
+static bool decode(struct endpoint *endpoint, enum exchange exchange, struct ddsi_serdata *taken)
+{
+    ddsrt_iovec_t data;
+    struct ddsi_serdata *held = ddsi_serdata_to_ser_ref(taken, 0, ddsi_serdata_size(taken), &data);
+    bool whole = whole_request(exchange, data.iov_base, data.iov_len);
+    ddsi_serdata_to_ser_unref(held, &data);
+    return whole && ddsi_serdata_to_sample(taken, endpoint->samples[exchange], NULL, NULL);
+}
+
 /* Takes what is there, up to a bound; true: more may be left. */
 static bool take(struct endpoint *endpoint, const struct endpoint_handler *handler,
                  enum exchange exchange)
 {
-    void *samples[TAKEN_AT_ONCE] = {NULL};
+    struct ddsi_serdata *taken[TAKEN_AT_ONCE];
     dds_sample_info_t infos[TAKEN_AT_ONCE];
-    dds_entity_t reader = endpoint->readers[exchange];
-    dds_return_t count = dds_take(reader, samples, infos, TAKEN_AT_ONCE, TAKEN_AT_ONCE);
+    dds_return_t count =
+        dds_takecdr(endpoint->readers[exchange], taken, TAKEN_AT_ONCE, infos, DDS_ANY_STATE);
     /* samples without data only tell that a client's writer has gone */
     for (dds_return_t i = 0; i < count; i++) {
-        if (infos[i].valid_data)
-            handle(handler, exchange, samples[i], count == 1);
+        if (infos[i].valid_data && decode(endpoint, exchange, taken[i]))
+            handle(handler, exchange, endpoint->samples[exchange], count == 1);
+        ddsi_serdata_unref(taken[i]);
     }
-    if (count > 0)
-        dds_return_loan(reader, samples, count);
     return count == TAKEN_AT_ONCE;
 }
 
