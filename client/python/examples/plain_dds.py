@@ -3,8 +3,7 @@
 """Asks a percussd with nothing but its IDL: no libpercuss, no other part of percuss.
 
 Needs `pip install cyclonedds==11.0.1` and a percussd with the shipped catalogue; the DDS domain may be the
-argument. The types below are those of percuss_wire.idl, which also states the conventions. An octet is
-`byte` here, not `uint8`: the two are different types on the wire.
+argument. The types below are those of percuss_wire.idl, which also states the conventions.
 """
 
 import os
