@@ -220,8 +220,10 @@ class Mistakes(Beside):
             self.client.solve_batch([])
         with self.assertRaisesRegex(percuss.InvalidArgument, "speed: -1"):
             self.question(-1.0)
+        slow = self.question()
+        slow.options.method = percuss.Method.CVODE  # some 0.4 s
         with self.assertRaises(percuss.AnswerTimeout):
-            self.client.solve(self.question(), timeout=0.0)
+            self.client.solve(slow, timeout=0.0)
         ids = ({"id": b"short"}, {"id": bytes(16)})
         for config in ({"domain": 231}, {"window": 2**32 + 1}, {"first_sequence": 0}, *ids):
             with self.subTest(config), self.assertRaises(ValueError):
