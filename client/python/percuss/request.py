@@ -173,7 +173,7 @@ def _delassus(request: Request) -> FloatArray | None:
         return None
     n = len(request.contacts)
     matrix = np.ascontiguousarray(request.delassus, dtype=np.float64)
-    if matrix.size != n * n or (matrix.ndim > 0 and matrix.shape != (n, n)):
+    if matrix.shape != (n, n):
         raise ValueError(f"delassus: shape {matrix.shape}: ({n}, {n}), contacts x contacts, is allowed")
     return matrix
 
