@@ -5,10 +5,10 @@
 
 #include "contact/law.h"
 
-static double hertz_force(const struct contact_law *law, const void *history, double indentation,
+static double hertz_force(const struct contact_law *law, const void *unused, double indentation,
                           double *stiffness)
 {
-    (void)history;
+    (void)unused;
     if (!(indentation > 0.0)) {
         *stiffness = 0.0;
         return 0.0;
@@ -18,9 +18,9 @@ static double hertz_force(const struct contact_law *law, const void *history, do
     return law->parameters[0] * indentation * root;
 }
 
-static double hertz_stored(const struct contact_law *law, const void *history, double indentation)
+static double hertz_stored(const struct contact_law *law, const void *unused, double indentation)
 {
-    (void)history;
+    (void)unused;
     if (!(indentation > 0.0))
         return 0.0;
     return 0.4 * law->parameters[0] * indentation * indentation * sqrt(indentation);
@@ -34,7 +34,6 @@ static double hertz_indentation(const struct contact_law *law, double force)
 
 static const struct contact_law_operations operations = {
     .model = PERCUSS_CONTACT_HERTZ,
-    .history_size = 0,
     .force = hertz_force,
     .stored = hertz_stored,
     .indentation = hertz_indentation,

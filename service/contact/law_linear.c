@@ -3,17 +3,17 @@
 
 #include "contact/law.h"
 
-static double linear_force(const struct contact_law *law, const void *history, double indentation,
+static double linear_force(const struct contact_law *law, const void *unused, double indentation,
                            double *stiffness)
 {
-    (void)history;
+    (void)unused;
     *stiffness = indentation > 0.0 ? law->parameters[0] : 0.0;
     return *stiffness * indentation;
 }
 
-static double linear_stored(const struct contact_law *law, const void *history, double indentation)
+static double linear_stored(const struct contact_law *law, const void *unused, double indentation)
 {
-    (void)history;
+    (void)unused;
     return indentation > 0.0 ? 0.5 * law->parameters[0] * indentation * indentation : 0.0;
 }
 
@@ -24,7 +24,6 @@ static double linear_indentation(const struct contact_law *law, double force)
 
 static const struct contact_law_operations operations = {
     .model = PERCUSS_CONTACT_AUTO,
-    .history_size = 0,
     .force = linear_force,
     .stored = linear_stored,
     .indentation = linear_indentation,

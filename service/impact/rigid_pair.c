@@ -12,7 +12,7 @@ bool impact_is_rigid_pair(const struct scene *scene)
 {
     return scene->contacts == 1 && scene->groups == 0 && scene->gap_acceleration[0] == 0.0 &&
            scene->residual[0] == 0.0 && scene->gap_rate[0] < 0.0 &&
-           scene->laws[0].operations->history_size == 0;
+           !scene->laws[0].operations->curve;
 }
 
 /* Largest indentation: the law stores all the energy. Newton's method; the force is the derivative.

@@ -1,0 +1,116 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "contact/plastic.h"
+
+#include <math.h>
+
+/* A stored force that differs by less from the curve's is this law's own, rounded. */
+static const double SAME_FORCE = 1e-9;
+
+/* What the unloading branch spans. */
+static double span_of(const struct contact_history *history)
+{
+    return history->max_indentation - history->residual;
+}
+
+double plastic_force(const struct contact_law *law, const void *unused, double indentation,
+                     double *stiffness)
+{
+    (void)unused;
+    if (!(indentation > 0.0)) {
+        *stiffness = 0.0;
+        return 0.0;
+    }
+    const struct contact_history *history = &law->history;
+    double span = span_of(history);
+    if (indentation >= span)
+        return law->operations->curve->force(law, indentation + history->residual, stiffness);
+    double share = law->operations->curve->branch(law, indentation / span, stiffness);
+    *stiffness *= history->max_force / span;
+    return history->max_force * share;
+}
+
+/* Energy that the unloading branch gives back from its top, J. */
+static double branch_energy(const struct contact_law *law, double x)
+{
+    double span = span_of(&law->history);
+    return span > 0.0 ? law->history.max_force * span * law->operations->curve->branch_work(law, x)
+                      : 0.0;
+}
+
+double plastic_stored(const struct contact_law *law, const void *unused, double indentation)
+{
+    (void)unused;
+    if (!(indentation > 0.0))
+        return 0.0;
+    const struct contact_history *history = &law->history;
+    const struct plastic_curve *curve = law->operations->curve;
+    double span = span_of(history);
+    if (indentation < span)
+        return branch_energy(law, indentation / span);
+    double beyond = curve->work(law, indentation + history->residual);
+    return span > 0.0
+               ? branch_energy(law, 1.0) + (beyond - curve->work(law, history->max_indentation))
+               : beyond;
+}
+
+/* Newton's method for the logarithms, from where the force is nearly a power of the indentation. */
+double plastic_indentation(const struct contact_law *law, double force)
+{
+    double d = fmax(law->operations->curve->yield(law), span_of(&law->history));
+    for (int i = 0; i < 100; i++) {
+        double stiffness;
+        double here = plastic_force(law, NULL, d, &stiffness);
+        double change = log(force / here) * here / (stiffness * d);
+        d *= exp(fmax(-3.0, fmin(change, 3.0)));
+        if (!(fabs(change) > 1e-15))
+            break;
+    }
+    return d;
+}
+
+double contact_law_limit(const struct contact_law *law)
+{
+    if (!law->operations->curve)
+        return INFINITY;
+    return fmax(law->operations->curve->yield(law), law->history.max_indentation) -
+           law->history.residual;
+}
+
+/* The history after a largest depth on the virgin curve. */
+static struct contact_history history_of(const struct contact_law *law, double depth)
+{
+    const struct plastic_curve *curve = law->operations->curve;
+    double slope;
+    return (struct contact_history){
+        .max_indentation = depth,
+        .max_force = curve->force(law, depth, &slope),
+        .residual = curve->residual(law, depth),
+        .contact_radius = curve->radius(law, depth),
+    };
+}
+
+double contact_law_yield(struct contact_law *law, double indentation)
+{
+    double before = plastic_stored(law, NULL, indentation);
+    law->history = history_of(law, indentation + law->history.residual);
+    return before - branch_energy(law, 1.0);
+}
+
+void contact_law_remember(struct contact_law *law, const struct contact_history *history)
+{
+    const struct plastic_curve *curve = law->operations->curve;
+    law->history = (struct contact_history){0};
+    if (!curve || !(history->max_force > 0.0))
+        return;
+    double slope;
+    double here = curve->force(law, history->max_indentation, &slope);
+    if (fabs(here - history->max_force) <= SAME_FORCE * here) {
+        law->history = *history;
+        return;
+    }
+    double depth = plastic_indentation(law, history->max_force);
+    if (depth > curve->yield(law))
+        law->history = history_of(law, depth);
+}

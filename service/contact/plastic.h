@@ -1,0 +1,52 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Laws of a contact that yields: one loading curve, and one unloading branch for each largest
+ * indentation. Unloading and reloading follow the branch of the largest indentation so far, loading
+ * beyond it the virgin curve. The law's history changes only by contact_law_yield, at an accepted
+ * largest indentation; in between the law is elastic, so that a step may be tried and thrown away.
+ */
+#ifndef PERCUSS_CONTACT_PLASTIC_H
+#define PERCUSS_CONTACT_PLASTIC_H
+
+#include "contact/law.h"
+
+/* What a law that yields provides; depths d from the virgin surface. */
+struct plastic_curve {
+    /* Force of the virgin loading curve at d > 0, and its slope. */
+    double (*force)(const struct contact_law *law, double d, double *slope);
+    /* Its work from 0 to d, J. */
+    double (*work)(const struct contact_law *law, double d);
+    /* Depth up to which nothing stays. */
+    double (*yield)(const struct contact_law *law);
+    /* Depth that stays after a largest depth d; < d. */
+    double (*residual)(const struct contact_law *law, double d);
+    /* Contact radius at d on the virgin curve, m. */
+    double (*radius)(const struct contact_law *law, double d);
+    /* Share of the largest force at the share 0 < x <= 1 of the way back to it, and its slope; 1 at
+     * x = 1. */
+    double (*branch)(const struct contact_law *law, double x, double *slope);
+    /* Integral of that share from 0 to x. */
+    double (*branch_work)(const struct contact_law *law, double x);
+};
+
+/* Operations of such a law. */
+double plastic_force(const struct contact_law *law, const void *unused, double indentation,
+                     double *stiffness);
+double plastic_stored(const struct contact_law *law, const void *unused, double indentation);
+double plastic_indentation(const struct contact_law *law, double force);
+
+/* Indentation beyond which loading cannot be undone; INFINITY for an elastic law. */
+double contact_law_limit(const struct contact_law *law);
+
+/* Makes an indentation beyond the limit the largest so far. Returns the energy that this dissipated
+ * (J, the area of the loop), by the law's own integrals. The dent deepens: indentations count from
+ * its new bottom, history.residual - its former value further down. */
+double contact_law_yield(struct contact_law *law, double indentation);
+
+/* Gives a law the memory of an earlier contact at the same place. Where the largest load was by
+ * another partner (its force is not this law's at that depth) it is carried over by its force: the
+ * branch that this law would have after the same force. Elastic laws forget it. */
+void contact_law_remember(struct contact_law *law, const struct contact_history *history);
+
+#endif
