@@ -142,6 +142,13 @@ static double loading_work(const struct contact_law *law, double d)
     return sum;
 }
 
+static double next_joint(const struct contact_law *law, double d)
+{
+    double w = d / law->parameters[YIELD_DEPTH];
+    double joint = w < PLASTIC_FROM ? PLASTIC_FROM : w < PLASTIC_FULL ? PLASTIC_FULL : INFINITY;
+    return joint * law->parameters[YIELD_DEPTH];
+}
+
 static double yield_depth(const struct contact_law *law)
 {
     return law->parameters[YIELD_DEPTH];
@@ -186,6 +193,7 @@ static double branch_work(const struct contact_law *law, double x)
 static const struct plastic_curve curve = {
     .force = loading_force,
     .work = loading_work,
+    .joint = next_joint,
     .yield = yield_depth,
     .residual = residual_depth,
     .radius = contact_radius,

@@ -17,6 +17,9 @@ struct plastic_curve {
     double (*force)(const struct contact_law *law, double d, double *slope);
     /* Its work from 0 to d, J. */
     double (*work)(const struct contact_law *law, double d);
+    /* The first depth beyond d where it has no third derivative; INFINITY: none. Steps end there.
+     */
+    double (*joint)(const struct contact_law *law, double d);
     /* Depth up to which nothing stays. */
     double (*yield)(const struct contact_law *law);
     /* Depth that stays after a largest depth d; < d. */

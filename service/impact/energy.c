@@ -48,12 +48,13 @@ static double initial_vibration(const struct scene *scene)
     return sum;
 }
 
-static double stored_energy(const struct scene *scene, const double *indentation)
+static double stored_energy(const struct scene *scene, const struct contact_law *laws,
+                            const double *indentation)
 {
     double force[PERCUSS_MAX_CONTACTS];
     double sum = 0.0;
     for (size_t c = 0; c < scene->contacts; c++) {
-        const struct contact_law *law = &scene->laws[c];
+        const struct contact_law *law = &laws[c];
         double stiffness;
         force[c] = contact_law_force(law, NULL, indentation[c], &stiffness);
         sum += law->operations->stored(law, NULL, indentation[c]);
@@ -71,10 +72,11 @@ bool energy_audit(const struct scene *scene, const double *indentation, double d
     if (!mass || !travel)
         return false;
     for (size_t c = 0; c < n; c++)
-        travel[c] = end->gap[c] - scene->gap[c];
+        travel[c] = end->gap[c] - scene->gap[c] -
+                    (outcome->laws[c].history.residual - scene->laws[c].history.residual);
 
     struct impact_energy *energy = &outcome->energy;
-    *energy = (struct impact_energy){.damping = damping};
+    *energy = (struct impact_energy){.damping = damping, .plastic = outcome->plastic};
     /* the acceleration is a force W^+ a on the gaps: its work is that over the gaps' travel */
     energy->available = 0.5 * form(n, mass, scene->gap_rate, scene->gap_rate) +
                         initial_vibration(scene) + form(n, mass, scene->gap_acceleration, travel);
@@ -83,7 +85,7 @@ bool energy_audit(const struct scene *scene, const double *indentation, double d
         outcome->vibration[b] = motion_vibration(end, scene, b);
         energy->vibration += outcome->vibration[b];
     }
-    energy->stored = stored_energy(scene, indentation);
+    energy->stored = stored_energy(scene, outcome->laws, indentation);
     energy->closure = energy->available - energy->rigid_after - energy->vibration -
                       energy->damping - energy->plastic - energy->stored;
     return true;

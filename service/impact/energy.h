@@ -7,9 +7,9 @@
 
 #include "impact/impact.h"
 
-/* Fills outcome->energy and ->vibration from the scene, the final motion and the dissipated energy.
- * `indentation` holds the local indentation of the contacts that are still closed, 0 of the others.
- * False: out of memory. */
+/* Fills outcome->energy and ->vibration from the scene, the final motion and laws, and the
+ * dissipated energy. `indentation` holds the local indentation of the contacts that are still
+ * closed, 0 of the others. False: out of memory. */
 bool energy_audit(const struct scene *scene, const double *indentation, double damping,
                   struct arena *arena, struct impact_outcome *outcome);
 

@@ -13,12 +13,22 @@ bool impact_create(struct impact_outcome *outcome, const struct scene *scene, st
     memset(outcome, 0, sizeof *outcome);
     outcome->tracks = arena_take(arena, scene->contacts, sizeof *outcome->tracks);
     outcome->vibration = arena_take(arena, scene->bodies, sizeof *outcome->vibration);
-    if (!outcome->tracks || !outcome->vibration || !motion_create(&outcome->motion, scene, arena))
+    outcome->laws = arena_take(arena, scene->contacts, sizeof *outcome->laws);
+    if (!outcome->tracks || !outcome->vibration || !outcome->laws ||
+        !motion_create(&outcome->motion, scene, arena))
         return false;
     for (size_t c = 0; c < scene->contacts; c++)
         if (!track_create(&outcome->tracks[c], arena))
             return false;
     return true;
+}
+
+void impact_begin(struct impact_outcome *outcome, const struct scene *scene)
+{
+    memcpy(outcome->laws, scene->laws, scene->contacts * sizeof *outcome->laws);
+    outcome->plastic = 0.0;
+    for (size_t c = 0; c < scene->contacts; c++)
+        track_clear(&outcome->tracks[c]);
 }
 
 bool impact_find_start(const struct scene *scene, double longest, struct motion *motion,
@@ -75,6 +85,13 @@ static double felt_inverse_mass(const struct scene *scene, size_t contact, doubl
     return sum;
 }
 
+/* A law's energy is an integral where it yields; as a scale, that of a force like d^(3/2) will do.
+ */
+static double stored_about(const struct contact_law *law, double d, double force)
+{
+    return law->operations->curve ? 0.4 * force * d : law->operations->stored(law, NULL, d);
+}
+
 /* Indentation at which a law stores an energy: Newton's method for log(stored) against
  * log(indentation), which one step solves for a power law, from any start. */
 static double indentation_of_energy(const struct contact_law *law, double energy)
@@ -82,8 +99,9 @@ static double indentation_of_energy(const struct contact_law *law, double energy
     double d = 1e-6;
     for (int i = 0; i < 20; i++) {
         double stiffness;
-        double stored = law->operations->stored(law, NULL, d);
-        double power = contact_law_force(law, NULL, d, &stiffness) * d / stored;
+        double force = contact_law_force(law, NULL, d, &stiffness);
+        double stored = stored_about(law, d, force);
+        double power = force * d / stored;
         double change = log(stored / energy) / power;
         d *= exp(-change);
         if (fabs(change) < 1e-3)

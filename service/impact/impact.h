@@ -19,13 +19,15 @@ struct impact_settings {
 /* Everything here lives in the arena given to impact_create. */
 struct impact_outcome {
     enum percuss_end_reason end_reason;
-    double window;          /* s: the end of the fast scale */
-    bool always_overlapped; /* no touch behind an overlap: nothing was solved */
-    double time_shift;      /* the touch before (< 0) or after the stated instant, s */
-    struct track *tracks;   /* [contact] */
+    double window;            /* s: the end of the fast scale */
+    bool always_overlapped;   /* no touch behind an overlap: nothing was solved */
+    double time_shift;        /* the touch before (< 0) or after the stated instant, s */
+    struct track *tracks;     /* [contact] */
+    struct contact_law *laws; /* [contact], with what they remember at the end */
+    double plastic;           /* dissipated by yielding, J */
     struct impact_energy energy;
     double *vibration;    /* [body], J, at the end */
-    struct motion motion; /* at the end */
+    struct motion motion; /* at the end; gaps count to the bottoms of the dents */
     unsigned long steps;  /* contact steps accepted */
     unsigned long rejected;
     unsigned long intervals; /* of flights */
@@ -33,6 +35,9 @@ struct impact_outcome {
 
 /* Memory for outcomes of a scene (and of scenes with fewer oscillators). */
 bool impact_create(struct impact_outcome *outcome, const struct scene *scene, struct arena *arena);
+
+/* Begins a solution: no sub-impacts yet, the laws as the scene states them. */
+void impact_begin(struct impact_outcome *outcome, const struct scene *scene);
 
 /* Solves by exact modal propagation. `arena` holds scratch memory until its next reset. PERCUSS_OK,
  * or PERCUSS_INTERNAL when memory runs out. */

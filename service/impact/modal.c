@@ -4,10 +4,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "contact/plastic.h"
 #include "impact/contact_step.h"
 #include "impact/energy.h"
 #include "impact/flight.h"
 #include "impact/impact.h"
+#include "impact/yielding.h"
 
 /* See longest_stable_step. */
 static const double RESOLVED = 4.0;
@@ -45,6 +47,7 @@ struct modal_run {
     struct step_limits limits;
     struct contact_step step;
     struct flight flight;
+    struct yielding yielding;
     bool *active;   /* [contact] */
     bool *everyone; /* [contact] true: all contacts are in the equations of a contact phase */
     struct contact_start *now;     /* [contact], local */
@@ -87,6 +90,17 @@ static double longest_stable_step(const struct scene *scene, size_t contact,
         longest = fmin(longest, fmax(coupled, resolved));
     }
     return longest;
+}
+
+/* Laws have yielded: they are stiffest at the top of their branches. */
+static void limit_steps(struct modal_run *run)
+{
+    for (size_t c = 0; c < run->scene->contacts; c++) {
+        struct impact_scale scale = run->scales[c];
+        scale.indentation = fmin(scale.indentation, contact_law_limit(&run->scene->laws[c]));
+        if (run->active[c])
+            run->longest[c] = longest_stable_step(run->scene, c, &scale, run->limits.coupling);
+    }
 }
 
 /* A sub-impact begins at `time` with an approach rate. */
@@ -300,6 +314,8 @@ static enum percuss_end_reason contact_phase(struct modal_run *run)
         /* roughness may ask for more than events do: a graze is shorter than its scale */
         int deepest = finest + 8;
         level = limit_level(run, level < deepest ? level : deepest, finest);
+        if (run->yielding.any)
+            level = yielding_level(&run->yielding, level);
         double h = step_length(level);
         if (run->motion->time + h == run->motion->time ||
             run->settings->horizon - run->motion->time < step_length(finest))
@@ -315,6 +331,10 @@ static enum percuss_end_reason contact_phase(struct modal_run *run)
             level++;
             continue;
         }
+        if (run->yielding.any && yielding_passes(&run->yielding, h, &level)) {
+            run->outcome->rejected++;
+            continue;
+        }
         accept(run, level);
         run->roughness = fmax(run->roughness, roughness);
         /* the coefficient falls with the third power of the step */
@@ -322,6 +342,8 @@ static enum percuss_end_reason contact_phase(struct modal_run *run)
             level--;
         else if (roughness > allowed)
             level++;
+        if (run->yielding.any && yielding_meet(&run->yielding, h, &level))
+            limit_steps(run);
     }
     return PERCUSS_END_NONE;
 }
@@ -366,22 +388,31 @@ static bool run_create(struct modal_run *run, const struct scene *scene, struct 
     run->final = arena_take(arena, scene->contacts, sizeof *run->final);
     run->scales = arena_take(arena, scene->contacts, sizeof *run->scales);
     run->longest = arena_take(arena, scene->contacts, sizeof *run->longest);
+    run->yielding = (struct yielding){.scene = scene,
+                                      .outcome = run->outcome,
+                                      .step = &run->step,
+                                      .now = run->now,
+                                      .active = run->active,
+                                      .scales = run->scales,
+                                      .accuracy = run->settings->accuracy};
     return run->active && run->everyone && run->now && run->final && run->scales && run->longest &&
            contact_step_create(&run->step, scene, arena) &&
-           flight_create(&run->flight, scene, arena);
+           flight_create(&run->flight, scene, arena) && yielding_create(&run->yielding, arena);
 }
 
 enum percuss_status impact_modal(const struct scene *scene, const struct impact_settings *settings,
                                  struct arena *arena, struct impact_outcome *outcome)
 {
-    struct modal_run run = {.scene = scene, .settings = settings, .outcome = outcome};
+    /* the laws change as they yield: the outcome's own */
+    struct scene own = *scene;
+    struct modal_run run = {.scene = &own, .settings = settings, .outcome = outcome};
+    own.laws = outcome->laws;
     run.motion = &outcome->motion;
+    impact_begin(outcome, scene);
     run.limits = make_limits(settings->accuracy);
-    if (!run_create(&run, scene, arena))
+    if (!run_create(&run, &own, arena))
         return PERCUSS_INTERNAL;
     run.step.accuracy = settings->accuracy;
-    for (size_t c = 0; c < scene->contacts; c++)
-        track_clear(&outcome->tracks[c]);
     outcome->steps = outcome->rejected = 0;
     motion_start(run.motion, scene);
     run.max_steps = impact_max_steps(scene, settings);
@@ -400,6 +431,7 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
         touched = true;
         end = contact_phase(&run);
     }
+    yielding_end(&run.yielding);
     for (size_t c = 0; c < scene->contacts; c++) {
         run.final[c] = run.active[c] ? run.now[c].indentation : 0.0;
         if (run.active[c])

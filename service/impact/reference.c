@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "contact/plastic.h"
 #include "impact/contact_step.h"
 #include "impact/energy.h"
 #include "impact/flight_root.h"
@@ -14,9 +15,12 @@
 #include "numeric/ode.h"
 
 /* y: [contacts] gaps, [contacts] gap rates, [contacts] impulses, 1 damping loss, then every group's
- * q and v. Root functions: per contact the local indentation and the approach rate. */
+ * q and v. Root functions: per contact the local indentation, the approach rate and, where a law
+ * yields, the indentation above the limit of what can be undone. */
 struct reference {
-    const struct scene *scene;
+    const struct scene *scene; /* with the laws of the outcome, which change as they yield */
+    struct scene own;
+    size_t roots;         /* root functions of a contact */
     struct motion motion; /* the state unpacked */
     size_t size;
     bool *active;   /* [contact] a sub-impact is under way */
@@ -119,8 +123,11 @@ static void roots(double t, const double *y, double *values, void *context)
     struct reference *run = context;
     find_forces(run, y);
     for (size_t c = 0; c < run->scene->contacts; c++) {
-        values[2 * c] = run->indentation[c];
-        values[2 * c + 1] = run->rate[c];
+        double *value = values + run->roots * c;
+        value[0] = run->indentation[c];
+        value[1] = run->rate[c];
+        if (run->roots > 2)
+            value[2] = run->indentation[c] - fmin(contact_law_limit(&run->scene->laws[c]), 1e3);
     }
 }
 
@@ -160,7 +167,11 @@ static void set_absolute(struct reference *run, double relative)
 static bool reference_create(struct reference *run, const struct scene *scene, struct arena *arena)
 {
     size_t n = scene->contacts;
-    *run = (struct reference){.scene = scene};
+    *run = (struct reference){.own = *scene, .roots = 2};
+    run->scene = &run->own;
+    for (size_t c = 0; c < n; c++)
+        if (scene->laws[c].operations->curve)
+            run->roots = 3;
     run->size = 3 * n + 1 + 2 * oscillator_count(scene);
     run->active = arena_take(arena, n, sizeof *run->active);
     run->everyone = arena_take(arena, n, sizeof *run->everyone);
@@ -198,25 +209,42 @@ static void close_contact(struct reference *run, struct impact_outcome *outcome,
     track_close(&outcome->tracks[c], &run->scene->laws[c], t, y[run->scene->contacts + c]);
 }
 
+/* The largest indentation beyond the limit: the dent deepens. */
+static void yield(struct reference *run, struct impact_outcome *outcome, size_t c, double *y)
+{
+    struct contact_law *law = &outcome->laws[c];
+    double before = law->history.residual;
+    outcome->plastic += contact_law_yield(law, run->indentation[c]);
+    double deeper = law->history.residual - before;
+    y[c] += deeper;
+    run->indentation[c] -= deeper;
+    outcome->tracks[c].deepened += deeper;
+}
+
 /* Bookkeeping at a root: contacts open and close, indentations peak. */
-static void handle_roots(struct reference *run, struct impact_outcome *outcome, double t,
-                         const double *y, const int *found)
+static void handle_roots(struct reference *run, struct impact_outcome *outcome, double t, double *y,
+                         const int *found)
 {
     for (size_t c = 0; c < run->scene->contacts; c++) {
-        if (found[2 * c] > 0 && !run->active[c])
+        int opens = found[run->roots * c];
+        if (opens > 0 && !run->active[c])
             open_contact(run, outcome, c, t, y);
-        else if (found[2 * c] < 0 && run->active[c])
+        else if (opens < 0 && run->active[c])
             close_contact(run, outcome, c, t, y);
     }
     find_forces(run, y);
     for (size_t c = 0; c < run->scene->contacts; c++) {
         struct sub_impact *open = &outcome->tracks[c].open;
-        if (!run->active[c] || found[2 * c + 1] >= 0 ||
-            run->indentation[c] <= open->max_indentation)
+        double indentation = run->indentation[c] + outcome->tracks[c].deepened;
+        if (!run->active[c] || found[run->roots * c + 1] >= 0)
             continue;
-        open->max_indentation = run->indentation[c];
-        open->compression_end = t;
-        open->compression_impulse = y[2 * run->scene->contacts + c] - run->opened[c];
+        if (indentation > open->max_indentation) {
+            open->max_indentation = indentation;
+            open->compression_end = t;
+            open->compression_impulse = y[2 * run->scene->contacts + c] - run->opened[c];
+        }
+        if (run->indentation[c] > contact_law_limit(&run->scene->laws[c]))
+            yield(run, outcome, c, y);
     }
 }
 
@@ -258,7 +286,7 @@ static enum percuss_end_reason integrate(struct reference *run, struct ode *ode,
                                          const struct impact_settings *settings,
                                          struct impact_outcome *outcome, double *t)
 {
-    int found[2 * PERCUSS_MAX_CONTACTS];
+    int found[3 * PERCUSS_MAX_CONTACTS];
     unsigned long max_steps = impact_max_steps(run->scene, settings);
     for (unsigned long used = 0; used < max_steps; used++) {
         enum ode_event event = ode_step(ode, settings->horizon, t, run->y, found);
@@ -270,7 +298,8 @@ static enum percuss_end_reason integrate(struct reference *run, struct ode *ode,
             /* the right-hand side is not smooth here: start afresh */
             bool restart = false;
             for (size_t c = 0; c < run->scene->contacts; c++)
-                restart = restart || found[2 * c];
+                for (size_t r = 0; r < run->roots; r++)
+                    restart = restart || ((r == 0 || run->roots > 2) && found[run->roots * c + r]);
             if (restart && !ode_set(ode, *t, run->y))
                 return PERCUSS_END_LIMIT;
         }
@@ -300,7 +329,6 @@ static bool start(struct reference *run, const struct impact_settings *settings,
     set_absolute(run, 0.01 * settings->accuracy);
     pack(run, &run->motion, run->y);
     for (size_t c = 0; c < scene->contacts; c++) {
-        track_clear(&outcome->tracks[c]);
         motion_approach(&run->motion, scene, c, &run->approach[c], &run->rate[c]);
         double near = 1e-12 * impact_scale_of(scene, c, run->rate[c]).indentation;
         if (run->approach[c] >= -near && run->rate[c] > 0.0)
@@ -319,11 +347,13 @@ static double first_touch(const struct scene *scene, const struct impact_outcome
     return isfinite(first) ? first : 0.0;
 }
 
-static bool finish(struct reference *run, double t, struct arena *arena,
+static bool finish(struct reference *run, const struct scene *scene, double t, struct arena *arena,
                    struct impact_outcome *outcome)
 {
-    const struct scene *scene = run->scene;
     find_forces(run, run->y);
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (run->active[c] && run->indentation[c] > contact_law_limit(&outcome->laws[c]))
+            yield(run, outcome, c, run->y);
     unpack(run, run->y, &outcome->motion);
     outcome->motion.time = outcome->window = t;
     for (size_t c = 0; c < scene->contacts; c++) {
@@ -331,8 +361,9 @@ static bool finish(struct reference *run, double t, struct arena *arena,
         if (!run->active[c]) {
             run->indentation[c] = 0.0;
         } else {
-            if (run->indentation[c] > track->open.max_indentation) {
-                track->open.max_indentation = run->indentation[c];
+            double indentation = run->indentation[c] + track->deepened;
+            if (indentation > track->open.max_indentation) {
+                track->open.max_indentation = indentation;
                 track->open.compression_end = t;
                 track->open.compression_impulse = run->y[2 * scene->contacts + c] - run->opened[c];
             }
@@ -349,14 +380,16 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
                                  struct arena *arena, struct impact_outcome *outcome)
 {
     struct reference run;
+    impact_begin(outcome, scene);
     if (!reference_create(&run, scene, arena))
         return PERCUSS_INTERNAL;
+    run.own.laws = outcome->laws;
     outcome->always_overlapped = !start(&run, settings, outcome);
     if (outcome->always_overlapped)
         return PERCUSS_OK;
     struct ode *ode = ode_create(&(struct ode_problem){
         .size = run.size,
-        .root_count = 2 * scene->contacts,
+        .root_count = run.roots * scene->contacts,
         .rhs = rhs,
         .roots = roots,
         .context = &run,
@@ -376,5 +409,5 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
     outcome->rejected = 0;
     outcome->intervals = evaluations;
     ode_free(ode);
-    return finish(&run, t, arena, outcome) ? PERCUSS_OK : PERCUSS_INTERNAL;
+    return finish(&run, scene, t, arena, outcome) ? PERCUSS_OK : PERCUSS_INTERNAL;
 }

@@ -5,14 +5,24 @@
  * freedom, solved by its energy. Nothing is lost, so e = 1 to the last bits at any tolerance. */
 #include <math.h>
 
+#include "contact/plastic.h"
 #include "impact/energy.h"
 #include "impact/impact.h"
+
+/* Whether the approach is too weak to make a law yield. */
+static bool stays_elastic(const struct scene *scene)
+{
+    const struct contact_law *law = &scene->laws[0];
+    double speed = scene->gap_rate[0];
+    return !law->operations->curve ||
+           0.5 * speed * speed / scene->w[0] <=
+               law->operations->stored(law, NULL, contact_law_limit(law));
+}
 
 bool impact_is_rigid_pair(const struct scene *scene)
 {
     return scene->contacts == 1 && scene->groups == 0 && scene->gap_acceleration[0] == 0.0 &&
-           scene->residual[0] == 0.0 && scene->gap_rate[0] < 0.0 &&
-           !scene->laws[0].operations->curve;
+           scene->residual[0] == 0.0 && scene->gap_rate[0] < 0.0 && stays_elastic(scene);
 }
 
 /* Largest indentation: the law stores all the energy. Newton's method; the force is the derivative.
@@ -58,7 +68,7 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
     double energy = 0.5 * speed * speed / w;
     double touch = scene->gap[0] / speed;
     double closed = 0.0;
-    track_clear(&outcome->tracks[0]);
+    impact_begin(outcome, scene);
     motion_start(&outcome->motion, scene);
     outcome->time_shift = touch;
     outcome->end_reason = PERCUSS_END_SEPARATED;

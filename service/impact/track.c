@@ -24,6 +24,7 @@ void track_open(struct track *track, double time, double gap_rate)
 {
     track->open = (struct sub_impact){
         .start = time, .compression_end = time, .end = time, .gap_rate_before = gap_rate};
+    track->deepened = 0.0;
 }
 
 enum { POINTS = NODES + 2 }; /* start, nodes, end of a step */
@@ -66,21 +67,21 @@ void track_step(struct track *track, double time, double h, const struct track_v
 {
     struct sub_impact *open = &track->open;
     double place[POINTS] = {0.0};
-    double value[POINTS] = {values->start};
+    double value[POINTS] = {values->start + track->deepened};
     int largest = 0;
     place[POINTS - 1] = 1.0;
-    value[POINTS - 1] = values->end;
+    value[POINTS - 1] = values->end + track->deepened;
     for (int j = 0; j < NODES; j++) {
         place[j + 1] = collocation.node[j];
-        value[j + 1] = values->indentation[j];
+        value[j + 1] = values->indentation[j] + track->deepened;
     }
     for (int i = 1; i < POINTS; i++)
         if (value[i] > value[largest])
             largest = i;
     /* still rising: the end will do, the next step looks closer; past the peak by a thousandth
      * there is no need to look */
-    if (largest == POINTS - 1 && values->end > open->max_indentation) {
-        open->max_indentation = values->end;
+    if (largest == POINTS - 1 && value[largest] > open->max_indentation) {
+        open->max_indentation = value[largest];
         open->compression_end = time + h;
         open->compression_impulse = open->impulse + h * collocation_integral(values->force, 1.0);
     } else if (value[largest] > 0.999 * open->max_indentation) {
@@ -113,7 +114,8 @@ void track_close(struct track *track, const struct contact_law *law, double time
     double stiffness;
     open->end = time;
     open->gap_rate_after = gap_rate;
-    open->peak_force = contact_law_force(law, NULL, open->max_indentation, &stiffness);
+    open->peak_force =
+        contact_law_force(law, NULL, open->max_indentation - track->deepened, &stiffness);
     track->impulse += open->impulse;
     track->end_time = time;
     if (track->count < PERCUSS_MAX_SUB_IMPACTS)

@@ -23,6 +23,8 @@ struct track {
     /* what omitted inertia and viscosity would do: integrals of K' F' (N^2/(m s)) and of F'^2
      * (N^2/s) over all of them, K the law's stiffness */
     double inertia, viscosity;
+    double deepened; /* m: by how much the dent did so since then; indentations in the list count
+                        from its bottom at the first touch */
 };
 
 /* Memory from the arena. False: out of memory. */

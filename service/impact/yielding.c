@@ -1,0 +1,276 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/yielding.h"
+
+#include <math.h>
+
+#include "contact/plastic.h"
+
+bool yielding_create(struct yielding *yielding, struct arena *arena)
+{
+    size_t n = yielding->scene->contacts;
+    yielding->any = false;
+    yielding->resume = -1;
+    for (size_t c = 0; c < n; c++)
+        yielding->any = yielding->any || yielding->scene->laws[c].operations->curve;
+    if (!yielding->any)
+        return true;
+    yielding->when = arena_take(arena, n, sizeof(double));
+    yielding->target = arena_take(arena, n, sizeof(double));
+    yielding->within = arena_take(arena, n, sizeof(double));
+    for (size_t c = 0; yielding->when && c < n; c++)
+        yielding->when[c] = INFINITY;
+    return yielding->when && yielding->target && yielding->within;
+}
+
+/* Unloading that begins a time t late, or early, gives a force wrong by its slope's jump times the
+ * travel, a t^2/2, for that time: the impulse is wrong by about (t/duration)^3. */
+static double near_peak(const struct yielding *yielding, double duration)
+{
+    return 0.5 * cbrt(yielding->accuracy) * duration;
+}
+
+/* Where reloading comes back to the virgin curve the travel is v t: (t/duration)^2. */
+static double near_kink(const struct yielding *yielding, double duration)
+{
+    return 0.5 * sqrt(yielding->accuracy) * duration;
+}
+
+enum { POINTS = NODES + 2 };
+
+/* Rate of the cubic through the nodes. */
+static double rate_at(const double values[NODES], double s)
+{
+    double rate = 0.0;
+    for (int j = 0; j < NODES; j++) {
+        const double *c = collocation.monomial[j];
+        rate += values[j] * (c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]));
+    }
+    return rate;
+}
+
+/* One contact on the step just solved. */
+struct path {
+    double place[POINTS], value[POINTS]; /* start, nodes, end; share of the step, m */
+    const double *nodes;
+    double rate[2]; /* at start and end, m per step */
+};
+
+/* Where an indentation is first passed, linear between the points around; INFINITY: nowhere. */
+static double crossing_on(const struct path *path, double target)
+{
+    for (int i = 1; i < POINTS; i++) {
+        double before = fmin(path->value[i - 1], target);
+        if (path->value[i] > target)
+            return path->place[i - 1] + (path->place[i] - path->place[i - 1]) * (target - before) /
+                                            (path->value[i] - before);
+    }
+    return INFINITY;
+}
+
+/* Where the indentation first turns beyond the limit; INFINITY: nowhere. */
+static double peak_on(const struct path *path, double limit)
+{
+    double before = path->rate[0];
+    for (int i = 1; i < POINTS; i++) {
+        double after = i + 1 < POINTS ? rate_at(path->nodes, path->place[i]) : path->rate[1];
+        if (before > 0.0 && after <= 0.0 && fmax(path->value[i - 1], path->value[i]) > limit)
+            return path->place[i - 1] +
+                   (path->place[i] - path->place[i - 1]) * before / (before - after);
+        before = after;
+    }
+    return INFINITY;
+}
+
+static struct path path_of(const struct yielding *yielding, size_t contact, double h)
+{
+    struct path path = {.nodes = yielding->step->indentation[contact]};
+    path.value[0] = yielding->now[contact].indentation;
+    for (int j = 0; j < NODES; j++) {
+        path.place[j + 1] = collocation.node[j];
+        path.value[j + 1] = path.nodes[j];
+    }
+    path.place[POINTS - 1] = 1.0;
+    path.value[POINTS - 1] = yielding->step->end_indentation[contact];
+    path.rate[0] = h * yielding->now[contact].rate;
+    path.rate[1] = rate_at(path.nodes, 1.0);
+    return path;
+}
+
+/* Duration of the contact, or of the shortest one while it is still open. */
+static double duration_of(const struct yielding *yielding, size_t contact)
+{
+    double shortest = INFINITY;
+    if (yielding->active[contact])
+        return yielding->scales[contact].duration;
+    for (size_t c = 0; c < yielding->scene->contacts; c++)
+        if (yielding->active[c])
+            shortest = fmin(shortest, yielding->scales[c].duration);
+    return shortest;
+}
+
+/* Notes an event at a share of the step if it is the first so far. */
+static void note(struct yielding *yielding, size_t contact, double when, double target,
+                 double within)
+{
+    if (!(when < yielding->when[contact]))
+        return;
+    yielding->when[contact] = when;
+    yielding->target[contact] = target;
+    yielding->within[contact] = within;
+}
+
+/* Looks for the first event of a contact on the step just solved. One that was expected beyond the
+ * step stays. */
+static void expect(struct yielding *yielding, size_t contact, double h)
+{
+    const struct contact_law *law = &yielding->scene->laws[contact];
+    struct path path = path_of(yielding, contact, h);
+    double time = yielding->outcome->motion.time;
+    double duration = duration_of(yielding, contact);
+    double limit = contact_law_limit(law);
+    double rise = fmax(0.0, path.rate[0] / h);
+    double residual = law->history.residual;
+    double within = near_kink(yielding, duration);
+    if (yielding->when[contact] < time + h)
+        yielding->when[contact] = INFINITY;
+    if (law->history.max_indentation > 0.0 && path.value[0] + rise * within < limit)
+        note(yielding, contact, time + h * crossing_on(&path, limit), limit, within);
+
+    within = near_peak(yielding, duration);
+    double start = fmax(path.value[0] + rise * within + residual, law->history.max_indentation);
+    double joint = law->operations->curve->joint(law, start) - residual;
+    note(yielding, contact, time + h * crossing_on(&path, joint), joint, within);
+
+    /* what exceeds the limit by less than the nearness resolves is left to the virgin curve */
+    double share = within / h;
+    double bend = fabs(path.rate[1] - path.rate[0]);
+    double peak = peak_on(&path, limit + 0.5 * bend * share * share);
+    note(yielding, contact, time + h * peak, INFINITY, within);
+}
+
+/* First positive root of d + v t + a t^2/2 = target; INFINITY: none. */
+static double rise_time(const struct contact_start *now, double target)
+{
+    double left = target - now->indentation;
+    double under = now->rate * now->rate + 2.0 * now->curvature * left;
+    double root = now->rate + sqrt(fmax(0.0, under));
+    return under >= 0.0 && root > 0.0 ? 2.0 * left / root : INFINITY;
+}
+
+/* The expected event from the motion at its present end, once a step that ends there came near. */
+static void correct(struct yielding *yielding, size_t contact)
+{
+    const struct contact_start *now = &yielding->now[contact];
+    double target = yielding->target[contact];
+    double left = isfinite(target) ? rise_time(now, target) : -now->rate / now->curvature;
+    if (isfinite(left))
+        yielding->when[contact] = yielding->outcome->motion.time + left;
+}
+
+int yielding_level(const struct yielding *yielding, int level)
+{
+    for (size_t c = 0; c < yielding->scene->contacts; c++) {
+        double left = yielding->when[c] + yielding->within[c] - yielding->outcome->motion.time;
+        while (level < STEP_LEVELS - 1 && step_length(level) > left)
+            level++;
+    }
+    return level;
+}
+
+static bool is_due(const struct yielding *yielding, size_t contact)
+{
+    return yielding->when[contact] - yielding->outcome->motion.time <= yielding->within[contact];
+}
+
+/* Makes an indentation of a contact the largest so far. */
+static void yield(struct yielding *yielding, size_t contact, double indentation)
+{
+    struct impact_outcome *outcome = yielding->outcome;
+    struct contact_law *law = &outcome->laws[contact];
+    double before = law->history.residual;
+    outcome->plastic += contact_law_yield(law, indentation);
+    double deeper = law->history.residual - before;
+    outcome->motion.gap[contact] += deeper;
+    outcome->tracks[contact].deepened += deeper;
+    yielding->now[contact].indentation -= deeper;
+}
+
+/* The expected event is here. True: the law yielded; otherwise an indentation is passed, or the
+ * largest one stayed below the limit after all. */
+static bool take(struct yielding *yielding, size_t contact)
+{
+    const struct contact_start *now = &yielding->now[contact];
+    yielding->when[contact] = INFINITY;
+    if (isfinite(yielding->target[contact]) || !yielding->active[contact] ||
+        !(now->curvature < 0.0))
+        return false;
+    double left = -now->rate / now->curvature;
+    double peak = now->indentation + 0.5 * now->rate * left;
+    if (!(fabs(left) <= 2.0 * yielding->within[contact]) ||
+        !(peak > contact_law_limit(&yielding->scene->laws[contact])))
+        return false;
+    yield(yielding, contact, peak);
+    return true;
+}
+
+/* Steps as long as before the approach. */
+static void resume(struct yielding *yielding, int *level)
+{
+    if (yielding->resume >= 0)
+        *level = yielding->resume;
+    yielding->resume = -1;
+}
+
+bool yielding_passes(struct yielding *yielding, double h, int *level)
+{
+    double end = yielding->outcome->motion.time + h;
+    bool passes = false;
+    bool yielded = false;
+    for (size_t c = 0; c < yielding->scene->contacts; c++) {
+        if (!yielding->scene->laws[c].operations->curve)
+            continue;
+        expect(yielding, c, h);
+        if (!(end > yielding->when[c] + yielding->within[c]))
+            continue;
+        if (is_due(yielding, c))
+            yielded = take(yielding, c) || yielded;
+        else
+            passes = true;
+    }
+    if (yielded) {
+        resume(yielding, level);
+    } else if (passes) {
+        yielding->resume = yielding->resume < 0 ? *level : yielding->resume;
+        *level = yielding_level(yielding, *level);
+    }
+    return passes || yielded;
+}
+
+bool yielding_meet(struct yielding *yielding, double h, int *level)
+{
+    bool met = false;
+    for (size_t c = 0; c < yielding->scene->contacts; c++) {
+        double left = yielding->when[c] - yielding->outcome->motion.time;
+        if (!isfinite(left))
+            continue;
+        if (!is_due(yielding, c) && left <= 2.0 * h)
+            correct(yielding, c);
+        if (!is_due(yielding, c))
+            continue;
+        take(yielding, c);
+        met = true;
+    }
+    if (met)
+        resume(yielding, level);
+    return met;
+}
+
+void yielding_end(struct yielding *yielding)
+{
+    for (size_t c = 0; c < yielding->scene->contacts; c++)
+        if (yielding->active[c] &&
+            yielding->now[c].indentation > contact_law_limit(&yielding->scene->laws[c]))
+            yield(yielding, c, yielding->now[c].indentation);
+}

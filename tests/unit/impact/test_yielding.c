@@ -1,0 +1,208 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/impact/yielding.c: impacts whose contacts yield, against the energy of a rigid
+ * pair and against CVODE; order of the steps that end where a law's slope jumps. */
+#include "contact/law_closed_form.h"
+#include "contact/plastic.h"
+#include "unit/impact/toy_scene.h"
+
+static void near(const char *what, double value, double expected, double allowed)
+{
+    if (getenv("PERCUSS_MEASURE"))
+        print_message("    %-30s %.12g expected %.12g error %.2e allowed %.1e\n", what, value,
+                      expected, fabs(value - expected), allowed);
+    if (!(fabs(value - expected) <= allowed))
+        fail_msg("%s: %.17g is not %.17g within %g", what, value, expected, allowed);
+}
+
+/* The paper's sphere on its rod 1. */
+static struct contact_law soft_law(void)
+{
+    static const struct material steel = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};
+    static const struct material soft = {"al-205", 70e9, 0.33, 2700.0, 205e6, 0.0};
+    struct hertz_contact hertz =
+        hertz_contact_make(hertz_effective_modulus(&steel, &soft), 0.5 / 0.015, 0.5 / 0.015);
+    return contact_law_closed_form(&hertz, &steel, &soft);
+}
+
+static struct impact_outcome run(struct toy *toy, bool cvode, double accuracy)
+{
+    struct impact_outcome outcome;
+    struct impact_settings settings = {.accuracy = accuracy, .horizon = 0.02, .max_work = 1e9};
+    assert_true(impact_create(&outcome, &toy->scene, &toy->arena));
+    enum percuss_status status =
+        (cvode ? impact_cvode : impact_modal)(&toy->scene, &settings, &toy->arena, &outcome);
+    assert_int_equal(status, PERCUSS_OK);
+    return outcome;
+}
+
+static void toy_on_soft(struct toy *toy, double speed)
+{
+    toy_init(toy, 1);
+    toy->laws[0] = soft_law();
+    toy->w[0] = 1.0 / 0.11;
+    toy->gap_rate[0] = -speed;
+}
+
+/* Rebound of a rigid pair by its energy alone, from the law's own curves. */
+static double rebound(const struct contact_law *law, double speed, double w)
+{
+    double energy = 0.5 * speed * speed / w;
+    struct contact_law after = *law;
+    double d = law->operations->indentation(law, 1.0);
+    for (int i = 0; i < 100; i++) {
+        double slope;
+        double stored = law->operations->stored(law, NULL, d);
+        d *= exp(log(energy / stored) * stored / (contact_law_force(law, NULL, d, &slope) * d));
+    }
+    if (d > contact_law_limit(law))
+        energy -= contact_law_yield(&after, d);
+    return sqrt(2.0 * energy * w);
+}
+
+static void a_rigid_pair_rebounds_by_its_energy(void **state)
+{
+    (void)state;
+    static const double speeds[] = {0.01, 0.03, 0.1, 0.3, 1.0, 10.0};
+    for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++) {
+        double last = INFINITY;
+        for (double accuracy = 1e-4; accuracy > 1e-13; accuracy *= 1e-2) {
+            struct toy toy;
+            toy_on_soft(&toy, speeds[i]);
+            struct impact_outcome outcome = run(&toy, false, accuracy);
+            double e = outcome.motion.gap_rate[0] / speeds[i];
+            double expected = rebound(&toy.laws[0], speeds[i], toy.w[0]) / speeds[i];
+            /* the step control's own statement, see docs/accuracy.md, and rounding */
+            double allowed = 0.1 * pow(accuracy, 0.8) + 1e-12;
+            near("restitution", e, expected, allowed);
+            /* what solve/accuracy.c counts on: tolerance ten times, or 1e-3, the accuracy */
+            near("closure", outcome.energy.closure / outcome.energy.available, 0.0,
+                 100.0 * accuracy + 1e-12);
+            assert_true((outcome.energy.plastic > 0.0) == (e < 1.0 - 1e-4));
+            last = fabs(e - expected);
+            toy_free(&toy);
+        }
+        assert_true(last < 1e-9);
+    }
+}
+
+/* Too weak to yield: the law answers like Hertz, also by the closed form of a rigid pair. */
+static void a_weak_blow_is_hertz(void **state)
+{
+    (void)state;
+    struct toy toy;
+    struct impact_outcome outcome[2];
+    struct impact_settings settings = {.accuracy = 1e-4, .horizon = 0.02, .max_work = 1e9};
+    toy_on_soft(&toy, 0.010);
+    assert_true(impact_is_rigid_pair(&toy.scene));
+    for (int hertz = 0; hertz < 2; hertz++) {
+        if (hertz)
+            toy.laws[0] = contact_law_hertz(toy.laws[0].parameters[0]);
+        assert_true(impact_create(&outcome[hertz], &toy.scene, &toy.arena));
+        assert_int_equal(impact_rigid_pair(&toy.scene, &settings, &toy.arena, &outcome[hertz]),
+                         PERCUSS_OK);
+    }
+    assert_true(outcome[0].tracks[0].impulse == outcome[1].tracks[0].impulse);
+    near("depth", outcome[0].tracks[0].list[0].max_indentation * 1e6,
+         outcome[1].tracks[0].list[0].max_indentation * 1e6, 1e-14);
+    toy_free(&toy);
+    toy_on_soft(&toy, 0.012);
+    assert_false(impact_is_rigid_pair(&toy.scene));
+    toy_free(&toy);
+}
+
+/* A second blow into the dent of the first, weaker, as strong, and stronger. */
+static void a_dent_hardens(void **state)
+{
+    (void)state;
+    static const double speeds[] = {0.1, 0.3, 0.6};
+    for (int i = 0; i < 3; i++) {
+        struct toy toy;
+        toy_on_soft(&toy, 0.3);
+        struct impact_outcome first = run(&toy, false, 1e-11);
+        contact_law_remember(&toy.laws[0], &first.laws[0].history);
+        toy.gap_rate[0] = -speeds[i];
+        struct impact_outcome second = run(&toy, false, 1e-11);
+        double expected = rebound(&toy.laws[0], speeds[i], toy.w[0]);
+        near("rebound", second.motion.gap_rate[0] / speeds[i], expected / speeds[i], 1e-9);
+        near("closure", second.energy.closure / second.energy.available, 0.0, 1e-9);
+        const struct sub_impact *sub = second.tracks[0].list;
+        if (speeds[i] < 0.3) {
+            assert_true(second.energy.plastic == 0.0);
+            near("rebound, elastic", expected / speeds[i], 1.0, 1e-12);
+        } else {
+            assert_true(second.laws[0].history.residual > first.laws[0].history.residual);
+            near("depth", sub->max_indentation + first.laws[0].history.residual,
+                 second.laws[0].history.max_indentation, 1e-14);
+            near("force", sub->peak_force, second.laws[0].history.max_force,
+                 1e-9 * sub->peak_force);
+        }
+        toy_free(&toy);
+    }
+}
+
+/* Modes that make the indentation rise and fall several times in one contact. */
+static void add_modes(struct toy *toy, double damping)
+{
+    static const double omega[] = {3e4, 7e4, 1.1e5, 1.9e5};
+    static const double participation[] = {1.5, -1.9, 1.4, 2.0};
+    toy->residual[0] = 2e-9;
+    toy_add(toy, 1, 4, omega, damping, participation);
+}
+
+static void both_methods_agree(void **state)
+{
+    (void)state;
+    static const double speeds[] = {0.02, 0.1, 0.3, 1.0};
+    for (int i = 0; i < 8; i++) {
+        struct toy toy;
+        toy_on_soft(&toy, speeds[i % 4]);
+        add_modes(&toy, i < 4 ? 0.0 : 0.02);
+        struct impact_outcome modal = run(&toy, false, 1e-11);
+        struct impact_outcome cvode = run(&toy, true, 1e-10);
+        near("rate after", modal.motion.gap_rate[0] / speeds[i % 4],
+             cvode.motion.gap_rate[0] / speeds[i % 4], 1e-7);
+        near("plastic", modal.energy.plastic / modal.energy.available,
+             cvode.energy.plastic / cvode.energy.available, 1e-7);
+        near("dent", modal.laws[0].history.residual / 1e-6, cvode.laws[0].history.residual / 1e-6,
+             1e-6);
+        near("closure", modal.energy.closure / modal.energy.available, 0.0, 1e-9);
+        assert_int_equal(modal.tracks[0].count, cvode.tracks[0].count);
+        near("depth", modal.tracks[0].list[0].max_indentation / 1e-6,
+             cvode.tracks[0].list[0].max_indentation / 1e-6, 1e-6);
+        toy_free(&toy);
+    }
+}
+
+/* Steps and rejected steps together, against the elastic law on the same scene. */
+static void yielding_costs_few_steps(void **state)
+{
+    (void)state;
+    for (double accuracy = 1e-4; accuracy > 1e-12; accuracy *= 1e-2) {
+        struct toy toy;
+        toy_on_soft(&toy, 0.3);
+        add_modes(&toy, 0.0);
+        struct impact_outcome plastic = run(&toy, false, accuracy);
+        toy.laws[0] = contact_law_hertz(toy.laws[0].parameters[0]);
+        struct impact_outcome elastic = run(&toy, false, accuracy);
+        if (getenv("PERCUSS_MEASURE"))
+            print_message("    accuracy %g: plastic %lu + %lu, elastic %lu + %lu\n", accuracy,
+                          plastic.steps, plastic.rejected, elastic.steps, elastic.rejected);
+        assert_true(plastic.steps + plastic.rejected <=
+                    2 * (elastic.steps + elastic.rejected) + 40);
+        toy_free(&toy);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_rigid_pair_rebounds_by_its_energy),
+        cmocka_unit_test(a_weak_blow_is_hertz),
+        cmocka_unit_test(a_dent_hardens),
+        cmocka_unit_test(both_methods_agree),
+        cmocka_unit_test(yielding_costs_few_steps),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
