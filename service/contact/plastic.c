@@ -58,7 +58,7 @@ double plastic_stored(const struct contact_law *law, const void *unused, double 
 /* Newton's method for the logarithms, from where the force is nearly a power of the indentation. */
 double plastic_indentation(const struct contact_law *law, double force)
 {
-    double d = fmax(law->operations->curve->yield(law), span_of(&law->history));
+    double d = fmin(contact_law_limit(law), 1e-6);
     for (int i = 0; i < 100; i++) {
         double stiffness;
         double here = plastic_force(law, NULL, d, &stiffness);

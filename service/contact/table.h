@@ -1,0 +1,60 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Tabulated laws of contacts that yield: a loading curve and a family of unloading branches,
+ * sampled from a computation of the contact region and interpolated smoothly. */
+#ifndef PERCUSS_CONTACT_TABLE_H
+#define PERCUSS_CONTACT_TABLE_H
+
+#include "base/fault.h"
+#include "contact/law.h"
+#include "model/material.h"
+
+/* Samples, struct of arrays; borrowed by contact_curves_create only while it runs. All rise
+ * strictly, the first of each curve is 0. */
+struct contact_table {
+    size_t points;
+    const double *indentation;    /* [points] of the loading curve, m */
+    const double *force;          /* [points], N */
+    const double *contact_radius; /* [points], m */
+    double yield;                 /* indentation up to which nothing stays; > 0 */
+    size_t branches;              /* 0: an elastic table */
+    const double *largest;  /* [branches]: indentation at which unloading begins, m, > yield */
+    const double *residual; /* [branches]: what stays of it, m */
+    size_t samples;         /* of each branch, at equal steps of x in 0..1 */
+    const double *share;    /* [branches][samples]: F/F_largest at x = (d - residual) /
+                               (largest - residual); 0 at x = 0, 1 at x = 1 */
+    double error;           /* relative, of the force, as its computation states it */
+};
+
+/* A table made ready for interpolation; immutable, may be shared. */
+struct contact_curves;
+
+/* Bad samples: NULL with BAD_REQUEST and what is wrong in the fault; out of memory: INTERNAL. */
+struct contact_curves *contact_curves_create(const struct contact_table *table,
+                                             struct fault *fault);
+void contact_curves_free(struct contact_curves *curves); /* NULL is allowed */
+
+/* Last indentation of the loading curve, m: the law goes on beyond it with the last slope of
+ * F^(2/3). */
+double contact_curves_range(const struct contact_curves *curves);
+/* Relative error of the force that the table states. */
+double contact_curves_error(const struct contact_curves *curves);
+
+/* The law of a table, which must outlive it. */
+struct contact_law contact_law_table(const struct contact_curves *curves);
+
+/* What a table is asked for. Curvatures as in struct hertz_contact. */
+struct contact_pair {
+    const struct material *a, *b;
+    double curvature[2];
+};
+
+/* Where tables come from. `find` returns NULL where there is none; it is called by several threads
+ * at once and must not wait. */
+struct contact_table_source {
+    void *context;
+    const struct contact_curves *(*find)(void *context, const struct contact_pair *pair);
+};
+
+#endif

@@ -1,0 +1,30 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Monotone cubic splines. */
+#ifndef PERCUSS_NUMERIC_SPLINE_H
+#define PERCUSS_NUMERIC_SPLINE_H
+
+#include <stddef.h>
+
+/* Values and slopes at ascending places, all of length count >= 2; the arrays are the owner's. */
+struct spline {
+    size_t count;
+    double *place, *value, *slope;
+};
+
+/* Slopes for monotone values: those of the spline with a continuous second derivative whose end
+ * slopes are those of cubics, limited where it would not be monotone between two places (Fritsch
+ * and Carlson, SIAM J. Numer. Anal. 17 (1980) 238). `scratch` holds 2 count. */
+void spline_set_slopes(struct spline *spline, double *scratch);
+
+/* Index i with place[i] <= x < place[i + 1], clamped to the segments. */
+size_t spline_segment(const struct spline *spline, double x);
+
+/* Value on segment i; *slope becomes its derivative. */
+double spline_on(const struct spline *spline, size_t i, double x, double *slope);
+
+/* Value anywhere from the first place on; beyond the last one straight on. */
+double spline_at(const struct spline *spline, double x, double *slope);
+
+#endif

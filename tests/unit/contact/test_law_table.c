@@ -1,0 +1,177 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/contact/law_table.c: a table sampled from the closed form follows it, its curves
+ * fit together, bad samples are refused. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "contact/law_closed_form.h"
+#include "unit/contact/sampled_table.h"
+
+static void near(double value, double expected, double relative)
+{
+    if (!(fabs(value - expected) <= relative * fabs(expected)))
+        fail_msg("%.17g is not %.17g within %g", value, expected, relative);
+}
+
+static struct contact_law closed_form(void)
+{
+    static const struct material steel = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};
+    static const struct material soft = {"al-205", 70e9, 0.33, 2700.0, 205e6, 0.0};
+    struct hertz_contact hertz =
+        hertz_contact_make(hertz_effective_modulus(&steel, &soft), 0.5 / 0.015, 0.5 / 0.015);
+    return contact_law_closed_form(&hertz, &steel, &soft);
+}
+
+struct pair {
+    struct contact_law closed, table;
+    struct contact_curves *curves;
+};
+
+static struct pair make_pair(void)
+{
+    static struct sampled_table sampled;
+    struct fault fault = {0};
+    struct pair pair = {.closed = closed_form()};
+    sampled_table_make(&sampled, &pair.closed, 100.0);
+    pair.curves = contact_curves_create(&sampled.table, &fault);
+    if (!pair.curves)
+        fail_msg("%s", fault.text);
+    pair.table = contact_law_table(pair.curves);
+    return pair;
+}
+
+static void a_sampled_table_follows_its_law(void **state)
+{
+    (void)state;
+    struct pair pair = make_pair();
+    double range = contact_curves_range(pair.curves);
+    double slopes[2];
+    near(contact_curves_error(pair.curves), 1e-3, 0.0);
+    /* 60 points: the law's own bend between Hertz and the second piece limits it */
+    for (double d = 1e-9; d < range; d *= 1.03) {
+        double force = contact_law_force(&pair.closed, NULL, d, &slopes[0]);
+        near(contact_law_force(&pair.table, NULL, d, &slopes[1]), force, 5e-4);
+        near(slopes[1], slopes[0], 1e-2);
+        near(pair.table.operations->stored(&pair.table, NULL, d),
+             pair.closed.operations->stored(&pair.closed, NULL, d), 5e-4);
+    }
+    /* and the branches, between those sampled too */
+    for (double d = 1.4e-6; d < range; d *= 1.3) {
+        struct contact_law closed = pair.closed, table = pair.table;
+        double lost = contact_law_yield(&closed, d);
+        near(contact_law_yield(&table, d), lost, 5e-2);
+        if (d > 3e-6)
+            near(contact_law_limit(&table), contact_law_limit(&closed), 2e-3);
+        double span = contact_law_limit(&table);
+        for (double x = 0.05; x < 1.0; x += 0.05)
+            near(contact_law_force(&table, NULL, x * span, &slopes[0]) / table.history.max_force,
+                 x * sqrt(x), 1e-3);
+    }
+    contact_curves_free(pair.curves);
+}
+
+static void its_curves_fit_together(void **state)
+{
+    (void)state;
+    struct pair pair = make_pair();
+    struct contact_law law = pair.table;
+    for (int loads = 0; loads < 4; loads++) {
+        double before = 0.0;
+        for (double d = 1e-8; d < 4e-4; d *= 1.02) {
+            double slope, ignored;
+            double step = 1e-6 * d;
+            double force = contact_law_force(&law, NULL, d, &slope);
+            double above = contact_law_force(&law, NULL, d + step, &ignored);
+            double below = contact_law_force(&law, NULL, d - step, &ignored);
+            const struct contact_law_operations *of = law.operations;
+            assert_true(force > before);
+            before = force;
+            if (fabs(d - contact_law_limit(&law)) < 2.0 * step && loads)
+                continue;
+            /* differences over steps of 1e-6: rounding */
+            near(slope, (above - below) / (2.0 * step), 1e-6);
+            double power = (of->stored(&law, NULL, d + step) - of->stored(&law, NULL, d - step)) /
+                           (2.0 * step);
+            near(power, force, 1e-6);
+            near(of->indentation(&law, force), d, 1e-9);
+        }
+        /* the second one beyond the table */
+        contact_law_yield(&law, 2e-5 + 1e-4 * loads - law.history.residual);
+        assert_true(law.history.residual < law.history.max_indentation);
+    }
+    contact_curves_free(pair.curves);
+}
+
+static void an_elastic_table_never_yields(void **state)
+{
+    (void)state;
+    static struct sampled_table sampled;
+    struct fault fault = {0};
+    struct contact_law closed = closed_form();
+    sampled_table_make(&sampled, &closed, 100.0);
+    sampled.table.branches = 0;
+    struct contact_curves *curves = contact_curves_create(&sampled.table, &fault);
+    assert_non_null(curves);
+    struct contact_law law = contact_law_table(curves);
+    double slope;
+    assert_true(isinf(contact_law_limit(&law)));
+    near(law.operations->indentation(&law, contact_law_force(&law, NULL, 3e-5, &slope)), 3e-5,
+         1e-12);
+    contact_curves_free(curves);
+}
+
+static void bad_samples_are_refused(void **state)
+{
+    (void)state;
+    static struct sampled_table sampled;
+    struct contact_law closed = closed_form();
+    for (int bad = 0; bad < 7; bad++) {
+        struct fault fault = {0};
+        sampled_table_make(&sampled, &closed, 100.0);
+        switch (bad) {
+        case 0:
+            sampled.force[7] = sampled.force[6];
+            break;
+        case 1:
+            sampled.indentation[0] = 1e-9;
+            break;
+        case 2:
+            sampled.residual[3] = sampled.largest[3];
+            break;
+        case 3:
+            sampled.largest[5] = sampled.largest[4];
+            break;
+        case 4:
+            sampled.share[2][4] = NAN;
+            break;
+        case 5:
+            sampled.table.points = 2;
+            break;
+        default:
+            sampled.table.yield = sampled.largest[0];
+            break;
+        }
+        assert_null(contact_curves_create(&sampled.table, &fault));
+        assert_true(strlen(fault.text) > 20);
+    }
+    contact_curves_free(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_sampled_table_follows_its_law),
+        cmocka_unit_test(its_curves_fit_together),
+        cmocka_unit_test(an_elastic_table_never_yields),
+        cmocka_unit_test(bad_samples_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
