@@ -4,6 +4,7 @@
 #include "impact/yielding.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "contact/plastic.h"
 
@@ -37,8 +38,6 @@ static double near_kink(const struct yielding *yielding, double duration)
     return 0.5 * sqrt(yielding->accuracy) * duration;
 }
 
-enum { POINTS = NODES + 2 };
-
 /* Rate of the cubic through the nodes. */
 static double rate_at(const double values[NODES], double s)
 {
@@ -50,52 +49,63 @@ static double rate_at(const double values[NODES], double s)
     return rate;
 }
 
-/* One contact on the step just solved. */
+/* One contact on the step just solved: start, nodes, end, and the first instant at which the
+ * indentation turns. */
 struct path {
-    double place[POINTS], value[POINTS]; /* start, nodes, end; share of the step, m */
-    const double *nodes;
-    double rate[2]; /* at start and end, m per step */
+    int points;
+    double place[NODES + 3], value[NODES + 3]; /* share of the step, m */
+    double rise;                               /* rate at the start, m/s */
+    double peak;                               /* share of the step; INFINITY: none */
+    double largest;                            /* indentation there */
 };
+
+/* Inserts the first turn, where the rate changes sign between two points. */
+static void add_peak(struct path *path, const double nodes[NODES], double before)
+{
+    path->peak = INFINITY;
+    for (int i = 1; i < path->points; i++) {
+        double after = rate_at(nodes, path->place[i]);
+        double step = path->place[i] - path->place[i - 1];
+        if (before > 0.0 && after <= 0.0) {
+            path->peak = path->place[i - 1] + step * before / (before - after);
+            path->largest = collocation_value(nodes, path->peak);
+            size_t rest = (size_t)(path->points - i);
+            memmove(path->place + i + 1, path->place + i, rest * sizeof(double));
+            memmove(path->value + i + 1, path->value + i, rest * sizeof(double));
+            path->place[i] = path->peak;
+            path->value[i] = path->largest;
+            path->points++;
+            return;
+        }
+        before = after;
+    }
+}
+
+static struct path path_of(const struct yielding *yielding, size_t contact, double h)
+{
+    const double *nodes = yielding->step->indentation[contact];
+    struct path path = {.points = NODES + 2, .rise = yielding->now[contact].rate};
+    path.value[0] = yielding->now[contact].indentation;
+    for (int j = 0; j < NODES; j++) {
+        path.place[j + 1] = collocation.node[j];
+        path.value[j + 1] = nodes[j];
+    }
+    path.place[NODES + 1] = 1.0;
+    path.value[NODES + 1] = yielding->step->end_indentation[contact];
+    add_peak(&path, nodes, h * path.rise);
+    return path;
+}
 
 /* Where an indentation is first passed, linear between the points around; INFINITY: nowhere. */
 static double crossing_on(const struct path *path, double target)
 {
-    for (int i = 1; i < POINTS; i++) {
+    for (int i = 1; i < path->points; i++) {
         double before = fmin(path->value[i - 1], target);
         if (path->value[i] > target)
             return path->place[i - 1] + (path->place[i] - path->place[i - 1]) * (target - before) /
                                             (path->value[i] - before);
     }
     return INFINITY;
-}
-
-/* Where the indentation first turns beyond the limit; INFINITY: nowhere. */
-static double peak_on(const struct path *path, double limit)
-{
-    double before = path->rate[0];
-    for (int i = 1; i < POINTS; i++) {
-        double after = i + 1 < POINTS ? rate_at(path->nodes, path->place[i]) : path->rate[1];
-        if (before > 0.0 && after <= 0.0 && fmax(path->value[i - 1], path->value[i]) > limit)
-            return path->place[i - 1] +
-                   (path->place[i] - path->place[i - 1]) * before / (before - after);
-        before = after;
-    }
-    return INFINITY;
-}
-
-static struct path path_of(const struct yielding *yielding, size_t contact, double h)
-{
-    struct path path = {.nodes = yielding->step->indentation[contact]};
-    path.value[0] = yielding->now[contact].indentation;
-    for (int j = 0; j < NODES; j++) {
-        path.place[j + 1] = collocation.node[j];
-        path.value[j + 1] = path.nodes[j];
-    }
-    path.place[POINTS - 1] = 1.0;
-    path.value[POINTS - 1] = yielding->step->end_indentation[contact];
-    path.rate[0] = h * yielding->now[contact].rate;
-    path.rate[1] = rate_at(path.nodes, 1.0);
-    return path;
 }
 
 /* Duration of the contact, or of the shortest one while it is still open. */
@@ -108,6 +118,14 @@ static double duration_of(const struct yielding *yielding, size_t contact)
         if (yielding->active[c])
             shortest = fmin(shortest, yielding->scales[c].duration);
     return shortest;
+}
+
+/* A peak is met to the third power of its nearness: one that exceeds the limit by less is the same
+ * again. */
+static bool exceeds(const struct yielding *yielding, size_t contact, double indentation)
+{
+    double limit = contact_law_limit(&yielding->scene->laws[contact]);
+    return indentation > limit * (1.0 + yielding->accuracy);
 }
 
 /* Notes an event at a share of the step if it is the first so far. */
@@ -130,7 +148,7 @@ static void expect(struct yielding *yielding, size_t contact, double h)
     double time = yielding->outcome->motion.time;
     double duration = duration_of(yielding, contact);
     double limit = contact_law_limit(law);
-    double rise = fmax(0.0, path.rate[0] / h);
+    double rise = fmax(0.0, path.rise);
     double residual = law->history.residual;
     double within = near_kink(yielding, duration);
     if (yielding->when[contact] < time + h)
@@ -143,11 +161,8 @@ static void expect(struct yielding *yielding, size_t contact, double h)
     double joint = law->operations->curve->joint(law, start) - residual;
     note(yielding, contact, time + h * crossing_on(&path, joint), joint, within);
 
-    /* what exceeds the limit by less than the nearness resolves is left to the virgin curve */
-    double share = within / h;
-    double bend = fabs(path.rate[1] - path.rate[0]);
-    double peak = peak_on(&path, limit + 0.5 * bend * share * share);
-    note(yielding, contact, time + h * peak, INFINITY, within);
+    if (exceeds(yielding, contact, path.largest))
+        note(yielding, contact, time + h * path.peak, INFINITY, within);
 }
 
 /* First positive root of d + v t + a t^2/2 = target; INFINITY: none. */
@@ -208,8 +223,7 @@ static bool take(struct yielding *yielding, size_t contact)
         return false;
     double left = -now->rate / now->curvature;
     double peak = now->indentation + 0.5 * now->rate * left;
-    if (!(fabs(left) <= 2.0 * yielding->within[contact]) ||
-        !(peak > contact_law_limit(&yielding->scene->laws[contact])))
+    if (!(fabs(left) <= 2.0 * yielding->within[contact]) || !exceeds(yielding, contact, peak))
         return false;
     yield(yielding, contact, peak);
     return true;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "impact/oscillator.h"
+#include "solve/contact_model.h"
 
 /* A group whose shapes all vanish at every contact, up to rounding, does not exist for the scene.
  */
@@ -183,13 +184,11 @@ static bool fill_scene(struct assembly *assembly, const struct geometry *geometr
     size_t n = geometry->contact_count;
     double *gap = arena_take(arena, n, sizeof *gap);
     double *acceleration = arena_take(arena, n, sizeof *acceleration);
-    struct contact_law *laws = arena_take(arena, n, sizeof *laws);
-    if (!gap || !acceleration || !laws)
+    if (!gap || !acceleration)
         return false;
     for (size_t c = 0; c < n; c++) {
-        gap[c] = request->contacts[c].gap;
+        gap[c] = request->contacts[c].gap + geometry->contact_model->depth[c];
         acceleration[c] = request->contacts[c].gap_acceleration;
-        laws[c] = contact_law_hertz(geometry->hertz[c].stiffness);
     }
     assembly->scene.contacts = n;
     assembly->scene.bodies = geometry->body_count;
@@ -197,7 +196,7 @@ static bool fill_scene(struct assembly *assembly, const struct geometry *geometr
     assembly->scene.gap = gap;
     assembly->scene.gap_rate = geometry->gap_rate;
     assembly->scene.gap_acceleration = acceleration;
-    assembly->scene.laws = laws;
+    assembly->scene.laws = geometry->contact_model->laws;
     assembly->scene.group = assembly->groups;
     return true;
 }

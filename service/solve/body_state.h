@@ -1,37 +1,60 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The vibration of a body at one instant: what a state token names. */
+/* The vibration of a body at one instant and the dents in its surface: what a state token names. */
 #ifndef PERCUSS_SOLVE_BODY_STATE_H
 #define PERCUSS_SOLVE_BODY_STATE_H
 
 #include <stddef.h>
 
+#include "contact/law.h"
 #include "model/modal_basis.h"
 
+/* A patch of the surface that yielded: contacts within `size` of its middle feel it. */
+struct dent {
+    double point[3]; /* body frame, m */
+    double size;     /* contact radius at the largest force, m */
+    struct contact_history history;
+};
+
+/* Most dents that a state holds; the shallowest make place. */
+enum { BODY_STATE_MAX_DENTS = 256 };
+
 /* Immutable. `coordinates` holds count[f] pairs (q, dq/dt), family after family, mass-normalised
- * modes in the body frame, lowest first. One block of memory, free() releases it. */
+ * modes in the body frame, lowest first; the dents follow. One block of memory, free() releases it.
+ */
 struct body_state {
     size_t count[FAMILY_COUNT];
+    size_t dents;
     double coordinates[];
 };
+
+/* Number of pairs of the families below one. */
+static inline size_t body_state_pairs(const struct body_state *state, int family)
+{
+    size_t pairs = 0;
+    for (int f = 0; f < family; f++)
+        pairs += state->count[f];
+    return pairs;
+}
 
 /* Number of bytes of a state. */
 static inline size_t body_state_size(const struct body_state *state)
 {
-    size_t pairs = 0;
-    for (int family = 0; family < FAMILY_COUNT; family++)
-        pairs += state->count[family];
-    return sizeof *state + 2 * pairs * sizeof *state->coordinates;
+    return sizeof *state + 2 * body_state_pairs(state, FAMILY_COUNT) * sizeof *state->coordinates +
+           state->dents * sizeof(struct dent);
 }
 
 /* The pairs of one family. */
 static inline const double *body_state_family(const struct body_state *state, int family)
 {
-    size_t before = 0;
-    for (int f = 0; f < family; f++)
-        before += state->count[f];
-    return state->coordinates + 2 * before;
+    return state->coordinates + 2 * body_state_pairs(state, family);
+}
+
+/* The dents: all their members are doubles. */
+static inline const struct dent *body_state_dents(const struct body_state *state)
+{
+    return (const struct dent *)body_state_family(state, FAMILY_COUNT);
 }
 
 #endif

@@ -11,6 +11,8 @@
 #include "model/modal_basis.h"
 #include "solve/solve.h"
 
+struct contact_model;
+
 /* One side of a contact. */
 struct contact_side {
     size_t body; /* index into the request's bodies */
@@ -30,6 +32,7 @@ struct geometry {
     double *w;                       /* the one in use */
     double *impulse_compression;     /* [contact], Eq. (4) or its complementarity problem, N s */
     bool from_client;
+    struct contact_model *contact_model; /* the contacts' laws, see contact_model.h */
 };
 
 /* PERCUSS_OK, or the refusal with its message: UNKNOWN_BODY, BAD_REQUEST, UNSUPPORTED_GEOMETRY,

@@ -10,6 +10,7 @@
 
 #include "model/rigid.h"
 #include "model/vector.h"
+#include "solve/contact_model.h"
 #include "solve/state_out.h"
 #include "solve/validity.h"
 
@@ -96,8 +97,8 @@ static void fill_bodies(const struct geometry *geometry, const struct solve_requ
             .rigid = accuracy->assembly->modes[b] == 0,
             .theory = theory_name(body),
             .shear_factor = body->shape == SHAPE_BEAM ? body->shear_factor[1] : NAN,
-            .state_after = state_after(accuracy->assembly, &accuracy->outcome, geometry,
-                                       &request->bodies[b], b, arena),
+            .state_after =
+                state_after(accuracy->assembly, &accuracy->outcome, geometry, request, b, arena),
         };
         memcpy(out->id, body->id, sizeof out->id);
     }
@@ -109,28 +110,21 @@ static void fill_bodies(const struct geometry *geometry, const struct solve_requ
 static void fill_model(const struct geometry *geometry, const struct solve_request *request,
                        const struct accuracy *accuracy, struct solve_result *result)
 {
-    result->contact_model = PERCUSS_CONTACT_HERTZ;
+    result->contact_model = contact_model_used(geometry);
     result->compliance = PERCUSS_COMPLIANCE_HALF_SPACE;
     result->method = request->options.method;
     result->delassus_source =
         geometry->from_client ? PERCUSS_DELASSUS_CLIENT : PERCUSS_DELASSUS_SERVICE;
-    double pressure = 0.0;
-    for (size_t c = 0; c < geometry->contact_count; c++) {
-        const struct track *track = &accuracy->outcome.tracks[c];
-        for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
-            pressure =
-                fmax(pressure, hertz_peak_pressure(&geometry->hertz[c], track->list[i].peak_force));
-    }
     const struct assembly *assembly = accuracy->assembly;
-    int used =
-        snprintf(result->reason, sizeof result->reason,
-                 "elastic Hertz contact (peak pressure %.3g MPa) on a half-space", pressure / 1e6);
+    contact_model_explain(geometry, request, &accuracy->outcome, result->reason,
+                          sizeof result->reason);
+    size_t used = strlen(result->reason);
     if (assembly->all_modes)
-        snprintf(result->reason + used, sizeof result->reason - (size_t)used,
+        snprintf(result->reason + used, sizeof result->reason - used,
                  "; %zu modes up to %.4g Hz, residual flexibility for the others",
                  assembly->all_modes, assembly->highest / (2.0 * M_PI));
     else if (isfinite(assembly->lowest_omitted))
-        snprintf(result->reason + used, sizeof result->reason - (size_t)used,
+        snprintf(result->reason + used, sizeof result->reason - used,
                  "; every mode is too fast to matter (lowest %.4g Hz): static flexibility only",
                  assembly->lowest_omitted / (2.0 * M_PI));
     result->omitted_error =

@@ -8,10 +8,12 @@
 #include <string.h>
 
 #include "solve/accuracy.h"
+#include "solve/contact_model.h"
 #include "solve/report.h"
 
 struct solve_workspace {
     struct prepared_cache *cache;
+    const struct contact_table_source *tables;
     struct arena arena;
 };
 
@@ -35,6 +37,12 @@ void solve_workspace_free(struct solve_workspace *workspace)
     prepared_cache_free(workspace->cache);
     arena_release(&workspace->arena);
     free(workspace);
+}
+
+void solve_workspace_set_tables(struct solve_workspace *workspace,
+                                const struct contact_table_source *tables)
+{
+    workspace->tables = tables;
 }
 
 /* All but the lists, which are long and whose counts say what is filled. */
@@ -94,10 +102,10 @@ static enum percuss_status check_finite(const struct solve_request *request, str
 /* What later versions will answer is refused by name, never ignored. */
 static enum percuss_status check_supported(const struct solve_options *options, struct fault *fault)
 {
-    if (options->contact_model != PERCUSS_CONTACT_AUTO &&
-        options->contact_model != PERCUSS_CONTACT_HERTZ)
+    if (options->contact_model > PERCUSS_CONTACT_TABLE)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "options.contact_model: %s: not available in this version: auto or hertz",
+                         "options.contact_model: %s: not available in this version: auto, hertz, "
+                         "closed-form or table",
                          contact_model_name(options->contact_model));
     if (options->compliance == PERCUSS_COMPLIANCE_MATCHED)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
@@ -116,8 +124,14 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     enum percuss_status status =
         geometry_find(geometry, catalogue, request, &workspace->arena, &result->fault);
     if (!status)
+        status = contact_model_choose(geometry, request, workspace->tables, &workspace->arena,
+                                      &result->fault);
+    bool revised = true;
+    while (!status && revised) {
         status = accuracy_solve(accuracy, geometry, request, workspace->cache, &workspace->arena,
                                 &result->fault);
+        revised = !status && contact_model_revise(geometry, request, &accuracy->outcome);
+    }
     if (!status) {
         report_fill(geometry, request, catalogue, accuracy, &workspace->arena, result);
         status = result->status;

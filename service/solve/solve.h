@@ -106,6 +106,11 @@ struct solve_workspace;
 struct solve_workspace *solve_workspace_create(void); /* NULL: out of memory */
 void solve_workspace_free(struct solve_workspace *workspace);
 
+/* Where the workspace finds tabulated contact laws; borrowed, NULL: nowhere. */
+struct contact_table_source;
+void solve_workspace_set_tables(struct solve_workspace *workspace,
+                                const struct contact_table_source *tables);
+
 /* Answers one request. Always fills `result`; returns result->status. Refusals (BAD_REQUEST, ...)
  * are ordinary results with a message. The catalogue must outlive the call; prepared bodies are
  * cached by catalogue revision. */

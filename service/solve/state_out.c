@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "impact/oscillator.h"
+#include "solve/contact_model.h"
 
 /* How many modes of a family the new state holds. */
 static size_t family_size(const struct assembly *assembly, const struct body_state *before,
@@ -34,32 +35,18 @@ static void move_freely(const struct body *body, enum mode_family family,
     modal_family_free(modes);
 }
 
-const struct body_state *state_after(const struct assembly *assembly,
-                                     const struct impact_outcome *outcome,
-                                     const struct geometry *geometry,
-                                     const struct solve_body *stated, size_t body,
-                                     struct arena *arena)
+static void fill_modes(const struct assembly *assembly, const struct impact_outcome *outcome,
+                       const struct body *body, const struct solve_body *stated,
+                       struct body_state *state, size_t index)
 {
-    if (!body_is_flexible(geometry->bodies[body]))
-        return NULL;
-    struct body_state sizes = {{0}};
-    size_t pairs = 0;
-    for (int f = 0; f < FAMILY_COUNT; f++) {
-        sizes.count[f] = family_size(assembly, stated->state, body, f);
-        pairs += sizes.count[f];
-    }
-    struct body_state *state = arena_take(arena, 1, sizeof sizes + 2 * pairs * sizeof(double));
-    if (!state)
-        return NULL;
-    memcpy(state->count, sizes.count, sizeof state->count);
     for (int f = 0; f < FAMILY_COUNT; f++) {
         double *family = (double *)body_state_family(state, f);
         if (stated->state && stated->state->count[f])
-            move_freely(geometry->bodies[body], (enum mode_family)f, stated->state,
-                        stated->elapsed + outcome->window, family);
+            move_freely(body, (enum mode_family)f, stated->state, stated->elapsed + outcome->window,
+                        family);
         for (size_t g = 0; g < assembly->scene.groups; g++) {
             const struct scene_group *group = &assembly->groups[g];
-            if (group->body != body || assembly->families[g] != (enum mode_family)f)
+            if (group->body != index || assembly->families[g] != (enum mode_family)f)
                 continue;
             for (size_t k = 0; k < group->count; k++) {
                 size_t mode = assembly->sources[g]->mode[k];
@@ -68,5 +55,64 @@ const struct body_state *state_after(const struct assembly *assembly,
             }
         }
     }
+}
+
+/* A place for one more dent: the next one, or that of the shallowest. */
+static struct dent *new_dent(struct dent *dents, size_t *count)
+{
+    if (*count < BODY_STATE_MAX_DENTS)
+        return &dents[(*count)++];
+    struct dent *shallowest = dents;
+    for (size_t i = 1; i < *count; i++)
+        if (dents[i].history.residual < shallowest->history.residual)
+            shallowest = &dents[i];
+    return shallowest;
+}
+
+/* The dents of a body after the impact; their number. */
+static size_t find_dents(const struct impact_outcome *outcome, const struct geometry *geometry,
+                         const struct body_state *before, size_t body, struct dent *dents)
+{
+    size_t count = before ? before->dents : 0;
+    if (count)
+        memcpy(dents, body_state_dents(before), count * sizeof *dents);
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        const struct contact_choice *choice = &geometry->contact_model->choices[c];
+        if (choice->side < 0 || geometry->sides[c][choice->side].body != body ||
+            !contact_model_yielded(geometry, outcome, c))
+            continue;
+        struct dent *dent = choice->dented ? &dents[choice->dent] : new_dent(dents, &count);
+        dent->history = outcome->laws[c].history;
+        dent->size = dent->history.contact_radius;
+        if (!choice->dented)
+            memcpy(dent->point, geometry->sides[c][choice->side].site.point, sizeof dent->point);
+    }
+    return count;
+}
+
+const struct body_state *state_after(const struct assembly *assembly,
+                                     const struct impact_outcome *outcome,
+                                     const struct geometry *geometry,
+                                     const struct solve_request *request, size_t body,
+                                     struct arena *arena)
+{
+    bool flexible = body_is_flexible(geometry->bodies[body]);
+    const struct solve_body *stated = &request->bodies[body];
+    struct dent dents[BODY_STATE_MAX_DENTS];
+    struct body_state sizes = {.dents = 0};
+    if (request->options.dents == PERCUSS_DENTS_KEEP)
+        sizes.dents = find_dents(outcome, geometry, stated->state, body, dents);
+    if (!flexible && !sizes.dents)
+        return NULL;
+    for (int f = 0; flexible && f < FAMILY_COUNT; f++)
+        sizes.count[f] = family_size(assembly, stated->state, body, f);
+    struct body_state *state = arena_take(arena, 1, body_state_size(&sizes));
+    if (!state)
+        return NULL;
+    *state = sizes;
+    if (flexible)
+        fill_modes(assembly, outcome, geometry->bodies[body], stated, state, body);
+    if (sizes.dents)
+        memcpy((struct dent *)body_state_dents(state), dents, sizes.dents * sizeof *dents);
     return state;
 }

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The vibration of the bodies after an impact. */
+/* Vibration and dents of the bodies after an impact. */
 #ifndef PERCUSS_SOLVE_STATE_OUT_H
 #define PERCUSS_SOLVE_STATE_OUT_H
 
@@ -9,11 +9,12 @@
 #include "solve/assemble.h"
 
 /* The state of a body at the end of the window: modes that took part from the outcome, the others
- * of its initial state moved on freely. NULL: rigid body, or out of memory. In the arena. */
+ * of its initial state moved on freely; dents unless the request ignores them. NULL: a rigid body
+ * without dents, or out of memory. In the arena. */
 const struct body_state *state_after(const struct assembly *assembly,
                                      const struct impact_outcome *outcome,
                                      const struct geometry *geometry,
-                                     const struct solve_body *stated, size_t body,
+                                     const struct solve_request *request, size_t body,
                                      struct arena *arena);
 
 #endif

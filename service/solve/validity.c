@@ -56,8 +56,8 @@ static void warn_yield(const struct geometry *geometry, size_t c, double pressur
             report_warn(
                 result,
                 "contacts[%zu]: the elastic peak pressure of %.3g MPa exceeds 1.6 times the "
-                "yield stress of %s (%.3g MPa): plastic dents are not modelled, the true "
-                "restitution is lower",
+                "yield stress of %s (%.3g MPa): Hertz's law leaves no dent, the true "
+                "restitution is lower (contact_model auto or closed-form)",
                 c, pressure / 1e6, body->id, body->material.yield / 1e6);
     }
 }
@@ -68,7 +68,8 @@ static void warn_contact(const struct geometry *geometry, size_t c, struct solve
     double force = largest_force(&result->contacts[c]);
     double axes[2];
     hertz_ellipse(hertz, force, axes);
-    warn_yield(geometry, c, hertz_peak_pressure(hertz, force), result);
+    if (result->contact_model == PERCUSS_CONTACT_HERTZ)
+        warn_yield(geometry, c, hertz_peak_pressure(hertz, force), result);
     for (int which = 0; which < 2; which++) {
         const struct contact_side *side = &geometry->sides[c][which];
         const struct body *body = geometry->bodies[side->body];

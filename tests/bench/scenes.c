@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solve/contact_model.h"
+
 #define UPRIGHT                                                                                    \
     {                                                                                              \
         1.0, 0.0, 0.0, 0.0                                                                         \
@@ -195,6 +197,8 @@ static bool build(struct fixed_scene *fixed, bool residual)
         fprintf(stderr, "bench: %s\n", fault.text);
         return false;
     }
+    if (contact_model_choose(&fixed->geometry, &fixed->request, NULL, &fixed->arena, &fault))
+        return false;
     if (!assemble(&fixed->assembly, &fixed->geometry, &fixed->request, fixed->cache, &choice,
                   &fixed->arena))
         return false;

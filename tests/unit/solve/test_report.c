@@ -91,6 +91,7 @@ static void warns_where_models_end(void **state)
     (void)state;
     struct lab *lab = shapes();
     struct solve_request request = on_end("soft", 0.3);
+    request.options.contact_model = PERCUSS_CONTACT_HERTZ;
     lab_solve(lab, &request, &result);
     assert_true(warns("yield") && warns("soft"));
     request = on_end("rod", 0.3);

@@ -1,0 +1,298 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/contact_model.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "contact/law_closed_form.h"
+#include "contact/plastic.h"
+#include "model/vector.h"
+
+static const struct body *body_of(const struct geometry *geometry, size_t contact, int side)
+{
+    return geometry->bodies[geometry->sides[contact][side].body];
+}
+
+/* The dent nearest to a site among those whose patch holds it; its index, or the number of dents.
+ */
+static size_t find_dent(const struct body_state *state, const double point[3])
+{
+    size_t found = state->dents;
+    double nearest = INFINITY;
+    for (size_t i = 0; i < state->dents; i++) {
+        const struct dent *dent = &body_state_dents(state)[i];
+        double arm[3];
+        sub3(point, dent->point, arm);
+        double distance = norm3(arm);
+        if (distance <= dent->size && distance < nearest) {
+            nearest = distance;
+            found = i;
+        }
+    }
+    return found;
+}
+
+/* What earlier impacts left under a contact: both bodies' dents lower the surface, the one of the
+ * body that yields is remembered by the law. */
+static void find_dents(struct geometry *geometry, const struct solve_request *request, size_t c)
+{
+    struct contact_model *model = geometry->contact_model;
+    struct contact_choice *choice = &model->choices[c];
+    for (int which = 0; which < 2 && request->options.dents == PERCUSS_DENTS_KEEP; which++) {
+        const struct contact_side *side = &geometry->sides[c][which];
+        const struct body_state *state = request->bodies[side->body].state;
+        size_t i = state ? find_dent(state, side->site.point) : 0;
+        if (!state || i == state->dents)
+            continue;
+        const struct dent *dent = &body_state_dents(state)[i];
+        model->depth[c] += dent->history.residual;
+        if (which != choice->side)
+            continue;
+        choice->dented = true;
+        choice->dent = i;
+        contact_law_remember(&choice->plastic, &dent->history);
+    }
+}
+
+static enum percuss_status find_law(struct geometry *geometry, const struct solve_request *request,
+                                    const struct contact_table_source *tables, size_t c,
+                                    struct fault *fault)
+{
+    struct contact_choice *choice = &geometry->contact_model->choices[c];
+    const struct hertz_contact *hertz = &geometry->hertz[c];
+    const struct body *a = body_of(geometry, c, 0);
+    const struct body *b = body_of(geometry, c, 1);
+    enum percuss_contact_model asked = request->options.contact_model;
+    choice->side = closed_form_softer(&a->material, &b->material);
+    choice->yield = closed_form_yield(hertz, &a->material, &b->material);
+    choice->plastic = choice->side < 0 ? contact_law_hertz(hertz->stiffness)
+                                       : contact_law_closed_form(hertz, &a->material, &b->material);
+    struct contact_pair pair = {
+        &a->material, &b->material, {hertz->curvature[0], hertz->curvature[1]}};
+    const struct contact_curves *curves = NULL;
+    if (tables &&
+        (asked == PERCUSS_CONTACT_TABLE || (asked == PERCUSS_CONTACT_AUTO && choice->side >= 0)))
+        curves = tables->find(tables->context, &pair);
+    if (curves) {
+        choice->plastic = contact_law_table(curves);
+        choice->tabulated = true;
+    } else if (asked == PERCUSS_CONTACT_TABLE) {
+        return fault_set(
+            fault, PERCUSS_BAD_REQUEST,
+            "options.contact_model: table: there is no table for %s on %s (contacts[%zu]"
+            "): auto or closed-form do without",
+            a->id, b->id, c);
+    }
+    find_dents(geometry, request, c);
+    return PERCUSS_OK;
+}
+
+/* Hertz indentation if all of the rigid approach's energy went into the contact. */
+static double rigid_indentation(const struct geometry *geometry, size_t c)
+{
+    double speed = fmin(0.0, geometry->gap_rate[c]);
+    double w = geometry->w[c * (geometry->contact_count + 1)];
+    return pow(0.5 * speed * speed / w / (0.4 * geometry->hertz[c].stiffness), 0.4);
+}
+
+static void use(struct geometry *geometry, bool yielding)
+{
+    struct contact_model *model = geometry->contact_model;
+    model->yielding = yielding;
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        model->laws[c] =
+            yielding ? model->choices[c].plastic : contact_law_hertz(geometry->hertz[c].stiffness);
+}
+
+enum percuss_status contact_model_choose(struct geometry *geometry,
+                                         const struct solve_request *request,
+                                         const struct contact_table_source *tables,
+                                         struct arena *arena, struct fault *fault)
+{
+    size_t n = geometry->contact_count;
+    enum percuss_contact_model asked = request->options.contact_model;
+    struct contact_model *model = arena_take(arena, 1, sizeof *model);
+    if (model) {
+        model->depth = arena_take(arena, n, sizeof *model->depth);
+        model->laws = arena_take(arena, n, sizeof *model->laws);
+        model->choices = arena_take(arena, n, sizeof *model->choices);
+    }
+    if (!model || !model->depth || !model->laws || !model->choices)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    geometry->contact_model = model;
+    bool dented = false;
+    bool likely = false;
+    for (size_t c = 0; c < n; c++) {
+        enum percuss_status status = find_law(geometry, request, tables, c, fault);
+        if (status)
+            return status;
+        dented = dented || model->choices[c].dented;
+        likely = likely || rigid_indentation(geometry, c) > model->choices[c].yield;
+    }
+    model->decided = asked != PERCUSS_CONTACT_AUTO || dented;
+    use(geometry,
+        asked != PERCUSS_CONTACT_HERTZ && (asked != PERCUSS_CONTACT_AUTO || dented || likely));
+    return PERCUSS_OK;
+}
+
+/* Largest indentation of a contact. */
+static double deepest(const struct impact_outcome *outcome, size_t c)
+{
+    const struct track *track = &outcome->tracks[c];
+    double largest = 0.0;
+    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
+        largest = fmax(largest, track->list[i].max_indentation);
+    return largest;
+}
+
+bool contact_model_yielded(const struct geometry *geometry, const struct impact_outcome *outcome,
+                           size_t contact)
+{
+    return outcome->laws[contact].history.max_indentation >
+           geometry->contact_model->laws[contact].history.max_indentation;
+}
+
+/* Tables that end before the largest indentation make place for the closed form. */
+static bool leave_tables(struct geometry *geometry, const struct solve_request *request,
+                         const struct impact_outcome *outcome)
+{
+    bool left = false;
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        struct contact_choice *choice = &geometry->contact_model->choices[c];
+        if (!choice->tabulated || request->options.contact_model == PERCUSS_CONTACT_TABLE ||
+            outcome->laws[c].history.max_indentation <= contact_curves_range(choice->plastic.table))
+            continue;
+        choice->plastic =
+            contact_law_closed_form(&geometry->hertz[c], &body_of(geometry, c, 0)->material,
+                                    &body_of(geometry, c, 1)->material);
+        choice->tabulated = false;
+        choice->outranged = true;
+        geometry->contact_model->depth[c] = 0.0;
+        find_dents(geometry, request, c);
+        left = true;
+    }
+    return left;
+}
+
+bool contact_model_revise(struct geometry *geometry, const struct solve_request *request,
+                          const struct impact_outcome *outcome)
+{
+    struct contact_model *model = geometry->contact_model;
+    if (outcome->end_reason == PERCUSS_END_LIMIT)
+        return false;
+    if (model->yielding && leave_tables(geometry, request, outcome)) {
+        use(geometry, true);
+        return true;
+    }
+    if (model->decided)
+        return false;
+    bool yields = false;
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        yields = yields || (model->yielding ? contact_model_yielded(geometry, outcome, c)
+                                            : deepest(outcome, c) > model->choices[c].yield);
+    model->decided = true;
+    if (yields == model->yielding)
+        return false;
+    use(geometry, yields);
+    return true;
+}
+
+enum percuss_contact_model contact_model_used(const struct geometry *geometry)
+{
+    const struct contact_model *model = geometry->contact_model;
+    enum percuss_contact_model used = PERCUSS_CONTACT_HERTZ;
+    for (size_t c = 0; model->yielding && c < geometry->contact_count; c++) {
+        enum percuss_contact_model here = model->laws[c].operations->model;
+        /* the approximation of a closed form counts for all */
+        if (used == PERCUSS_CONTACT_HERTZ || here == PERCUSS_CONTACT_CLOSED_FORM)
+            used = here;
+    }
+    return used;
+}
+
+__attribute__((format(printf, 3, 4))) static void append(char *text, size_t size,
+                                                         const char *format, ...)
+{
+    size_t used = strlen(text);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text + used, size - used, format, args);
+    va_end(args);
+}
+
+/* The contact whose indentation is largest against that of its yield. */
+static size_t hardest_hit(const struct geometry *geometry, const struct impact_outcome *outcome)
+{
+    size_t hardest = 0;
+    double most = -1.0;
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        double share = deepest(outcome, c) / geometry->contact_model->choices[c].yield;
+        if (share > most) {
+            most = share;
+            hardest = c;
+        }
+    }
+    return hardest;
+}
+
+static void explain_elastic(const struct geometry *geometry, const struct impact_outcome *outcome,
+                            char *text, size_t size)
+{
+    double pressure = 0.0;
+    size_t hardest = hardest_hit(geometry, outcome);
+    const struct contact_choice *choice = &geometry->contact_model->choices[hardest];
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        const struct track *track = &outcome->tracks[c];
+        for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
+            pressure =
+                fmax(pressure, hertz_peak_pressure(&geometry->hertz[c], track->list[i].peak_force));
+    }
+    append(text, size, "elastic Hertz contact (peak pressure %.3g MPa) on a half-space",
+           pressure / 1e6);
+    double share = deepest(outcome, hardest) / choice->yield;
+    if (choice->side >= 0 && share <= 1.0)
+        append(text, size, ", below yield (%.2g of the indentation at which %s yields)", share,
+               body_of(geometry, hardest, choice->side)->id);
+}
+
+static void explain_plastic(const struct geometry *geometry, const struct solve_request *request,
+                            const struct impact_outcome *outcome, char *text, size_t size)
+{
+    size_t c = hardest_hit(geometry, outcome);
+    const struct contact_choice *choice = &geometry->contact_model->choices[c];
+    const struct body *body = body_of(geometry, c, choice->side < 0 ? 0 : choice->side);
+    const struct contact_history *history = &outcome->laws[c].history;
+    bool tabulated = contact_model_used(geometry) == PERCUSS_CONTACT_TABLE;
+    append(text, size, "elastic-plastic contact by %s",
+           tabulated ? "a table of the contact region" : "the closed form of Jackson and Green");
+    if (history->max_indentation > 0.0)
+        append(text, size, ": indented %.3g times as deep as where %s yields, dent %.3g um",
+               history->max_indentation / choice->yield, body->id, 1e6 * history->residual);
+    else
+        append(text, size, ", below yield");
+    if (choice->dented)
+        append(text, size, ", in the dent of earlier impacts");
+    if (choice->outranged)
+        append(text, size, "; the table ends before that");
+    else if (!tabulated && request->options.contact_model == PERCUSS_CONTACT_AUTO)
+        append(text, size, "; no table for these bodies");
+    if (!tabulated && geometry->hertz[c].axis_ratio < 0.999)
+        append(text, size, "; elliptic: by the sphere of equal stiffness, %.3g m, an approximation",
+               closed_form_radius(&geometry->hertz[c]));
+    if (!tabulated && body->material.tangent > 0.0)
+        append(text, size, "; hardening of %s left out", body->id);
+}
+
+void contact_model_explain(const struct geometry *geometry, const struct solve_request *request,
+                           const struct impact_outcome *outcome, char *text, size_t size)
+{
+    *text = '\0';
+    if (contact_model_used(geometry) == PERCUSS_CONTACT_HERTZ)
+        explain_elastic(geometry, outcome, text, size);
+    else
+        explain_plastic(geometry, request, outcome, text, size);
+}

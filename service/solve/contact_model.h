@@ -1,0 +1,54 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Which law each contact follows, and the dents of earlier impacts under it. */
+#ifndef PERCUSS_SOLVE_CONTACT_MODEL_H
+#define PERCUSS_SOLVE_CONTACT_MODEL_H
+
+#include "contact/table.h"
+#include "impact/impact.h"
+#include "solve/geometry.h"
+
+/* One contact. */
+struct contact_choice {
+    struct contact_law plastic; /* the law that yields; Hertz where neither body can */
+    double yield;               /* indentation at which Hertz ends, m; INFINITY: never */
+    int side;                   /* of the body that yields: 0: a, 1: b; -1: neither */
+    size_t dent;                /* index in that body's state of the dent that the law remembers */
+    bool dented, tabulated;
+    bool outranged; /* a table was left aside: the indentation went beyond it */
+};
+
+struct contact_model {
+    bool yielding;                  /* the laws in use are the plastic ones; false: Hertz */
+    bool decided;                   /* by the request, or by a solution */
+    double *depth;                  /* [contact]: of the dents under it, m */
+    struct contact_law *laws;       /* [contact]: in use */
+    struct contact_choice *choices; /* [contact] */
+};
+
+/* Finds the laws that the request asks for, the likely ones where it leaves the choice, and makes
+ * them the geometry's. `tables` may be NULL. PERCUSS_OK, BAD_REQUEST (a table is asked for that
+ * does not exist), INTERNAL. */
+enum percuss_status contact_model_choose(struct geometry *geometry,
+                                         const struct solve_request *request,
+                                         const struct contact_table_source *tables,
+                                         struct arena *arena, struct fault *fault);
+
+/* Looks at a solution: true: other laws are in order (Hertz exceeded yield, a law that yields was
+ * not needed, a table ends too early) and are now the geometry's. At most three times. */
+bool contact_model_revise(struct geometry *geometry, const struct solve_request *request,
+                          const struct impact_outcome *outcome);
+
+/* What the reply names: HERTZ, CLOSED_FORM or TABLE. */
+enum percuss_contact_model contact_model_used(const struct geometry *geometry);
+
+/* Whether a contact left more than it found. */
+bool contact_model_yielded(const struct geometry *geometry, const struct impact_outcome *outcome,
+                           size_t contact);
+
+/* Writes why, and what it approximates. */
+void contact_model_explain(const struct geometry *geometry, const struct solve_request *request,
+                           const struct impact_outcome *outcome, char *text, size_t size);
+
+#endif
