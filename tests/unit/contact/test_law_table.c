@@ -71,7 +71,7 @@ static void a_sampled_table_follows_its_law(void **state)
         /* of the whole work: twelve branches resolve the onset of yield to some 0.5 % */
         near(whole + contact_law_yield(&table, d), whole + lost, 6e-3);
         if (d > 3e-6)
-            near(contact_law_limit(&table), contact_law_limit(&closed), 2e-3);
+            near(contact_law_limit(&table), contact_law_limit(&closed), 6e-3);
         double span = contact_law_limit(&table);
         for (double x = 0.05; x < 1.0; x += 0.05)
             near(contact_law_force(&table, NULL, x * span, &slopes[0]) / table.history.max_force,
