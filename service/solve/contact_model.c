@@ -156,6 +156,16 @@ bool contact_model_yielded(const struct geometry *geometry, const struct impact_
            geometry->contact_model->laws[contact].history.max_indentation;
 }
 
+double contact_model_beyond_table(const struct impact_outcome *outcome, size_t contact)
+{
+    const struct contact_law *law = &outcome->laws[contact];
+    if (law->operations->model != PERCUSS_CONTACT_TABLE)
+        return 0.0;
+    double range = contact_curves_range(law->table);
+    double depth = fmax(law->history.max_indentation, deepest(outcome, contact));
+    return fmax(0.0, depth / range - 1.0);
+}
+
 /* Tables that end before the largest indentation make place for the closed form. */
 static bool leave_tables(struct geometry *geometry, const struct solve_request *request,
                          const struct impact_outcome *outcome)
@@ -163,8 +173,8 @@ static bool leave_tables(struct geometry *geometry, const struct solve_request *
     bool left = false;
     for (size_t c = 0; c < geometry->contact_count; c++) {
         struct contact_choice *choice = &geometry->contact_model->choices[c];
-        if (!choice->tabulated || request->options.contact_model == PERCUSS_CONTACT_TABLE ||
-            outcome->laws[c].history.max_indentation <= contact_curves_range(choice->plastic.table))
+        if (request->options.contact_model == PERCUSS_CONTACT_TABLE ||
+            !(contact_model_beyond_table(outcome, c) > 0.0))
             continue;
         choice->plastic =
             contact_law_closed_form(&geometry->hertz[c], &body_of(geometry, c, 0)->material,

@@ -47,6 +47,9 @@ enum percuss_contact_model contact_model_used(const struct geometry *geometry);
 bool contact_model_yielded(const struct geometry *geometry, const struct impact_outcome *outcome,
                            size_t contact);
 
+/* How far beyond the end of its table a contact went, over that end; 0: not at all, or no table. */
+double contact_model_beyond_table(const struct impact_outcome *outcome, size_t contact);
+
 /* Writes why, and what it approximates. */
 void contact_model_explain(const struct geometry *geometry, const struct solve_request *request,
                            const struct impact_outcome *outcome, char *text, size_t size);

@@ -107,6 +107,27 @@ static void fill_bodies(const struct geometry *geometry, const struct solve_requ
         fill_velocities(geometry, request, result);
 }
 
+static void warn_contact_model(const struct geometry *geometry, const struct accuracy *accuracy,
+                               struct solve_result *result)
+{
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        double beyond = contact_model_beyond_table(&accuracy->outcome, c);
+        if (beyond > 0.0)
+            report_warn(result,
+                        "contacts[%zu]: the table ends before the largest indentation, by %.2g of "
+                        "its range: it was continued",
+                        c, beyond);
+    }
+    for (size_t b = 0; b < geometry->body_count; b++) {
+        const struct body_state *after = result->bodies[b].state_after;
+        if (after && after->dents == BODY_STATE_MAX_DENTS)
+            report_warn(result,
+                        "bodies[%zu].state: %d dents: no more are kept, the shallowest makes place "
+                        "for a new one",
+                        b, BODY_STATE_MAX_DENTS);
+    }
+}
+
 static void fill_model(const struct geometry *geometry, const struct solve_request *request,
                        const struct accuracy *accuracy, struct solve_result *result)
 {
@@ -196,6 +217,7 @@ void report_fill(const struct geometry *geometry, const struct solve_request *re
     fill_bodies(geometry, request, accuracy, arena, result);
     fill_errors(accuracy, result);
     fill_model(geometry, request, accuracy, result);
+    warn_contact_model(geometry, accuracy, result);
     fill_end(accuracy, result);
     validity_warn(geometry, request, catalogue, result);
     if (accuracy->steps.energy_defect > 0.01)

@@ -44,8 +44,8 @@ static const struct assembly *put_together(struct bench *bench, const struct sol
     prepared_cache_use(bench->cache, bench->lab->set.revision);
     if (geometry_find(&bench->geometry, &bench->lab->set, request, &bench->arena, &fault))
         fail_msg("%s", fault.text);
-    assert_int_equal(
-        contact_model_choose(&bench->geometry, request, NULL, &bench->arena, &fault), PERCUSS_OK);
+    assert_int_equal(contact_model_choose(&bench->geometry, request, NULL, &bench->arena, &fault),
+                     PERCUSS_OK);
     assert_true(assemble(&bench->assembly, &bench->geometry, request, bench->cache, &choice,
                          &bench->arena));
     return &bench->assembly;
