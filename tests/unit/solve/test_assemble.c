@@ -191,6 +191,7 @@ static void less_allowed_is_more_modes(void **state)
     prepared_cache_use(bench->cache, bench->lab->set.revision);
     assert_false(
         geometry_find(&bench->geometry, &bench->lab->set, &request, &bench->arena, &fault));
+    assert_false(contact_model_choose(&bench->geometry, &request, NULL, &bench->arena, &fault));
     for (double allowed = 1e-3; allowed > 1e-9; allowed /= 10.0) {
         struct mode_choice choice = {.cut = INFINITY, .allowed = allowed, .most = 1000};
         assert_true(assemble(&bench->assembly, &bench->geometry, &request, bench->cache, &choice,
