@@ -13,6 +13,8 @@
 #include "contact/table.h"
 #include "numeric/spline.h"
 
+enum { MAX_JOINTS = 6 };
+
 struct contact_curves {
     struct spline loading; /* F^(2/3) of d */
     struct spline radius;  /* a^2 of d */
@@ -20,6 +22,7 @@ struct contact_curves {
     struct spline *branch; /* [branches]: share^(2/3) of x */
     double *work;          /* [points]: of the loading curve up to each, J */
     double yield, error;
+    double joints[MAX_JOINTS + 1]; /* ascending; INFINITY: no more */
     size_t branches;
     double memory[];
 };
@@ -83,11 +86,12 @@ static double loading_work(const struct contact_law *law, double d)
     return curves->work[i] + work_on(loading, loading, 0.0, i, (double[]){loading->place[i], d});
 }
 
-static double no_joint(const struct contact_law *law, double d)
+static double next_joint(const struct contact_law *law, double d)
 {
-    (void)law;
-    (void)d;
-    return INFINITY;
+    const double *joint = curves_of(law)->joints;
+    while (!(*joint > d))
+        joint++;
+    return *joint;
 }
 
 static double yield_depth(const struct contact_law *law)
@@ -157,7 +161,7 @@ static double branch_work(const struct contact_law *law, double x)
 static const struct plastic_curve curve = {
     .force = loading_force,
     .work = loading_work,
-    .joint = no_joint,
+    .joint = next_joint,
     .yield = yield_depth,
     .residual = residual_depth,
     .radius = contact_radius,
@@ -239,6 +243,45 @@ static void fill_loading(struct contact_curves *curves, const struct contact_tab
             work_on(loading, loading, 0.0, i, (double[]){loading->place[i], loading->place[i + 1]});
 }
 
+/* Jump of the third derivative at an inner point, for a step as long as the indentation is deep. */
+static double roughness_at(const struct spline *spline, size_t i)
+{
+    double third[2];
+    for (int side = 0; side < 2; side++) {
+        size_t j = i - 1 + (size_t)side;
+        double h = spline->place[j + 1] - spline->place[j];
+        double chord = (spline->value[j + 1] - spline->value[j]) / h;
+        third[side] = 6.0 * (spline->slope[j] + spline->slope[j + 1] - 2.0 * chord) / (h * h);
+    }
+    double d = spline->place[i];
+    return fabs(third[1] - third[0]) * d * d * d / spline->value[i];
+}
+
+/* The roughest points beyond yield: steps end there. */
+static void find_joints(struct contact_curves *curves)
+{
+    const struct spline *loading = &curves->loading;
+    double bound = INFINITY;
+    for (int i = 0; i <= MAX_JOINTS; i++)
+        curves->joints[i] = INFINITY;
+    for (int found = 0; found < MAX_JOINTS; found++) {
+        double roughest = 0.0;
+        double place = INFINITY;
+        for (size_t i = 1; i + 1 < loading->count; i++) {
+            double here = roughness_at(loading, i);
+            if (loading->place[i] < curves->yield || !(here < bound) || !(here > roughest))
+                continue;
+            roughest = here;
+            place = loading->place[i];
+        }
+        bound = roughest;
+        int at = found;
+        for (; at > 0 && curves->joints[at - 1] > place; at--)
+            curves->joints[at] = curves->joints[at - 1];
+        curves->joints[at] = place;
+    }
+}
+
 static void fill_branches(struct contact_curves *curves, const struct contact_table *table,
                           double *scratch)
 {
@@ -289,6 +332,7 @@ struct contact_curves *contact_curves_create(const struct contact_table *table, 
     curves->error = table->error;
     curves->branches = branches;
     fill_loading(curves, table, scratch);
+    find_joints(curves);
     if (branches)
         fill_branches(curves, table, scratch);
     free(scratch);
