@@ -28,10 +28,9 @@ struct plastic_curve;
 struct contact_law_operations {
     enum percuss_contact_model model;
     /* Force (N) at an indentation (m), 0 where indentation <= 0; *stiffness becomes its slope. */
-    double (*force)(const struct contact_law *law, const void *unused, double indentation,
-                    double *stiffness);
+    double (*force)(const struct contact_law *law, double indentation, double *stiffness);
     /* Recoverable energy (J) stored at an indentation. */
-    double (*stored)(const struct contact_law *law, const void *unused, double indentation);
+    double (*stored)(const struct contact_law *law, double indentation);
     /* Indentation at which the loading branch has the force f > 0: a starting value and a scale. */
     double (*indentation)(const struct contact_law *law, double force);
     const struct plastic_curve *curve; /* of a law that yields, see plastic.h; NULL: elastic */
@@ -50,10 +49,10 @@ struct contact_law contact_law_hertz(double stiffness);
 /* F = stiffness d, N/m: for verification against wave solutions. */
 struct contact_law contact_law_linear(double stiffness);
 
-static inline double contact_law_force(const struct contact_law *law, const void *unused,
-                                       double indentation, double *stiffness)
+static inline double contact_law_force(const struct contact_law *law, double indentation,
+                                       double *stiffness)
 {
-    return law->operations->force(law, unused, indentation, stiffness);
+    return law->operations->force(law, indentation, stiffness);
 }
 
 #endif

@@ -5,10 +5,8 @@
 
 #include "contact/law.h"
 
-static double hertz_force(const struct contact_law *law, const void *unused, double indentation,
-                          double *stiffness)
+static double hertz_force(const struct contact_law *law, double indentation, double *stiffness)
 {
-    (void)unused;
     if (!(indentation > 0.0)) {
         *stiffness = 0.0;
         return 0.0;
@@ -18,9 +16,8 @@ static double hertz_force(const struct contact_law *law, const void *unused, dou
     return law->parameters[0] * indentation * root;
 }
 
-static double hertz_stored(const struct contact_law *law, const void *unused, double indentation)
+static double hertz_stored(const struct contact_law *law, double indentation)
 {
-    (void)unused;
     if (!(indentation > 0.0))
         return 0.0;
     return 0.4 * law->parameters[0] * indentation * indentation * sqrt(indentation);

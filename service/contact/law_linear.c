@@ -3,17 +3,14 @@
 
 #include "contact/law.h"
 
-static double linear_force(const struct contact_law *law, const void *unused, double indentation,
-                           double *stiffness)
+static double linear_force(const struct contact_law *law, double indentation, double *stiffness)
 {
-    (void)unused;
     *stiffness = indentation > 0.0 ? law->parameters[0] : 0.0;
     return *stiffness * indentation;
 }
 
-static double linear_stored(const struct contact_law *law, const void *unused, double indentation)
+static double linear_stored(const struct contact_law *law, double indentation)
 {
-    (void)unused;
     return indentation > 0.0 ? 0.5 * law->parameters[0] * indentation * indentation : 0.0;
 }
 

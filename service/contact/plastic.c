@@ -14,10 +14,8 @@ static double span_of(const struct contact_history *history)
     return history->max_indentation - history->residual;
 }
 
-double plastic_force(const struct contact_law *law, const void *unused, double indentation,
-                     double *stiffness)
+double plastic_force(const struct contact_law *law, double indentation, double *stiffness)
 {
-    (void)unused;
     if (!(indentation > 0.0)) {
         *stiffness = 0.0;
         return 0.0;
@@ -39,9 +37,8 @@ static double branch_energy(const struct contact_law *law, double x)
                       : 0.0;
 }
 
-double plastic_stored(const struct contact_law *law, const void *unused, double indentation)
+double plastic_stored(const struct contact_law *law, double indentation)
 {
-    (void)unused;
     if (!(indentation > 0.0))
         return 0.0;
     const struct contact_history *history = &law->history;
@@ -61,7 +58,7 @@ double plastic_indentation(const struct contact_law *law, double force)
     double d = fmin(contact_law_limit(law), 1e-6);
     for (int i = 0; i < 100; i++) {
         double stiffness;
-        double here = plastic_force(law, NULL, d, &stiffness);
+        double here = plastic_force(law, d, &stiffness);
         double change = log(force / here) * here / (stiffness * d);
         d *= exp(fmax(-3.0, fmin(change, 3.0)));
         if (!(fabs(change) > 1e-15))
@@ -93,7 +90,7 @@ static struct contact_history history_of(const struct contact_law *law, double d
 
 double contact_law_yield(struct contact_law *law, double indentation)
 {
-    double before = plastic_stored(law, NULL, indentation);
+    double before = plastic_stored(law, indentation);
     law->history = history_of(law, indentation + law->history.residual);
     return before - branch_energy(law, 1.0);
 }

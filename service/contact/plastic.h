@@ -34,9 +34,8 @@ struct plastic_curve {
 };
 
 /* Operations of such a law. */
-double plastic_force(const struct contact_law *law, const void *unused, double indentation,
-                     double *stiffness);
-double plastic_stored(const struct contact_law *law, const void *unused, double indentation);
+double plastic_force(const struct contact_law *law, double indentation, double *stiffness);
+double plastic_stored(const struct contact_law *law, double indentation);
 double plastic_indentation(const struct contact_law *law, double force);
 
 /* Indentation beyond which loading cannot be undone; INFINITY for an elastic law. */

@@ -169,7 +169,7 @@ static bool local_of_one(const struct contact_law *law, double c, double approac
     double d = *indentation;
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
         double stiffness;
-        *force = contact_law_force(law, NULL, d, &stiffness);
+        *force = contact_law_force(law, d, &stiffness);
         double change = (d + c * *force - approach) / (1.0 + c * stiffness);
         d -= change;
         /* quadratic in the indentation, or down to the approach's rounding */
@@ -194,7 +194,7 @@ static bool local_of_many(const struct scene *scene, const size_t *list, size_t 
         double scale = 0.0;
         for (size_t a = 0; a < count; a++)
             force[list[a]] =
-                contact_law_force(&scene->laws[list[a]], NULL, indentation[list[a]], &stiffness[a]);
+                contact_law_force(&scene->laws[list[a]], indentation[list[a]], &stiffness[a]);
         for (size_t a = 0; a < count; a++) {
             unknown[a] = indentation[list[a]] - approach[list[a]];
             for (size_t b = 0; b < count; b++) {

@@ -56,8 +56,8 @@ static double stored_energy(const struct scene *scene, const struct contact_law 
     for (size_t c = 0; c < scene->contacts; c++) {
         const struct contact_law *law = &laws[c];
         double stiffness;
-        force[c] = contact_law_force(law, NULL, indentation[c], &stiffness);
-        sum += law->operations->stored(law, NULL, indentation[c]);
+        force[c] = contact_law_force(law, indentation[c], &stiffness);
+        sum += law->operations->stored(law, indentation[c]);
     }
     return sum + 0.5 * form(scene->contacts, scene->residual, force, force);
 }

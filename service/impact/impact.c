@@ -89,7 +89,7 @@ static double felt_inverse_mass(const struct scene *scene, size_t contact, doubl
  */
 static double stored_about(const struct contact_law *law, double d, double force)
 {
-    return law->operations->curve ? 0.4 * force * d : law->operations->stored(law, NULL, d);
+    return law->operations->curve ? 0.4 * force * d : law->operations->stored(law, d);
 }
 
 /* Indentation at which a law stores an energy: Newton's method for log(stored) against
@@ -99,7 +99,7 @@ static double indentation_of_energy(const struct contact_law *law, double energy
     double d = 1e-6;
     for (int i = 0; i < 20; i++) {
         double stiffness;
-        double force = contact_law_force(law, NULL, d, &stiffness);
+        double force = contact_law_force(law, d, &stiffness);
         double stored = stored_about(law, d, force);
         double power = force * d / stored;
         double change = log(stored / energy) / power;
@@ -122,6 +122,6 @@ struct impact_scale impact_scale_of(const struct scene *scene, size_t contact, d
         scale.duration = scale.indentation / speed;
     }
     double stiffness;
-    scale.force = contact_law_force(law, NULL, scale.indentation, &stiffness);
+    scale.force = contact_law_force(law, scale.indentation, &stiffness);
     return scale;
 }

@@ -76,7 +76,7 @@ static double longest_stable_step(const struct scene *scene, size_t contact,
 {
     double stiffness;
     double longest = INFINITY;
-    contact_law_force(&scene->laws[contact], NULL, scale->indentation, &stiffness);
+    contact_law_force(&scene->laws[contact], scale->indentation, &stiffness);
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         const double *phi = group->participation[contact];

@@ -81,7 +81,7 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
         quad jacobian[NODES];
         double residual[NODES];
         for (int i = 0; i < NODES; i++)
-            force[i] = contact_law_force(law, NULL, d[i], &stiffness[i]);
+            force[i] = contact_law_force(law, d[i], &stiffness[i]);
         const quad forces = {force[0], force[1], force[2], force[3]};
         const quad slopes = {stiffness[0], stiffness[1], stiffness[2], stiffness[3]};
         for (int i = 0; i < NODES; i++) {
@@ -118,8 +118,7 @@ static void assemble(const struct node_problem *problem, double (*indentation)[N
     for (size_t a = 0; a < problem->count; a++) {
         size_t c = problem->list[a];
         for (int i = 0; i < NODES; i++)
-            force[c][i] =
-                contact_law_force(&problem->laws[c], NULL, indentation[c][i], &stiffness[c][i]);
+            force[c][i] = contact_law_force(&problem->laws[c], indentation[c][i], &stiffness[c][i]);
     }
     for (size_t row = 0; row < size; row++) {
         size_t a = problem->list[row / NODES];

@@ -14,9 +14,8 @@ static bool stays_elastic(const struct scene *scene)
 {
     const struct contact_law *law = &scene->laws[0];
     double speed = scene->gap_rate[0];
-    return !law->operations->curve ||
-           0.5 * speed * speed / scene->w[0] <=
-               law->operations->stored(law, NULL, contact_law_limit(law));
+    return !law->operations->curve || 0.5 * speed * speed / scene->w[0] <=
+                                          law->operations->stored(law, contact_law_limit(law));
 }
 
 bool impact_is_rigid_pair(const struct scene *scene)
@@ -32,8 +31,8 @@ static double largest_indentation(const struct contact_law *law, double start, d
     double d = start;
     for (int i = 0; i < 60; i++) {
         double stiffness;
-        double force = contact_law_force(law, NULL, d, &stiffness);
-        double change = (law->operations->stored(law, NULL, d) - energy) / force;
+        double force = contact_law_force(law, d, &stiffness);
+        double change = (law->operations->stored(law, d) - energy) / force;
         d -= change;
         if (!(fabs(change) > 1e-16 * d))
             break;
@@ -52,7 +51,7 @@ static double compression_time(const struct contact_law *law, double largest, do
         for (int j = 0; j < NODES; j++) {
             double phi = 0.5 * M_PI * (p + collocation.node[j]) / PANELS;
             double s = sin(phi);
-            double left = 1.0 - law->operations->stored(law, NULL, largest * s * s) / energy;
+            double left = 1.0 - law->operations->stored(law, largest * s * s) / energy;
             sum += collocation.weight[j] * 2.0 * s * cos(phi) / sqrt(left);
         }
     }

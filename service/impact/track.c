@@ -114,8 +114,7 @@ void track_close(struct track *track, const struct contact_law *law, double time
     double stiffness;
     open->end = time;
     open->gap_rate_after = gap_rate;
-    open->peak_force =
-        contact_law_force(law, NULL, open->max_indentation - track->deepened, &stiffness);
+    open->peak_force = contact_law_force(law, open->max_indentation - track->deepened, &stiffness);
     track->impulse += open->impulse;
     track->end_time = time;
     if (track->count < PERCUSS_MAX_SUB_IMPACTS)

@@ -42,8 +42,7 @@ static inline void sampled_table_make(struct sampled_table *sampled, const struc
         sampled->residual[b] = used.history.residual;
         for (int i = 0; i < SAMPLED_SHARES; i++)
             sampled->share[b][i] =
-                contact_law_force(&used, NULL, span * i / (SAMPLED_SHARES - 1) * (1 - 1e-15),
-                                  &slope) /
+                contact_law_force(&used, span * i / (SAMPLED_SHARES - 1) * (1 - 1e-15), &slope) /
                 used.history.max_force;
         sampled->share[b][SAMPLED_SHARES - 1] = 1.0;
     }

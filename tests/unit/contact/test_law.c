@@ -25,27 +25,25 @@ static void check_law(const struct contact_law *law)
     const struct contact_law_operations *of = law->operations;
     double slope;
     assert_null(of->curve);
-    assert_true(contact_law_force(law, NULL, 0.0, &slope) == 0.0);
-    assert_true(contact_law_force(law, NULL, -1e-6, &slope) == 0.0 && slope == 0.0);
-    assert_true(of->stored(law, NULL, -1e-6) == 0.0 && of->stored(law, NULL, 0.0) == 0.0);
+    assert_true(contact_law_force(law, 0.0, &slope) == 0.0);
+    assert_true(contact_law_force(law, -1e-6, &slope) == 0.0 && slope == 0.0);
+    assert_true(of->stored(law, -1e-6) == 0.0 && of->stored(law, 0.0) == 0.0);
     double before = 0.0;
     for (double d = 1e-12; d < 1e-2; d *= 3.7) {
-        double force = contact_law_force(law, NULL, d, &slope);
+        double force = contact_law_force(law, d, &slope);
         double ignored;
         double step = 1e-5 * d;
-        double above = contact_law_force(law, NULL, d + step, &ignored);
-        double below = contact_law_force(law, NULL, d - step, &ignored);
+        double above = contact_law_force(law, d + step, &ignored);
+        double below = contact_law_force(law, d - step, &ignored);
         assert_true(force > before);
         /* central differences: second order, (1e-5)^2 */
         near(slope, (above - below) / (2.0 * step), 1e-9);
-        near(force,
-             (of->stored(law, NULL, d + step) - of->stored(law, NULL, d - step)) / (2.0 * step),
-             1e-9);
+        near(force, (of->stored(law, d + step) - of->stored(law, d - step)) / (2.0 * step), 1e-9);
         near(of->indentation(law, force), d, 4e-15); /* a few roundings */
         before = force;
     }
-    assert_true(isnan(contact_law_force(law, NULL, NAN, &slope)) ||
-                contact_law_force(law, NULL, NAN, &slope) == 0.0);
+    assert_true(isnan(contact_law_force(law, NAN, &slope)) ||
+                contact_law_force(law, NAN, &slope) == 0.0);
 }
 
 static void hertz_fits_together(void **state)
@@ -55,9 +53,9 @@ static void hertz_fits_together(void **state)
     double slope;
     check_law(&law);
     assert_int_equal(law.operations->model, PERCUSS_CONTACT_HERTZ);
-    near(contact_law_force(&law, NULL, 1e-4, &slope), 7.7e9 * 1e-6, 1e-15);
+    near(contact_law_force(&law, 1e-4, &slope), 7.7e9 * 1e-6, 1e-15);
     near(slope, 1.5 * 7.7e9 * 1e-2, 1e-15);
-    near(law.operations->stored(&law, NULL, 1e-4), 0.4 * 7.7e9 * 1e-10, 1e-15);
+    near(law.operations->stored(&law, 1e-4), 0.4 * 7.7e9 * 1e-10, 1e-15);
 }
 
 static void linear_fits_together(void **state)
@@ -66,9 +64,9 @@ static void linear_fits_together(void **state)
     struct contact_law law = contact_law_linear(3e6);
     double slope;
     check_law(&law);
-    near(contact_law_force(&law, NULL, 1e-4, &slope), 300.0, 1e-15);
+    near(contact_law_force(&law, 1e-4, &slope), 300.0, 1e-15);
     near(slope, 3e6, 0.0);
-    near(law.operations->stored(&law, NULL, 1e-4), 0.015, 1e-15);
+    near(law.operations->stored(&law, 1e-4), 0.015, 1e-15);
 }
 
 int main(void)

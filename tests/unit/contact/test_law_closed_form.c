@@ -39,7 +39,7 @@ static struct contact_law law_on(const struct material *plane)
 static double force_at(const struct contact_law *law, double d)
 {
     double slope;
-    return contact_law_force(law, NULL, d, &slope);
+    return contact_law_force(law, d, &slope);
 }
 
 /* Work from one indentation to another by the trapezoidal rule with 1e5 points. */
@@ -85,15 +85,15 @@ static void value_and_slope_are_continuous(void **state)
         static const double joints[] = {1.0, 1.9, 3.8};
         for (int i = 0; i < 3; i++) {
             double slope[2];
-            double below = contact_law_force(&law, NULL, joints[i] * yield * (1 - 1e-9), slope);
-            double above = contact_law_force(&law, NULL, joints[i] * yield * (1 + 1e-9), slope + 1);
+            double below = contact_law_force(&law, joints[i] * yield * (1 - 1e-9), slope);
+            double above = contact_law_force(&law, joints[i] * yield * (1 + 1e-9), slope + 1);
             near(above, below, 4e-9);
             near(slope[1], slope[0], 1e-7);
         }
         double before = 0.0;
         for (double d = 1e-9; d < 1e-2; d *= 1.01) {
             double slope;
-            double force = contact_law_force(&law, NULL, d, &slope);
+            double force = contact_law_force(&law, d, &slope);
             double step = 1e-5 * d;
             assert_true(force > before);
             /* central differences: second order */
@@ -110,11 +110,11 @@ static void stored_energy_is_the_area(void **state)
     struct contact_law law = law_on(&soft);
     /* trapezoids: (1e-5)^2 times the bend, and the root at 0 */
     for (double d = 1e-6; d < 1e-3; d *= 3.0)
-        near(law.operations->stored(&law, NULL, d), work(&law, 0.0, d), 1e-7);
+        near(law.operations->stored(&law, d), work(&law, 0.0, d), 1e-7);
     /* the rule itself, against its own value with the range halved */
-    double whole = law.operations->stored(&law, NULL, 2e-4);
-    double rate = (law.operations->stored(&law, NULL, 2e-4 * (1 + 1e-4)) -
-                   law.operations->stored(&law, NULL, 2e-4 * (1 - 1e-4))) /
+    double whole = law.operations->stored(&law, 2e-4);
+    double rate = (law.operations->stored(&law, 2e-4 * (1 + 1e-4)) -
+                   law.operations->stored(&law, 2e-4 * (1 - 1e-4))) /
                   (2e-4 * 2e-4);
     assert_true(whole > 0.0);
     near(rate, force_at(&law, 2e-4), 1e-7);
@@ -154,7 +154,7 @@ static void reloading_follows_the_branch_then_the_virgin_curve(void **state)
     for (double d = 1.01e-5; d < 1e-3; d *= 2.0)
         near(force_at(&law, d - law.history.residual), force_at(&virgin, d), 1e-12);
     /* within the elastic range nothing is remembered to be lost: the same force, the same energy */
-    near(law.operations->stored(&law, NULL, span), 0.4 * law.history.max_force * span, 1e-14);
+    near(law.operations->stored(&law, span), 0.4 * law.history.max_force * span, 1e-14);
 }
 
 static void what_stays_grows_from_nothing(void **state)

@@ -57,16 +57,16 @@ static void a_sampled_table_follows_its_law(void **state)
     near(contact_curves_error(pair.curves), 1e-3, 0.0);
     /* 60 points: the law's own bend between Hertz and the second piece limits it */
     for (double d = 1e-9; d < range; d *= 1.03) {
-        double force = contact_law_force(&pair.closed, NULL, d, &slopes[0]);
-        near(contact_law_force(&pair.table, NULL, d, &slopes[1]), force, 5e-4);
+        double force = contact_law_force(&pair.closed, d, &slopes[0]);
+        near(contact_law_force(&pair.table, d, &slopes[1]), force, 5e-4);
         near(slopes[1], slopes[0], 1e-2);
-        near(pair.table.operations->stored(&pair.table, NULL, d),
-             pair.closed.operations->stored(&pair.closed, NULL, d), 5e-4);
+        near(pair.table.operations->stored(&pair.table, d),
+             pair.closed.operations->stored(&pair.closed, d), 5e-4);
     }
     /* and the branches, between those sampled too */
     for (double d = 1.4e-6; d < range; d *= 1.3) {
         struct contact_law closed = pair.closed, table = pair.table;
-        double whole = closed.operations->stored(&closed, NULL, d);
+        double whole = closed.operations->stored(&closed, d);
         double lost = contact_law_yield(&closed, d);
         /* of the whole work: twelve branches resolve the onset of yield to some 0.5 % */
         near(whole + contact_law_yield(&table, d), whole + lost, 6e-3);
@@ -74,7 +74,7 @@ static void a_sampled_table_follows_its_law(void **state)
             near(contact_law_limit(&table), contact_law_limit(&closed), 6e-3);
         double span = contact_law_limit(&table);
         for (double x = 0.05; x < 1.0; x += 0.05)
-            near(contact_law_force(&table, NULL, x * span, &slopes[0]) / table.history.max_force,
+            near(contact_law_force(&table, x * span, &slopes[0]) / table.history.max_force,
                  x * sqrt(x), 1e-3);
     }
     contact_curves_free(pair.curves);
@@ -90,9 +90,9 @@ static void its_curves_fit_together(void **state)
         for (double d = 1e-8; d < 4e-4; d *= 1.02) {
             double slope, ignored;
             double step = 1e-6 * d;
-            double force = contact_law_force(&law, NULL, d, &slope);
-            double above = contact_law_force(&law, NULL, d + step, &ignored);
-            double below = contact_law_force(&law, NULL, d - step, &ignored);
+            double force = contact_law_force(&law, d, &slope);
+            double above = contact_law_force(&law, d + step, &ignored);
+            double below = contact_law_force(&law, d - step, &ignored);
             const struct contact_law_operations *of = law.operations;
             assert_true(force > before);
             before = force;
@@ -100,8 +100,7 @@ static void its_curves_fit_together(void **state)
                 continue;
             /* differences over steps of 1e-6: rounding */
             near(slope, (above - below) / (2.0 * step), 1e-6);
-            double power = (of->stored(&law, NULL, d + step) - of->stored(&law, NULL, d - step)) /
-                           (2.0 * step);
+            double power = (of->stored(&law, d + step) - of->stored(&law, d - step)) / (2.0 * step);
             near(power, force, 1e-6);
             near(of->indentation(&law, force), d, 1e-9);
         }
@@ -125,8 +124,7 @@ static void an_elastic_table_never_yields(void **state)
     struct contact_law law = contact_law_table(curves);
     double slope;
     assert_true(isinf(contact_law_limit(&law)));
-    near(law.operations->indentation(&law, contact_law_force(&law, NULL, 3e-5, &slope)), 3e-5,
-         1e-12);
+    near(law.operations->indentation(&law, contact_law_force(&law, 3e-5, &slope)), 3e-5, 1e-12);
     contact_curves_free(curves);
 }
 

@@ -43,7 +43,7 @@ static void local(const struct toy *toy, const double approach[2], double d[2], 
     d[1] = approach[1];
     for (int i = 0; i < 200; i++) {
         for (int c = 0; c < 2; c++)
-            force[c] = contact_law_force(&toy->laws[c], NULL, d[c], &slope);
+            force[c] = contact_law_force(&toy->laws[c], d[c], &slope);
         for (int c = 0; c < 2; c++)
             d[c] =
                 approach[c] - toy->residual[2 * c] * force[0] - toy->residual[2 * c + 1] * force[1];
@@ -213,7 +213,7 @@ static void local_indentations(void **state)
         assert_true(contact_local_indentation(&toy.scene, active, approaches, d, force, matrix));
         double slope;
         near("closed", d[0] + 0.02 * force[0], approaches[0], 1e-13 * approach);
-        near("its force", force[0], contact_law_force(&toy.laws[0], NULL, d[0], &slope),
+        near("its force", force[0], contact_law_force(&toy.laws[0], d[0], &slope),
              1e-11 * force[0]);
         near("open", d[1], approaches[1] + 0.005 * force[0], 1e-13 * approach);
         assert_true(force[1] == 0.0);

@@ -54,8 +54,8 @@ static double rebound(const struct contact_law *law, double speed, double w)
     double d = law->operations->indentation(law, 1.0);
     for (int i = 0; i < 100; i++) {
         double slope;
-        double stored = law->operations->stored(law, NULL, d);
-        d *= exp(log(energy / stored) * stored / (contact_law_force(law, NULL, d, &slope) * d));
+        double stored = law->operations->stored(law, d);
+        d *= exp(log(energy / stored) * stored / (contact_law_force(law, d, &slope) * d));
     }
     if (d > contact_law_limit(law))
         energy -= contact_law_yield(&after, d);
