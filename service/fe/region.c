@@ -1,0 +1,266 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "fe/region.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "fe/active_set.h"
+#include "fe/region_parts.h"
+
+enum { NEWTON_MAX = 25, HALVINGS_MAX = 8 };
+
+static const double BALANCED = 1e-9; /* of the largest force so far */
+
+static void state_copy(size_t n, struct contact_state *to, const struct contact_state *from)
+{
+    memcpy(to->forces, from->forces, n * sizeof *to->forces);
+    memcpy(to->active, from->active, n * sizeof *to->active);
+    to->indentation = from->indentation;
+    to->force = from->force;
+}
+
+/* What is asked of an equilibrium. */
+struct target {
+    enum { BY_INDENTATION, BY_FORCE, BY_EDGE, WITHOUT_CONTACT } kind;
+    double value;
+    size_t node;
+};
+
+/* linearised surfaces of both bodies, added */
+static bool linearise(struct region *region)
+{
+    size_t n = region->count;
+    if (!solid_linearise(region->solids[0], n, region->offsets, region->compliance) ||
+        !solid_linearise(region->solids[1], n, region->initial, region->more))
+        return false;
+    for (size_t i = 0; i < n; i++)
+        region->initial[i] = region->gaps[i] - region->offsets[i] - region->initial[i];
+    for (size_t i = 0; i < n * n; i++)
+        region->compliance[i] += region->more[i];
+    return true;
+}
+
+/* the linearised contact, on more nodes should it reach the last ones */
+static bool solve_contact(struct region *region, const struct target *target)
+{
+    struct contact_state *state = &region->present;
+    if (target->kind == WITHOUT_CONTACT) {
+        memset(state->forces, 0, region->candidates * sizeof *state->forces);
+        memset(state->active, 0, region->candidates * sizeof *state->active);
+        state->force = 0.0;
+        return linearise(region);
+    }
+    for (;;) {
+        static const enum active_set_kind kinds[] = {ACTIVE_SET_BY_INDENTATION, ACTIVE_SET_BY_TOTAL,
+                                                     ACTIVE_SET_BY_EDGE};
+        struct active_set set = {.kind = kinds[target->kind],
+                                 .edge = target->node,
+                                 .count = region->count,
+                                 .compliance = region->compliance,
+                                 .initial = region->initial,
+                                 .indentation = target->value,
+                                 .total = target->value,
+                                 .force = state->forces,
+                                 .active = state->active,
+                                 .scratch = region->scratch};
+        if (!linearise(region) || !active_set_solve(&set))
+            return false;
+        state->indentation = set.indentation;
+        state->force = set.total;
+        region->stiffness = set.stiffness;
+        size_t last = region->count;
+        while (last > 0 && !state->active[last - 1])
+            last--;
+        if (last + 2 <= region->count)
+            return true;
+        if (region->count == region->candidates)
+            return false;
+        region->count += 4 + region->count / 8;
+        if (region->count > region->candidates)
+            region->count = region->candidates;
+    }
+}
+
+/* Newton's method from the present state; the histories' step starts at `start`. */
+static bool equilibrate(struct region *region, const struct target *target)
+{
+    if (region->count == 0)
+        region->count = region->candidates < 6 ? region->candidates : 6;
+    if (target->kind == BY_EDGE && region->count < target->node + 3)
+        region->count = target->node + 3;
+    region->effort.steps++;
+    for (int i = 0; i < NEWTON_MAX; i++) {
+        double worst = 0.0;
+        for (int k = 0; k < 2; k++)
+            worst = fmax(worst,
+                         solid_balance(region->solids[k], region->count, region->present.forces));
+        double scale = fmax(region->peak, region->present.force);
+        if (i > 0 && worst <= BALANCED * scale) {
+            bool grew = solid_zone_grew(region->solids[0]);
+            grew |= solid_zone_grew(region->solids[1]);
+            if (!grew)
+                return true;
+        }
+        if (!isfinite(worst) || !solve_contact(region, target))
+            return false;
+        region->effort.newton_steps++;
+        for (int k = 0; k < 2; k++)
+            solid_move(region->solids[k], region->count, region->present.forces);
+    }
+    return false;
+}
+
+static void begin(struct region *region)
+{
+    state_copy(region->candidates, &region->start, &region->committed);
+    state_copy(region->candidates, &region->present, &region->committed);
+    for (int k = 0; k < 2; k++)
+        solid_begin(region->solids[k]);
+}
+
+static void retreat(struct region *region)
+{
+    state_copy(region->candidates, &region->present, &region->start);
+    for (int k = 0; k < 2; k++)
+        solid_retreat(region->solids[k]);
+}
+
+static void advance(struct region *region)
+{
+    state_copy(region->candidates, &region->start, &region->present);
+    for (int k = 0; k < 2; k++)
+        solid_advance(region->solids[k]);
+}
+
+/* From the committed state to the target, in halves of halves where Newton's method fails. */
+static enum percuss_status reach(struct region *region, const struct target *target,
+                                 struct fault *fault)
+{
+    begin(region);
+    double from =
+        target->kind == BY_FORCE ? region->committed.force : region->committed.indentation;
+    double part = 1.0;
+    for (double done = 0.0; done < 1.0;) {
+        struct target next = *target;
+        double until = fmin(done + part, 1.0);
+        if (target->kind == BY_INDENTATION || target->kind == BY_FORCE)
+            next.value = until < 1.0 ? from + until * (target->value - from) : target->value;
+        if (equilibrate(region, &next)) {
+            done = until;
+            region->peak = fmax(region->peak, region->present.force);
+            if (done < 1.0)
+                advance(region);
+            continue;
+        }
+        retreat(region);
+        part *= 0.5;
+        if (part < ldexp(1.0, -HALVINGS_MAX) || target->kind == BY_EDGE)
+            return fault_set(fault, PERCUSS_INTERNAL, "contact region: no equilibrium at %s %g",
+                             target->kind == BY_FORCE ? "the force" : "the indentation",
+                             next.value);
+    }
+    for (int k = 0; k < 2; k++)
+        if (!solid_fits(region->solids[k]))
+            return fault_set(fault, PERCUSS_INTERNAL,
+                             "contact region: the plastic zone outgrows the mesh");
+    return PERCUSS_OK;
+}
+
+static void answer_fill(const struct region *region, struct region_answer *answer)
+{
+    *answer = (struct region_answer){.indentation = region->present.indentation,
+                                     .force = region->present.force,
+                                     .stiffness = region->stiffness};
+    for (size_t i = region->count; i-- > 0;)
+        if (region->present.active[i]) {
+            answer->radius = region->mesh.r[region->mesh.contact.index[i]];
+            break;
+        }
+}
+
+enum percuss_status region_press(struct region *region, double indentation,
+                                 struct region_answer *answer, struct fault *fault)
+{
+    struct target target = {.kind = BY_INDENTATION, .value = indentation};
+    enum percuss_status status = reach(region, &target, fault);
+    answer_fill(region, answer);
+    return status;
+}
+
+enum percuss_status region_load(struct region *region, double force, struct region_answer *answer,
+                                struct fault *fault)
+{
+    struct target target = {.kind = BY_FORCE, .value = force};
+    enum percuss_status status = reach(region, &target, fault);
+    answer_fill(region, answer);
+    return status;
+}
+
+double region_edge_radius(const struct region *region, size_t node)
+{
+    return node + 3 > region->candidates ? INFINITY
+                                         : region->mesh.r[region->mesh.contact.index[node]];
+}
+
+enum percuss_status region_edge(struct region *region, size_t node, struct region_answer *answer,
+                                struct fault *fault)
+{
+    struct target target = {.kind = BY_EDGE, .node = node};
+    *answer = (struct region_answer){0};
+    if (node == 0 || isinf(region_edge_radius(region, node)))
+        return fault_set(fault, PERCUSS_INTERNAL, "contact region: no contact node %zu", node);
+    enum percuss_status status = reach(region, &target, fault);
+    if (status != PERCUSS_OK)
+        return status;
+    answer_fill(region, answer);
+    answer->radius =
+        0.5 * (region_edge_radius(region, node) + region_edge_radius(region, node - 1));
+    for (size_t i = 0; i < node; i++)
+        if (!(region->present.forces[i] >= 0.0))
+            return fault_set(fault, PERCUSS_INTERNAL,
+                             "contact region: node %zu pulls with the edge at %zu", i, node);
+    return PERCUSS_OK;
+}
+
+void region_commit(struct region *region)
+{
+    state_copy(region->candidates, &region->committed, &region->present);
+    for (int k = 0; k < 2; k++)
+        solid_commit(region->solids[k]);
+}
+
+enum percuss_status region_touch(struct region *region, double *indentation, struct fault *fault)
+{
+    struct target target = {.kind = WITHOUT_CONTACT};
+    enum percuss_status status = reach(region, &target, fault);
+    *indentation = INFINITY;
+    for (size_t i = 0; i < region->candidates; i++)
+        *indentation = fmin(*indentation, region->gaps[i] - solid_surface(region->solids[0], i) -
+                                              solid_surface(region->solids[1], i));
+    return status;
+}
+
+void region_ledger(const struct region *region, struct region_ledger *ledger)
+{
+    for (int k = 0; k < 2; k++) {
+        ledger->flow[k] = solid_flow(region->solids[k]);
+        ledger->plastic[k] = solid_plastic_work(region->solids[k]);
+        ledger->elastic[k] = solid_elastic_energy(region->solids[k]);
+    }
+}
+
+struct region_effort region_effort(const struct region *region)
+{
+    return region->effort;
+}
+
+size_t region_pressure(const struct region *region, size_t room, double *radii, double *forces)
+{
+    for (size_t i = 0; i < region->candidates && i < room; i++) {
+        radii[i] = region->mesh.r[region->mesh.contact.index[i]];
+        forces[i] = region->present.forces[i];
+    }
+    return region->candidates;
+}

@@ -1,0 +1,35 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What region_make.c (making) and region.c (equilibria) share. */
+#ifndef PERCUSS_FE_REGION_PARTS_H
+#define PERCUSS_FE_REGION_PARTS_H
+
+#include <stdbool.h>
+
+#include "fe/mesh.h"
+#include "fe/region.h"
+#include "fe/solid.h"
+
+/* What a step starts from. */
+struct contact_state {
+    double indentation, force;
+    double *forces; /* by contact node */
+    bool *active;
+};
+
+struct region {
+    struct mesh mesh;
+    struct quad *quads;
+    struct solid *solids[2];
+    size_t candidates; /* contact nodes that may ever touch */
+    size_t count;      /* of them, those looked at now */
+    double *gaps;      /* of the virgin surfaces, m */
+    struct contact_state committed, start, present;
+    double stiffness;
+    double peak; /* N */
+    double *offsets, *compliance, *more, *initial, *scratch;
+    struct region_effort effort;
+};
+
+#endif

@@ -1,0 +1,256 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+#include <string.h>
+
+#include "fe/solid_parts.h"
+
+static size_t contact_freedom(const struct solid *solid, size_t i)
+{
+    return freedom(solid, solid->mesh->contact.index[i]) + 1;
+}
+
+static void snapshot_copy(const struct solid *solid, struct snapshot *to,
+                          const struct snapshot *from)
+{
+    memcpy(to->displacement, from->displacement, 2 * solid->mesh->nodes * sizeof(double));
+    memcpy(to->history, from->history, solid->zone * sizeof *to->history);
+    to->force = from->force;
+}
+
+/* two rings beyond the last flowing element are followed closely */
+static size_t margin(const struct solid *solid)
+{
+    return 2 * solid->mesh->far.count;
+}
+
+static void widen(struct solid *solid, size_t elements)
+{
+    if (elements > solid->zone)
+        solid->zone = elements < solid->mesh->elements ? elements : solid->mesh->elements;
+}
+
+/* forces of an element that may flow; its histories follow */
+static bool flow_element(struct solid *solid, size_t element, double force[QUAD_FREEDOMS])
+{
+    double local[QUAD_FREEDOMS];
+    bool flows = false;
+    solid_gather(solid, element, local);
+    memset(force, 0, QUAD_FREEDOMS * sizeof *force);
+    for (int p = 0; p < QUAD_POINTS; p++) {
+        double strain[STRESS_COMPONENTS], stress[STRESS_COMPONENTS];
+        quad_strain(&solid->quads[element], p, local, strain);
+        flows |= plasticity_return(&solid->law, &solid->start.history[element][p], strain,
+                                   &solid->present.history[element][p], stress, NULL);
+        quad_add_force(&solid->quads[element], p, stress, force);
+    }
+    return flows;
+}
+
+double solid_balance(struct solid *solid, size_t count, const double *forces)
+{
+    size_t n = freedoms(solid);
+    size_t flowing = 0;
+    memset(solid->balance, 0, n * sizeof *solid->balance);
+    for (size_t e = 0; e < solid->mesh->elements; e++) {
+        double local[QUAD_FREEDOMS];
+        if (e >= solid->zone)
+            solid_elastic_force(solid, e, local);
+        else if (flow_element(solid, e, local))
+            flowing = e + 1;
+        solid_scatter(solid, e, local, solid->balance);
+    }
+    solid->yielding = flowing > 0;
+    if (flowing)
+        widen(solid, flowing + margin(solid));
+    double worst = 0.0;
+    for (size_t i = 0; i < count; i++)
+        solid->balance[contact_freedom(solid, i)] += forces[i];
+    for (size_t i = 0; i < n; i++)
+        worst = fmax(worst, fabs(solid->balance[i]));
+    for (size_t i = 0; i < count; i++)
+        solid->balance[contact_freedom(solid, i)] -= forces[i];
+    return worst;
+}
+
+bool solid_zone_grew(struct solid *solid)
+{
+    size_t flowing = 0;
+    if (isinf(solid->law.yield))
+        return false;
+    for (size_t e = solid->zone; e < solid->mesh->elements; e++) {
+        double local[QUAD_FREEDOMS];
+        solid_gather(solid, e, local);
+        for (int p = 0; p < QUAD_POINTS; p++) {
+            double strain[STRESS_COMPONENTS], stress[STRESS_COMPONENTS];
+            struct plastic_state after;
+            quad_strain(&solid->quads[e], p, local, strain);
+            if (plasticity_return(&solid->law, &solid->start.history[e][p], strain, &after, stress,
+                                  NULL))
+                flowing = e + 1;
+        }
+    }
+    if (flowing)
+        widen(solid, flowing + margin(solid));
+    return flowing > 0;
+}
+
+bool solid_fits(const struct solid *solid)
+{
+    return solid->zone + margin(solid) <= solid->mesh->elements;
+}
+
+/* last node of the zone and of the contact candidates: everything farther out stays as factored */
+static size_t outermost_node(const struct solid *solid, size_t count)
+{
+    size_t outermost = count ? solid->mesh->contact.index[count - 1] : 0;
+    for (size_t e = 0; e < solid->zone; e++)
+        for (size_t i = 0; i < 4; i++)
+            if (solid->mesh->quads[e][i] > outermost)
+                outermost = solid->mesh->quads[e][i];
+    return outermost;
+}
+
+static void tangent_element(const struct solid *solid, size_t element,
+                            double stiffness[QUAD_FREEDOMS * QUAD_FREEDOMS])
+{
+    double local[QUAD_FREEDOMS];
+    solid_gather(solid, element, local);
+    memset(stiffness, 0, QUAD_FREEDOMS * QUAD_FREEDOMS * sizeof *stiffness);
+    for (int p = 0; p < QUAD_POINTS; p++) {
+        double strain[STRESS_COMPONENTS], stress[STRESS_COMPONENTS];
+        double moduli[STRESS_COMPONENTS * STRESS_COMPONENTS];
+        struct plastic_state after;
+        quad_strain(&solid->quads[element], p, local, strain);
+        plasticity_return(&solid->law, &solid->start.history[element][p], strain, &after, stress,
+                          moduli);
+        quad_add_stiffness(&solid->quads[element], p, moduli, stiffness);
+    }
+}
+
+static bool factor_tangent(struct solid *solid, size_t outermost)
+{
+    size_t n = freedoms(solid);
+    memset(band_entry(&solid->tangent, solid->first, solid->first), 0,
+           (n - solid->first) * (solid->tangent.width + 1) * sizeof(double));
+    for (size_t e = 0; e < solid->mesh->elements; e++) {
+        double stiffness[QUAD_FREEDOMS * QUAD_FREEDOMS];
+        if (e < solid->zone)
+            tangent_element(solid, e, stiffness);
+        if (solid->mesh->quads[e][0] <= outermost || solid->mesh->quads[e][1] <= outermost ||
+            solid->mesh->quads[e][2] <= outermost || solid->mesh->quads[e][3] <= outermost)
+            solid_assemble(solid, e, e < solid->zone ? stiffness : solid->stiffness[e],
+                           solid->first, &solid->tangent);
+    }
+    return band_factor_trailing(&solid->tangent, &solid->elastic, solid->first);
+}
+
+static const struct band *inner_factor(const struct solid *solid)
+{
+    return solid->yielding ? &solid->tangent : &solid->elastic;
+}
+
+/* forward solution whose part before `first` is elastic */
+static void forward(const struct solid *solid, double *b)
+{
+    band_carry_forward(&solid->elastic, solid->first, b, b);
+    band_forward(inner_factor(solid), solid->first, freedoms(solid), b);
+}
+
+static double dot(const double *a, const double *b, size_t from, size_t to)
+{
+    double sum = 0.0;
+    for (size_t i = from; i < to; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+bool solid_linearise(struct solid *solid, size_t count, double *offset, double *compliance)
+{
+    size_t n = freedoms(solid);
+    size_t outermost = outermost_node(solid, count);
+    solid->first = outermost < solid->free_nodes ? freedom(solid, outermost) : 0;
+    if (solid->yielding && !factor_tangent(solid, outermost))
+        return false;
+    memcpy(solid->residual, solid->balance, n * sizeof *solid->residual);
+    band_forward(&solid->elastic, 0, solid->first, solid->residual);
+    forward(solid, solid->residual);
+    memcpy(solid->boundary, solid->pulled, solid->first * sizeof *solid->boundary);
+    memcpy(solid->boundary + solid->first, solid->pull + solid->first,
+           (n - solid->first) * sizeof *solid->boundary);
+    forward(solid, solid->boundary);
+    for (size_t i = 0; i < count; i++) {
+        /* contact nodes count outward, freedoms inward: those of j <= i lie beyond row `from` */
+        size_t from = contact_freedom(solid, i);
+        double *load = solid->loads + i * n;
+        memset(load + solid->first, 0, (n - solid->first) * sizeof *load);
+        load[from] = 1.0;
+        band_forward(inner_factor(solid), from, n, load);
+        double share = dot(load, solid->boundary, from, n);
+        offset[i] = solid_surface(solid, i) - dot(load, solid->residual, from, n) +
+                    solid->present.force * share;
+        for (size_t j = 0; j <= i; j++) {
+            double common = dot(load, solid->loads + j * n, contact_freedom(solid, j), n);
+            compliance[i * count + j] = common + share;
+            if (j < i)
+                compliance[j * count + i] = common;
+        }
+    }
+    /* above the diagonal: the share of row j */
+    for (size_t j = 0; j < count; j++)
+        for (size_t i = j + 1; i < count; i++)
+            compliance[j * count + i] +=
+                dot(solid->loads + j * n, solid->boundary, contact_freedom(solid, j), n);
+    return true;
+}
+
+void solid_move(struct solid *solid, size_t count, const double *forces)
+{
+    size_t n = freedoms(solid);
+    double *step = solid->residual;
+    double force = 0.0;
+    for (size_t j = 0; j < count; j++) {
+        const double *load = solid->loads + j * n;
+        force += forces[j];
+        if (forces[j] != 0.0)
+            for (size_t i = contact_freedom(solid, j); i < n; i++)
+                step[i] += forces[j] * load[i];
+    }
+    double change = force - solid->present.force;
+    for (size_t i = 0; i < n; i++)
+        step[i] = -(step[i] + change * solid->boundary[i]);
+    band_backward(inner_factor(solid), solid->first, n, step);
+    band_carry_backward(&solid->elastic, solid->first, step, step);
+    band_backward(&solid->elastic, 0, solid->first, step);
+    for (size_t node = 0; node < solid->free_nodes; node++)
+        for (size_t c = 0; c < 2; c++)
+            solid->present.displacement[2 * node + c] += step[freedom(solid, node) + c];
+    solid_move_far(solid, force);
+}
+
+void solid_begin(struct solid *solid)
+{
+    snapshot_copy(solid, &solid->start, &solid->committed);
+    snapshot_copy(solid, &solid->present, &solid->committed);
+}
+
+void solid_advance(struct solid *solid)
+{
+    snapshot_copy(solid, &solid->start, &solid->present);
+}
+
+void solid_retreat(struct solid *solid)
+{
+    snapshot_copy(solid, &solid->present, &solid->start);
+}
+
+void solid_commit(struct solid *solid)
+{
+    snapshot_copy(solid, &solid->committed, &solid->present);
+}
+
+double solid_surface(const struct solid *solid, size_t i)
+{
+    return solid->present.displacement[2 * solid->mesh->contact.index[i] + 1];
+}
