@@ -64,7 +64,9 @@ bool plasticity_return(const struct plastic_law *law, const struct plastic_state
     double excess = sqrt(1.5) * length - yield;
     double pressure = law->bulk * volume;
     *after = *before;
-    if (!(excess > 0.0)) {
+    /* a state just returned lies on the yield surface but for rounding: it does not flow until it
+     * moves on, so that a step begins with the elastic tangent whichever way it goes */
+    if (!(excess > 1e-10 * yield)) {
         for (size_t i = 0; i < STRESS_COMPONENTS; i++)
             stress[i] = trial[i] + (i < 3 ? pressure : 0.0);
         if (tangent)

@@ -26,14 +26,15 @@ struct target {
     enum { BY_INDENTATION, BY_FORCE, BY_EDGE, WITHOUT_CONTACT } kind;
     double value;
     size_t node;
+    bool loading; /* the step is expected to press further */
 };
 
 /* linearised surfaces of both bodies, added */
-static bool linearise(struct region *region)
+static bool linearise(struct region *region, bool loading)
 {
     size_t n = region->count;
-    if (!solid_linearise(region->solids[0], n, region->offsets, region->compliance) ||
-        !solid_linearise(region->solids[1], n, region->initial, region->more))
+    if (!solid_linearise(region->solids[0], n, loading, region->offsets, region->compliance) ||
+        !solid_linearise(region->solids[1], n, loading, region->initial, region->more))
         return false;
     for (size_t i = 0; i < n; i++)
         region->initial[i] = region->gaps[i] - region->offsets[i] - region->initial[i];
@@ -43,14 +44,14 @@ static bool linearise(struct region *region)
 }
 
 /* the linearised contact, on more nodes should it reach the last ones */
-static bool solve_contact(struct region *region, const struct target *target)
+static bool solve_contact(struct region *region, const struct target *target, bool loading)
 {
     struct contact_state *state = &region->present;
     if (target->kind == WITHOUT_CONTACT) {
         memset(state->forces, 0, region->candidates * sizeof *state->forces);
         memset(state->active, 0, region->candidates * sizeof *state->active);
         state->force = 0.0;
-        return linearise(region);
+        return linearise(region, false);
     }
     for (;;) {
         static const enum active_set_kind kinds[] = {ACTIVE_SET_BY_INDENTATION, ACTIVE_SET_BY_TOTAL,
@@ -65,7 +66,7 @@ static bool solve_contact(struct region *region, const struct target *target)
                                  .force = state->forces,
                                  .active = state->active,
                                  .scratch = region->scratch};
-        if (!linearise(region) || !active_set_solve(&set))
+        if (!linearise(region, loading) || !active_set_solve(&set))
             return false;
         state->indentation = set.indentation;
         state->force = set.total;
@@ -103,7 +104,7 @@ static bool equilibrate(struct region *region, const struct target *target)
             if (!grew)
                 return true;
         }
-        if (!isfinite(worst) || !solve_contact(region, target))
+        if (!isfinite(worst) || !solve_contact(region, target, target->loading && i == 0))
             return false;
         region->effort.newton_steps++;
         for (int k = 0; k < 2; k++)
@@ -134,6 +135,20 @@ static void advance(struct region *region)
         solid_advance(region->solids[k]);
 }
 
+static bool is_loading(const struct region *region, const struct target *target)
+{
+    switch (target->kind) {
+    case BY_INDENTATION:
+        return target->value > region->start.indentation;
+    case BY_FORCE:
+        return target->value > region->start.force;
+    case BY_EDGE:
+        return !region->start.active[target->node];
+    default:
+        return false;
+    }
+}
+
 /* From the committed state to the target, in halves of halves where Newton's method fails. */
 static enum percuss_status reach(struct region *region, const struct target *target,
                                  struct fault *fault)
@@ -144,6 +159,7 @@ static enum percuss_status reach(struct region *region, const struct target *tar
     double part = 1.0;
     for (double done = 0.0; done < 1.0;) {
         struct target next = *target;
+        next.loading = is_loading(region, target);
         double until = fmin(done + part, 1.0);
         if (target->kind == BY_INDENTATION || target->kind == BY_FORCE)
             next.value = until < 1.0 ? from + until * (target->value - from) : target->value;

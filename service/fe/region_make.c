@@ -63,9 +63,11 @@ static enum percuss_status make_mesh(struct region *region, const struct region_
     enum percuss_status status = mesh_half_space(EXTENT * top, &grade, &region->mesh, fault);
     if (status != PERCUSS_OK)
         return status;
-    while (region->candidates < region->mesh.contact.count &&
-           region->mesh.r[region->mesh.contact.index[region->candidates]] < 1.5 * top)
+    const struct mesh_nodes *contact = &region->mesh.contact;
+    while (region->candidates < contact->count &&
+           region->mesh.r[contact->index[region->candidates]] < 1.5 * top)
         region->candidates++;
+    region->candidates += 4; /* beyond the last that is to carry force */
     region->quads = malloc(region->mesh.elements * sizeof *region->quads);
     if (!region->quads)
         return fault_set(fault, PERCUSS_INTERNAL, "contact region: no memory");

@@ -30,8 +30,10 @@ double solid_balance(struct solid *solid, size_t count, const double *forces);
 
 /* Linearises about the present displacements. With contact forces f (count of them, inward) the
  * outward displacement of contact node i would be offset[i] - sum_j compliance[i * count + j] f_j.
- * Follows solid_balance. False: the tangent is not positive definite. */
-bool solid_linearise(struct solid *solid, size_t count, double *offset, double *compliance);
+ * Follows solid_balance. `loading`: points at their yield stress are about to flow on; else only
+ * those that do flow are soft. False: the tangent is not positive definite. */
+bool solid_linearise(struct solid *solid, size_t count, bool loading, double *offset,
+                     double *compliance);
 
 /* Moves to the linearised solution with these forces. */
 void solid_move(struct solid *solid, size_t count, const double *forces);

@@ -51,19 +51,16 @@ static bool flow_element(struct solid *solid, size_t element, double force[QUAD_
 double solid_balance(struct solid *solid, size_t count, const double *forces)
 {
     size_t n = freedoms(solid);
-    size_t flowing = 0;
+    solid->yielding = false;
     memset(solid->balance, 0, n * sizeof *solid->balance);
     for (size_t e = 0; e < solid->mesh->elements; e++) {
         double local[QUAD_FREEDOMS];
         if (e >= solid->zone)
             solid_elastic_force(solid, e, local);
         else if (flow_element(solid, e, local))
-            flowing = e + 1;
+            solid->yielding = true;
         solid_scatter(solid, e, local, solid->balance);
     }
-    solid->yielding = flowing > 0;
-    if (flowing)
-        widen(solid, flowing + margin(solid));
     double worst = 0.0;
     for (size_t i = 0; i < count; i++)
         solid->balance[contact_freedom(solid, i)] += forces[i];
@@ -112,8 +109,8 @@ static size_t outermost_node(const struct solid *solid, size_t count)
     return outermost;
 }
 
-static void tangent_element(const struct solid *solid, size_t element,
-                            double stiffness[QUAD_FREEDOMS * QUAD_FREEDOMS])
+static void tangent_element(const struct solid *solid, const struct plastic_law *law,
+                            size_t element, double stiffness[QUAD_FREEDOMS * QUAD_FREEDOMS])
 {
     double local[QUAD_FREEDOMS];
     solid_gather(solid, element, local);
@@ -123,21 +120,24 @@ static void tangent_element(const struct solid *solid, size_t element,
         double moduli[STRESS_COMPONENTS * STRESS_COMPONENTS];
         struct plastic_state after;
         quad_strain(&solid->quads[element], p, local, strain);
-        plasticity_return(&solid->law, &solid->start.history[element][p], strain, &after, stress,
-                          moduli);
+        plasticity_return(law, &solid->start.history[element][p], strain, &after, stress, moduli);
         quad_add_stiffness(&solid->quads[element], p, moduli, stiffness);
     }
 }
 
-static bool factor_tangent(struct solid *solid, size_t outermost)
+static bool factor_tangent(struct solid *solid, size_t outermost, bool loading)
 {
+    /* a hair below, so that what lies on the yield surface counts as flowing */
+    struct plastic_law law = solid->law;
+    if (loading)
+        law.yield *= 1.0 - 1e-8;
     size_t n = freedoms(solid);
     memset(band_entry(&solid->tangent, solid->first, solid->first), 0,
            (n - solid->first) * (solid->tangent.width + 1) * sizeof(double));
     for (size_t e = 0; e < solid->mesh->elements; e++) {
         double stiffness[QUAD_FREEDOMS * QUAD_FREEDOMS];
         if (e < solid->zone)
-            tangent_element(solid, e, stiffness);
+            tangent_element(solid, &law, e, stiffness);
         if (solid->mesh->quads[e][0] <= outermost || solid->mesh->quads[e][1] <= outermost ||
             solid->mesh->quads[e][2] <= outermost || solid->mesh->quads[e][3] <= outermost)
             solid_assemble(solid, e, e < solid->zone ? stiffness : solid->stiffness[e],
@@ -166,12 +166,15 @@ static double dot(const double *a, const double *b, size_t from, size_t to)
     return sum;
 }
 
-bool solid_linearise(struct solid *solid, size_t count, double *offset, double *compliance)
+bool solid_linearise(struct solid *solid, size_t count, bool loading, double *offset,
+                     double *compliance)
 {
     size_t n = freedoms(solid);
     size_t outermost = outermost_node(solid, count);
     solid->first = outermost < solid->free_nodes ? freedom(solid, outermost) : 0;
-    if (solid->yielding && !factor_tangent(solid, outermost))
+    if (loading && solid->zone > 0)
+        solid->yielding = true;
+    if (solid->yielding && !factor_tangent(solid, outermost, loading))
         return false;
     memcpy(solid->residual, solid->balance, n * sizeof *solid->residual);
     band_forward(&solid->elastic, 0, solid->first, solid->residual);
