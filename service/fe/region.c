@@ -91,7 +91,6 @@ static bool equilibrate(struct region *region, const struct target *target)
         region->count = region->candidates < 6 ? region->candidates : 6;
     if (target->kind == BY_EDGE && region->count < target->node + 3)
         region->count = target->node + 3;
-    region->effort.steps++;
     for (int i = 0; i < NEWTON_MAX; i++) {
         double worst = 0.0;
         for (int k = 0; k < 2; k++)
@@ -270,13 +269,4 @@ void region_ledger(const struct region *region, struct region_ledger *ledger)
 struct region_effort region_effort(const struct region *region)
 {
     return region->effort;
-}
-
-size_t region_pressure(const struct region *region, size_t room, double *radii, double *forces)
-{
-    for (size_t i = 0; i < region->candidates && i < room; i++) {
-        radii[i] = region->mesh.r[region->mesh.contact.index[i]];
-        forces[i] = region->present.forces[i];
-    }
-    return region->candidates;
 }

@@ -73,12 +73,8 @@ void region_ledger(const struct region *region, struct region_ledger *ledger);
 
 /* What it took since creation. */
 struct region_effort {
-    size_t steps, newton_steps, nodes;
+    size_t newton_steps, nodes;
 };
 struct region_effort region_effort(const struct region *region);
-
-/* Present forces of the contact nodes (N) and their radii (m), outward; returns their number, at
- * most `room` are written. */
-size_t region_pressure(const struct region *region, size_t room, double *radii, double *forces);
 
 #endif
