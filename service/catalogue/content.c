@@ -153,7 +153,7 @@ enum percuss_status content_read(struct reader *reader, struct body_set *set)
 {
     struct materials materials = {0};
     const yaml_node_t *root = yaml_document_get_root_node(reader->document);
-    *set = (struct body_set){.compliance = PERCUSS_COMPLIANCE_HALF_SPACE};
+    *set = (struct body_set){.compliance = PERCUSS_COMPLIANCE_MATCHED};
     enum percuss_status status =
         keys_read(reader, (struct entry){root, root}, &keys_top, KEYS_ANY, set);
     if (!status)

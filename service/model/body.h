@@ -62,7 +62,7 @@ const char *shape_name(enum shape shape);
 struct body_set {
     struct body *bodies;
     size_t count;
-    enum percuss_compliance compliance; /* HALF_SPACE or MATCHED */
+    enum percuss_compliance compliance; /* HALF_SPACE; MATCHED: where it is known */
     char revision[PERCUSS_ID_SIZE];     /* hash of everything that can change an answer */
 };
 

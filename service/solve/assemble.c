@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "impact/oscillator.h"
+#include "solve/compliance.h"
 #include "solve/contact_model.h"
 
 /* A group whose shapes all vanish at every contact, up to rounding, does not exist for the scene.
@@ -238,6 +239,8 @@ bool assemble(struct assembly *assembly, const struct geometry *geometry,
     if (!residual || !create(assembly, geometry, arena) ||
         !fill_scene(assembly, geometry, request, arena))
         return false;
+    for (size_t c = 0; geometry->compliance && c < n; c++)
+        residual[c * n + c] = geometry->compliance->series[c];
     assembly->scene.residual = residual;
     const struct scene rigid = assembly->scene;
     for (size_t b = 0; b < geometry->body_count; b++) {

@@ -12,6 +12,7 @@
 #include "solve/solve.h"
 
 struct contact_model;
+struct compliance;
 
 /* One side of a contact. */
 struct contact_side {
@@ -33,6 +34,7 @@ struct geometry {
     double *impulse_compression;     /* [contact], Eq. (4) or its complementarity problem, N s */
     bool from_client;
     struct contact_model *contact_model; /* the contacts' laws, see contact_model.h */
+    struct compliance *compliance;       /* in series with them, see compliance.h; NULL: none */
 };
 
 /* PERCUSS_OK, or the refusal with its message: UNKNOWN_BODY, BAD_REQUEST, UNSUPPORTED_GEOMETRY,

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fe/matched.h"
+
 enum { BUCKETS = 256, ROUNDING = 8 };
 
 /* Stands for all modes from index `first` on. */
@@ -21,6 +23,8 @@ struct entry {
     char id[PERCUSS_ID_SIZE];
     struct prepared_family *families[FAMILY_COUNT];
     struct remainder *remainders[FAMILY_COUNT];
+    enum { UNASKED, KNOWN, NONE } matched_is;
+    double matched;
 };
 
 struct prepared_cache {
@@ -204,4 +208,15 @@ struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const s
     }
     entry->remainders[family] = made;
     return made->set;
+}
+
+bool prepared_matched_get(struct prepared_cache *cache, const struct body *body, double *compliance)
+{
+    struct entry *entry = find_entry(cache, body->id);
+    if (!entry)
+        return false;
+    if (entry->matched_is == UNASKED)
+        entry->matched_is = matched_compliance(body, 0.0, &entry->matched) ? KNOWN : NONE;
+    *compliance = entry->matched;
+    return entry->matched_is == KNOWN;
 }

@@ -42,4 +42,9 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
 struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
                                            enum mode_family family, size_t first);
 
+/* matched_compliance of a rod's or cylinder's end, which takes milliseconds when first asked for.
+ * False: none is known, or out of memory. */
+bool prepared_matched_get(struct prepared_cache *cache, const struct body *body,
+                          double *compliance);
+
 #endif

@@ -10,6 +10,7 @@
 
 #include "model/rigid.h"
 #include "model/vector.h"
+#include "solve/compliance.h"
 #include "solve/contact_model.h"
 #include "solve/state_out.h"
 #include "solve/validity.h"
@@ -132,7 +133,7 @@ static void fill_model(const struct geometry *geometry, const struct solve_reque
                        const struct accuracy *accuracy, struct solve_result *result)
 {
     result->contact_model = contact_model_used(geometry);
-    result->compliance = PERCUSS_COMPLIANCE_HALF_SPACE;
+    result->compliance = geometry->compliance->used;
     result->method = request->options.method;
     result->delassus_source =
         geometry->from_client ? PERCUSS_DELASSUS_CLIENT : PERCUSS_DELASSUS_SERVICE;
@@ -148,6 +149,10 @@ static void fill_model(const struct geometry *geometry, const struct solve_reque
         snprintf(result->reason + used, sizeof result->reason - used,
                  "; every mode is too fast to matter (lowest %.4g Hz): static flexibility only",
                  assembly->lowest_omitted / (2.0 * M_PI));
+    used = strlen(result->reason);
+    if (geometry->compliance->reason[0])
+        snprintf(result->reason + used, sizeof result->reason - used, "; half-space: %s",
+                 geometry->compliance->reason);
     result->omitted_error =
         accuracy->modes.restitution + validity_wave_loss(geometry, request, result);
 }
@@ -210,8 +215,7 @@ static bool is_finite(const struct solve_result *result)
 }
 
 void report_fill(const struct geometry *geometry, const struct solve_request *request,
-                 const struct body_set *catalogue, const struct accuracy *accuracy,
-                 struct arena *arena, struct solve_result *result)
+                 const struct accuracy *accuracy, struct arena *arena, struct solve_result *result)
 {
     fill_contacts(geometry, request, accuracy, result);
     fill_bodies(geometry, request, accuracy, arena, result);
@@ -219,7 +223,7 @@ void report_fill(const struct geometry *geometry, const struct solve_request *re
     fill_model(geometry, request, accuracy, result);
     warn_contact_model(geometry, accuracy, result);
     fill_end(accuracy, result);
-    validity_warn(geometry, request, catalogue, result);
+    validity_warn(geometry, request, result);
     if (accuracy->steps.energy_defect > 0.01)
         result->status =
             fault_set(&result->fault, PERCUSS_INTERNAL,

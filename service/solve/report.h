@@ -9,8 +9,7 @@
 
 /* Fills everything of `result` that the solution decides; status and message too. */
 void report_fill(const struct geometry *geometry, const struct solve_request *request,
-                 const struct body_set *catalogue, const struct accuracy *accuracy,
-                 struct arena *arena, struct solve_result *result);
+                 const struct accuracy *accuracy, struct arena *arena, struct solve_result *result);
 
 /* Adds a warning while there is room. */
 void report_warn(struct solve_result *result, const char *format, ...)

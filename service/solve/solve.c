@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "solve/accuracy.h"
+#include "solve/compliance.h"
 #include "solve/contact_model.h"
 #include "solve/report.h"
 
@@ -107,9 +108,6 @@ static enum percuss_status check_supported(const struct solve_options *options, 
                          "options.contact_model: %s: not available in this version: auto, hertz, "
                          "closed-form or table",
                          contact_model_name(options->contact_model));
-    if (options->compliance == PERCUSS_COMPLIANCE_MATCHED)
-        return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "options.compliance: matched: not available in this version: half-space");
     return PERCUSS_OK;
 }
 
@@ -126,14 +124,19 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     if (!status)
         status = contact_model_choose(geometry, request, workspace->tables, &workspace->arena,
                                       &result->fault);
+    if (!status)
+        status = compliance_choose(geometry, request, catalogue, workspace->cache,
+                                   &workspace->arena, &result->fault);
     bool revised = true;
     while (!status && revised) {
         status = accuracy_solve(accuracy, geometry, request, workspace->cache, &workspace->arena,
                                 &result->fault);
-        revised = !status && contact_model_revise(geometry, request, &accuracy->outcome);
+        revised = !status &&
+                  (contact_model_revise(geometry, request, &accuracy->outcome) ||
+                   compliance_revise(geometry, &accuracy->assembly->scene, &accuracy->outcome));
     }
     if (!status) {
-        report_fill(geometry, request, catalogue, accuracy, &workspace->arena, result);
+        report_fill(geometry, request, accuracy, &workspace->arena, result);
         status = result->status;
     }
     return status;

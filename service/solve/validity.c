@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "solve/compliance.h"
 #include "solve/report.h"
 
 static double wave_speed(const struct body *body)
@@ -112,15 +113,14 @@ static void warn_delassus(const struct geometry *geometry, struct solve_result *
 }
 
 void validity_warn(const struct geometry *geometry, const struct solve_request *request,
-                   const struct body_set *catalogue, struct solve_result *result)
+                   struct solve_result *result)
 {
     for (size_t c = 0; c < geometry->contact_count; c++)
         warn_contact(geometry, c, result);
     if (geometry->from_client)
         warn_delassus(geometry, result);
-    if (catalogue->compliance == PERCUSS_COMPLIANCE_MATCHED &&
-        request->options.compliance == PERCUSS_COMPLIANCE_DEFAULT)
-        report_warn(result,
-                    "compliance: the catalogue asks for matched, which is not available for "
-                    "these bodies: half-space is used");
+    if (request->options.compliance == PERCUSS_COMPLIANCE_MATCHED &&
+        geometry->compliance->used != PERCUSS_COMPLIANCE_MATCHED)
+        report_warn(result, "options.compliance: matched: %s: half-space is used",
+                    geometry->compliance->reason);
 }

@@ -14,6 +14,6 @@ double validity_wave_loss(const struct geometry *geometry, const struct solve_re
 
 /* Adds the warnings: yield, size of the contact, speed, edges, differing delassus, compliance. */
 void validity_warn(const struct geometry *geometry, const struct solve_request *request,
-                   const struct body_set *catalogue, struct solve_result *result);
+                   struct solve_result *result);
 
 #endif

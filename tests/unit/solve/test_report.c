@@ -109,8 +109,8 @@ static void warns_where_models_end(void **state)
     lab_solve(lab, &request, &result);
     assert_true(warns("delassus"));
     assert_int_equal(result.delassus_source, PERCUSS_DELASSUS_CLIENT);
-    lab->set.compliance = PERCUSS_COMPLIANCE_MATCHED;
-    request.delassus = NULL;
+    request = strike(sphere_spot("ball", 0.015), side_spot("beam", 0.1, 0.010, 0.0), 0.1);
+    request.options.compliance = PERCUSS_COMPLIANCE_MATCHED;
     lab_solve(lab, &request, &result);
     assert_true(warns("compliance"));
     lab_free(lab);

@@ -1,0 +1,144 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/compliance.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "fe/matched.h"
+#include "model/vector.h"
+
+/* A hit counts as central up to this share of the radius: the correction is of second order in it.
+ */
+static const double CENTRAL = 0.1;
+
+/* Contact radius (m) of a collision of the rigid masses at the fastest approach: the correction
+ * depends on its logarithm at most. */
+static double patch_radius(const struct geometry *geometry, size_t c)
+{
+    const struct hertz_contact *hertz = &geometry->hertz[c];
+    size_t n = geometry->contact_count;
+    double speed = 0.0;
+    for (size_t i = 0; i < n; i++)
+        speed = fmax(speed, -geometry->gap_rate[i]);
+    double energy = 0.5 * speed * speed / geometry->w[c * (n + 1)];
+    double force = hertz->stiffness * pow(energy / (0.4 * hertz->stiffness), 0.6);
+    double axes[2];
+    hertz_ellipse(hertz, force, axes);
+    return sqrt(axes[0] * axes[1]);
+}
+
+static bool is_central(const struct body *body, const double point[3])
+{
+    double off = hypot(point[1], point[2]);
+    double length = fabs(point[0]);
+    return off <= CENTRAL * body->radius && length > 0.45 * body->length;
+}
+
+/* The correction of one side of a contact, m/N. False: none is known. */
+static bool side_compliance(const struct geometry *geometry, struct prepared_cache *cache, size_t c,
+                            int which, double *compliance)
+{
+    const struct contact_side *side = &geometry->sides[c][which];
+    const struct body *body = geometry->bodies[side->body];
+    switch (body->shape) {
+    case SHAPE_ROD:
+    case SHAPE_CYLINDER:
+        if (!is_central(body, side->site.point))
+            return false;
+        return prepared_matched_get(cache, body, compliance);
+    case SHAPE_SPHERE:
+        return matched_compliance(body, patch_radius(geometry, c), compliance);
+    default:
+        return matched_compliance(body, 0.0, compliance);
+    }
+}
+
+static void use_half_space(struct geometry *geometry, const char *why)
+{
+    struct compliance *compliance = geometry->compliance;
+    compliance->used = PERCUSS_COMPLIANCE_HALF_SPACE;
+    memset(compliance->series, 0, geometry->contact_count * sizeof *compliance->series);
+    snprintf(compliance->reason, sizeof compliance->reason, "%s", why);
+}
+
+static bool any_flexible(const struct geometry *geometry, size_t c)
+{
+    for (int which = 0; which < 2; which++)
+        if (body_is_flexible(geometry->bodies[geometry->sides[c][which].body]))
+            return true;
+    return false;
+}
+
+static void find_matched(struct geometry *geometry, struct prepared_cache *cache, bool asked)
+{
+    struct compliance *compliance = geometry->compliance;
+    compliance->used = PERCUSS_COMPLIANCE_MATCHED;
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        if (!asked && !any_flexible(geometry, c)) {
+            use_half_space(geometry, "");
+            return;
+        }
+        for (int which = 0; which < 2; which++) {
+            double part;
+            if (!side_compliance(geometry, cache, c, which, &part)) {
+                char why[sizeof compliance->reason];
+                const struct contact_side *side = &geometry->sides[c][which];
+                snprintf(why, sizeof why, "no matched compliance is known for %s there",
+                         geometry->bodies[side->body]->id);
+                use_half_space(geometry, why);
+                return;
+            }
+            compliance->series[c] += part;
+        }
+    }
+}
+
+enum percuss_status compliance_choose(struct geometry *geometry,
+                                      const struct solve_request *request,
+                                      const struct body_set *catalogue,
+                                      struct prepared_cache *cache, struct arena *arena,
+                                      struct fault *fault)
+{
+    struct compliance *compliance = arena_take(arena, 1, sizeof *compliance);
+    if (compliance)
+        compliance->series = arena_take(arena, geometry->contact_count, sizeof *compliance->series);
+    if (!compliance || !compliance->series)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    geometry->compliance = compliance;
+    enum percuss_compliance asked = request->options.compliance;
+    enum percuss_compliance wanted =
+        asked == PERCUSS_COMPLIANCE_DEFAULT ? catalogue->compliance : asked;
+    if (wanted == PERCUSS_COMPLIANCE_HALF_SPACE)
+        use_half_space(geometry, "");
+    else
+        find_matched(geometry, cache, asked == PERCUSS_COMPLIANCE_MATCHED);
+    return PERCUSS_OK;
+}
+
+/* Hertz's slope at the largest force of a contact, N/m: 3/2 k^(2/3) F^(1/3). */
+static double largest_stiffness(const struct hertz_contact *hertz, const struct track *track)
+{
+    double force = 0.0;
+    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
+        force = fmax(force, track->list[i].peak_force);
+    return 1.5 * cbrt(hertz->stiffness * hertz->stiffness * force);
+}
+
+bool compliance_revise(struct geometry *geometry, const struct scene *scene,
+                       const struct impact_outcome *outcome)
+{
+    if (geometry->compliance->used != PERCUSS_COMPLIANCE_MATCHED)
+        return false;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double series = scene->residual[c * (scene->contacts + 1)];
+        double stiffness = largest_stiffness(&geometry->hertz[c], &outcome->tracks[c]);
+        if (-series * stiffness < 0.5)
+            continue;
+        use_half_space(geometry, "the matched compliance is too negative for so stiff a contact");
+        return true;
+    }
+    return false;
+}

@@ -1,0 +1,33 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Matched local compliance: what goes in series with a contact law so that law, modes and residual
+ * flexibility together are the real bodies' static compliance (fe/matched.h). */
+#ifndef PERCUSS_SOLVE_COMPLIANCE_H
+#define PERCUSS_SOLVE_COMPLIANCE_H
+
+#include "impact/impact.h"
+#include "solve/geometry.h"
+#include "solve/prepared.h"
+
+struct compliance {
+    enum percuss_compliance used; /* HALF_SPACE or MATCHED, of all contacts */
+    double *series;               /* [contact], m/N; 0: half-space */
+    char reason[128];             /* why half-space although matched was asked for, or empty */
+};
+
+/* The request's choice, or the catalogue's where it makes none: matched where every contact has it.
+ * Without being asked for, contacts of bodies that do not vibrate stay Hertz's: no basis there
+ * holds anything twice. PERCUSS_OK or PERCUSS_INTERNAL. */
+enum percuss_status compliance_choose(struct geometry *geometry,
+                                      const struct solve_request *request,
+                                      const struct body_set *catalogue,
+                                      struct prepared_cache *cache, struct arena *arena,
+                                      struct fault *fault);
+
+/* Looks at a solution: true: the series compliance (residual flexibility included) is too negative
+ * for the law's stiffness, |C| dF/dd >= 0.5, and all contacts are half-spaces now. */
+bool compliance_revise(struct geometry *geometry, const struct scene *scene,
+                       const struct impact_outcome *outcome);
+
+#endif
