@@ -249,8 +249,8 @@ static size_t hardest_hit(const struct geometry *geometry, const struct impact_o
     return hardest;
 }
 
-static void explain_elastic(const struct geometry *geometry, const struct impact_outcome *outcome,
-                            char *text, size_t size)
+static void explain_elastic(const struct geometry *geometry, const struct solve_request *request,
+                            const struct impact_outcome *outcome, char *text, size_t size)
 {
     double pressure = 0.0;
     size_t hardest = hardest_hit(geometry, outcome);
@@ -264,6 +264,8 @@ static void explain_elastic(const struct geometry *geometry, const struct impact
     append(text, size, "elastic Hertz contact (peak pressure %.3g MPa) on a half-space",
            pressure / 1e6);
     double share = deepest(outcome, hardest) / choice->yield;
+    if (choice->side < 0 && request->options.contact_model == PERCUSS_CONTACT_CLOSED_FORM)
+        append(text, size, ", as neither material has a yield stress");
     if (choice->side >= 0 && share <= 1.0)
         append(text, size, ", below yield (%.2g of the indentation at which %s yields)", share,
                body_of(geometry, hardest, choice->side)->id);
@@ -302,7 +304,7 @@ void contact_model_explain(const struct geometry *geometry, const struct solve_r
 {
     *text = '\0';
     if (contact_model_used(geometry) == PERCUSS_CONTACT_HERTZ)
-        explain_elastic(geometry, outcome, text, size);
+        explain_elastic(geometry, request, outcome, text, size);
     else
         explain_plastic(geometry, request, outcome, text, size);
 }

@@ -118,6 +118,17 @@ static void warn_contact_model(const struct geometry *geometry, const struct acc
                         "contacts[%zu]: the table ends before the largest indentation, by %.2g of "
                         "its range: it was continued",
                         c, beyond);
+        double radius = contact_model_yielded(geometry, &accuracy->outcome, c)
+                            ? accuracy->outcome.laws[c].history.contact_radius
+                            : 0.0;
+        for (int which = 0; which < 2; which++) {
+            const struct body *body = geometry->bodies[geometry->sides[c][which].body];
+            if (radius > 0.3 * body_smallest_radius(body))
+                report_warn(result,
+                            "contacts[%zu]: the dent's radius of %.3g m is more than 30 %% of the "
+                            "smallest radius of %s (%.3g m): the contact laws end there",
+                            c, radius, body->id, body_smallest_radius(body));
+        }
     }
     for (size_t b = 0; b < geometry->body_count; b++) {
         const struct body_state *after = result->bodies[b].state_after;

@@ -221,6 +221,15 @@ static void the_request_and_the_blow_choose_the_model(void **state)
     request.options.contact_model = PERCUSS_CONTACT_CLOSED_FORM;
     lab_solve(lab, &request, &result);
     assert_int_equal(result.contact_model, PERCUSS_CONTACT_HERTZ);
+    assert_non_null(strstr(result.reason, "neither material"));
+
+    /* more than the law was made for */
+    request = blow("rod-1", 20.0, 1e-3);
+    lab_solve(lab, &request, &result);
+    bool warned = false;
+    for (size_t i = 0; i < result.warning_count; i++)
+        warned = warned || strstr(result.warnings[i], "dent's radius");
+    assert_true(warned);
     lab_free(lab);
 }
 
