@@ -92,14 +92,21 @@ static double longest_stable_step(const struct scene *scene, size_t contact,
     return longest;
 }
 
-/* Laws have yielded: they are stiffest at the top of their branches. */
-static void limit_steps(struct modal_run *run)
+/* Laws have yielded: what follows has the scale of their branches, which are shorter, stiffest at
+ * the top and hold less energy: the speed goes with its root. */
+static void rescale(struct modal_run *run)
 {
     for (size_t c = 0; c < run->scene->contacts; c++) {
-        struct impact_scale scale = run->scales[c];
-        scale.indentation = fmin(scale.indentation, contact_law_limit(&run->scene->laws[c]));
-        if (run->active[c])
-            run->longest[c] = longest_stable_step(run->scene, c, &scale, run->limits.coupling);
+        struct impact_scale *scale = &run->scales[c];
+        double span = contact_law_limit(&run->scene->laws[c]);
+        double force = run->scene->laws[c].history.max_force;
+        if (!run->active[c] || !(force > 0.0) || !(span < scale->indentation))
+            continue;
+        double slower = sqrt(force * span / (scale->force * scale->indentation));
+        scale->duration *= span / (scale->indentation * slower);
+        scale->indentation = span;
+        scale->force = force;
+        run->longest[c] = longest_stable_step(run->scene, c, scale, run->limits.coupling);
     }
 }
 
@@ -332,6 +339,7 @@ static enum percuss_end_reason contact_phase(struct modal_run *run)
             continue;
         }
         if (run->yielding.any && yielding_passes(&run->yielding, h, &level)) {
+            rescale(run);
             run->outcome->rejected++;
             continue;
         }
@@ -343,7 +351,7 @@ static enum percuss_end_reason contact_phase(struct modal_run *run)
         else if (roughness > allowed)
             level++;
         if (run->yielding.any && yielding_meet(&run->yielding, h, &level))
-            limit_steps(run);
+            rescale(run);
     }
     return PERCUSS_END_NONE;
 }
