@@ -254,6 +254,7 @@ enum percuss_status region_touch(struct region *region, double *indentation, str
     for (size_t i = 0; i < region->candidates; i++)
         *indentation = fmin(*indentation, region->gaps[i] - solid_surface(region->solids[0], i) -
                                               solid_surface(region->solids[1], i));
+    region->present.indentation = *indentation;
     return status;
 }
 
