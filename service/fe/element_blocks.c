@@ -1,0 +1,100 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "fe/element_blocks.h"
+
+#include <math.h>
+
+void elastic_block_put(struct elastic_block *block, size_t lane, const struct axi_element *element,
+                       const struct material *material, const double scale[AXI_NODES])
+{
+    double k[AXI_DOFS][AXI_DOFS];
+    axi_element_stiffness(element, material, k);
+    for (int i = 0, at = 0; i < AXI_DOFS; i++)
+        for (int j = 0; j <= i; j++, at++)
+            block->stiffness[at][lane] = k[i][j] * scale[i / 2] * scale[j / 2];
+    /* a point alone holds weight q^2 / 6G of shear energy */
+    double least = INFINITY;
+    for (int p = 0; p < AXI_POINTS; p++)
+        least = fmin(least, element->weight[p]);
+    block->limit[lane] =
+        least * material->yield * material->yield / (6.0 * material_shear_modulus(material));
+}
+
+void plastic_block_put(struct plastic_block *block, size_t lane, const struct axi_element *element,
+                       const struct material *material, const double scale[AXI_NODES])
+{
+    struct plastic_law law = plastic_law_make(material);
+    block->shear[lane] = law.shear;
+    block->yield[lane] = law.yield;
+    block->hardening[lane] = law.hardening;
+    block->bulk_volume[lane] = law.bulk * element->volume;
+    for (int i = 0; i < AXI_DOFS; i++)
+        block->mean[i][lane] = element->mean[i] * scale[i / 2];
+    for (int p = 0; p < AXI_POINTS; p++) {
+        block->weight[p][lane] = element->weight[p];
+        for (int a = 0; a < AXI_NODES; a++)
+            for (int i = 0; i < 3; i++)
+                block->gradient[p][a][i][lane] = element->gradient[p][a][i] * scale[a];
+    }
+}
+
+void elastic_block_energy(const struct elastic_block *block, const double *y,
+                          double energy[FE_LANES])
+{
+    for (int lane = 0; lane < FE_LANES; lane++) {
+        double u[AXI_DOFS];
+        for (int i = 0; i < AXI_DOFS; i++)
+            u[i] = y[2 * block->node[i / 2][lane] + i % 2];
+        double sum = 0.0;
+        for (int i = 0, at = 0; i < AXI_DOFS; i++) {
+            for (int j = 0; j < i; j++, at++)
+                sum += block->stiffness[at][lane] * u[i] * u[j];
+            sum += 0.5 * block->stiffness[at++][lane] * u[i] * u[i];
+        }
+        energy[lane] = sum;
+    }
+}
+
+/* Elastic strain energy density of the deviator at one point. */
+static double shear_energy(const struct plastic_block *block, int p, int lane,
+                           const double u[AXI_DOFS])
+{
+    double strain[4] = {0.0};
+    for (int a = 0; a < AXI_NODES; a++) {
+        double dr = block->gradient[p][a][0][lane];
+        double dz = block->gradient[p][a][1][lane];
+        strain[0] += dr * u[2 * a];
+        strain[1] += dz * u[2 * a + 1];
+        strain[2] += block->gradient[p][a][2][lane] * u[2 * a];
+        strain[3] += dz * u[2 * a] + dr * u[2 * a + 1];
+    }
+    double third = (strain[0] + strain[1] + strain[2]) / 3.0;
+    double rr = strain[0] - third - block->strain[p][0][lane];
+    double zz = strain[1] - third - block->strain[p][1][lane];
+    double rz = strain[3] - block->strain[p][2][lane];
+    return block->shear[lane] * (rr * rr + zz * zz + (rr + zz) * (rr + zz) + 0.5 * rz * rz);
+}
+
+void plastic_block_energy(const struct plastic_block *block, const double *y, double *stored,
+                          double *plastic)
+{
+    for (int lane = 0; lane < FE_LANES; lane++) {
+        if (block->element[lane] == UINT32_MAX)
+            continue;
+        double u[AXI_DOFS];
+        double dilatation = 0.0;
+        for (int i = 0; i < AXI_DOFS; i++) {
+            u[i] = y[2 * block->node[i / 2][lane] + i % 2];
+            dilatation += block->mean[i][lane] * u[i];
+        }
+        *stored += 0.5 * block->bulk_volume[lane] * dilatation * dilatation;
+        for (int p = 0; p < AXI_POINTS; p++) {
+            double weight = block->weight[p][lane];
+            double path = block->accumulated[p][lane];
+            *stored += weight * shear_energy(block, p, lane, u);
+            /* the yield stress is linear in the path */
+            *plastic += weight * path * (block->yield[lane] + 0.5 * block->hardening[lane] * path);
+        }
+    }
+}

@@ -1,0 +1,59 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Elements packed in fours for explicit dynamics. Coordinates are mass-weighted, y = sqrt(m) u, and
+ * so are all matrices here: forces act on the velocities without a mass. Two numbers a node: r, z.
+ */
+#ifndef PERCUSS_FE_ELEMENT_BLOCKS_H
+#define PERCUSS_FE_ELEMENT_BLOCKS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "fe/axi_element.h"
+#include "fe/plasticity.h"
+
+enum { FE_LANES = 4, AXI_ENTRIES = AXI_DOFS * (AXI_DOFS + 1) / 2 };
+
+/* Four elements that are and were elastic: a stiffness, no history. */
+struct elastic_block {
+    _Alignas(32) double stiffness[AXI_ENTRIES][FE_LANES]; /* lower triangle by rows */
+    double limit[FE_LANES]; /* strain energy below which no point can yield, J */
+    uint32_t node[AXI_NODES][FE_LANES];
+    uint32_t element[FE_LANES]; /* UINT32_MAX: an empty lane, all zero */
+};
+
+/* Four elements with a history at each point. */
+struct plastic_block {
+    _Alignas(32) double gradient[AXI_POINTS][AXI_NODES][3][FE_LANES];
+    double weight[AXI_POINTS][FE_LANES];
+    double mean[AXI_DOFS][FE_LANES];
+    double bulk_volume[FE_LANES]; /* bulk modulus x volume */
+    double shear[FE_LANES], yield[FE_LANES], hardening[FE_LANES];
+    double strain[AXI_POINTS][3][FE_LANES]; /* plastic: rr, zz, gamma rz; tt is -rr - zz */
+    double accumulated[AXI_POINTS][FE_LANES];
+    uint32_t node[AXI_NODES][FE_LANES];
+    uint32_t element[FE_LANES];
+};
+
+/* Puts an element into a lane; `scale` is 1 / sqrt(m) of its nodes, `node` their numbers. */
+void elastic_block_put(struct elastic_block *block, size_t lane, const struct axi_element *element,
+                       const struct material *material, const double scale[AXI_NODES]);
+void plastic_block_put(struct plastic_block *block, size_t lane, const struct axi_element *element,
+                       const struct material *material, const double scale[AXI_NODES]);
+
+/* v -= step x force(y) for `count` blocks; plastic ones flow (radial return, total strains). */
+void elastic_blocks_kick(const struct elastic_block *blocks, size_t count, const double *y,
+                         double *v, double step);
+void plastic_blocks_kick(struct plastic_block *blocks, size_t count, const double *y, double *v,
+                         double step);
+
+/* Strain energies of the four elements, J. */
+void elastic_block_energy(const struct elastic_block *block, const double *y,
+                          double energy[FE_LANES]);
+
+/* Adds the strain energy and the work of plastic flow of a block, J. */
+void plastic_block_energy(const struct plastic_block *block, const double *y, double *stored,
+                          double *plastic);
+
+#endif
