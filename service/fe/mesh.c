@@ -101,6 +101,7 @@ static void grow_core(struct growing *growing, double sphere)
 struct outline {
     enum { OUTLINE_CIRCLE, OUTLINE_RECTANGLE, OUTLINE_EQUATOR } kind;
     double radius, depth;
+    double angle; /* circle: from the axis to the surface */
 };
 
 static void outline_point(const struct outline *outline, size_t i, size_t core, double *r,
@@ -109,8 +110,8 @@ static void outline_point(const struct outline *outline, size_t i, size_t core, 
     double part = (double)i / (2.0 * (double)core);
     switch (outline->kind) {
     case OUTLINE_CIRCLE:
-        *r = outline->radius * sin(0.5 * M_PI * part);
-        *z = i == 2 * core ? 0.0 : -outline->radius * cos(0.5 * M_PI * part);
+        *r = outline->radius * sin(outline->angle * part);
+        *z = -outline->radius * cos(outline->angle * part);
         break;
     case OUTLINE_RECTANGLE:
         *r = outline->radius * fmin(2.0 * part, 1.0);
@@ -271,14 +272,22 @@ enum percuss_status mesh_sphere(double radius, const struct mesh_grade *grade, s
     if (status != PERCUSS_OK)
         return status;
     struct growing growing = {.mesh = mesh, .grade = grade};
-    struct outline equator = {OUTLINE_EQUATOR, radius, radius};
+    struct outline equator = {OUTLINE_EQUATOR, radius, radius, 0.0};
     double *positions;
     size_t rings = mesh_rings(grade, radius, 0.5 * M_PI * radius, &positions);
     status =
         rings ? mesh_room(mesh, grade->core, rings, 0, true, fault) : misfit(fault, grade, radius);
     if (status == PERCUSS_OK) {
+        /* circles about the pole as far as half the radius, then towards the equator: straight to
+         * the equator, the elements at the core's corner would be thin */
+        size_t round = 1;
+        while (round + 1 < rings && 2.0 * sin(0.5 * positions[round + 1] / radius) < 0.5)
+            round++;
+        double chord = 2.0 * radius * sin(0.5 * positions[round] / radius);
+        struct outline circle = {OUTLINE_CIRCLE, chord, chord, acos(0.5 * chord / radius)};
         grow_core(&growing, radius);
-        grow_rings(&growing, radius, &equator, positions, rings);
+        grow_rings(&growing, radius, &circle, positions, round);
+        grow_rings(&growing, radius, &equator, positions + round, rings - round);
         grow_southern_half(&growing, radius);
     }
     free(positions);
@@ -296,7 +305,7 @@ enum percuss_status mesh_cylinder(double radius, double length, const struct mes
     double region = length < 1.5 * radius ? length : radius;
     double rest = length - region;
     struct growing growing = {.mesh = mesh, .grade = grade};
-    struct outline rectangle = {OUTLINE_RECTANGLE, radius, region};
+    struct outline rectangle = {OUTLINE_RECTANGLE, radius, region, 0.0};
     double *positions;
     double *heights = NULL;
     size_t rows = 0;
@@ -326,7 +335,7 @@ enum percuss_status mesh_half_space(double extent, const struct mesh_grade *grad
     if (status != PERCUSS_OK)
         return status;
     struct growing growing = {.mesh = mesh, .grade = grade};
-    struct outline circle = {OUTLINE_CIRCLE, extent, extent};
+    struct outline circle = {OUTLINE_CIRCLE, extent, extent, 0.5 * M_PI};
     double *positions;
     size_t rings = mesh_rings(grade, INFINITY, extent, &positions);
     status =
