@@ -1,0 +1,97 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* One central impact by complete finite elements: both bodies meshed, axisymmetric, elastic or
+ * elastic-plastic, frictionless contact, explicit dynamics. The bodies start at rest, free of
+ * stress and touching in one point; A flies towards B. */
+#ifndef PERCUSS_FE_IMPACT_COMPLETE_H
+#define PERCUSS_FE_IMPACT_COMPLETE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/fault.h"
+#include "model/material.h"
+
+enum complete_shape { COMPLETE_SPHERE, COMPLETE_CYLINDER };
+
+/* A cylinder is hit in the middle of its end face: rod, compact cylinder, disc, or a block taken as
+ * a cylinder. Free in space. */
+struct complete_body {
+    enum complete_shape shape;
+    double radius, length; /* m; length of a cylinder only */
+    struct material material;
+};
+
+struct complete_sample {
+    double time, force; /* s; N, mean since the sample before */
+    double indentation; /* m */
+    double radius;      /* outermost closed pair, m */
+};
+
+struct complete_problem {
+    struct complete_body a, b; /* one of them a sphere */
+    double speed;              /* of A towards B, m/s, > 0 */
+    unsigned cells;            /* elements across the expected contact radius, 4 ... 96 */
+    double horizon;            /* s, > 0: end of the search for further contacts */
+    void *context;             /* handed to the two below; each may be NULL */
+    void (*sample)(void *context, const struct complete_sample *sample);
+    bool (*proceed)(void *context, double fraction); /* false: stop */
+};
+
+enum { COMPLETE_SUB_IMPACTS = 64 };
+
+/* An interval of contact; openings shorter than sound needs across the patch do not divide it. */
+struct complete_sub_impact {
+    double start, end, impulse, peak_force; /* s, s, N s, N */
+};
+
+struct complete_energy {
+    double available; /* of the relative motion before, J */
+    double rebound;   /* of the relative motion after */
+    double vibration; /* kinetic beyond the mean motions, and strain */
+    double plastic;   /* work of plastic flow */
+    double contact;   /* work of the impulses on nodes as they close */
+    double closure;   /* what is missing: available less all of the above */
+};
+
+struct complete_result {
+    double impulse;         /* N s, over all sub-impacts */
+    double restitution;     /* impulse / compression impulse - 1 */
+    double contact_time;    /* s, sum of the sub-impacts */
+    double peak_force;      /* N */
+    double max_indentation; /* m, approach of the references: a sphere's or compact cylinder's
+                             * centre of mass, a rod's section one radius below the face */
+    double contact_radius;  /* m, largest */
+    double momentum_error;  /* (change of momentum + impulse) / impulse, the worse of both bodies */
+    double mass[2];         /* kg */
+    struct complete_energy energy;
+    struct complete_sub_impact sub_impact[COMPLETE_SUB_IMPACTS];
+    size_t sub_impacts;          /* beyond the list's end: counted, impulse kept */
+    enum percuss_end_reason end; /* SEPARATED: vibration can no longer cause a contact; HORIZON:
+                                  * open at the horizon; IN_CONTACT: closed at the horizon */
+    double end_time;             /* s */
+    size_t elements, plastic_elements, steps;
+    unsigned levels;
+    double step; /* s, smallest */
+};
+
+/* Solves on one mesh. OK; BAD_REQUEST naming the field and what is allowed; TIMEOUT when `proceed`
+ * stopped it; INTERNAL without memory. Same input, same bits. */
+enum percuss_status impact_complete_solve(const struct complete_problem *problem,
+                                          struct complete_result *result, struct fault *fault);
+
+/* Three meshes, each twice as fine as the one before; problem->cells is the finest. */
+struct complete_convergence {
+    struct complete_result result[3]; /* coarse to fine */
+    double restitution;               /* extrapolated */
+    double order;                     /* observed, taken between 1 and 2 for the extrapolation */
+    double error;                     /* of the finest mesh's restitution, estimated */
+};
+
+/* As above; the order of e is observed and e extrapolated (Richardson). */
+enum percuss_status impact_complete_converge(const struct complete_problem *problem,
+                                             struct complete_convergence *convergence,
+                                             struct fault *fault);
+
+#endif
