@@ -6,14 +6,14 @@
 #include <math.h>
 
 /* The core reaches a little beyond the expected patch; nodes on both surfaces pair up beyond it. */
-static const double CORE_REACH = 1.25;
-static const double PAIR_REACH = 1.4;
-static const double MATCHED_REACH = 1.5;
+static const double CORE_REACH = 1.5;
+static const double PAIR_REACH = 1.15;
+static const double MATCHED_REACH = 1.2;
 /* Steps over the stability limit of an element alone. Below pi/4 no wave that an element can hold
  * is in resonance with the impulses of the next level's elements. */
 static const double SAFETY = 0.75;
 /* growth of the rings' widths x elements along the core */
-static const double GROWTH = 2.0;
+static const double GROWTH = 1.2;
 /* longest element of a rod in radii x elements across the patch */
 static const double ROD_ELEMENT = 4.0;
 /* cylinders longer than this many radii are rods */
