@@ -1,0 +1,233 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/fe/element_blocks.c and element_kernel.c: fours of elements against one element
+ * with the scalar radial return of fe/plasticity.c. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "fe/element_blocks.h"
+
+enum { NODES = 10, EMPTY = NODES };
+
+static const struct material metal = {"metal", 70e9, 0.33, 2700.0, 205e6, 3e9};
+
+/* a row of four skewed elements of differing size: bottom nodes 0 ... 4, top nodes 5 ... 9 */
+static double at[NODES][2];
+static double scale[NODES];
+
+static void near(double value, double expected, double size, double relative)
+{
+    if (!(fabs(value - expected) <= relative * fabs(size)))
+        fail_msg("%.17g is not %.17g", value, expected);
+}
+
+static void set_row(void)
+{
+    for (int i = 0; i < NODES; i++) {
+        at[i][0] = 1e-3 * (i % 5 + 0.1 * (i / 5) + 0.03 * (i % 5) * (i % 5));
+        at[i][1] = 1e-3 * (i / 5 + 0.05 * (i % 3));
+        scale[i] = 1.0 / sqrt(1e-6 * (1 + i));
+    }
+}
+
+static void corners(int e, uint32_t node[4])
+{
+    node[0] = (uint32_t)e;
+    node[1] = (uint32_t)e + 1;
+    node[2] = (uint32_t)e + 6;
+    node[3] = (uint32_t)e + 5;
+}
+
+static void element_of(int e, struct axi_element *element, uint32_t node[4], double s[4])
+{
+    double place[4][2];
+    corners(e, node);
+    for (int a = 0; a < 4; a++) {
+        memcpy(place[a], at[node[a]], sizeof place[a]);
+        s[a] = scale[node[a]];
+    }
+    assert_true(axi_element_make(element, place));
+}
+
+/* three elements and an empty lane, as at the end of a level */
+static void fill(struct elastic_block *elastic, struct plastic_block *plastic)
+{
+    set_row();
+    memset(elastic, 0, sizeof *elastic);
+    memset(plastic, 0, sizeof *plastic);
+    for (int lane = 0; lane < FE_LANES; lane++) {
+        uint32_t node[4] = {EMPTY, EMPTY, EMPTY, EMPTY};
+        elastic->element[lane] = plastic->element[lane] = lane < 3 ? (uint32_t)lane : UINT32_MAX;
+        if (lane < 3) {
+            struct axi_element element;
+            double s[4];
+            element_of(lane, &element, node, s);
+            elastic_block_put(elastic, (size_t)lane, &element, &metal, s);
+            plastic_block_put(plastic, (size_t)lane, &element, &metal, s);
+        }
+        for (int a = 0; a < 4; a++)
+            elastic->node[a][lane] = plastic->node[a][lane] = node[a];
+    }
+}
+
+/* smooth displacements with a strain of about `size` */
+static void deform(double size, double y[2 * (NODES + 1)])
+{
+    memset(y, 0, 2 * (NODES + 1) * sizeof *y);
+    for (int i = 0; i < NODES; i++) {
+        double r = at[i][0];
+        double z = at[i][1];
+        y[2 * i] = size * (0.4 * r + 0.3 * z * r / 1e-3) / scale[i];
+        y[2 * i + 1] = size * (-z + 0.5 * r * r / 1e-3) / scale[i];
+    }
+}
+
+/* mass-weighted forces by the scalar way; states[e][p] are updated */
+static void scalar_forces(const double *y, struct plastic_state states[3][4], double *force)
+{
+    struct plastic_law law = plastic_law_make(&metal);
+    memset(force, 0, 2 * (NODES + 1) * sizeof *force);
+    for (int e = 0; e < 3; e++) {
+        struct axi_element element;
+        uint32_t node[4];
+        double s[4];
+        element_of(e, &element, node, s);
+        double mean = 0.0;
+        for (int i = 0; i < 8; i++)
+            mean += element.mean[i] * y[2 * node[i / 2] + i % 2] * s[i / 2];
+        for (int p = 0; p < 4; p++) {
+            double strain[4] = {0.0};
+            double stress[4];
+            for (int a = 0; a < 4; a++) {
+                const double *g = element.gradient[p][a];
+                double ur = y[2 * node[a]] * s[a];
+                double uz = y[2 * node[a] + 1] * s[a];
+                strain[0] += g[0] * ur;
+                strain[1] += g[1] * uz;
+                strain[2] += g[2] * ur;
+                strain[3] += g[1] * ur + g[0] * uz;
+            }
+            double shift = (mean - strain[0] - strain[1] - strain[2]) / 3.0;
+            for (int i = 0; i < 3; i++)
+                strain[i] += shift;
+            plasticity_return(&law, &states[e][p], strain, &states[e][p], stress, NULL);
+            double pressure = (stress[0] + stress[1] + stress[2]) / 3.0;
+            for (int i = 0; i < 8; i++) {
+                const double *g = element.gradient[p][i / 2];
+                double f = i % 2 ? g[1] * (stress[1] - pressure) + g[0] * stress[3]
+                                 : g[0] * (stress[0] - pressure) + g[1] * stress[3] +
+                                       g[2] * (stress[2] - pressure);
+                force[2 * node[i / 2] + i % 2] +=
+                    element.weight[p] * (f + element.mean[i] * pressure) * s[i / 2];
+            }
+        }
+    }
+}
+
+static void compare(const double *v, const double *force, double step)
+{
+    double largest = 0.0;
+    for (int i = 0; i < 2 * NODES; i++)
+        largest = fmax(largest, step * fabs(force[i]));
+    assert_true(largest > 0.0);
+    for (int i = 0; i < 2 * NODES; i++)
+        near(v[i], -step * force[i], largest, 1e-12);
+}
+
+static void elastic_fours_are_stiffness_times_displacement(void **unused)
+{
+    (void)unused;
+    static struct elastic_block elastic;
+    static struct plastic_block plastic;
+    struct plastic_state states[3][4] = {{{{0.0}, 0.0}}};
+    _Alignas(32) double y[2 * (NODES + 1)], v[2 * (NODES + 1)] = {0.0};
+    double force[2 * (NODES + 1)], energy[FE_LANES], stored = 0.0, lost = 0.0;
+    fill(&elastic, &plastic);
+    deform(1e-4, y); /* far below yield */
+    scalar_forces(y, states, force);
+    elastic_blocks_kick(&elastic, 1, y, v, 0.5);
+    compare(v, force, 0.5);
+    memset(v, 0, sizeof v);
+    plastic_blocks_kick(&plastic, 1, y, v, 0.5);
+    compare(v, force, 0.5);
+    /* half of force times displacement, by both kinds of block */
+    double work = 0.0;
+    for (int i = 0; i < 2 * NODES; i++)
+        work += 0.5 * force[i] * y[i];
+    elastic_block_energy(&elastic, y, energy);
+    plastic_block_energy(&plastic, y, &stored, &lost);
+    near(energy[0] + energy[1] + energy[2], work, work, 1e-12);
+    near(stored, work, work, 1e-12);
+    assert_true(energy[3] == 0.0 && lost == 0.0);
+}
+
+/* the energy below which nothing yields: just inside it the stresses are below yield */
+static void the_limit_excludes_yield(void **unused)
+{
+    (void)unused;
+    static struct elastic_block elastic;
+    static struct plastic_block plastic;
+    _Alignas(32) double y[2 * (NODES + 1)];
+    double energy[FE_LANES];
+    fill(&elastic, &plastic);
+    deform(1e-4, y);
+    elastic_block_energy(&elastic, y, energy);
+    for (int lane = 0; lane < 3; lane++) {
+        struct axi_element element;
+        uint32_t node[4];
+        double s[4], u[8];
+        double factor = sqrt(elastic.limit[lane] / energy[lane]);
+        element_of(lane, &element, node, s);
+        for (int i = 0; i < 8; i++)
+            u[i] = factor * y[2 * node[i / 2] + i % 2] * s[i / 2];
+        double mises = axi_element_mises(&element, &metal, u);
+        assert_true(mises <= metal.yield && mises > 0.1 * metal.yield);
+    }
+}
+
+/* load beyond yield, on, and back: forces and histories of the scalar return at every stage */
+static void plastic_fours_flow_like_one_point(void **unused)
+{
+    (void)unused;
+    static struct elastic_block elastic;
+    static struct plastic_block plastic;
+    struct plastic_state states[3][4] = {{{{0.0}, 0.0}}};
+    static const double stage[] = {4e-3, 9e-3, 7e-3, -5e-3};
+    _Alignas(32) double y[2 * (NODES + 1)], v[2 * (NODES + 1)];
+    double force[2 * (NODES + 1)], stored = 0.0, lost = 0.0, expected = 0.0;
+    fill(&elastic, &plastic);
+    struct plastic_law law = plastic_law_make(&metal);
+    for (size_t i = 0; i < sizeof stage / sizeof *stage; i++) {
+        deform(stage[i], y);
+        scalar_forces(y, states, force);
+        memset(v, 0, sizeof v);
+        plastic_blocks_kick(&plastic, 1, y, v, 2.0);
+        compare(v, force, 2.0);
+    }
+    for (int e = 0; e < 3; e++)
+        for (int p = 0; p < 4; p++) {
+            double path = states[e][p].accumulated;
+            assert_true(path > 0.0);
+            near(plastic.accumulated[p][e], path, path, 1e-11);
+            expected += plastic.weight[p][e] * path * (law.yield + 0.5 * law.hardening * path);
+        }
+    plastic_block_energy(&plastic, y, &stored, &lost);
+    near(lost, expected, expected, 1e-11);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(elastic_fours_are_stiffness_times_displacement),
+        cmocka_unit_test(the_limit_excludes_yield),
+        cmocka_unit_test(plastic_fours_flow_like_one_point),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
