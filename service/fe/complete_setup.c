@@ -115,17 +115,21 @@ static double hertz_duration(const struct complete_problem *problem)
     return 2.9432 * depth / problem->speed;
 }
 
-/* Static compliance of the patch of a free body without its rigid motion, from above: the field
- * near the patch (twice that of a rigid punch) and L/(3EA) of a rod. By it, no vibration of energy
- * U moves the patch by more than sqrt(2 U c). */
+/* Static compliance of the patch of a free body without its rigid motion, from above: that of a
+ * rigid punch on the patch; L/(3EA) along a cylinder; the bending of a disc held at its rim, P r^2
+ * (3 + nu) / (16 pi D (1 + nu)), which is more than that of a free one. By it, no vibration of
+ * energy U moves the patch by more than sqrt(2 U c). */
 static double vibration_compliance(const struct complete_body *body, double patch)
 {
     double near = 0.5 * plane_compliance(&body->material) / patch;
-    double far =
-        body->shape == COMPLETE_SPHERE
-            ? 0.0
-            : body->length / (3.0 * body->material.young * M_PI * body->radius * body->radius);
-    return near + far;
+    if (body->shape == COMPLETE_SPHERE)
+        return near;
+    double nu = body->material.poisson;
+    double square = body->radius * body->radius;
+    double rigidity = pow(body->length, 3) / (12.0 * plane_compliance(&body->material));
+    double along = body->length / (3.0 * body->material.young * M_PI * square);
+    double bending = square * (3.0 + nu) / (16.0 * M_PI * rigidity * (1.0 + nu));
+    return near + along + bending;
 }
 
 static enum percuss_status make_mesh(const struct complete_body *body,
