@@ -89,7 +89,10 @@ struct complete_convergence {
     double error;                     /* of the finest mesh's restitution, estimated */
 };
 
-/* As above; the order of e is observed and e extrapolated (Richardson). */
+/* Observes the order of e over the three results and extrapolates it (Richardson). */
+void impact_complete_extrapolate(struct complete_convergence *convergence);
+
+/* Solves on the three meshes and extrapolates. Status as above. */
 enum percuss_status impact_complete_converge(const struct complete_problem *problem,
                                              struct complete_convergence *convergence,
                                              struct fault *fault);
