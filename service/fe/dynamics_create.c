@@ -16,12 +16,15 @@ static size_t body_of(const struct dynamics *dynamics, size_t element)
     return element >= dynamics->first_element[1];
 }
 
-static bool make_quad(const struct dynamics *dynamics, size_t element, struct axi_element *quad)
+static bool make_quad(const struct dynamics *dynamics, size_t element, struct quad *quad)
 {
-    double at[AXI_NODES][2];
-    for (int a = 0; a < AXI_NODES; a++)
-        memcpy(at[a], dynamics->at[dynamics->quads[element][a]], sizeof at[a]);
-    return axi_element_make(quad, at);
+    double r[QUAD_NODES], z[QUAD_NODES];
+    for (int a = 0; a < QUAD_NODES; a++) {
+        uint32_t node = dynamics->quads[element][a];
+        r[a] = dynamics->at[node][0];
+        z[a] = dynamics->at[node][1];
+    }
+    return quad_make(r, z, quad);
 }
 
 static void *take(struct dynamics *dynamics, size_t count, size_t size, bool *ok)
@@ -61,7 +64,7 @@ static void copy_meshes(struct dynamics *dynamics, const uint32_t *order)
             dynamics->at[node][1] = mesh->z[i];
         }
         for (size_t e = 0; e < mesh->elements; e++)
-            for (int a = 0; a < AXI_NODES; a++)
+            for (int a = 0; a < QUAD_NODES; a++)
                 dynamics->quads[dynamics->first_element[b] + e][a] =
                     dynamics->number[b][mesh->quads[e][a]];
         base += (uint32_t)mesh->nodes;
@@ -73,12 +76,12 @@ static enum percuss_status measure(struct dynamics *dynamics, double safety, dou
                                    struct fault *fault)
 {
     for (size_t e = 0; e < dynamics->elements; e++) {
-        struct axi_element quad;
+        struct quad quad;
         const struct material *material = &dynamics->body[body_of(dynamics, e)].material;
         if (!make_quad(dynamics, e, &quad))
             return fault_set(fault, PERCUSS_BAD_REQUEST,
                              "mesh: element %zu is degenerate; a milder grade is needed", e);
-        longest[e] = safety * 2.0 / axi_element_highest_frequency(&quad, material);
+        longest[e] = safety * 2.0 / quad_highest_frequency(&quad, material);
         if (!(longest[e] > 0.0))
             return fault_set(fault, PERCUSS_INTERNAL, "element %zu has no highest frequency", e);
     }
@@ -89,10 +92,12 @@ static enum percuss_status measure(struct dynamics *dynamics, double safety, dou
 static void weigh(struct dynamics *dynamics)
 {
     for (size_t e = 0; e < dynamics->elements; e++) {
-        struct axi_element quad;
+        struct quad quad;
+        double share[QUAD_NODES];
         make_quad(dynamics, e, &quad);
-        for (int a = 0; a < AXI_NODES; a++)
-            dynamics->root_mass[dynamics->quads[e][a]] += quad.share[a];
+        quad_shares(&quad, share);
+        for (int a = 0; a < QUAD_NODES; a++)
+            dynamics->root_mass[dynamics->quads[e][a]] += share[a];
     }
     for (size_t b = 0; b < DYNAMICS_BODIES; b++) {
         const struct dynamics_body *body = &dynamics->body[b];
@@ -111,11 +116,11 @@ static void weigh(struct dynamics *dynamics)
 static void put(const struct dynamics *dynamics, size_t element, struct elastic_block *elastic,
                 struct plastic_block *plastic, size_t lane)
 {
-    struct axi_element quad;
-    double scale[AXI_NODES];
+    struct quad quad;
+    double scale[QUAD_NODES];
     const struct material *material = &dynamics->body[body_of(dynamics, element)].material;
     make_quad(dynamics, element, &quad);
-    for (int a = 0; a < AXI_NODES; a++) {
+    for (int a = 0; a < QUAD_NODES; a++) {
         uint32_t node = dynamics->quads[element][a];
         scale[a] = 1.0 / dynamics->root_mass[node];
         if (elastic)
@@ -130,12 +135,12 @@ static void put(const struct dynamics *dynamics, size_t element, struct elastic_
     *(elastic ? &elastic->element[lane] : &plastic->element[lane]) = (uint32_t)element;
 }
 
-static void clear_lanes(uint32_t node[AXI_NODES][FE_LANES], uint32_t element[FE_LANES],
+static void clear_lanes(uint32_t node[QUAD_NODES][FE_LANES], uint32_t element[FE_LANES],
                         size_t empty)
 {
     for (int lane = 0; lane < FE_LANES; lane++) {
         element[lane] = UINT32_MAX;
-        for (int a = 0; a < AXI_NODES; a++)
+        for (int a = 0; a < QUAD_NODES; a++)
             node[a][lane] = (uint32_t)empty;
     }
 }
@@ -223,15 +228,15 @@ static size_t mark_level(struct dynamics *dynamics, struct dynamics_level *level
             uint32_t e = block->element[lane];
             if (e == UINT32_MAX || energy[lane] <= NEAR_YIELD * NEAR_YIELD * block->limit[lane])
                 continue;
-            struct axi_element quad;
-            double u[AXI_DOFS];
+            struct quad quad;
+            double u[QUAD_FREEDOMS];
             const struct material *material = &dynamics->body[body_of(dynamics, e)].material;
             make_quad(dynamics, e, &quad);
-            for (int d = 0; d < AXI_DOFS; d++) {
+            for (int d = 0; d < QUAD_FREEDOMS; d++) {
                 uint32_t node = dynamics->quads[e][d / 2];
                 u[d] = dynamics->y[2 * node + d % 2] / dynamics->root_mass[node];
             }
-            if (axi_element_mises(&quad, material, u) < NEAR_YIELD * material->yield)
+            if (quad_mises(&quad, material, u) < NEAR_YIELD * material->yield)
                 continue;
             dynamics->plastic[e] = true;
             found++;

@@ -14,7 +14,7 @@ static void finest_around(const struct dynamics *dynamics, const uint8_t *elemen
 {
     memset(node_level, DYNAMICS_LEVELS - 1, dynamics->nodes);
     for (size_t e = 0; e < dynamics->elements; e++)
-        for (int a = 0; a < AXI_NODES; a++) {
+        for (int a = 0; a < QUAD_NODES; a++) {
             uint8_t *level = &node_level[dynamics->quads[e][a]];
             *level = element[e] < *level ? element[e] : *level;
         }
@@ -27,7 +27,7 @@ static bool limit_jumps(struct dynamics *dynamics, uint8_t *reach, uint8_t *node
     for (int pass = 0; pass < BAND; pass++) {
         finest_around(dynamics, reach, node_level);
         for (size_t e = 0; e < dynamics->elements; e++)
-            for (int a = 0; a < AXI_NODES; a++) {
+            for (int a = 0; a < QUAD_NODES; a++) {
                 uint8_t level = node_level[dynamics->quads[e][a]];
                 reach[e] = level < reach[e] ? level : reach[e];
             }
@@ -51,7 +51,7 @@ static void refine_contact(struct dynamics *dynamics, uint8_t *node_level)
             node_level[dynamics->number[b][body->mesh->contact.index[i]]] = 0;
     }
     for (size_t e = 0; e < dynamics->elements; e++)
-        for (int a = 0; a < AXI_NODES; a++)
+        for (int a = 0; a < QUAD_NODES; a++)
             if (node_level[dynamics->quads[e][a]] == 0)
                 dynamics->element_level[e] = 0;
 }

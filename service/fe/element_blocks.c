@@ -5,37 +5,41 @@
 
 #include <math.h>
 
-void elastic_block_put(struct elastic_block *block, size_t lane, const struct axi_element *element,
-                       const struct material *material, const double scale[AXI_NODES])
+void elastic_block_put(struct elastic_block *block, size_t lane, const struct quad *quad,
+                       const struct material *material, const double scale[QUAD_NODES])
 {
-    double k[AXI_DOFS][AXI_DOFS];
-    axi_element_stiffness(element, material, k);
-    for (int i = 0, at = 0; i < AXI_DOFS; i++)
+    double k[QUAD_FREEDOMS][QUAD_FREEDOMS];
+    quad_elastic_stiffness(quad, material, k);
+    for (int i = 0, at = 0; i < QUAD_FREEDOMS; i++)
         for (int j = 0; j <= i; j++, at++)
             block->stiffness[at][lane] = k[i][j] * scale[i / 2] * scale[j / 2];
     /* a point alone holds weight q^2 / 6G of shear energy */
     double least = INFINITY;
-    for (int p = 0; p < AXI_POINTS; p++)
-        least = fmin(least, element->weight[p]);
+    for (int p = 0; p < QUAD_POINTS; p++)
+        least = fmin(least, quad->volume[p]);
     block->limit[lane] =
         least * material->yield * material->yield / (6.0 * material_shear_modulus(material));
 }
 
-void plastic_block_put(struct plastic_block *block, size_t lane, const struct axi_element *element,
-                       const struct material *material, const double scale[AXI_NODES])
+void plastic_block_put(struct plastic_block *block, size_t lane, const struct quad *quad,
+                       const struct material *material, const double scale[QUAD_NODES])
 {
     struct plastic_law law = plastic_law_make(material);
     block->shear[lane] = law.shear;
     block->yield[lane] = law.yield;
     block->hardening[lane] = law.hardening;
-    block->bulk_volume[lane] = law.bulk * element->volume;
-    for (int i = 0; i < AXI_DOFS; i++)
-        block->mean[i][lane] = element->mean[i] * scale[i / 2];
-    for (int p = 0; p < AXI_POINTS; p++) {
-        block->weight[p][lane] = element->weight[p];
-        for (int a = 0; a < AXI_NODES; a++)
+    double dilatation[QUAD_FREEDOMS];
+    quad_dilatation(quad, dilatation);
+    for (int i = 0; i < QUAD_FREEDOMS; i++)
+        block->mean[i][lane] = dilatation[i] * scale[i / 2];
+    for (int p = 0; p < QUAD_POINTS; p++) {
+        double slope[QUAD_NODES][3];
+        quad_slopes(quad, p, slope);
+        block->weight[p][lane] = quad->volume[p];
+        block->bulk_volume[lane] += law.bulk * quad->volume[p];
+        for (int a = 0; a < QUAD_NODES; a++)
             for (int i = 0; i < 3; i++)
-                block->gradient[p][a][i][lane] = element->gradient[p][a][i] * scale[a];
+                block->gradient[p][a][i][lane] = slope[a][i] * scale[a];
     }
 }
 
@@ -43,11 +47,11 @@ void elastic_block_energy(const struct elastic_block *block, const double *y,
                           double energy[FE_LANES])
 {
     for (int lane = 0; lane < FE_LANES; lane++) {
-        double u[AXI_DOFS];
-        for (int i = 0; i < AXI_DOFS; i++)
+        double u[QUAD_FREEDOMS];
+        for (int i = 0; i < QUAD_FREEDOMS; i++)
             u[i] = y[2 * block->node[i / 2][lane] + i % 2];
         double sum = 0.0;
-        for (int i = 0, at = 0; i < AXI_DOFS; i++) {
+        for (int i = 0, at = 0; i < QUAD_FREEDOMS; i++) {
             for (int j = 0; j < i; j++, at++)
                 sum += block->stiffness[at][lane] * u[i] * u[j];
             sum += 0.5 * block->stiffness[at++][lane] * u[i] * u[i];
@@ -58,10 +62,10 @@ void elastic_block_energy(const struct elastic_block *block, const double *y,
 
 /* Elastic strain energy density of the deviator at one point. */
 static double shear_energy(const struct plastic_block *block, int p, int lane,
-                           const double u[AXI_DOFS])
+                           const double u[QUAD_FREEDOMS])
 {
     double strain[4] = {0.0};
-    for (int a = 0; a < AXI_NODES; a++) {
+    for (int a = 0; a < QUAD_NODES; a++) {
         double dr = block->gradient[p][a][0][lane];
         double dz = block->gradient[p][a][1][lane];
         strain[0] += dr * u[2 * a];
@@ -82,14 +86,14 @@ void plastic_block_energy(const struct plastic_block *block, const double *y, do
     for (int lane = 0; lane < FE_LANES; lane++) {
         if (block->element[lane] == UINT32_MAX)
             continue;
-        double u[AXI_DOFS];
+        double u[QUAD_FREEDOMS];
         double dilatation = 0.0;
-        for (int i = 0; i < AXI_DOFS; i++) {
+        for (int i = 0; i < QUAD_FREEDOMS; i++) {
             u[i] = y[2 * block->node[i / 2][lane] + i % 2];
             dilatation += block->mean[i][lane] * u[i];
         }
         *stored += 0.5 * block->bulk_volume[lane] * dilatation * dilatation;
-        for (int p = 0; p < AXI_POINTS; p++) {
+        for (int p = 0; p < QUAD_POINTS; p++) {
             double weight = block->weight[p][lane];
             double path = block->accumulated[p][lane];
             *stored += weight * shear_energy(block, p, lane, u);

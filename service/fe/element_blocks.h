@@ -10,37 +10,37 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "fe/axi_element.h"
 #include "fe/plasticity.h"
+#include "fe/quad_dynamics.h"
 
-enum { FE_LANES = 4, AXI_ENTRIES = AXI_DOFS * (AXI_DOFS + 1) / 2 };
+enum { FE_LANES = 4, QUAD_ENTRIES = QUAD_FREEDOMS * (QUAD_FREEDOMS + 1) / 2 };
 
 /* Four elements that are and were elastic: a stiffness, no history. */
 struct elastic_block {
-    _Alignas(32) double stiffness[AXI_ENTRIES][FE_LANES]; /* lower triangle by rows */
+    _Alignas(32) double stiffness[QUAD_ENTRIES][FE_LANES]; /* lower triangle by rows */
     double limit[FE_LANES]; /* strain energy below which no point can yield, J */
-    uint32_t node[AXI_NODES][FE_LANES];
+    uint32_t node[QUAD_NODES][FE_LANES];
     uint32_t element[FE_LANES]; /* UINT32_MAX: an empty lane, all zero */
 };
 
 /* Four elements with a history at each point. */
 struct plastic_block {
-    _Alignas(32) double gradient[AXI_POINTS][AXI_NODES][3][FE_LANES];
-    double weight[AXI_POINTS][FE_LANES];
-    double mean[AXI_DOFS][FE_LANES];
+    _Alignas(32) double gradient[QUAD_POINTS][QUAD_NODES][3][FE_LANES];
+    double weight[QUAD_POINTS][FE_LANES];
+    double mean[QUAD_FREEDOMS][FE_LANES];
     double bulk_volume[FE_LANES]; /* bulk modulus x volume */
     double shear[FE_LANES], yield[FE_LANES], hardening[FE_LANES];
-    double strain[AXI_POINTS][3][FE_LANES]; /* plastic: rr, zz, gamma rz; tt is -rr - zz */
-    double accumulated[AXI_POINTS][FE_LANES];
-    uint32_t node[AXI_NODES][FE_LANES];
+    double strain[QUAD_POINTS][3][FE_LANES]; /* plastic: rr, zz, gamma rz; tt is -rr - zz */
+    double accumulated[QUAD_POINTS][FE_LANES];
+    uint32_t node[QUAD_NODES][FE_LANES];
     uint32_t element[FE_LANES];
 };
 
-/* Puts an element into a lane; `scale` is 1 / sqrt(m) of its nodes, `node` their numbers. */
-void elastic_block_put(struct elastic_block *block, size_t lane, const struct axi_element *element,
-                       const struct material *material, const double scale[AXI_NODES]);
-void plastic_block_put(struct plastic_block *block, size_t lane, const struct axi_element *element,
-                       const struct material *material, const double scale[AXI_NODES]);
+/* Puts an element into an empty lane; `scale` is 1 / sqrt(m) of its nodes, `node` their numbers. */
+void elastic_block_put(struct elastic_block *block, size_t lane, const struct quad *quad,
+                       const struct material *material, const double scale[QUAD_NODES]);
+void plastic_block_put(struct plastic_block *block, size_t lane, const struct quad *quad,
+                       const struct material *material, const double scale[QUAD_NODES]);
 
 /* v -= step x force(y) for `count` blocks; plastic ones flow (radial return, total strains). */
 void elastic_blocks_kick(const struct elastic_block *blocks, size_t count, const double *y,

@@ -27,9 +27,10 @@ typedef long long mask __attribute__((vector_size(FE_LANES * sizeof(double))));
 #define PUT(array)  (*(lanes *)(array))
 
 /* u[2a] and u[2a + 1] of the four elements from the nodes' pairs */
-INLINE void gather(const uint32_t node[AXI_NODES][FE_LANES], const double *y, lanes u[AXI_DOFS])
+INLINE void gather(const uint32_t node[QUAD_NODES][FE_LANES], const double *y,
+                   lanes u[QUAD_FREEDOMS])
 {
-    for (int a = 0; a < AXI_NODES; a++) {
+    for (int a = 0; a < QUAD_NODES; a++) {
         const uint32_t *n = node[a];
         pair p0 = *(const pair *)(y + 2 * (size_t)n[0]);
         pair p1 = *(const pair *)(y + 2 * (size_t)n[1]);
@@ -43,10 +44,10 @@ INLINE void gather(const uint32_t node[AXI_NODES][FE_LANES], const double *y, la
 }
 
 /* v -= step f, lane after lane: elements of a block may share nodes */
-INLINE void scatter(const uint32_t node[AXI_NODES][FE_LANES], const lanes f[AXI_DOFS], double step,
-                    double *v)
+INLINE void scatter(const uint32_t node[QUAD_NODES][FE_LANES], const lanes f[QUAD_FREEDOMS],
+                    double step, double *v)
 {
-    for (int a = 0; a < AXI_NODES; a++) {
+    for (int a = 0; a < QUAD_NODES; a++) {
         const uint32_t *n = node[a];
         lanes r = step * f[2 * a];
         lanes z = step * f[2 * a + 1];
@@ -63,11 +64,11 @@ KERNEL void elastic_blocks_kick(const struct elastic_block *blocks, size_t count
                                 double *v, double step)
 {
     for (const struct elastic_block *block = blocks; block < blocks + count; block++) {
-        lanes u[AXI_DOFS];
-        lanes f[AXI_DOFS] = {{0.0}};
+        lanes u[QUAD_FREEDOMS];
+        lanes f[QUAD_FREEDOMS] = {{0.0}};
         gather(block->node, y, u);
 #pragma GCC unroll 8
-        for (int i = 0; i < AXI_DOFS; i++) {
+        for (int i = 0; i < QUAD_FREEDOMS; i++) {
             const double(*row)[FE_LANES] = block->stiffness + i * (i + 1) / 2;
 #pragma GCC unroll 8
             for (int j = 0; j < i; j++) {
@@ -104,10 +105,11 @@ INLINE void flow(struct plastic_block *block, int p, lanes s[4])
 }
 
 /* Deviatoric trial stress at point p. */
-INLINE void trial(const struct plastic_block *block, int p, const lanes u[AXI_DOFS], lanes s[4])
+INLINE void trial(const struct plastic_block *block, int p, const lanes u[QUAD_FREEDOMS],
+                  lanes s[4])
 {
     lanes rr = {0.0}, zz = {0.0}, tt = {0.0}, rz = {0.0};
-    for (int a = 0; a < AXI_NODES; a++) {
+    for (int a = 0; a < QUAD_NODES; a++) {
         lanes dr = AT(block->gradient[p][a][0]);
         lanes dz = AT(block->gradient[p][a][1]);
         rr += dr * u[2 * a];
@@ -127,22 +129,22 @@ KERNEL void plastic_blocks_kick(struct plastic_block *blocks, size_t count, cons
                                 double *v, double step)
 {
     for (struct plastic_block *block = blocks; block < blocks + count; block++) {
-        lanes u[AXI_DOFS];
-        lanes f[AXI_DOFS];
+        lanes u[QUAD_FREEDOMS];
+        lanes f[QUAD_FREEDOMS];
         gather(block->node, y, u);
         lanes dilatation = {0.0};
-        for (int i = 0; i < AXI_DOFS; i++)
+        for (int i = 0; i < QUAD_FREEDOMS; i++)
             dilatation += AT(block->mean[i]) * u[i];
         lanes pressure = AT(block->bulk_volume) * dilatation;
-        for (int i = 0; i < AXI_DOFS; i++)
+        for (int i = 0; i < QUAD_FREEDOMS; i++)
             f[i] = pressure * AT(block->mean[i]);
-        for (int p = 0; p < AXI_POINTS; p++) {
+        for (int p = 0; p < QUAD_POINTS; p++) {
             lanes s[4];
             trial(block, p, u, s);
             flow(block, p, s);
             for (int i = 0; i < 4; i++)
                 s[i] *= AT(block->weight[p]);
-            for (int a = 0; a < AXI_NODES; a++) {
+            for (int a = 0; a < QUAD_NODES; a++) {
                 lanes dr = AT(block->gradient[p][a][0]);
                 lanes dz = AT(block->gradient[p][a][1]);
                 f[2 * a] += dr * s[0] + dz * s[3] + AT(block->gradient[p][a][2]) * s[2];

@@ -45,15 +45,16 @@ static void corners(int e, uint32_t node[4])
     node[3] = (uint32_t)e + 5;
 }
 
-static void element_of(int e, struct axi_element *element, uint32_t node[4], double s[4])
+static void element_of(int e, struct quad *quad, uint32_t node[4], double s[4])
 {
-    double place[4][2];
+    double r[4], z[4];
     corners(e, node);
     for (int a = 0; a < 4; a++) {
-        memcpy(place[a], at[node[a]], sizeof place[a]);
+        r[a] = at[node[a]][0];
+        z[a] = at[node[a]][1];
         s[a] = scale[node[a]];
     }
-    assert_true(axi_element_make(element, place));
+    assert_true(quad_make(r, z, quad));
 }
 
 /* three elements and an empty lane, as at the end of a level */
@@ -66,11 +67,11 @@ static void fill(struct elastic_block *elastic, struct plastic_block *plastic)
         uint32_t node[4] = {EMPTY, EMPTY, EMPTY, EMPTY};
         elastic->element[lane] = plastic->element[lane] = lane < 3 ? (uint32_t)lane : UINT32_MAX;
         if (lane < 3) {
-            struct axi_element element;
+            struct quad quad;
             double s[4];
-            element_of(lane, &element, node, s);
-            elastic_block_put(elastic, (size_t)lane, &element, &metal, s);
-            plastic_block_put(plastic, (size_t)lane, &element, &metal, s);
+            element_of(lane, &quad, node, s);
+            elastic_block_put(elastic, (size_t)lane, &quad, &metal, s);
+            plastic_block_put(plastic, (size_t)lane, &quad, &metal, s);
         }
         for (int a = 0; a < 4; a++)
             elastic->node[a][lane] = plastic->node[a][lane] = node[a];
@@ -95,38 +96,19 @@ static void scalar_forces(const double *y, struct plastic_state states[3][4], do
     struct plastic_law law = plastic_law_make(&metal);
     memset(force, 0, 2 * (NODES + 1) * sizeof *force);
     for (int e = 0; e < 3; e++) {
-        struct axi_element element;
+        struct quad quad;
         uint32_t node[4];
         double s[4];
-        element_of(e, &element, node, s);
-        double mean = 0.0;
-        for (int i = 0; i < 8; i++)
-            mean += element.mean[i] * y[2 * node[i / 2] + i % 2] * s[i / 2];
+        element_of(e, &quad, node, s);
         for (int p = 0; p < 4; p++) {
-            double strain[4] = {0.0};
-            double stress[4];
-            for (int a = 0; a < 4; a++) {
-                const double *g = element.gradient[p][a];
-                double ur = y[2 * node[a]] * s[a];
-                double uz = y[2 * node[a] + 1] * s[a];
-                strain[0] += g[0] * ur;
-                strain[1] += g[1] * uz;
-                strain[2] += g[2] * ur;
-                strain[3] += g[1] * ur + g[0] * uz;
-            }
-            double shift = (mean - strain[0] - strain[1] - strain[2]) / 3.0;
-            for (int i = 0; i < 3; i++)
-                strain[i] += shift;
+            double u[8], strain[4], stress[4], f[8] = {0.0};
+            for (int i = 0; i < 8; i++)
+                u[i] = y[2 * node[i / 2] + i % 2] * s[i / 2];
+            quad_strain(&quad, p, u, strain);
             plasticity_return(&law, &states[e][p], strain, &states[e][p], stress, NULL);
-            double pressure = (stress[0] + stress[1] + stress[2]) / 3.0;
-            for (int i = 0; i < 8; i++) {
-                const double *g = element.gradient[p][i / 2];
-                double f = i % 2 ? g[1] * (stress[1] - pressure) + g[0] * stress[3]
-                                 : g[0] * (stress[0] - pressure) + g[1] * stress[3] +
-                                       g[2] * (stress[2] - pressure);
-                force[2 * node[i / 2] + i % 2] +=
-                    element.weight[p] * (f + element.mean[i] * pressure) * s[i / 2];
-            }
+            quad_add_force(&quad, p, stress, f);
+            for (int i = 0; i < 8; i++)
+                force[2 * node[i / 2] + i % 2] += f[i] * s[i / 2];
         }
     }
 }
@@ -180,14 +162,14 @@ static void the_limit_excludes_yield(void **unused)
     deform(1e-4, y);
     elastic_block_energy(&elastic, y, energy);
     for (int lane = 0; lane < 3; lane++) {
-        struct axi_element element;
+        struct quad quad;
         uint32_t node[4];
         double s[4], u[8];
         double factor = sqrt(elastic.limit[lane] / energy[lane]);
-        element_of(lane, &element, node, s);
+        element_of(lane, &quad, node, s);
         for (int i = 0; i < 8; i++)
             u[i] = factor * y[2 * node[i / 2] + i % 2] * s[i / 2];
-        double mises = axi_element_mises(&element, &metal, u);
+        double mises = quad_mises(&quad, &metal, u);
         assert_true(mises <= metal.yield && mises > 0.1 * metal.yield);
     }
 }
