@@ -198,6 +198,7 @@ enum percuss_status dynamics_create(const struct dynamics_body body[DYNAMICS_BOD
     bool ok = allocate(dynamics);
     double *longest = take(dynamics, dynamics->elements, sizeof *longest, &ok);
     uint8_t *node_level = take(dynamics, dynamics->nodes, 1, &ok);
+    uint8_t *scratch = take(dynamics, dynamics->elements, 1, &ok);
     uint32_t *order = take(dynamics, dynamics->nodes, sizeof *order, &ok);
     if (!ok)
         return fault_set(fault, PERCUSS_INTERNAL, "no memory for %zu nodes", dynamics->nodes);
@@ -205,7 +206,7 @@ enum percuss_status dynamics_create(const struct dynamics_body body[DYNAMICS_BOD
     enum percuss_status status = measure(dynamics, safety, longest, fault);
     if (status != PERCUSS_OK)
         return status;
-    dynamics_levels_assign(dynamics, longest, node_level);
+    dynamics_levels_assign(dynamics, longest, node_level, scratch);
     dynamics_levels_sort(dynamics, node_level, order);
     copy_meshes(dynamics, order);
     weigh(dynamics);

@@ -56,7 +56,8 @@ static void refine_contact(struct dynamics *dynamics, uint8_t *node_level)
                 dynamics->element_level[e] = 0;
 }
 
-void dynamics_levels_assign(struct dynamics *dynamics, const double *longest, uint8_t *node_level)
+void dynamics_levels_assign(struct dynamics *dynamics, const double *longest, uint8_t *node_level,
+                            uint8_t *scratch)
 {
     double shortest = INFINITY;
     for (size_t e = 0; e < dynamics->elements; e++)
@@ -70,8 +71,7 @@ void dynamics_levels_assign(struct dynamics *dynamics, const double *longest, ui
             (uint8_t)(level < DYNAMICS_LEVELS - 1 ? level : DYNAMICS_LEVELS - 1);
     }
     refine_contact(dynamics, node_level);
-    uint8_t *reach = arena_take(dynamics->arena, dynamics->elements, 1);
-    while (reach && limit_jumps(dynamics, reach, node_level))
+    while (limit_jumps(dynamics, scratch, node_level))
         ;
     finest_around(dynamics, dynamics->element_level, node_level);
     for (size_t e = 0; e < dynamics->elements; e++)

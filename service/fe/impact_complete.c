@@ -8,6 +8,9 @@
 
 #include "fe/complete_setup.h"
 
+/* part of the available energy that the balance may miss */
+static const double ENERGY_KEPT = 1e-3;
+
 /* Beyond what the setup holds: where a run stands. */
 struct progress {
     struct complete_run run;
@@ -161,7 +164,8 @@ static void audit(struct progress *progress)
         total->available - total->rebound - total->vibration - total->plastic - total->contact;
 }
 
-static void summarize(struct progress *progress)
+/* Fills the result; an answer that does not keep the energy is none. */
+static enum percuss_status summarize(struct progress *progress, struct fault *fault)
 {
     const struct complete_run *run = &progress->run;
     const struct dynamics *dynamics = &run->dynamics;
@@ -189,6 +193,11 @@ static void summarize(struct progress *progress)
     for (size_t e = 0; e < dynamics->elements; e++)
         result->plastic_elements += dynamics->plastic[e];
     audit(progress);
+    double lost = result->energy.closure / result->energy.available;
+    if (!(fabs(lost) <= ENERGY_KEPT))
+        return fault_set(fault, PERCUSS_INTERNAL,
+                         "complete finite elements: %.2g of the energy is unaccounted for", lost);
+    return PERCUSS_OK;
 }
 
 /* Runs to its end, or until the patch turns out too small. */
@@ -244,7 +253,7 @@ static enum percuss_status solve_with_patch(const struct complete_problem *probl
         *outgrown = progress.run.contact.outgrown;
     }
     if (status == PERCUSS_OK && !*outgrown)
-        summarize(&progress);
+        status = summarize(&progress, fault);
     complete_end(&progress.run);
     arena_release(&arena);
     return status;

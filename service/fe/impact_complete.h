@@ -67,7 +67,7 @@ struct complete_result {
     double mass[2];         /* kg */
     struct complete_energy energy;
     struct complete_sub_impact sub_impact[COMPLETE_SUB_IMPACTS];
-    size_t sub_impacts;          /* beyond the list's end: counted, impulse kept */
+    size_t sub_impacts;          /* those beyond the list extend its last entry */
     enum percuss_end_reason end; /* SEPARATED: vibration can no longer cause a contact; HORIZON:
                                   * open at the horizon; IN_CONTACT: closed at the horizon */
     double end_time;             /* s */
@@ -77,7 +77,8 @@ struct complete_result {
 };
 
 /* Solves on one mesh. OK; BAD_REQUEST naming the field and what is allowed; TIMEOUT when `proceed`
- * stopped it; INTERNAL without memory. Same input, same bits. */
+ * stopped it; INTERNAL without memory or where the energy does not balance to 1e-3. Same input,
+ * same bits. */
 enum percuss_status impact_complete_solve(const struct complete_problem *problem,
                                           struct complete_result *result, struct fault *fault);
 

@@ -1,0 +1,17 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Bodies of the catalogue as bodies of a complete finite-element impact. */
+#ifndef PERCUSS_FE_COMPLETE_BODY_H
+#define PERCUSS_FE_COMPLETE_BODY_H
+
+#include "fe/impact_complete.h"
+#include "model/body.h"
+
+/* A sphere, a free rod with flat ends, a compact cylinder hit on its end, or a block hit on its
+ * face z = +-size[2]/2 and taken as a cylinder of the same section. OK, or UNSUPPORTED_GEOMETRY
+ * naming what cannot be meshed so: other shapes, rounded tips, supports, damping. */
+enum percuss_status complete_body_make(const struct body *body, struct complete_body *complete,
+                                       struct fault *fault);
+
+#endif
