@@ -3,7 +3,7 @@
 
 /* Complete finite elements on three meshes each: e against the mesh, its extrapolation and error,
  * the energy balance and the user time of the process.
- * usage: complete_fe [--csv] [--quick] [--cells N] [--scene PART-OF-A-NAME] */
+ * usage: complete_fe [--csv] [--quick] [--cells N] [--scene PART-OF-A-NAME] [--speed V] */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -44,6 +44,7 @@ struct settings {
     bool csv, quick;
     unsigned cells; /* of the finest mesh */
     const char *scene;
+    double speed; /* only this one; 0: all */
 };
 
 static double user_seconds(void)
@@ -123,6 +124,8 @@ static bool parse(int argc, char **argv, struct settings *settings)
             settings->cells = (unsigned)strtoul(argv[++i], NULL, 10);
         else if (strcmp(argv[i], "--scene") == 0 && i + 1 < argc)
             settings->scene = argv[++i];
+        else if (strcmp(argv[i], "--speed") == 0 && i + 1 < argc)
+            settings->speed = strtod(argv[++i], NULL);
         else
             return false;
     }
@@ -133,7 +136,8 @@ int main(int argc, char **argv)
 {
     struct settings settings = {.cells = 24, .scene = ""};
     if (!parse(argc, argv, &settings)) {
-        fprintf(stderr, "usage: complete_fe [--csv] [--quick] [--cells N >= 16] [--scene NAME]\n");
+        fprintf(stderr, "usage: complete_fe [--csv] [--quick] [--cells N >= 16] [--scene NAME] "
+                        "[--speed V]\n");
         return 2;
     }
     if (settings.quick)
@@ -143,6 +147,7 @@ int main(int argc, char **argv)
     for (size_t t = 0; t < COUNT(targets); t++)
         for (size_t i = 0; i < COUNT(loads); i++) {
             if ((t > 0 && loads[i].rod_only) || !strstr(targets[t].name, settings.scene) ||
+                (settings.speed > 0.0 && loads[i].speed != settings.speed) ||
                 (settings.quick && !(targets[t].quick && loads[i].quick)))
                 continue;
             struct complete_problem problem = {
