@@ -21,6 +21,22 @@ void elastic_block_put(struct elastic_block *block, size_t lane, const struct qu
         least * material->yield * material->yield / (6.0 * material_shear_modulus(material));
 }
 
+void elastic_block_move(struct elastic_block *to, size_t to_lane, struct elastic_block *from,
+                        size_t from_lane, uint32_t empty)
+{
+    for (int i = 0; i < QUAD_ENTRIES; i++) {
+        to->stiffness[i][to_lane] = from->stiffness[i][from_lane];
+        from->stiffness[i][from_lane] = 0.0;
+    }
+    to->limit[to_lane] = from->limit[from_lane];
+    for (int a = 0; a < QUAD_NODES; a++) {
+        to->node[a][to_lane] = from->node[a][from_lane];
+        from->node[a][from_lane] = empty;
+    }
+    to->element[to_lane] = from->element[from_lane];
+    from->element[from_lane] = UINT32_MAX;
+}
+
 void plastic_block_put(struct plastic_block *block, size_t lane, const struct quad *quad,
                        const struct material *material, const double scale[QUAD_NODES])
 {

@@ -42,6 +42,11 @@ void elastic_block_put(struct elastic_block *block, size_t lane, const struct qu
 void plastic_block_put(struct plastic_block *block, size_t lane, const struct quad *quad,
                        const struct material *material, const double scale[QUAD_NODES]);
 
+/* Moves lane `from` to lane `to` (which may be the same: it is emptied); `empty` is the number of
+ * the node of empty lanes. */
+void elastic_block_move(struct elastic_block *to, size_t to_lane, struct elastic_block *from,
+                        size_t from_lane, uint32_t empty);
+
 /* v -= step x force(y) for `count` blocks; plastic ones flow (radial return, total strains). */
 void elastic_blocks_kick(const struct elastic_block *blocks, size_t count, const double *y,
                          double *v, double step);
