@@ -12,13 +12,14 @@ void impact_complete_extrapolate(struct complete_convergence *convergence)
     double second = result[2].restitution - result[1].restitution;
     convergence->order = log2(fabs(first / second));
     /* Linear elements converge with the second order where nothing else happens; nodes that close
-     * one by one add a part that jitters with the patch's radius over their distance. Two values
-     * may lie close together by that alone: the error does not fall faster than the second order.
-     */
+     * one by one add a part that jitters with the patch's radius over their distance. A change of
+     * sign is that jitter: nothing to extrapolate. Two values may lie close together by it alone:
+     * the error does not fall faster than the second order. */
     double order = fmin(fmax(convergence->order, 1.0), 2.0);
-    double correction = second / (exp2(order) - 1.0);
+    double correction = first * second > 0.0 ? second / (exp2(order) - 1.0) : 0.0;
     convergence->restitution = result[2].restitution + correction;
-    convergence->error = fmax(fabs(correction), fabs(first) / 12.0);
+    convergence->error =
+        fmax(correction == 0.0 ? fabs(second) : fabs(correction), fabs(first) / 12.0);
 }
 
 enum percuss_status impact_complete_converge(const struct complete_problem *problem,

@@ -86,11 +86,12 @@ enum percuss_status impact_complete_solve(const struct complete_problem *problem
 struct complete_convergence {
     struct complete_result result[3]; /* coarse to fine */
     double restitution;               /* extrapolated */
-    double order;                     /* observed, taken between 1 and 2 for the extrapolation */
+    double order;                     /* observed; between 1 and 2 it is used */
     double error;                     /* of the finest mesh's restitution, estimated */
 };
 
-/* Observes the order of e over the three results and extrapolates it (Richardson). */
+/* Observes the order of e over the three results and extrapolates it (Richardson) where they are
+ * monotone. */
 void impact_complete_extrapolate(struct complete_convergence *convergence);
 
 /* Solves on the three meshes and extrapolates. Status as above. */

@@ -245,6 +245,28 @@ static void convergence_is_the_three_meshes(void **unused)
     assert_true(found.error < 1e-4);
 }
 
+/* known sequences: 1 + 4^-n, 1 + 2^-n, and one without direction */
+static void extrapolation_finds_known_limits(void **unused)
+{
+    (void)unused;
+    struct complete_convergence found = {0};
+    for (int i = 0; i < 3; i++)
+        found.result[i].restitution = 0.5 + pow(0.25, i);
+    impact_complete_extrapolate(&found);
+    near(found.restitution, 0.5, 1e-15);
+    near(found.order, 2.0, 1e-13);
+    near(found.error, 1.0 / 16.0, 1e-15);
+    for (int i = 0; i < 3; i++)
+        found.result[i].restitution = 0.5 + pow(0.5, i);
+    impact_complete_extrapolate(&found);
+    near(found.restitution, 0.5, 1e-15);
+    near(found.error, 0.25, 1e-15);
+    found.result[2].restitution = 1.1;
+    impact_complete_extrapolate(&found);
+    near(found.restitution, 1.1, 1e-15);
+    near(found.error, 0.1, 1e-15);
+}
+
 static bool stop(void *context, double fraction)
 {
     *(double *)context = fraction;
@@ -292,6 +314,7 @@ int main(void)
         cmocka_unit_test(repeats_bit_by_bit),
         cmocka_unit_test(ringing_disc_is_hit_twice),
         cmocka_unit_test(convergence_is_the_three_meshes),
+        cmocka_unit_test(extrapolation_finds_known_limits),
         cmocka_unit_test(foreign_input_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
