@@ -78,6 +78,14 @@ static struct dynamics_energy advance(struct pair_of_bodies *pair)
     return energy;
 }
 
+static void advance_silently(struct pair_of_bodies *pair)
+{
+    for (size_t n = 0; n < dynamics_period(&pair->dynamics); n++) {
+        dynamics_kick(&pair->dynamics, n);
+        dynamics_drift(&pair->dynamics, n);
+    }
+}
+
 static void every_element_has_one_place(void **state)
 {
     struct pair_of_bodies *pair = *state;
@@ -174,12 +182,45 @@ static void rod_rings_at_its_lowest_frequency(void **state)
     near(most_strain, start, start, 1e-2);
 }
 
+/* Noise in every vibration there is, to the highest that the meshes can hold: nested steps have no
+ * resonance among them, and energy has no trend in 3000 steps of the coarsest level. It starts as
+ * kinetic alone, so the velocities' half step hides 4 % that later swing by under 1 %. */
+static void noise_does_not_grow(void **state)
+{
+    struct pair_of_bodies *pair = *state;
+    struct dynamics *dynamics = &pair->dynamics;
+    uint64_t seed = 1;
+    for (size_t i = 0; i < 2 * dynamics->nodes; i++) {
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        bool fixed = i % 2 == 0 && dynamics->at[i / 2][0] == 0.0;
+        double random = (double)(seed >> 33) / (double)(1u << 30) - 1.0;
+        dynamics->v[i] = fixed ? 0.0 : random * dynamics->root_mass[i / 2];
+    }
+    double early[2] = {0.0}, late[2] = {0.0};
+    for (int i = 0; i < 3000; i++) {
+        struct dynamics_energy energy = {0};
+        if (i % 50 == 25)
+            energy = advance(pair);
+        else
+            advance_silently(pair);
+        for (int b = 0; b < 2; b++) {
+            early[b] += i < 1500 ? energy.kinetic[b] + energy.strain[b] : 0.0;
+            late[b] += i < 1500 ? 0.0 : energy.kinetic[b] + energy.strain[b];
+        }
+    }
+    for (int b = 0; b < 2; b++) {
+        assert_true(early[b] > 0.0);
+        near(late[b], early[b], early[b], 5e-3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(every_element_has_one_place, set_up, tear_down),
         cmocka_unit_test_setup_teardown(bodies_fly_without_force, set_up, tear_down),
         cmocka_unit_test_setup_teardown(rod_rings_at_its_lowest_frequency, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(noise_does_not_grow, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
