@@ -72,6 +72,11 @@ static double mass_of(const struct complete_body *body)
     return volume * body->material.density;
 }
 
+static double smallest_size(const struct complete_body *body)
+{
+    return body->shape == COMPLETE_SPHERE ? body->radius : fmin(body->radius, body->length);
+}
+
 static double curvature(const struct complete_body *body)
 {
     return body->shape == COMPLETE_SPHERE ? 1.0 / body->radius : 0.0;
@@ -195,11 +200,12 @@ enum percuss_status complete_begin(const struct complete_problem *problem, doubl
     run->duration = hertz_duration(problem);
     enum percuss_status status = PERCUSS_OK;
     for (size_t b = 0; b < DYNAMICS_BODIES && status == PERCUSS_OK; b++) {
-        if (!(side <= 0.4 * bodies[b]->radius))
+        double size = smallest_size(bodies[b]);
+        if (!(side <= 0.4 * size))
             return fault_set(fault, PERCUSS_BAD_REQUEST,
-                             "speed: %g: contact radius of some %.3g m, radius of a body %g m: "
-                             "beyond a third strains are not small",
-                             problem->speed, patch, bodies[b]->radius);
+                             "speed: %g: gives a contact radius of some %.3g m in a body of %g m: "
+                             "must stay below a quarter of it",
+                             problem->speed, patch, size);
         grade.coarse = ROD_ELEMENT * bodies[b]->radius / problem->cells;
         status = make_mesh(bodies[b], &grade, &run->mesh[b], fault);
         run->mass[b] = mass_of(bodies[b]);
