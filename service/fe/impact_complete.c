@@ -268,7 +268,8 @@ enum percuss_status impact_complete_solve(const struct complete_problem *problem
     if (status != PERCUSS_OK)
         return status;
     bool outgrown = true;
-    for (double patch = complete_patch(problem); outgrown; patch *= 1.5) {
+    double shift = (double)problem->phase / (3.0 * problem->cells);
+    for (double patch = complete_patch(problem) / (1.0 - shift); outgrown; patch *= 1.5) {
         status = solve_with_patch(problem, patch, result, &outgrown, fault);
         if (status != PERCUSS_OK)
             return status;

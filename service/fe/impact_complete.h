@@ -33,8 +33,11 @@ struct complete_problem {
     struct complete_body a, b; /* one of them a sphere */
     double speed;              /* of A towards B, m/s, > 0 */
     unsigned cells;            /* elements across the expected contact radius, 4 ... 96 */
-    double horizon;            /* s, > 0: end of the search for further contacts */
-    void *context;             /* handed to the two below; each may be NULL */
+    unsigned
+        phase;      /* 0 ... 2: moves the nodes by thirds of an element against the patch's rim; the
+                     * mean of e over the three is worth a mesh twice as fine where material flows */
+    double horizon; /* s, > 0: end of the search for further contacts */
+    void *context;  /* handed to the two below; each may be NULL */
     void (*sample)(void *context, const struct complete_sample *sample);
     bool (*proceed)(void *context, double fraction); /* false: stop */
 };

@@ -175,6 +175,19 @@ static void soft_rod_rebounds_less(void **unused)
     near(hard.energy.closure, 0.0, 1e-4 * hard.energy.available);
 }
 
+/* Where material flows, the rim of the patch stays where the last node closed: e jitters by some
+ * 0.003 on six cells. The mean over three phases does not: 0.4880 on 8 and 12 cells alike. */
+static void phases_average_the_jitter_away(void **unused)
+{
+    (void)unused;
+    struct complete_problem problem = sphere_on_rod(6);
+    double mean = 0.0;
+    problem.b.material.yield = 205e6;
+    for (problem.phase = 0; problem.phase < 3; problem.phase++)
+        mean += solved(&problem).restitution / 3.0;
+    near(mean, 0.4880, 0.0015);
+}
+
 /* Yield beyond anything that occurs: histories are never needed and change nothing. Just within it:
  * elements get histories and none flows, which gives the elastic answer to rounding. */
 static void histories_without_flow_change_nothing(void **unused)
@@ -302,6 +315,10 @@ static void foreign_input_is_refused(void **unused)
     assert_true(impact_complete_solve(&problem, &result, &fault) == PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(fault.text, "cells: 3"));
     problem = sphere_on_rod(4);
+    problem.phase = 3;
+    assert_true(impact_complete_solve(&problem, &result, &fault) == PERCUSS_BAD_REQUEST);
+    assert_non_null(strstr(fault.text, "phase: 3"));
+    problem = sphere_on_rod(4);
     problem.speed = -0.3;
     assert_true(impact_complete_solve(&problem, &result, &fault) == PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(fault.text, "speed: -0.3"));
@@ -324,6 +341,7 @@ int main(void)
         cmocka_unit_test(spheres_and_a_block_follow_hertz),
         cmocka_unit_test(rod_agrees_with_waves_and_matched_compliance),
         cmocka_unit_test(soft_rod_rebounds_less),
+        cmocka_unit_test(phases_average_the_jitter_away),
         cmocka_unit_test(histories_without_flow_change_nothing),
         cmocka_unit_test(repeats_bit_by_bit),
         cmocka_unit_test(ringing_disc_is_hit_twice),
