@@ -201,9 +201,6 @@ static void refuses_what_comes_later(void **state)
     struct solve_request request = ball_on_beam();
     request.options.contact_model = PERCUSS_CONTACT_TABLE;
     refuse(lab, &request, PERCUSS_BAD_REQUEST, "options.contact_model: table");
-    request = ball_on_beam();
-    request.options.compliance = PERCUSS_COMPLIANCE_MATCHED;
-    refuse(lab, &request, PERCUSS_BAD_REQUEST, "options.compliance: matched");
     lab_free(lab);
 }
 
