@@ -118,7 +118,8 @@ static bool lemke(struct tableau *t)
 }
 
 /* The final basis solved afresh, without the tableau's rounding: m_BB z_B = -q_B with the raised
- * diagonal, and one step of refinement. False: singular after all (the tableau's values stay). */
+ * diagonal, and refinement that takes the raise out again (from near-singular groups, whose large
+ * impulses it would falsify). False: singular after all (the tableau's values stay). */
 static bool polish(const struct tableau *t, const double *m, const double *q, double *z)
 {
     size_t n = t->n;
@@ -131,13 +132,13 @@ static bool polish(const struct tableau *t, const double *m, const double *q, do
         for (size_t i = 0; i < n; i++)
             if (t->basis[i] == n + j)
                 list[count++] = j;
-    for (int round = 0; done && round < 2; round++) {
+    for (int round = 0; done && round < 4; round++) {
         for (size_t i = 0; i < count; i++) {
             b[i] = -q[list[i]];
             for (size_t j = 0; j < count; j++) {
                 double raise = i == j ? 1e-10 * m[list[i] * n + list[i]] : 0.0;
                 a[i * count + j] = m[list[i] * n + list[j]] + raise;
-                b[i] -= round ? a[i * count + j] * z[list[j]] : 0.0;
+                b[i] -= round ? m[list[i] * n + list[j]] * z[list[j]] : 0.0;
             }
         }
         done = linear_solve(count, a, b);
