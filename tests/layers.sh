@@ -81,9 +81,15 @@ only 'jansson' 'client/cli'
 only 'dds/' 'service/endpoint|service/daemon|client/lib'
 only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|client/lib|client/cli'
 
-# clients do not look into the service
-found=$(grep -nE '^ *# *include *"(base|numeric|model|contact|impact|solve|catalogue|endpoint|daemon)/' client/*/*.[ch])
+# clients do not look into the service; the slow scale is built with its complementarity solver
+found=$(grep -nE '^ *# *include *"(base|numeric|model|contact|impact|solve|catalogue|endpoint|daemon)/' client/*/*.[ch] |
+    grep -v '^client/slowscale/.*"numeric/lcp\.h"')
 [ -z "$found" ] || complain "client looks into the service: $found"
+
+# which therefore needs nothing of the rest, and the slow scale no DDS
+found=$(grep -nE '^ *# *include *("(base|model)/|<(lapacke|cvode|sundials))' service/numeric/lcp.[ch] service/numeric/linear_solve.c service/numeric/linear.h
+    grep -nE '^ *# *include *["<](dds/|wire|percuss_wire|pthread)' client/slowscale/*.[ch] client/include/percuss/*.h)
+[ -z "$found" ] || complain "the slow scale must stand alone: $found"
 
 [ "$checked" -gt 30 ] || complain "only $checked files found in service/"
 echo "layers: $checked files checked"

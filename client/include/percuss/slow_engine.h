@@ -1,0 +1,41 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The callbacks by which the slow scale knows an engine and a service. */
+#ifndef PERCUSS_SLOW_ENGINE_H
+#define PERCUSS_SLOW_ENGINE_H
+
+#include <percuss/reply.h>
+#include <percuss/slow_equations.h>
+
+/* What `probe` is asked about the present and where it puts the answer. */
+struct percuss_slow_view {
+    size_t count;
+    const struct percuss_slow_contact *contacts;
+    double *gap_rate; /* [count], m/s */
+    double *delassus; /* [count x count], 1/kg; NULL: not wanted */
+    struct percuss_body_motion
+        *bodies; /* [bodies of the configuration]; NULL: not wanted. Position,
+                    orientation and velocities of those in the contacts */
+};
+
+/* Callbacks return false on failure, which ends the call that needed them (ENGINE in the text). */
+struct percuss_slow_engine {
+    void *context;
+    bool (*probe)(void *context, struct percuss_slow_view *view);
+    /* changes the velocities by M^-1 w impulse: + along the normal on a, - on b */
+    bool (*apply)(void *context, const struct percuss_slow_contact *contact, double impulse);
+    double (*now)(void *context); /* s, of the simulation */
+};
+
+/* Who is asked: `solve` as percuss_solve, `release` as percuss_reply_free. solve NULL: nobody,
+ * every impact has the declared restitution. `problem` (may be NULL): why solve failed. */
+struct percuss_slow_service {
+    void *context;
+    enum percuss_result (*solve)(void *context, const struct percuss_request *request,
+                                 struct percuss_reply *reply);
+    void (*release)(struct percuss_reply *reply);
+    const char *(*problem)(void *context);
+};
+
+#endif

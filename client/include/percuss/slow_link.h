@@ -1,0 +1,35 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The slow scale asks a percussd through libpercuss. */
+#ifndef PERCUSS_SLOW_LINK_H
+#define PERCUSS_SLOW_LINK_H
+
+#include <percuss/percuss.h>
+#include <percuss/slow_engine.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Belongs to the caller, who keeps it and the client as long as the service is used. */
+struct percuss_slow_link {
+    struct percuss_client *client;
+    double timeout; /* s, for an answer */
+    double
+        reconnect;  /* s, for a server to be found again at the first question after it was lost */
+    bool connected; /* the link's */
+};
+
+/* A link by a client, connected or not yet: 2 s for an answer, 0.1 s for a server. */
+PERCUSS_API struct percuss_slow_link percuss_slow_link_default(struct percuss_client *client);
+
+/* The service for struct percuss_slow_config. A question that is not answered in time is given up;
+ * the next one first looks whether a server is there (again). */
+PERCUSS_API struct percuss_slow_service percuss_slow_link_service(struct percuss_slow_link *link);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,103 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The slow scale of a co-simulation: tells a multibody engine when an impact is due, asks a service
+ * what it does, and applies the answer. It knows the engine by three callbacks and the service by
+ * one (slow_link.h has it for percussd). docs/integrating.md is the way through.
+ *
+ * After every accepted step the engine hands over all pairs that are near each other. A pair that
+ * overlaps and approaches is due; with everything it is coupled to it becomes one question. While
+ * the answer's sub-impacts are played, bodies may overlap by some tenths of a millimetre: the pair
+ * is latched until its last one and armed again once its gap was open or it did not approach. No
+ * globals; one thread at a time for each object. */
+#ifndef PERCUSS_SLOWSCALE_H
+#define PERCUSS_SLOWSCALE_H
+
+#include <percuss/slow_engine.h>
+
+enum percuss_slow_application {
+    PERCUSS_SLOW_LIST, /* each sub-impact at its time; what has not happened can be revoked */
+    PERCUSS_SLOW_TOTAL /* the whole impulse at the start */
+};
+
+/* What was done about an impact; borrowed for the time of the call. */
+struct percuss_slow_report {
+    double time;
+    size_t count; /* contacts of the group */
+    const struct percuss_slow_contact *contacts;
+    const double *gap_rate, *delassus, *impulse, *restitution; /* restitution NAN: no compression */
+    const struct percuss_reply *reply; /* NULL: the declared restitution was used */
+    const char *message;               /* why, and what else the user should know; "": nothing */
+};
+
+struct percuss_slow_body {
+    const char *id; /* in the service's catalogue */
+    bool fixed;     /* holds still whatever hits it: does not couple the impacts on it */
+};
+
+struct percuss_slow_config {
+    size_t body_count;
+    const struct percuss_slow_body *bodies; /* copied */
+    struct percuss_slow_engine engine;
+    struct percuss_slow_service service;
+    struct percuss_options options;
+    enum percuss_slow_application application;
+    double restitution; /* declared, 0..1: used when there is no answer */
+    double
+        rest_speed; /* m/s; slower approaches are no impacts: the engine's own contact holds them */
+    double group_gap; /* m; a coupled pair this near joins an impact */
+    void (*report)(void *context, const struct percuss_slow_report *report); /* may be NULL */
+    void *report_context;
+};
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* LIST, declared restitution 0.5, rest_speed 1 mm/s, group_gap 10 um, the rest empty. */
+PERCUSS_API struct percuss_slow_config percuss_slow_config_default(void);
+
+struct percuss_slow;
+
+/* The caller frees it. INVALID_ARGUMENT and NO_MEMORY leave *slow NULL. */
+PERCUSS_API enum percuss_result percuss_slow_create(const struct percuss_slow_config *config,
+                                                    struct percuss_slow **slow);
+PERCUSS_API void percuss_slow_free(struct percuss_slow *slow); /* NULL is allowed */
+
+/* Whether an impact is due among these contacts, all those near touching at a trial state: for
+ * event location. Changes nothing and asks nobody. */
+PERCUSS_API bool percuss_slow_due(const struct percuss_slow *slow, size_t count,
+                                  const struct percuss_slow_contact *contacts);
+
+/* Time of the next sub-impact to be played: let the step end there. INFINITY: none. */
+PERCUSS_API double percuss_slow_next(const struct percuss_slow *slow);
+
+/* To be called at every accepted state, with all contacts near touching: plays the sub-impacts
+ * whose time has come, then solves the impacts that are due. Velocities may have changed
+ * afterwards. An answer that does not come is no failure. INVALID_ARGUMENT, NO_MEMORY: see
+ * percuss_slow_error_text. */
+PERCUSS_API enum percuss_result percuss_slow_advance(struct percuss_slow *slow, size_t count,
+                                                     const struct percuss_slow_contact *contacts);
+
+/* Whether the pair lay together at the last advance, slower than rest_speed: a permanent contact,
+ * which the engine's own contact has to carry. */
+PERCUSS_API bool percuss_slow_rests(const struct percuss_slow *slow, uint32_t a, uint32_t b,
+                                    uint32_t feature);
+
+struct percuss_slow_counts {
+    uint64_t impacts;   /* groups solved */
+    uint64_t requests;  /* questions put; one an impact, unless one of the next two */
+    uint64_t repeated;  /* questions put again: state unknown, horizon too short */
+    uint64_t preempted; /* questions put again up to the moment when another body hit */
+    uint64_t declared;  /* impacts solved with the declared restitution */
+};
+PERCUSS_API struct percuss_slow_counts percuss_slow_counts(const struct percuss_slow *slow);
+
+/* What went wrong in the thread's last call that did not return OK. */
+PERCUSS_API const char *percuss_slow_error_text(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

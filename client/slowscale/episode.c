@@ -1,0 +1,245 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Answers being played: which impulse at which contact is due when. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "slow.h"
+
+static const double shortest_horizon = 1e-9; /* s, that the service allows */
+
+static void episode_free(struct episode *episode)
+{
+    free((void *)episode->request.delassus);
+    free(episode->contacts);
+    free(episode->entries);
+    free(episode);
+}
+
+static void forget(struct percuss_slow *slow, struct episode *episode)
+{
+    struct episode **link = &slow->episodes;
+    while (*link != episode)
+        link = &(*link)->next;
+    *link = episode->next;
+    episode_free(episode);
+}
+
+void episodes_free(struct percuss_slow *slow)
+{
+    while (slow->episodes)
+        forget(slow, slow->episodes);
+}
+
+static int by_time(const void *x, const void *y)
+{
+    const struct entry *a = x, *b = y;
+    if (a->time != b->time)
+        return a->time < b->time ? -1 : 1;
+    return a->contact < b->contact ? -1 : a->contact > b->contact;
+}
+
+/* The sub-impacts of a contact; their sum is its impulse to the last bit that matters. */
+static void list_contact(struct episode *episode, const struct percuss_contact_result *result,
+                         size_t contact, double now)
+{
+    double sum = 0.0;
+    struct entry *first = &episode->entries[episode->entry_count];
+    for (uint32_t i = 0; i < result->sub_impacts_listed; i++) {
+        const struct percuss_sub_impact *sub = &result->sub_impacts[i];
+        struct entry *entry = &episode->entries[episode->entry_count++];
+        *entry = (struct entry){.time = now + sub->compression_end,
+                                .start = sub->start,
+                                .end = sub->end,
+                                .contact = contact,
+                                .impulse = sub->impulse};
+        sum += sub->impulse;
+    }
+    /* rounding, or more sub-impacts than are listed */
+    struct entry rest = {.time = now + result->end_time,
+                         .start = result->end_time,
+                         .end = result->end_time,
+                         .contact = contact,
+                         .impulse = result->impulse - sum};
+    if (result->sub_impact_count > result->sub_impacts_listed)
+        episode->entries[episode->entry_count++] = rest;
+    else if (result->sub_impacts_listed)
+        first[result->sub_impacts_listed - 1].impulse += rest.impulse;
+}
+
+static void list_total(struct episode *episode, double impulse, size_t contact, double now)
+{
+    if (impulse != 0.0)
+        episode->entries[episode->entry_count++] =
+            (struct entry){.time = now, .contact = contact, .impulse = impulse};
+}
+
+/* Room for a group's contacts, their matrix and the entries of its reply; NULL: no memory. */
+static struct episode *episode_create(const struct group *group)
+{
+    size_t n = group->count;
+    size_t most = n;
+    for (size_t i = 0; group->reply && i < n; i++)
+        most += group->reply->contacts[i].sub_impacts_listed;
+    struct episode *episode = calloc(1, sizeof *episode);
+    double *delassus = malloc(n * n * sizeof *delassus);
+    if (!episode || !delassus) {
+        free(episode);
+        free(delassus);
+        return NULL;
+    }
+    memcpy(delassus, group->delassus, n * n * sizeof *delassus);
+    episode->request.delassus = delassus;
+    episode->request.contact_count = n;
+    episode->contacts = malloc(n * sizeof *episode->contacts);
+    episode->entries = malloc(most * sizeof *episode->entries);
+    if (!episode->contacts || !episode->entries) {
+        episode_free(episode);
+        return NULL;
+    }
+    memcpy(episode->contacts, group->contacts, n * sizeof *episode->contacts);
+    return episode;
+}
+
+static void latch(struct percuss_slow *slow, const struct group *group, size_t contact, double now)
+{
+    struct pair *pair = pairs_find(slow, &group->contacts[contact]);
+    bool due = pairs_is_due(slow, &group->contacts[contact], group->gap_rate[contact]);
+    if (!pair || (group->impulse[contact] == 0.0 && !due)) /* nothing happens to it */
+        return;
+    const struct percuss_reply *reply = group->reply;
+    pair->latch = LATCH_PLAYING;
+    pair->until = now + (reply ? reply->contacts[contact].end_time : 0.0);
+    pair->continues = reply && !reply->complete;
+    if (pair->continues)
+        pair->until = now + reply->window;
+}
+
+enum percuss_result episode_begin(struct percuss_slow *slow, const struct group *group,
+                                  const struct percuss_request *request, double now)
+{
+    struct episode *episode = episode_create(group);
+    if (!episode)
+        return slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for an answer");
+    const struct percuss_reply *reply = group->reply;
+    bool listed = reply && slow->config.application == PERCUSS_SLOW_LIST;
+    episode->time = now;
+    episode->window = reply ? reply->window : 0.0;
+    episode->revocable = listed;
+    if (reply) {
+        const double *own = episode->request.delassus;
+        episode->request = *request;
+        episode->request.delassus = own;
+    }
+    for (size_t i = 0; i < group->count; i++) {
+        if (listed)
+            list_contact(episode, &reply->contacts[i], i, now);
+        else
+            list_total(episode, group->impulse[i], i, now);
+        latch(slow, group, i, now);
+    }
+    qsort(episode->entries, episode->entry_count, sizeof *episode->entries, by_time);
+    episode->next = slow->episodes;
+    slow->episodes = episode;
+    return PERCUSS_RESULT_OK;
+}
+
+static enum percuss_result apply(const struct percuss_slow *slow, const struct episode *episode,
+                                 const struct entry *entry)
+{
+    /* where the bodies touch by now, if they are still near */
+    const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
+    const struct pair *pair = pairs_find(slow, contact);
+    const struct percuss_slow_engine *engine = &slow->config.engine;
+    if (engine->apply(engine->context, pair ? &pair->contact : contact, entry->impulse))
+        return PERCUSS_RESULT_OK;
+    return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's apply failed");
+}
+
+enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t *applied)
+{
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    struct episode *next;
+    for (struct episode *episode = slow->episodes; !result && episode; episode = next) {
+        next = episode->next;
+        while (!result && episode->played < episode->entry_count &&
+               episode->entries[episode->played].time <= now) {
+            result = apply(slow, episode, &episode->entries[episode->played++]);
+            ++*applied;
+        }
+        if (episode->played == episode->entry_count && now >= episode->time + episode->window)
+            forget(slow, episode);
+    }
+    return result;
+}
+
+struct episode *episode_of(const struct percuss_slow *slow,
+                           const struct percuss_slow_contact *contact, double now)
+{
+    for (struct episode *episode = slow->episodes; episode; episode = episode->next)
+        for (size_t i = 0; i < episode->request.contact_count; i++) {
+            const struct percuss_slow_contact *own = &episode->contacts[i];
+            if (episode->revocable && now < episode->time + episode->window &&
+                own->a == contact->a && own->b == contact->b && own->feature == contact->feature)
+                return episode;
+        }
+    return NULL;
+}
+
+/* The first time from `time` on at which no sub-impact is under way. */
+static double pause_after(const struct episode *episode, double time)
+{
+    bool moved = true;
+    while (moved) {
+        moved = false;
+        for (size_t i = 0; i < episode->entry_count; i++)
+            if (episode->entries[i].start < time && time < episode->entries[i].end) {
+                time = episode->entries[i].end;
+                moved = true;
+            }
+    }
+    return time;
+}
+
+/* The vibration of the episode's bodies at `time` from its start, by a question up to then. */
+static void take_vibration(struct percuss_slow *slow, struct episode *episode, struct group *group,
+                           double time)
+{
+    char why[512];
+    struct percuss_reply reply;
+    episode->request.options.horizon = fmax(time, shortest_horizon);
+    slow->counts.preempted++;
+    if (question_put(slow, &episode->request, &reply, why, sizeof why)) {
+        tokens_keep(slow, episode->contacts, &episode->request, &reply, episode->time + time);
+    } else {
+        tokens_forget(slow, episode->request.contact_count, episode->contacts);
+        group_note(group, "vibration unknown: %s", why);
+    }
+    slow->config.service.release(&reply);
+}
+
+enum percuss_result episode_preempt(struct percuss_slow *slow, struct episode *episode,
+                                    struct group *group, double now)
+{
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    double time = pause_after(episode, now - episode->time);
+    size_t dropped = 0;
+    for (size_t i = episode->played; !result && i < episode->entry_count; i++) {
+        if (episode->entries[i].end <= time)
+            result = apply(slow, episode, &episode->entries[i]);
+        else
+            dropped++;
+    }
+    if (!result && time < episode->window)
+        take_vibration(slow, episode, group, time);
+    group_note(group, "%zu sub-impacts of the impact at %.9g s revoked", dropped, episode->time);
+    for (size_t i = 0; i < episode->request.contact_count; i++) {
+        struct pair *pair = pairs_find(slow, &episode->contacts[i]);
+        if (pair)
+            pair->latch = LATCH_WAITING; /* its further sub-impacts belong to the new question */
+    }
+    forget(slow, episode);
+    return result;
+}

@@ -1,0 +1,79 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+#include <percuss/slow_equations.h>
+#include <stdlib.h>
+
+#include "numeric/lcp.h"
+
+bool percuss_slow_compression(size_t n, const double *W, const double *gap_rate, double *impulse)
+{
+    if (n != 1)
+        return lcp_solve(n, W, gap_rate, impulse);
+    impulse[0] = gap_rate[0] < 0.0 ? -gap_rate[0] / W[0] : 0.0;
+    return W[0] > 0.0 && isfinite(impulse[0]);
+}
+
+void percuss_slow_gap_rate_after(size_t n, const double *W, const double *gap_rate,
+                                 const double *impulse, double *after)
+{
+    for (size_t i = 0; i < n; i++) {
+        after[i] = gap_rate[i];
+        for (size_t j = 0; j < n; j++)
+            after[i] += W[i * n + j] * impulse[j];
+    }
+}
+
+/* Expansion impulses of rates `middle`, and the rates after. */
+static bool expand(size_t n, const double *W, const double *middle, double *expansion,
+                   double *after)
+{
+    percuss_slow_gap_rate_after(n, W, middle, expansion, after);
+    if (n == 1) /* one contact cannot approach again by itself */
+        return true;
+    double *excess = calloc(n, sizeof *excess);
+    bool good = excess && lcp_solve(n, W, after, excess);
+    for (size_t i = 0; good && i < n; i++)
+        expansion[i] += excess[i];
+    percuss_slow_gap_rate_after(n, W, middle, expansion, after);
+    free(excess);
+    return good;
+}
+
+bool percuss_slow_poisson(size_t n, const double *W, const double *gap_rate,
+                          const double *restitution, struct percuss_slow_outcome *outcome)
+{
+    double *scratch = calloc(4 * n, sizeof *scratch);
+    if (!scratch)
+        return false;
+    double *compression = scratch, *middle = scratch + n;
+    double *expansion = scratch + 2 * n, *after = scratch + 3 * n;
+    bool good = percuss_slow_compression(n, W, gap_rate, compression);
+    percuss_slow_gap_rate_after(n, W, gap_rate, compression, middle);
+    for (size_t i = 0; i < n; i++) { /* complementary: what pressed has stopped */
+        middle[i] = compression[i] > 0.0 ? 0.0 : fmax(0.0, middle[i]);
+        expansion[i] = restitution[i] * compression[i];
+    }
+    good = good && expand(n, W, middle, expansion, after);
+    for (size_t i = 0; good && i < n; i++) {
+        outcome->impulse[i] = compression[i] + expansion[i];
+        if (outcome->compression)
+            outcome->compression[i] = compression[i];
+        if (outcome->gap_rate_after)
+            outcome->gap_rate_after[i] = after[i];
+    }
+    free(scratch);
+    return good;
+}
+
+bool percuss_slow_restitution(size_t n, const double *W, const double *gap_rate,
+                              const double *impulse, double *restitution)
+{
+    double *compression = calloc(n, sizeof *compression);
+    bool good = compression && percuss_slow_compression(n, W, gap_rate, compression);
+    for (size_t i = 0; good && i < n; i++)
+        restitution[i] = compression[i] > 0.0 ? impulse[i] / compression[i] - 1.0 : NAN;
+    free(compression);
+    return good;
+}

@@ -1,0 +1,122 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Bodies that no joint holds. */
+#include <math.h>
+#include <percuss/slow_equations.h>
+
+static void cross(const double a[3], const double b[3], double c[3])
+{
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Row-major world <- body. */
+static void rotation(const double q[4], double r[9])
+{
+    double w = q[0], x = q[1], y = q[2], z = q[3];
+    double s = 2.0 / (w * w + x * x + y * y + z * z);
+    r[0] = 1.0 - s * (y * y + z * z);
+    r[1] = s * (x * y - w * z);
+    r[2] = s * (x * z + w * y);
+    r[3] = s * (x * y + w * z);
+    r[4] = 1.0 - s * (x * x + z * z);
+    r[5] = s * (y * z - w * x);
+    r[6] = s * (x * z - w * y);
+    r[7] = s * (y * z + w * x);
+    r[8] = 1.0 - s * (x * x + y * y);
+}
+
+/* Velocities that a unit impulse at the contact gives the body. */
+static void unit_response(const struct percuss_body_motion *body,
+                          const struct percuss_slow_inertia *inertia,
+                          const struct percuss_slow_contact *contact, double velocity[3],
+                          double turning[3])
+{
+    double arm[3], moment[3], r[9];
+    for (int i = 0; i < 3; i++) {
+        arm[i] = contact->point[i] - body->position[i];
+        velocity[i] = contact->normal[i] / inertia->mass;
+        turning[i] = 0.0;
+    }
+    if (isinf(inertia->mass))
+        return;
+    cross(arm, contact->normal, moment);
+    rotation(body->orientation, r);
+    for (int axis = 0; axis < 3; axis++) {
+        double about = r[axis] * moment[0] + r[3 + axis] * moment[1] + r[6 + axis] * moment[2];
+        for (int i = 0; i < 3; i++)
+            turning[i] += r[3 * i + axis] * about / inertia->moments[axis];
+    }
+}
+
+/* n.(v + omega x r) of a body at a contact. */
+static double rate_at(const double position[3], const double velocity[3], const double turning[3],
+                      const struct percuss_slow_contact *contact)
+{
+    double arm[3], swing[3];
+    for (int i = 0; i < 3; i++)
+        arm[i] = contact->point[i] - position[i];
+    cross(turning, arm, swing);
+    return dot(contact->normal, velocity) + dot(contact->normal, swing);
+}
+
+void percuss_slow_gap_rates(const struct percuss_body_motion *bodies, size_t count,
+                            const struct percuss_slow_contact *contacts, double *gap_rate)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct percuss_body_motion *a = &bodies[contacts[i].a];
+        const struct percuss_body_motion *b = &bodies[contacts[i].b];
+        gap_rate[i] = rate_at(a->position, a->velocity, a->angular_velocity, &contacts[i]) -
+                      rate_at(b->position, b->velocity, b->angular_velocity, &contacts[i]);
+    }
+}
+
+/* Rate of contact `of` per unit impulse at contact `at`, by the motion of one body. */
+static double coupling(const struct percuss_body_motion *bodies,
+                       const struct percuss_slow_inertia *inertias, uint32_t body,
+                       const struct percuss_slow_contact *at, const struct percuss_slow_contact *of)
+{
+    double velocity[3], turning[3];
+    unit_response(&bodies[body], &inertias[body], at, velocity, turning);
+    double rate = rate_at(bodies[body].position, velocity, turning, of);
+    return (at->a == body ? 1.0 : -1.0) * (of->a == body ? rate : -rate);
+}
+
+void percuss_slow_free_delassus(const struct percuss_body_motion *bodies,
+                                const struct percuss_slow_inertia *inertias, size_t count,
+                                const struct percuss_slow_contact *contacts, double *delassus)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j <= i; j++) {
+            const struct percuss_slow_contact *x = &contacts[i];
+            const struct percuss_slow_contact *y = &contacts[j];
+            double sum = 0.0;
+            if (x->a == y->a || x->a == y->b)
+                sum += coupling(bodies, inertias, x->a, y, x);
+            if (x->b == y->a || x->b == y->b)
+                sum += coupling(bodies, inertias, x->b, y, x);
+            delassus[i * count + j] = delassus[j * count + i] = sum;
+        }
+}
+
+void percuss_slow_free_apply(struct percuss_body_motion *bodies,
+                             const struct percuss_slow_inertia *inertias,
+                             const struct percuss_slow_contact *contact, double impulse)
+{
+    for (int side = 0; side < 2; side++) {
+        uint32_t body = side == 0 ? contact->a : contact->b;
+        double velocity[3], turning[3];
+        unit_response(&bodies[body], &inertias[body], contact, velocity, turning);
+        for (int i = 0; i < 3; i++) {
+            bodies[body].velocity[i] += (side == 0 ? impulse : -impulse) * velocity[i];
+            bodies[body].angular_velocity[i] += (side == 0 ? impulse : -impulse) * turning[i];
+        }
+    }
+}

@@ -1,0 +1,177 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* One impact: what belongs together, the question, the answer or the declared restitution. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "slow.h"
+
+/* Couplings below this, relative to the contacts' own inverse masses, are rounding. */
+static const double no_coupling = 1e-12;
+
+/* Whether an impulse at one contact is felt at the other, rigidly or through a shared body's
+ * vibration. */
+static bool are_coupled(const struct percuss_slow *slow, const struct group *seen, size_t i,
+                        size_t j)
+{
+    const struct percuss_slow_contact *x = &seen->contacts[i], *y = &seen->contacts[j];
+    const uint32_t shared[4][2] = {{x->a, y->a}, {x->a, y->b}, {x->b, y->a}, {x->b, y->b}};
+    for (int k = 0; k < 4; k++)
+        if (shared[k][0] == shared[k][1] && !slow->bodies[shared[k][0]].fixed)
+            return true;
+    size_t n = seen->count;
+    double size = sqrt(seen->delassus[i * n + i] * seen->delassus[j * n + j]);
+    return fabs(seen->delassus[i * n + j]) > no_coupling * size;
+}
+
+/* Whether a contact may take part: it touches or nearly does, or its list is being played and can
+ * be revoked. Impulses applied in one go have happened. */
+static bool may_join(const struct percuss_slow *slow, const struct group *seen, size_t i,
+                     double now)
+{
+    if (episode_of(slow, &seen->contacts[i], now))
+        return true;
+    const struct pair *pair = pairs_find(slow, &seen->contacts[i]);
+    return seen->contacts[i].gap <= slow->config.group_gap &&
+           !(pair && pair->latch == LATCH_PLAYING);
+}
+
+/* Marks `first` and whatever is coupled to it through touching pairs; returns how many. */
+static size_t mark_members(const struct percuss_slow *slow, const struct group *seen, size_t first,
+                           double now, bool *member)
+{
+    size_t count = 1;
+    bool grown = true;
+    member[first] = true;
+    while (grown) {
+        grown = false;
+        for (size_t i = 0; i < seen->count; i++) {
+            if (member[i] || !may_join(slow, seen, i, now))
+                continue;
+            for (size_t j = 0; j < seen->count && !member[i]; j++)
+                member[i] = member[j] && are_coupled(slow, seen, i, j);
+            count += member[i];
+            grown = grown || member[i];
+        }
+    }
+    return count;
+}
+
+/* Revokes what members are playing; their rates are not what they were then. */
+static enum percuss_result preempt(struct percuss_slow *slow, struct group *group, double now)
+{
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    for (size_t i = 0; !result && i < group->count; i++) {
+        struct episode *episode = episode_of(slow, &group->contacts[i], now);
+        if (episode)
+            result = episode_preempt(slow, episode, group, now);
+    }
+    return result;
+}
+
+static bool use_declared(const struct percuss_slow *slow, struct group *group)
+{
+    struct percuss_slow_outcome outcome = {.impulse = group->impulse};
+    for (size_t i = 0; i < group->count; i++)
+        group->restitution[i] = slow->config.restitution;
+    return percuss_slow_poisson(group->count, group->delassus, group->gap_rate, group->restitution,
+                                &outcome);
+}
+
+static enum percuss_result report(const struct percuss_slow *slow, struct group *group, double now)
+{
+    if (!percuss_slow_restitution(group->count, group->delassus, group->gap_rate, group->impulse,
+                                  group->restitution))
+        for (size_t i = 0; i < group->count; i++)
+            group->restitution[i] = NAN;
+    struct percuss_slow_report text = {
+        .time = now,
+        .count = group->count,
+        .contacts = group->contacts,
+        .gap_rate = group->gap_rate,
+        .delassus = group->delassus,
+        .impulse = group->impulse,
+        .restitution = group->restitution,
+        .reply = group->reply,
+        .message = group->message,
+    };
+    if (slow->config.report)
+        slow->config.report(slow->config.report_context, &text);
+    return PERCUSS_RESULT_OK;
+}
+
+/* The group has been probed: ask, or use the declared restitution, and begin to apply. */
+static enum percuss_result settle(struct percuss_slow *slow, struct group *group,
+                                  struct percuss_request *request, double now)
+{
+    struct percuss_reply reply = {0};
+    size_t applied = 0;
+    bool asks = slow->config.service.solve != NULL;
+    bool fits = asks && question_make(slow, group, now, request);
+    if (asks && !fits)
+        group_note(group, "%zu contacts are more than one question holds", group->count);
+    bool answered = fits && question_ask(slow, group, request, &reply);
+    slow->counts.impacts++;
+    slow->counts.declared += !answered;
+    group->reply = answered ? &reply : NULL;
+    for (size_t i = 0; answered && i < group->count; i++)
+        group->impulse[i] = reply.contacts[i].impulse;
+    if (answered)
+        tokens_keep(slow, group->contacts, request, &reply, now + reply.window);
+    else
+        tokens_forget(slow, group->count, group->contacts);
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    if (!answered && !use_declared(slow, group))
+        result = slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT,
+                           "delassus: no impulses stop the approach of %zu contacts: check the "
+                           "engine's matrix",
+                           group->count);
+    if (!result)
+        result = episode_begin(slow, group, request, now);
+    if (!result)
+        result = report(slow, group, now);
+    if (!result)
+        result = episodes_play(slow, now, &applied);
+    if (answered)
+        slow->config.service.release(&reply);
+    return result;
+}
+
+enum percuss_result impact_solve(struct percuss_slow *slow, const struct group *seen, size_t first,
+                                 double now)
+{
+    struct group *all = group_create(slow, seen->count);
+    bool *member = calloc(seen->count, sizeof *member);
+    struct percuss_request *request = malloc(sizeof *request);
+    struct group *group = NULL;
+    enum percuss_result result =
+        all && member && request ? PERCUSS_RESULT_OK
+                                 : slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for an impact");
+    if (!result) {
+        memcpy(all->contacts, seen->contacts, seen->count * sizeof *seen->contacts);
+        result = group_probe(slow, all, true);
+    }
+    if (!result) {
+        group = group_create(slow, mark_members(slow, all, first, now, member));
+        if (!group)
+            result = slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for an impact");
+    }
+    if (!result) {
+        size_t next = 0;
+        for (size_t i = 0; i < all->count; i++)
+            if (member[i])
+                group->contacts[next++] = all->contacts[i];
+        result = preempt(slow, group, now);
+    }
+    if (!result)
+        result = group_probe(slow, group, true);
+    if (!result)
+        result = settle(slow, group, request, now);
+    free(group);
+    free(request);
+    free(member);
+    free(all);
+    return result;
+}

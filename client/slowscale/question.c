@@ -1,0 +1,171 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+#include <percuss/result.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "slow.h"
+
+static const double longest_horizon = 10.0; /* s, that the service allows */
+enum { MOST_LONGER = 2 };                   /* questions with a longer horizon */
+
+static const char *status_name(enum percuss_status status)
+{
+#define STATUS_NAME(name, text) text,
+    static const char *const names[] = {PERCUSS_STATUS_LIST(STATUS_NAME)};
+    return (unsigned)status < PERCUSS_STATUS_COUNT ? names[status] : "an unknown status";
+}
+
+/* Index in the request of the engine's body; adds it. False: there is no room. */
+static bool enter_body(const struct percuss_slow *slow, const struct group *group, uint32_t body,
+                       double now, struct percuss_request *request, uint32_t *map, uint32_t *index)
+{
+    uint32_t i = 0;
+    while (i < request->body_count && map[i] != body)
+        i++;
+    *index = i;
+    if (i < request->body_count)
+        return true;
+    if (i >= PERCUSS_MAX_BODIES)
+        return false;
+    const struct token *token = &slow->tokens[body];
+    struct percuss_body_motion *motion = &request->bodies[i];
+    map[i] = body;
+    request->body_count = i + 1;
+    *motion = group->bodies[body];
+    memcpy(motion->id, slow->ids[body], sizeof motion->id);
+    memcpy(motion->state, token->state, sizeof motion->state);
+    motion->elapsed = token->state[0] ? fmax(0.0, now - token->time) : 0.0;
+    return true;
+}
+
+bool question_make(const struct percuss_slow *slow, const struct group *group, double now,
+                   struct percuss_request *request)
+{
+    uint32_t map[PERCUSS_MAX_BODIES];
+    if (group->count > PERCUSS_MAX_CONTACTS)
+        return false;
+    request->sequence = 0;
+    request->body_count = 0;
+    request->contact_count = group->count;
+    request->delassus = group->delassus;
+    request->options = slow->config.options;
+    for (size_t i = 0; i < group->count; i++) {
+        const struct percuss_slow_contact *from = &group->contacts[i];
+        struct percuss_contact *to = &request->contacts[i];
+        memcpy(to->point, from->point, sizeof to->point);
+        memcpy(to->normal, from->normal, sizeof to->normal);
+        to->gap = from->gap;
+        to->gap_acceleration = from->gap_acceleration;
+        if (!enter_body(slow, group, from->a, now, request, map, &to->a) ||
+            !enter_body(slow, group, from->b, now, request, map, &to->b))
+            return false;
+    }
+    return true;
+}
+
+bool question_put(struct percuss_slow *slow, const struct percuss_request *request,
+                  struct percuss_reply *reply, char *why, size_t size)
+{
+    const struct percuss_slow_service *service = &slow->config.service;
+    *reply = (struct percuss_reply){0};
+    slow->counts.requests++;
+    enum percuss_result result = service->solve(service->context, request, reply);
+    if (result) {
+        const char *problem = service->problem ? service->problem(service->context) : "no answer";
+        snprintf(why, size, "%s", problem);
+        return false;
+    }
+    bool answered = reply->status == PERCUSS_OK || reply->status == PERCUSS_TRUNCATED;
+    if (answered && reply->contact_count == request->contact_count)
+        return true;
+    snprintf(why, size, "%s: %s", status_name(reply->status), reply->message);
+    return false;
+}
+
+/* Asks again without states, from rest. */
+static bool ask_from_rest(struct percuss_slow *slow, struct group *group,
+                          struct percuss_request *request, struct percuss_reply *reply, char *why,
+                          size_t size)
+{
+    group_note(group, "%s; asked again without earlier vibration", reply->message);
+    slow->config.service.release(reply);
+    for (size_t i = 0; i < request->body_count; i++) {
+        request->bodies[i].state[0] = '\0';
+        request->bodies[i].elapsed = 0.0;
+    }
+    slow->counts.repeated++;
+    return question_put(slow, request, reply, why, size);
+}
+
+/* A window that was cut off is asked for again, longer; the first answer stays if that fails. */
+static void ask_longer(struct percuss_slow *slow, struct group *group,
+                       struct percuss_request *request, struct percuss_reply *reply)
+{
+    char why[512];
+    for (int i = 0; i < MOST_LONGER && !reply->complete; i++) {
+        bool cut =
+            reply->end_reason == PERCUSS_END_HORIZON || reply->end_reason == PERCUSS_END_IN_CONTACT;
+        double horizon = fmin(4.0 * reply->window, longest_horizon);
+        if (!cut || !(horizon > reply->window))
+            break;
+        struct percuss_reply longer;
+        double before = request->options.horizon;
+        request->options.horizon = horizon;
+        slow->counts.repeated++;
+        if (!question_put(slow, request, &longer, why, sizeof why)) {
+            slow->config.service.release(&longer);
+            request->options.horizon = before;
+            group_note(group, "horizon %g s: %s", horizon, why);
+            break;
+        }
+        slow->config.service.release(reply);
+        *reply = longer;
+    }
+    if (!reply->complete)
+        group_note(group, "cut off after %g s: the restitution is not final", reply->window);
+}
+
+bool question_ask(struct percuss_slow *slow, struct group *group, struct percuss_request *request,
+                  struct percuss_reply *reply)
+{
+    char why[512] = "";
+    bool good = question_put(slow, request, reply, why, sizeof why);
+    if (!good && reply->status == PERCUSS_UNKNOWN_STATE)
+        good = ask_from_rest(slow, group, request, reply, why, sizeof why);
+    if (good) {
+        ask_longer(slow, group, request, reply);
+        return true;
+    }
+    slow->config.service.release(reply);
+    group_note(group, "%s: declared restitution %g used", why, slow->config.restitution);
+    return false;
+}
+
+void tokens_keep(struct percuss_slow *slow, const struct percuss_slow_contact *contacts,
+                 const struct percuss_request *request, const struct percuss_reply *reply,
+                 double time)
+{
+    for (size_t i = 0; i < request->contact_count; i++) {
+        const uint32_t bodies[2] = {contacts[i].a, contacts[i].b};
+        const uint32_t places[2] = {request->contacts[i].a, request->contacts[i].b};
+        for (int side = 0; side < 2; side++) {
+            struct token *token = &slow->tokens[bodies[side]];
+            bool known = places[side] < reply->states_after_count;
+            snprintf(token->state, sizeof token->state, "%s",
+                     known ? reply->states_after[places[side]].state : "");
+            token->time = time;
+        }
+    }
+}
+
+void tokens_forget(struct percuss_slow *slow, size_t count,
+                   const struct percuss_slow_contact *contacts)
+{
+    for (size_t i = 0; i < count; i++) {
+        slow->tokens[contacts[i].a].state[0] = '\0';
+        slow->tokens[contacts[i].b].state[0] = '\0';
+    }
+}

@@ -1,0 +1,196 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors client/slowscale/equations.c and free_bodies.c: Eqs. (3) to (6) against numbers by hand,
+ * and what must hold of any impact: nothing sinks in, momentum stays, energy does not rise. */
+#include "unit/slowscale/toy.h"
+
+enum { TRIALS = 2000, MOST = 8 };
+
+/* Two spheres on a free bar: numbers of the literature's two-phase law, of Newton's and of each
+ * pair alone differ in the second digit. */
+static void two_spheres_on_a_bar(void **state)
+{
+    (void)state;
+    const double W[4] = {11.4627, 3.08821, 3.08821, 13.0538};
+    const double rate[2] = {-0.2, -0.2}, e[2] = {0.1, 0.7};
+    double impulse[2], after[2], back[2];
+    struct percuss_slow_outcome outcome = {.impulse = impulse, .gap_rate_after = after};
+    assert_true(percuss_slow_poisson(2, W, rate, e, &outcome));
+    near(after[0], 0.042, 5e-4);
+    near(after[1], 0.114, 5e-4);
+    /* and Eq. (6) gives the coefficients back; the matrix's diagonal was raised by 1e-10 */
+    assert_true(percuss_slow_restitution(2, W, rate, impulse, back));
+    near(back[0], 0.1, 1e-9);
+    near(back[1], 0.7, 1e-9);
+}
+
+static void one_contact_is_the_papers(void **state)
+{
+    (void)state;
+    double W = 10.186404, rate = -0.2, e = 0.4, impulse, compression, after, back;
+    struct percuss_slow_outcome outcome = {&compression, &impulse, &after};
+    assert_true(percuss_slow_poisson(1, &W, &rate, &e, &outcome));
+    near(compression, 0.2 / W, 1e-17);
+    near(impulse, 1.4 * 0.2 / W, 1e-17);
+    near(after, 0.08, 1e-16);
+    assert_true(percuss_slow_restitution(1, &W, &rate, &impulse, &back));
+    near(back, 0.4, 1e-15);
+    /* the free body's W for a body that is pinned: 3 % off, and e is 0.36 */
+    double wrong = W * 0.9711;
+    assert_true(percuss_slow_restitution(1, &wrong, &rate, &impulse, &back));
+    near(back, 1.4 * 0.9711 - 1.0, 1e-12);
+    /* nothing approaches */
+    rate = 0.1;
+    assert_true(percuss_slow_poisson(1, &W, &rate, &e, &outcome));
+    near(impulse, 0.0, 0.0);
+    near(after, 0.1, 0.0);
+    assert_true(percuss_slow_restitution(1, &W, &rate, &impulse, &back));
+    assert_true(isnan(back));
+    W = 0.0;
+    rate = -0.1;
+    assert_false(percuss_slow_poisson(1, &W, &rate, &e, &outcome));
+}
+
+/* Three equal spheres in a row, the last two touch at rest: hit elastically, Poisson's law lets the
+ * permanent contact open and nothing stay behind. By hand: W = [2 -1; -1 2]/m, rates (-1, 0);
+ * compression (2/3, 1/3) m, twice of which leaves rates (1, 0). */
+static void permanent_contacts_open(void **state)
+{
+    (void)state;
+    const double m = 0.3, W[4] = {2.0 / m, -1.0 / m, -1.0 / m, 2.0 / m}, rate[2] = {-1.0, 0.0};
+    double impulse[2], after[2];
+    struct percuss_slow_outcome outcome = {.impulse = impulse, .gap_rate_after = after};
+    assert_true(percuss_slow_poisson(2, W, rate, (double[]){1.0, 1.0}, &outcome));
+    near(impulse[0], 4.0 / 3.0 * m, 1e-9);
+    near(impulse[1], 2.0 / 3.0 * m, 1e-9);
+    near(after[0], 1.0, 1e-9);
+    near(after[1], 0.0, 1e-9);
+    /* a plastic hit: everything goes on together */
+    assert_true(percuss_slow_poisson(2, W, rate, (double[]){0.0, 0.0}, &outcome));
+    near(after[0], 0.0, 1e-9);
+    near(after[1], 0.0, 1e-9);
+    /* the permanent contact alone gives back: it opens */
+    assert_true(percuss_slow_poisson(2, W, rate, (double[]){0.0, 1.0}, &outcome));
+    assert_true(after[1] > 0.1);
+    /* a see-saw: a hit on one end lifts the other off its support */
+    const double lever[4] = {3.0, -1.0, -1.0, 3.0};
+    assert_true(
+        percuss_slow_poisson(2, lever, (double[]){0.5, -1.0}, (double[]){0.0, 0.0}, &outcome));
+    near(impulse[0], 0.0, 0.0);
+    assert_true(after[0] > 0.0);
+}
+
+static double uniform(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) * 0x1p-52 - 1.0;
+}
+
+/* Random groups of contacts in six dimensions, more than there are freedoms: singular matrices. */
+static void nothing_sinks_in_and_no_energy_comes(void **state)
+{
+    (void)state;
+    uint64_t seed = 11;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        size_t n = 1 + (size_t)trial % MOST;
+        double w[MOST][6], W[MOST * MOST], rate[MOST], e[MOST], impulse[MOST], after[MOST], v[6];
+        for (int k = 0; k < 6; k++)
+            v[k] = uniform(&seed);
+        for (size_t i = 0; i < n; i++) {
+            rate[i] = 0.0;
+            e[i] = 0.5 + 0.5 * uniform(&seed);
+            for (int k = 0; k < 6; k++) {
+                w[i][k] = uniform(&seed);
+                rate[i] += w[i][k] * v[k];
+            }
+        }
+        for (size_t i = 0; i < n; i++)
+            for (size_t j = 0; j < n; j++) {
+                W[i * n + j] = 0.0;
+                for (int k = 0; k < 6; k++)
+                    W[i * n + j] += w[i][k] * w[j][k];
+            }
+        struct percuss_slow_outcome outcome = {.impulse = impulse, .gap_rate_after = after};
+        assert_true(percuss_slow_poisson(n, W, rate, e, &outcome));
+        double before = 0.0, left = 0.0;
+        for (int k = 0; k < 6; k++) { /* unit masses */
+            double end = v[k];
+            for (size_t i = 0; i < n; i++)
+                end += w[i][k] * impulse[i];
+            before += 0.5 * v[k] * v[k];
+            left += 0.5 * end * end;
+        }
+        /* Lemke's answer is promised to 1e-8 of the largest rate */
+        for (size_t i = 0; i < n; i++) {
+            assert_true(impulse[i] >= 0.0);
+            assert_true(after[i] >= -1e-7);
+        }
+        assert_true(left <= before * (1.0 + 1e-7));
+    }
+}
+
+/* A rod turned in space, against the formula of the effective mass and by conservation. */
+static void free_bodies_keep_their_momentum(void **state)
+{
+    (void)state;
+    uint64_t seed = 4;
+    for (int trial = 0; trial < 200; trial++) {
+        struct percuss_body_motion bodies[3] = {{.id = "a"}, {.id = "b"}, {.id = "wall"}};
+        struct percuss_slow_inertia inertias[3] = {
+            {0.111, {1e-5, 1e-5, 1e-5}}, {0.848, {4e-5, 0.07, 0.06}}, {INFINITY, {0.0, 0.0, 0.0}}};
+        double norm = 0.0;
+        for (int b = 0; b < 2; b++)
+            for (int k = 0; k < 4; k++) {
+                bodies[b].orientation[k] = uniform(&seed);
+                bodies[b].position[k % 3] = uniform(&seed);
+                bodies[b].velocity[k % 3] = uniform(&seed);
+                bodies[b].angular_velocity[k % 3] = uniform(&seed);
+            }
+        bodies[2].orientation[0] = 1.0;
+        struct percuss_slow_contact contacts[2] = {{.a = 0, .b = 1}, {.a = 2, .b = 1}};
+        for (int c = 0; c < 2; c++, norm = 0.0) {
+            for (int k = 0; k < 3; k++) {
+                contacts[c].point[k] = uniform(&seed);
+                contacts[c].normal[k] = uniform(&seed);
+                norm += contacts[c].normal[k] * contacts[c].normal[k];
+            }
+            for (int k = 0; k < 3; k++)
+                contacts[c].normal[k] /= sqrt(norm);
+        }
+        double W[4], before[2], after[2];
+        percuss_slow_free_delassus(bodies, inertias, 2, contacts, W);
+        percuss_slow_gap_rates(bodies, 2, contacts, before);
+        double momentum = toy_momentum(bodies, inertias, 2, contacts[0].point);
+        percuss_slow_free_apply(bodies, inertias, &contacts[0], 0.02);
+        /* forces of one point have no moment about it and cancel */
+        near(toy_momentum(bodies, inertias, 2, contacts[0].point), momentum, 1e-12);
+        percuss_slow_gap_rates(bodies, 2, contacts, after);
+        near(after[0] - before[0], 0.02 * W[0], 1e-12 * W[0]);
+        near(after[1] - before[1], 0.02 * W[2], 1e-12 * (W[0] + W[3]));
+        near(W[1], W[2], 0.0);
+        percuss_slow_free_apply(bodies, inertias, &contacts[1], 1.0);
+        assert_true(bodies[2].velocity[0] == 0.0 && bodies[2].angular_velocity[1] == 0.0);
+    }
+    /* central: 1/m + 1/M; at the end of a rod along x, hit along z: 1/M + (L/2)^2 / I */
+    struct percuss_body_motion rod[2] = {{.orientation = {1}}, {.orientation = {1}}};
+    struct percuss_slow_inertia inertias[2] = {{0.1, {1e-5, 1e-5, 1e-5}},
+                                               {0.8, {1e-5, 0.07, 0.07}}};
+    rod[0].position[0] = rod[1].position[0] + 0.5;
+    struct percuss_slow_contact end = {.a = 0, .b = 1, .point = {0.5}, .normal = {0, 0, 1}};
+    double W;
+    percuss_slow_free_delassus(rod, inertias, 1, &end, &W);
+    near(W, 10.0 + 1.25 + 0.25 / 0.07, 1e-12);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(two_spheres_on_a_bar),
+        cmocka_unit_test(one_contact_is_the_papers),
+        cmocka_unit_test(permanent_contacts_open),
+        cmocka_unit_test(nothing_sinks_in_and_no_energy_comes),
+        cmocka_unit_test(free_bodies_keep_their_momentum),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,311 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors client/slowscale/slow.c, pairs.c and episode.c: one question an impact whatever the
+ * bodies do meanwhile, lists and totals, latches, what is revoked, and what happens without an
+ * answer. */
+#include "unit/slowscale/toy.h"
+
+/* Two hits: the first leaves the bodies approaching (e < 0 meanwhile), 5 ms later the second. */
+static const struct toy_answer two_hits = {
+    .window = 6e-3,
+    .count = {2},
+    .subs = {{{.start = 0.0, .compression_end = 1e-4, .end = 2e-4, .impulse = 0.008},
+              {.start = 5e-3, .compression_end = 5.1e-3, .end = 5.2e-3, .impulse = 0.006}}},
+};
+
+static void asks_once_while_bodies_overlap(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(2, &wishes);
+    toy->answers = 1;
+    toy->answer[0] = two_hits;
+    toy_step(toy, 0.0);
+    assert_int_equal(toy->asked, 1);
+    near(toy->bodies[0].velocity[0], 0.2, 0.0); /* the first is 0.1 ms away */
+    near(percuss_slow_next(toy->slow), 1e-4, 1e-18);
+    toy_run(toy, 4e-3, 1e-4);
+    near(toy->bodies[0].velocity[0], 0.12, 1e-15);
+    near(toy->bodies[1].velocity[0], 0.08, 1e-15);
+    assert_true(toy->bodies[1].position[0] - toy->bodies[0].position[0] < 0.02 - 1e-4);
+    toy_run(toy, 0.5, 1e-3);
+    near(toy->bodies[0].velocity[0], 0.06, 1e-15);
+    near(toy->bodies[1].velocity[0], 0.14, 1e-15);
+    assert_int_equal(toy->asked, 1);
+    assert_true(isinf(percuss_slow_next(toy->slow)));
+    /* e by the engine's own matrix: 0.014 * 20 / 0.2 - 1 */
+    near(toy->restitution[0], 0.4, 1e-14);
+    near(toy->applied[0], 0.014, 1e-17);
+    assert_string_equal(toy->message, "");
+    /* the rigid positions are those of impulses at the times of the largest indentation */
+    near(toy->bodies[1].position[0], 0.02 + 0.08 * (5.1e-3 - 1e-4) + 0.14 * (0.5 - 5.1e-3), 1e-14);
+    struct percuss_slow_counts counts = percuss_slow_counts(toy->slow);
+    assert_true(counts.impacts == 1 && counts.requests == 1 && counts.declared == 0);
+    toy_free(toy);
+}
+
+static void total_and_list_end_with_the_same_velocities(void **state)
+{
+    (void)state;
+    double end[2];
+    for (int total = 0; total < 2; total++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        wishes.application = total ? PERCUSS_SLOW_TOTAL : PERCUSS_SLOW_LIST;
+        struct toy *toy = toy_create(2, &wishes);
+        toy->answers = 1;
+        toy->answer[0] = two_hits;
+        toy_step(toy, 0.0);
+        if (total)
+            near(toy->bodies[0].velocity[0], 0.06, 1e-15);
+        toy_run(toy, 0.1, 1e-3);
+        assert_int_equal(toy->asked, 1);
+        end[total] = toy->bodies[0].velocity[0];
+        toy_free(toy);
+    }
+    near(end[0], end[1], 1e-15);
+}
+
+/* After the list the pair is armed only by an open gap or a moment without approach. */
+static void a_pair_is_armed_again_after_it_was_open(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(2, &wishes);
+    struct toy_answer weak = two_hits;
+    weak.subs[0][1].impulse = 0.001; /* they go on approaching after the list: e = -0.1 */
+    toy->answers = 2;
+    toy->answer[0] = weak;
+    toy->answer[1] = two_hits;
+    toy_step(toy, 0.0);
+    toy_run(toy, 0.02, 1e-3);
+    near(toy->restitution[0], -0.1, 1e-14);
+    assert_int_equal(toy->asked, 1); /* overlap and approach, but no new impact */
+    /* something pulls them apart for a moment, and together again */
+    toy->bodies[1].velocity[0] += 0.1;
+    toy_step(toy, 1e-4);
+    toy->bodies[1].velocity[0] -= 0.2;
+    toy_step(toy, 1e-4);
+    assert_int_equal(toy->asked, 2);
+    /* the second question carries the vibration and its age: window 6 ms, now 20.2 ms */
+    assert_string_equal(toy->question[1].bodies[0].state, "token-0-0");
+    near(toy->question[1].bodies[0].elapsed, toy->time - 6e-3, 1e-15);
+    assert_string_equal(toy->question[0].bodies[0].state, "");
+    toy_free(toy);
+}
+
+/* Trial states of event location ask nobody, however often. */
+static void trials_ask_nobody(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(2, &wishes);
+    struct percuss_slow_contact contacts[TOY_BODIES];
+    size_t n = toy_contacts(toy, contacts);
+    for (int i = 0; i < 1000; i++)
+        assert_true(percuss_slow_due(toy->slow, n, contacts));
+    contacts[0].gap = 1e-9;
+    assert_false(percuss_slow_due(toy->slow, n, contacts));
+    contacts[0].gap = 0.0;
+    toy->bodies[0].velocity[0] = 5e-4; /* below rest_speed */
+    assert_false(percuss_slow_due(toy->slow, n, contacts));
+    assert_int_equal(toy->asked, 0);
+    toy_step(toy, 0.0);
+    assert_int_equal(toy->asked, 0);
+    assert_true(percuss_slow_rests(toy->slow, 1, 0, 0));
+    toy_free(toy);
+}
+
+/* Touching neighbours belong to the question, with the whole matrix. */
+static void coupled_contacts_are_one_question(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(3, &wishes);
+    toy->bodies[2].position[0] += 5e-6; /* within group_gap */
+    toy->answers = 1;
+    toy->answer[0] = (struct toy_answer){.window = 1e-3,
+                                         .count = {1, 1},
+                                         .subs = {{{.end = 2e-4, .impulse = 0.02}},
+                                                  {{.start = 1e-5, .end = 2e-4, .impulse = 0.02}}}};
+    toy_step(toy, 0.0);
+    assert_int_equal(toy->question[0].contact_count, 2);
+    assert_int_equal(toy->question[0].body_count, 3);
+    const double expected[4] = {20.0, -10.0, -10.0, 20.0};
+    for (int i = 0; i < 4; i++)
+        near(toy->matrix[0][i], expected[i], 1e-12);
+    toy_run(toy, 0.01, 1e-3);
+    near(toy->bodies[2].velocity[0], 0.2, 1e-15);
+    near(toy->bodies[0].velocity[0], 0.0, 1e-15);
+    assert_int_equal(toy->asked, 1);
+    toy_free(toy);
+}
+
+/* A third body comes when half the list is played: the rest is revoked, the vibration of that
+ * moment is asked for, and the new question holds both contacts. */
+static void a_second_hit_revokes_the_list(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(3, &wishes);
+    toy->bodies[2].position[0] += 4e-4;
+    toy->bodies[2].velocity[0] = -0.1;
+    toy->answers = 3;
+    toy->answer[0] = two_hits;
+    toy->answer[1] = (struct toy_answer){.truncated = true, .window = 2.3e-3, .count = {1}};
+    toy->answer[2] = (struct toy_answer){
+        .window = 1e-3,
+        .count = {0, 1},
+        .subs = {{{0}}, {{.end = 2e-4, .compression_end = 1e-4, .impulse = 0.03}}}};
+    toy_step(toy, 0.0);
+    while (toy->asked == 1 && toy->time < 5e-3)
+        toy_step(toy, 1e-4);
+    assert_int_equal(toy->asked, 3);
+    near(toy->question[1].options.horizon, toy->time, 1e-12); /* from 0 to now */
+    assert_int_equal(toy->question[1].contact_count, 1);
+    assert_int_equal(toy->question[2].contact_count, 2);
+    assert_string_equal(toy->question[2].bodies[0].state, "token-1-0");
+    near(toy->question[2].bodies[0].elapsed, 0.0, 1e-12);
+    assert_non_null(strstr(toy->message, "1 sub-impacts of the impact at 0 s revoked"));
+    toy_run(toy, 0.02, 1e-4);
+    near(toy->applied[0], 0.008, 1e-17); /* the second hit of the first list never came */
+    near(toy->applied[1], 0.03, 1e-17);
+    assert_true(percuss_slow_counts(toy->slow).preempted == 1);
+    toy_free(toy);
+}
+
+/* What is under way when the second body hits happens to its end. */
+static void a_sub_impact_under_way_is_finished(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(3, &wishes);
+    toy->bodies[2].position[0] += 5e-6 + 6e-6; /* outside group_gap */
+    toy->bodies[2].velocity[0] = -0.2;         /* there after 0.055 ms: before the largest force */
+    toy->answers = 3;
+    toy->answer[0] = two_hits;
+    toy->answer[1] = (struct toy_answer){.truncated = true, .window = 2e-4, .count = {1}};
+    toy->answer[2] = (struct toy_answer){
+        .window = 1e-3, .count = {0, 1}, .subs = {{{0}}, {{.end = 2e-4, .impulse = 0.01}}}};
+    toy_step(toy, 0.0);
+    toy_run(toy, 2e-2, 1e-5);
+    assert_int_equal(toy->asked, 3);
+    near(toy->question[1].options.horizon, 2e-4, 0.0);
+    near(toy->applied[0], 0.008, 1e-17);
+    toy_free(toy);
+}
+
+static void an_unknown_state_is_asked_from_rest(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(2, &wishes);
+    toy->answers = 3;
+    toy->answer[0] = toy->answer[2] = two_hits;
+    toy->answer[1].status = PERCUSS_UNKNOWN_STATE;
+    toy_step(toy, 0.0);
+    toy_run(toy, 0.1, 1e-3);
+    toy->bodies[0].position[0] = toy->bodies[1].position[0] - 0.02;
+    toy->bodies[0].velocity[0] = toy->bodies[1].velocity[0] + 0.1;
+    toy_step(toy, 0.0);
+    assert_int_equal(toy->asked, 3);
+    assert_string_equal(toy->question[1].bodies[1].state, "token-0-1");
+    assert_string_equal(toy->question[2].bodies[1].state, "");
+    assert_true(toy->service_used);
+    assert_non_null(strstr(toy->message, "without earlier vibration"));
+    toy_free(toy);
+}
+
+static void without_an_answer_the_declared_value_is_used(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    wishes.restitution = 0.4;
+    struct toy *toy = toy_create(2, &wishes);
+    toy->answers = 3;
+    toy->answer[0].result = PERCUSS_RESULT_TIMEOUT;
+    toy->answer[1].status = PERCUSS_BUSY;
+    toy->answer[2] = two_hits;
+    for (int i = 0; i < 3; i++) {
+        toy->bodies[0].position[0] = toy->bodies[1].position[0] - 0.02;
+        toy->bodies[0].velocity[0] = toy->bodies[1].velocity[0] + 0.2;
+        toy_step(toy, 0.0);
+        assert_int_equal(toy->asked, i + 1);
+        assert_true(toy->service_used == (i == 2));
+        near(toy->restitution[0], 0.4, 1e-12);
+        if (i < 2)
+            near(toy->bodies[1].velocity[0] - toy->bodies[0].velocity[0], 0.08, 1e-12);
+        if (i == 0)
+            assert_non_null(strstr(toy->message, "no answer: declared restitution 0.4 used"));
+        if (i == 1)
+            assert_non_null(strstr(toy->message, "BUSY"));
+        toy_run(toy, toy->time + 0.05, 1e-3);
+    }
+    assert_true(percuss_slow_counts(toy->slow).declared == 2);
+    toy_free(toy);
+}
+
+/* A cut-off window is asked for again with four times the horizon. */
+static void a_cut_off_window_is_not_final(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(2, &wishes);
+    toy->answers = 2;
+    toy->answer[0] = two_hits;
+    toy->answer[0].truncated = true;
+    toy->answer[0].window = 4e-3;
+    toy->answer[0].count[0] = 1;
+    toy->answer[1] = two_hits;
+    toy_step(toy, 0.0);
+    assert_int_equal(toy->asked, 2);
+    near(toy->question[1].options.horizon, 16e-3, 0.0);
+    near(toy->restitution[0], 0.4, 1e-14);
+    assert_string_equal(toy->message, "");
+    toy_free(toy);
+}
+
+static void bad_settings_are_named(void **state)
+{
+    (void)state;
+    struct percuss_slow *slow;
+    struct percuss_slow_config config = percuss_slow_config_default();
+    assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_INVALID_ARGUMENT);
+    assert_non_null(strstr(percuss_slow_error_text(), "body_count: 0"));
+    config.body_count = 1;
+    config.bodies = &(struct percuss_slow_body){"sphere", false};
+    assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_INVALID_ARGUMENT);
+    assert_non_null(strstr(percuss_slow_error_text(), "engine"));
+    config.engine = (struct percuss_slow_engine){NULL, toy_probe, toy_apply, toy_now};
+    config.restitution = 1.5;
+    assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_INVALID_ARGUMENT);
+    assert_non_null(strstr(percuss_slow_error_text(), "restitution: 1.5"));
+    config.restitution = 0.5;
+    assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_OK);
+    struct percuss_slow_contact self = {.a = 0, .b = 0};
+    struct toy toy = {0};
+    percuss_slow_free(slow);
+    config.engine.context = &toy;
+    assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_OK);
+    assert_int_equal(percuss_slow_advance(slow, 1, &self), PERCUSS_RESULT_INVALID_ARGUMENT);
+    assert_non_null(strstr(percuss_slow_error_text(), "contacts[0]"));
+    percuss_slow_free(slow);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(asks_once_while_bodies_overlap),
+        cmocka_unit_test(total_and_list_end_with_the_same_velocities),
+        cmocka_unit_test(a_pair_is_armed_again_after_it_was_open),
+        cmocka_unit_test(trials_ask_nobody),
+        cmocka_unit_test(coupled_contacts_are_one_question),
+        cmocka_unit_test(a_second_hit_revokes_the_list),
+        cmocka_unit_test(a_sub_impact_under_way_is_finished),
+        cmocka_unit_test(an_unknown_state_is_asked_from_rest),
+        cmocka_unit_test(without_an_answer_the_declared_value_is_used),
+        cmocka_unit_test(a_cut_off_window_is_not_final),
+        cmocka_unit_test(bad_settings_are_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
