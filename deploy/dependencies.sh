@@ -9,7 +9,7 @@ set -eu
 
 build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-serial-dev
 liblapacke-dev libyaml-dev libjansson-dev"
-test="libcmocka-dev python3-venv"
+test="libcmocka-dev python3-venv libmujoco-dev gnuplot-nox"
 
 packages=$build
 [ "${1:-build}" = build ] || packages="$build $test"

@@ -29,19 +29,28 @@ libraries=$(pkg-config --variable=libdir percuss)
 ${CC:-cc} -std=c17 -Wall -Wextra -Werror $(pkg-config --cflags percuss) "$example/query.c" \
     -o "$work/by-pkg-config" $(pkg-config --libs percuss) -Wl,-rpath,"$libraries"
 
-# nothing but percuss_ leaves the library, and its headers do not need those of DDS
-if nm -D --defined-only "$libraries/libpercuss.so" | awk '{print $3}' | grep -v '^percuss_' ||
-    nm -D --defined-only "$libraries/libpercuss.so" | grep ' percuss_v1_'; then
-    echo "libpercuss exports symbols of its inside" >&2
+# nothing but percuss_ leaves the libraries, and their headers do not need those of DDS
+for library in libpercuss libpercuss-slowscale; do
+    if nm -D --defined-only "$libraries/$library.so" | awk '{print $3}' | grep -v '^percuss_' ||
+        nm -D --defined-only "$libraries/$library.so" | grep ' percuss_v1_'; then
+        echo "$library exports symbols of its inside" >&2
+        exit 1
+    fi
+done
+# the slow scale stands alone
+if ldd "$libraries/libpercuss-slowscale.so" | grep -E 'dds|lapack|blas|sundials'; then
+    echo "libpercuss-slowscale needs more than the C library" >&2
     exit 1
 fi
+pkg-config --exists percuss-slowscale
 if grep -rl 'dds/' "$prefix/include/percuss"; then
     echo "a public header includes DDS" >&2
     exit 1
 fi
 
 for file in bin/percuss share/percuss/percuss_wire.idl share/man/man1/percuss.1 \
-    share/man/man8/percussd.8 include/percuss/percuss.h include/percuss/vocabulary.h; do
+    share/man/man8/percussd.8 include/percuss/percuss.h include/percuss/vocabulary.h \
+    include/percuss/slowscale.h include/percuss/slow_equations.h; do
     test -f "$prefix/$file" || { echo "$file is not installed" >&2; exit 1; }
 done
 "$prefix/bin/percuss" --version

@@ -130,7 +130,7 @@ static bool apply(void *context, const struct percuss_slow_contact *contact, dou
     direction(engine, contact, w);
     respond(engine, w, u);
     mju_addToScl(engine->data->qvel, u, impulse, nv);
-    engine->applied[contact->a] += impulse;
+    engine->applied[contact->a][contact->b] += impulse;
     return true;
 }
 

@@ -24,9 +24,9 @@ struct engine {
     size_t body_count;
     int bodies[ENGINE_BODIES]; /* MuJoCo's numbers */
     struct engine_body names[ENGINE_BODIES];
-    size_t constraint_count;       /* equality constraints as directions M^-1 j, orthonormal in M */
-    double *constraints;           /* [constraint_count x nv] */
-    double applied[ENGINE_BODIES]; /* N s, by body a of the contact, since the last reset */
+    size_t constraint_count; /* equality constraints as directions M^-1 j, orthonormal in M */
+    double *constraints;     /* [constraint_count x nv] */
+    double applied[ENGINE_BODIES][ENGINE_BODIES]; /* N s, by the contact's a and b */
 };
 
 /* Loads a model. False: the reason is printed. */

@@ -6,15 +6,16 @@
 #include <math.h>
 #include <string.h>
 
-/* What was applied to a body since its last impact belongs to that one. */
-static void take_applied(struct records *records, uint32_t body)
+/* What was applied to a pair since its last impact belongs to that one. */
+static void take_applied(struct records *records, uint32_t a, uint32_t b)
 {
+    double *applied = &records->engine->applied[a][b];
     for (size_t i = records->count; i-- > 0;)
-        if (records->list[i].body == body) {
-            records->list[i].applied = records->engine->applied[body];
+        if (records->list[i].a == a && records->list[i].b == b) {
+            records->list[i].applied = *applied;
             break;
         }
-    records->engine->applied[body] = 0.0;
+    *applied = 0.0;
 }
 
 static void write_sub_impacts(struct records *records, const struct percuss_slow_report *report,
@@ -46,12 +47,13 @@ void records_report(void *context, const struct percuss_slow_report *report)
     struct records *records = context;
     records->impacts++;
     for (size_t i = 0; i < report->count && records->count < RECORD_IMPACTS; i++) {
-        take_applied(records, report->contacts[i].a);
+        take_applied(records, report->contacts[i].a, report->contacts[i].b);
         struct record *record = &records->list[records->count++];
         *record = (struct record){.impact = records->impacts,
                                   .contact = i,
                                   .count = report->count,
-                                  .body = report->contacts[i].a,
+                                  .a = report->contacts[i].a,
+                                  .b = report->contacts[i].b,
                                   .time = report->time,
                                   .gap_rate = report->gap_rate[i],
                                   .impulse = report->impulse[i],
@@ -76,8 +78,9 @@ void records_report(void *context, const struct percuss_slow_report *report)
 
 void records_finish(struct records *records)
 {
-    for (uint32_t body = 0; body < ENGINE_BODIES; body++)
-        take_applied(records, body);
+    for (uint32_t a = 0; a < ENGINE_BODIES; a++)
+        for (uint32_t b = 0; b < ENGINE_BODIES; b++)
+            take_applied(records, a, b);
 }
 
 void records_write(const struct records *records, FILE *file)

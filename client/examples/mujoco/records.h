@@ -15,7 +15,7 @@ enum { RECORD_IMPACTS = 256 };
 struct record {
     int impact;
     size_t contact, count; /* which of how many */
-    uint32_t body;         /* a of the contact */
+    uint32_t a, b;         /* bodies of the contact */
     double time, gap_rate, impulse, restitution, restitution_reply, applied, error, window;
     double delassus[ENGINE_CONTACTS]; /* its row */
     uint32_t sub_impacts;

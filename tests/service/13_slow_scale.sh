@@ -1,0 +1,65 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+# A co-simulation goes on when the daemon is killed, with the declared restitution, and uses it again
+# when it is back.
+. "$(dirname "$0")/lib.sh"
+
+start_daemon
+say "lists and totals end with the same velocities; one request an impact"
+for how in list total; do
+    printf '\n\n\n\n' | expect 0 "$peers/slow_client" "$domain" "$how" 5
+    grep -c '^percuss e' "$out" | grep -qx 5 || fail "not every impact was answered ($how)"
+    shows "5 impacts, 5 requests, 0 repeated, 0 declared"
+    grep '^percuss' "$out" >"$work/$how"
+done
+paste "$work/list" "$work/total" | awk '{ if ($4 - $11 > 1e-12 || $11 - $4 > 1e-12 ||
+    $7 - $14 > 1e-12 || $14 - $7 > 1e-12) exit 1 }' || fail "$(cat "$work/list" "$work/total")"
+
+# a client of its own pace: a line into the pipe lets it make the next impact
+mkfifo "$work/pace"
+"$peers/slow_client" "$domain" list 6 <"$work/pace" >"$out" 2>"$err" 9>&- &
+others=$!
+exec 8>"$work/pace"
+has_lines() {
+    [ "$(wc -l <"$out")" -ge "$1" ]
+}
+next_impact() { # NUMBER WHAT: the next line begins so
+    echo >&8
+    wait_for 20 has_lines "$1" || fail "no impact $1"
+    sed -n "$1p" "$out" | grep -q "^$2" || fail "impact $1 is not: $2"
+}
+wait_for 20 has_lines 1 || fail "no first impact"
+next_impact 2 "percuss e"
+say "killed: the declared value, logged"
+kill -KILL "$daemon"
+wait "$daemon" 2>/dev/null || true
+daemon=
+next_impact 3 "declared e = 0.45"
+sed -n 3p "$out" | grep -q "declared restitution 0.45 used" || fail "the reason is not logged"
+next_impact 4 "declared e = 0.45"
+say "back: used again"
+start_daemon
+next_impact 5 "percuss e"
+next_impact 6 "percuss e"
+exec 8>&-
+wait "$others" || fail "the client failed"
+others=
+shows "6 impacts"
+shows "2 declared"
+
+say "a daemon that was restarted between two impacts does not know the vibration"
+mkfifo "$work/pace2"
+"$peers/slow_client" "$domain" list 2 <"$work/pace2" >"$out" 2>"$err" 9>&- &
+others=$!
+exec 8>"$work/pace2"
+wait_for 20 has_lines 1 || fail "no first impact"
+stop_daemon
+start_daemon
+echo >&8
+exec 8>&-
+wait "$others" || fail "the client failed"
+others=
+cat "$out"
+shows "asked again without earlier vibration"
+stop_daemon
