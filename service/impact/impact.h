@@ -13,7 +13,8 @@
 struct impact_settings {
     double accuracy; /* relative error of an impulse that the time steps may cause */
     double horizon;  /* s from the stated instant */
-    double max_work; /* contact steps and flight intervals, times (modes + 16 contacts^3) */
+    double max_work; /* contact steps and flight intervals, times modes + 8 contacts (contacts that
+                        each feels)^2 + 2 contacts^2 + 6 contacts */
 };
 
 /* Everything here lives in the arena given to impact_create. */

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps times (modes + 16 contacts^3) of all solutions of a request: about a second by the modal
+/* Work (impact.h) of all solutions of a request: about a second by the modal
  * method, whose steps cost some 20 ns of that each; CVODE's right-hand sides are many more and
  * cheaper. */
 static const double MAX_WORK = 4e7;
