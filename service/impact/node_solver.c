@@ -110,29 +110,93 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
     return false;
 }
 
-/* Forces, residual and Jacobian of all active contacts. */
-static void assemble(const struct node_problem *problem, double (*indentation)[NODES],
-                     double (*force)[NODES], double (*stiffness)[NODES])
+/* Newton's system of several contacts. An open contact bears no force and its indentation follows
+ * from those of the pressed ones, so that only these are solved for. */
+struct system {
+    double (*stiffness)[NODES];                  /* [all contacts] */
+    double change[PERCUSS_MAX_CONTACTS * NODES]; /* of the pressed ones */
+    size_t pressed[PERCUSS_MAX_CONTACTS];        /* places in the problem's list */
+    size_t pressed_count;
+};
+
+static void find_forces(const struct node_problem *problem, struct system *system,
+                        double (*indentation)[NODES], double (*force)[NODES])
 {
-    size_t size = problem->count * NODES;
+    system->pressed_count = 0;
     for (size_t a = 0; a < problem->count; a++) {
         size_t c = problem->list[a];
-        for (int i = 0; i < NODES; i++)
-            force[c][i] = contact_law_force(&problem->laws[c], indentation[c][i], &stiffness[c][i]);
-    }
-    for (size_t row = 0; row < size; row++) {
-        size_t a = problem->list[row / NODES];
-        size_t i = row % NODES;
-        double sum = indentation[a][i] - problem->target[row / NODES][i];
-        for (size_t column = 0; column < size; column++) {
-            size_t b = problem->list[column / NODES];
-            double m = problem->coupling[a * problem->contacts + b][i][column % NODES];
-            sum += m * force[b][column % NODES];
-            problem->matrix[row * size + column] =
-                m * stiffness[b][column % NODES] + (row == column);
+        bool presses = false;
+        for (int i = 0; i < NODES; i++) {
+            force[c][i] =
+                contact_law_force(&problem->laws[c], indentation[c][i], &system->stiffness[c][i]);
+            presses = presses || system->stiffness[c][i] != 0.0 || force[c][i] != 0.0;
         }
-        problem->residual[row] = sum;
+        if (presses)
+            system->pressed[system->pressed_count++] = a;
     }
+}
+
+static const double (*coupling_of(const struct node_problem *problem, size_t a, size_t b))[NODES]
+{
+    return problem->coupling[problem->list[a] * problem->contacts + problem->list[b]];
+}
+
+/* Residuals of all contacts, and the matrix of the pressed ones. */
+static void assemble(const struct node_problem *problem, const struct system *system,
+                     double (*indentation)[NODES], double (*force)[NODES])
+{
+    for (size_t a = 0; a < problem->count; a++)
+        for (int i = 0; i < NODES; i++) {
+            double sum = indentation[problem->list[a]][i] - problem->target[a][i];
+            for (size_t q = 0; q < system->pressed_count; q++) {
+                const double(*m)[NODES] = coupling_of(problem, a, system->pressed[q]);
+                const double *f = force[problem->list[system->pressed[q]]];
+                for (int j = 0; j < NODES; j++)
+                    sum += m[i][j] * f[j];
+            }
+            problem->residual[a * NODES + (size_t)i] = sum;
+        }
+    size_t size = system->pressed_count * NODES;
+    for (size_t p = 0; p < system->pressed_count; p++)
+        for (size_t q = 0; q < system->pressed_count; q++) {
+            const double(*m)[NODES] = coupling_of(problem, system->pressed[p], system->pressed[q]);
+            const double *stiffness = system->stiffness[problem->list[system->pressed[q]]];
+            for (size_t i = 0; i < NODES; i++) {
+                double *row = problem->matrix + (p * NODES + i) * size + q * NODES;
+                for (size_t j = 0; j < NODES; j++)
+                    row[j] = m[i][j] * stiffness[j] + (p == q && i == j);
+            }
+        }
+}
+
+/* Turns the residuals into the changes of all indentations. */
+static bool find_changes(const struct node_problem *problem, struct system *system)
+{
+    size_t size = system->pressed_count * NODES;
+    bool open[PERCUSS_MAX_CONTACTS];
+    for (size_t a = 0; a < problem->count; a++)
+        open[a] = true;
+    for (size_t p = 0; p < system->pressed_count; p++) {
+        open[system->pressed[p]] = false;
+        for (size_t i = 0; i < NODES; i++)
+            system->change[p * NODES + i] = problem->residual[system->pressed[p] * NODES + i];
+    }
+    if (!linear_solve(size, problem->matrix, system->change))
+        return false;
+    for (size_t a = 0; a < problem->count; a++) {
+        for (size_t q = 0; open[a] && q < system->pressed_count; q++) {
+            const double(*m)[NODES] = coupling_of(problem, a, system->pressed[q]);
+            const double *stiffness = system->stiffness[problem->list[system->pressed[q]]];
+            for (size_t i = 0; i < NODES; i++)
+                for (size_t j = 0; j < NODES; j++)
+                    problem->residual[a * NODES + i] -=
+                        m[i][j] * stiffness[j] * system->change[q * NODES + j];
+        }
+    }
+    for (size_t p = 0; p < system->pressed_count; p++)
+        for (size_t i = 0; i < NODES; i++)
+            problem->residual[system->pressed[p] * NODES + i] = system->change[p * NODES + i];
+    return true;
 }
 
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
@@ -142,15 +206,17 @@ bool node_solve(const struct node_problem *problem, double (*indentation)[NODES]
     if (problem->count == 1 &&
         solve_one(problem, indentation[first], force[first], stiffness[first], iterations))
         return true;
-    size_t size = problem->count * NODES;
+    struct system system;
+    system.stiffness = stiffness; /* the rest is scratch */
     double previous = INFINITY;
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        assemble(problem, indentation, force, stiffness);
-        if (!linear_solve(size, problem->matrix, problem->residual))
+        find_forces(problem, &system, indentation, force);
+        assemble(problem, &system, indentation, force);
+        if (!find_changes(problem, &system))
             return false;
         ++*iterations;
         struct progress progress = {.previous = previous};
-        for (size_t row = 0; row < size; row++) {
+        for (size_t row = 0; row < problem->count * NODES; row++) {
             double *d = &indentation[problem->list[row / NODES]][row % NODES];
             *d -= problem->residual[row];
             look_at(&progress, problem->residual[row], *d,

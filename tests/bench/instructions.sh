@@ -33,11 +33,11 @@ command -v valgrind >/dev/null || {
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# one warm solve: instructions within the program, and calls from it into shared libraries
+# warm solves: instructions within the program, and calls from it into shared libraries
 count() {
     if ! valgrind --tool=callgrind \
         --toggle-collect=counted_solve --callgrind-out-file="$work/out" --compress-strings=no \
-        "$program" "$1" "$2" >"$work/log" 2>&1; then
+        "$program" "$@" >"$work/log" 2>&1; then
         cat "$work/log" >&2
         return 1
     fi
@@ -86,4 +86,13 @@ if [ "$record" = yes ]; then
     } >"$recorded"
     cat "$recorded"
 fi
+
+# three contacts at once against one: ten groups on a beam and their thirty contacts one by one
+groups=$(count beam 1e-3 groups | cut -d ' ' -f 1)
+singles=$(count beam 1e-3 singles | cut -d ' ' -f 1)
+echo "a group of three contacts costs $((300 * groups / singles)) % of one contact"
+[ "$groups" -gt 0 ] && [ "$((groups * 3))" -le "$((singles * 5))" ] || {
+    echo "instructions: a group of three contacts costs more than five times one contact" >&2
+    bad=1
+}
 exit $bad

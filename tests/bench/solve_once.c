@@ -1,9 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Warm solves of the rod and the beam, for counting instructions: instructions.sh. */
+/* Warm solves of the rod and the beam, and of groups of contacts, for counting instructions:
+ * instructions.sh. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "scenes.h"
 
@@ -20,26 +22,91 @@ enum percuss_status counted_solve(struct solve_workspace *workspace,
     return solve(workspace, catalogue, request, result);
 }
 
-/* solve_once rod|beam TOLERANCE: solves twice to fill the caches, then once more, counted. */
+enum { STRIKERS = 3, GROUPS = 10 };
+
+/* Repeatable numbers in [0, 1). */
+static double next_number(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) * 0x1p-53;
+}
+
+/* The same striker several times on the same beam, side by side, each with a speed of its own. */
+static void make_group(struct solve_request *request, uint64_t *seed)
+{
+    struct solve_body struck = request->bodies[1];
+    struct solve_body striker = request->bodies[0];
+    struct solve_contact contact = request->contacts[0];
+    for (unsigned i = 0; i < STRIKERS; i++) {
+        double place = -0.45 + 0.3 * i + 0.25 * next_number(seed);
+        striker.velocity[2] = -0.1 - 0.3 * next_number(seed);
+        striker.position[0] = contact.point[0] = place;
+        contact.a = i;
+        contact.b = STRIKERS;
+        request->bodies[i] = striker;
+        request->contacts[i] = contact;
+    }
+    request->bodies[STRIKERS] = struck;
+    request->body_count = STRIKERS + 1;
+    request->contact_count = STRIKERS;
+}
+
+/* One contact of a group by itself. */
+static struct solve_request one_of(const struct solve_request *group, size_t contact)
+{
+    struct solve_request single = *group;
+    single.bodies[0] = group->bodies[contact];
+    single.bodies[1] = group->bodies[STRIKERS];
+    single.contacts[0] = group->contacts[contact];
+    single.contacts[0].a = 0;
+    single.contacts[0].b = 1;
+    single.body_count = 2;
+    single.contact_count = 1;
+    return single;
+}
+
+/* Solves to fill the caches, then once more, counted. */
+static enum percuss_status solve_warm(struct solve_workspace *workspace,
+                                      const struct body_set *catalogue,
+                                      const struct solve_request *request,
+                                      struct solve_result *result)
+{
+    enum percuss_status status = solve(workspace, catalogue, request, result);
+    if (!status)
+        status = solve(workspace, catalogue, request, result);
+    return status ? status : counted_solve(workspace, catalogue, request, result);
+}
+
+/* solve_once rod|beam TOLERANCE [groups|singles]: the scene; or ten groups of three strikers on its
+ * body; or each of their contacts by itself. */
 int main(int argc, char **argv)
 {
     static struct bench_catalogue catalogue;
     static struct solve_result result;
-    const struct bench_scene *scene = argc == 3 ? bench_scene_find(argv[1]) : NULL;
-    double tolerance = argc == 3 ? strtod(argv[2], NULL) : 0.0;
-    if (!scene || !(tolerance > 0.0)) {
-        fprintf(stderr, "usage: solve_once SCENE TOLERANCE\n");
+    const struct bench_scene *scene = argc >= 3 ? bench_scene_find(argv[1]) : NULL;
+    double tolerance = argc >= 3 ? strtod(argv[2], NULL) : 0.0;
+    bool groups = argc == 4 && strcmp(argv[3], "groups") == 0;
+    bool singles = argc == 4 && strcmp(argv[3], "singles") == 0;
+    if (!scene || !(tolerance > 0.0) || (argc != 3 && !groups && !singles)) {
+        fprintf(stderr, "usage: solve_once SCENE TOLERANCE [groups|singles]\n");
         return 2;
     }
     struct solve_workspace *workspace = solve_workspace_create();
     struct solve_request request = bench_request(scene, tolerance);
     enum percuss_status status = PERCUSS_INTERNAL;
-    if (workspace && bench_catalogue_make(&catalogue, 0)) {
-        status = solve(workspace, &catalogue.set, &request, &result);
-        if (!status)
-            status = solve(workspace, &catalogue.set, &request, &result);
-        if (!status)
-            status = counted_solve(workspace, &catalogue.set, &request, &result);
+    uint64_t seed = 3;
+    if (workspace && bench_catalogue_make(&catalogue, 0) && argc == 3)
+        status = solve_warm(workspace, &catalogue.set, &request, &result);
+    for (int i = 0; argc == 4 && catalogue.set.count && i < GROUPS; i++) {
+        struct solve_request group = request;
+        make_group(&group, &seed);
+        status = groups ? solve_warm(workspace, &catalogue.set, &group, &result) : PERCUSS_OK;
+        for (size_t c = 0; singles && !status && c < STRIKERS; c++) {
+            struct solve_request single = one_of(&group, c);
+            status = solve_warm(workspace, &catalogue.set, &single, &result);
+        }
+        if (status)
+            break;
     }
     printf("%s %s: e = %.9f\n", argv[1], argv[2], result.contacts[0].restitution);
     solve_workspace_free(workspace);
