@@ -50,10 +50,12 @@ fi
 
 for file in bin/percuss share/percuss/percuss_wire.idl share/man/man1/percuss.1 \
     share/man/man8/percussd.8 include/percuss/percuss.h include/percuss/vocabulary.h \
-    include/percuss/slowscale.h include/percuss/slow_equations.h; do
+    include/percuss/slowscale.h include/percuss/slow_equations.h share/percuss/catalogue.yaml \
+    share/percuss/percussd.yaml share/doc/percuss/integrating.md; do
     test -f "$prefix/$file" || { echo "$file is not installed" >&2; exit 1; }
 done
 "$prefix/bin/percuss" --version
+"$prefix"/*bin/percussd --config "$prefix/share/percuss/percussd.yaml" --check-config >/dev/null
 
 if [ -n "$domain" ]; then
     "$work/by-cmake/query" "$domain" | grep '^e = ' >"$work/one"

@@ -60,8 +60,8 @@ struct percuss_slow_contact {
 /* Inertia of a body that no joint holds. */
 struct percuss_slow_inertia {
     double mass;       /* kg; INFINITY: immovable, the moments are then not read */
-    double moments[3]; /* about the body's x, y, z through the centre of mass, kg m^2; infinite ones
-                          are allowed */
+    double moments[3]; /* principal ones, about the axes of the motion's orientation through the
+                          centre of mass, kg m^2; infinite ones are allowed */
 };
 
 /* Rates of approach of `count` contacts of moving bodies: n.(v_a - v_b) at the contact's point. */
