@@ -9,7 +9,9 @@
 #include "slow.h"
 
 static const double shortest_horizon = 1e-9; /* s, that the service allows */
-static const double instant = 1e-12; /* s: an engine's clock rarely ends on the very bit asked for */
+static const double margin = 1e-9; /* s before a sub-impact, for its touch not to be cut in two */
+static const double instant =
+    1e-12; /* s: an engine's clock rarely ends on the very bit asked for */
 
 static void episode_free(struct episode *episode)
 {
@@ -42,6 +44,17 @@ static int by_time(const void *x, const void *y)
     return a->contact < b->contact ? -1 : a->contact > b->contact;
 }
 
+/* When a sub-impact's impulse is applied: at the centre of its force in time, so that the positions
+ * afterwards are those of the force. Both halves of a Hertzian contact's force, about a sine to the
+ * power of 1.5, have their centre at 0.326 of their length from the peak. */
+static double centre_of(const struct percuss_sub_impact *sub)
+{
+    double before = sub->compression_impulse * (sub->compression_end - sub->start);
+    double after = (sub->impulse - sub->compression_impulse) * (sub->end - sub->compression_end);
+    double shift = sub->impulse > 0.0 ? 0.326 * (after - before) / sub->impulse : 0.0;
+    return fmin(fmax(sub->compression_end + shift, sub->start), sub->end);
+}
+
 /* The sub-impacts of a contact; their sum is its impulse to the last bit that matters. */
 static void list_contact(struct episode *episode, const struct percuss_contact_result *result,
                          size_t contact, double now)
@@ -51,7 +64,7 @@ static void list_contact(struct episode *episode, const struct percuss_contact_r
     for (uint32_t i = 0; i < result->sub_impacts_listed; i++) {
         const struct percuss_sub_impact *sub = &result->sub_impacts[i];
         struct entry *entry = &episode->entries[episode->entry_count++];
-        *entry = (struct entry){.time = now + sub->compression_end,
+        *entry = (struct entry){.time = now + centre_of(sub),
                                 .start = sub->start,
                                 .end = sub->end,
                                 .contact = contact,
@@ -189,28 +202,33 @@ struct episode *episode_of(const struct percuss_slow *slow,
     return NULL;
 }
 
-/* The first time from `time` on at which no sub-impact is under way. */
-static double pause_after(const struct episode *episode, double time)
+double episode_pause(const struct episode *episode, double time)
 {
     bool moved = true;
+    double pause = time - episode->time;
     while (moved) {
         moved = false;
         for (size_t i = 0; i < episode->entry_count; i++)
-            if (episode->entries[i].start < time && time < episode->entries[i].end) {
-                time = episode->entries[i].end;
+            if (episode->entries[i].start < pause && pause < episode->entries[i].end) {
+                pause = episode->entries[i].start - margin;
                 moved = true;
             }
     }
-    return time;
+    return pause > 0.0 ? episode->time + pause : episode->time;
 }
 
-/* The vibration of the episode's bodies at `time` from its start, by a question up to then. */
+/* The vibration of the episode's bodies at `time` from its start: what it started with, or by a
+ * question up to then. */
 static void take_vibration(struct percuss_slow *slow, struct episode *episode, struct group *group,
                            double time)
 {
     char why[512];
     struct percuss_reply reply;
-    episode->request.options.horizon = fmax(time, shortest_horizon);
+    if (time < shortest_horizon) {
+        tokens_restore(slow, episode->contacts, &episode->request, episode->time);
+        return;
+    }
+    episode->request.options.horizon = time;
     slow->counts.preempted++;
     if (question_put(slow, &episode->request, &reply, why, sizeof why)) {
         tokens_keep(slow, episode->contacts, &episode->request, &reply, episode->time + time);
@@ -221,21 +239,45 @@ static void take_vibration(struct percuss_slow *slow, struct episode *episode, s
     slow->config.service.release(&reply);
 }
 
+/* Takes an impulse back that belongs to a sub-impact after the group's start. */
+static enum percuss_result take_back(const struct percuss_slow *slow, const struct episode *episode,
+                                     const struct entry *entry, struct group *group, double now)
+{
+    const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
+    struct entry back = *entry;
+    back.impulse = -entry->impulse;
+    for (size_t i = 0; i < group->count; i++) {
+        const struct percuss_slow_contact *member = &group->contacts[i];
+        if (member->a == contact->a && member->b == contact->b &&
+            member->feature == contact->feature)
+            group->moved[i] += entry->impulse * (now - entry->time);
+    }
+    return apply(slow, episode, &back);
+}
+
 enum percuss_result episode_preempt(struct percuss_slow *slow, struct episode *episode,
                                     struct group *group, double now)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
-    double time = pause_after(episode, now - episode->time);
-    size_t dropped = 0;
-    for (size_t i = episode->played; !result && i < episode->entry_count; i++) {
-        if (episode->entries[i].end <= time)
-            result = apply(slow, episode, &episode->entries[i]);
-        else
-            dropped++;
+    double time = fmax(0.0, group->start - episode->time);
+    size_t revoked = 0;
+    for (size_t i = 0; !result && i < episode->entry_count; i++) {
+        const struct entry *entry = &episode->entries[i];
+        bool played = i < episode->played;
+        if (entry->end <= time) {
+            if (!played)
+                result = apply(slow, episode, entry);
+            continue;
+        }
+        revoked++;
+        if (played)
+            result = take_back(slow, episode, entry, group, now);
     }
     if (!result && time < episode->window)
         take_vibration(slow, episode, group, time);
-    group_note(group, "%zu sub-impacts of the impact at %.9g s revoked", dropped, episode->time);
+    if (revoked)
+        group_note(group, "%zu sub-impacts of the impact at %.9g s revoked", revoked,
+                   episode->time);
     for (size_t i = 0; i < episode->request.contact_count; i++) {
         struct pair *pair = pairs_find(slow, &episode->contacts[i]);
         if (pair)

@@ -11,7 +11,7 @@
 struct group *group_create(const struct percuss_slow *slow, size_t count)
 {
     size_t bodies = slow->config.body_count;
-    size_t numbers = count * count + 4 * count;
+    size_t numbers = count * count + 5 * count;
     struct group *group = calloc(1, sizeof *group + bodies * sizeof *group->bodies +
                                         count * sizeof *group->contacts + numbers * sizeof(double));
     if (!group)
@@ -24,6 +24,7 @@ struct group *group_create(const struct percuss_slow *slow, size_t count)
     group->compression = group->gap_rate + count;
     group->impulse = group->compression + count;
     group->restitution = group->impulse + count;
+    group->moved = group->restitution + count;
     return group;
 }
 

@@ -59,16 +59,39 @@ static size_t mark_members(const struct percuss_slow *slow, const struct group *
     return count;
 }
 
-/* Revokes what members are playing; their rates are not what they were then. */
+/* Revokes what members are playing, back to an instant at which no sub-impact was under way: that
+ * is what is asked about then. Rates are not what they were before. */
 static enum percuss_result preempt(struct percuss_slow *slow, struct group *group, double now)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
+    group->start = now;
+    for (bool moved = true; moved;) {
+        moved = false;
+        for (size_t i = 0; i < group->count; i++) {
+            const struct episode *episode = episode_of(slow, &group->contacts[i], now);
+            double start = episode ? episode_pause(episode, group->start) : group->start;
+            moved = moved || start < group->start;
+            group->start = fmin(group->start, start);
+        }
+    }
     for (size_t i = 0; !result && i < group->count; i++) {
         struct episode *episode = episode_of(slow, &group->contacts[i], now);
         if (episode)
             result = episode_preempt(slow, episode, group, now);
     }
     return result;
+}
+
+/* The gaps at the group's start, as straight motion from there led to those of now. */
+static void go_back(struct group *group, double now)
+{
+    double back = now - group->start;
+    for (size_t i = 0; i < group->count; i++) {
+        struct percuss_slow_contact *contact = &group->contacts[i];
+        contact->gap -= back * (group->gap_rate[i] - 0.5 * contact->gap_acceleration * back);
+        for (size_t j = 0; j < group->count; j++)
+            contact->gap -= group->delassus[i * group->count + j] * group->moved[j];
+    }
 }
 
 static bool use_declared(const struct percuss_slow *slow, struct group *group)
@@ -80,14 +103,14 @@ static bool use_declared(const struct percuss_slow *slow, struct group *group)
                                 &outcome);
 }
 
-static enum percuss_result report(const struct percuss_slow *slow, struct group *group, double now)
+static enum percuss_result report(const struct percuss_slow *slow, struct group *group)
 {
     if (!percuss_slow_restitution(group->count, group->delassus, group->gap_rate, group->impulse,
                                   group->restitution))
         for (size_t i = 0; i < group->count; i++)
             group->restitution[i] = NAN;
     struct percuss_slow_report text = {
-        .time = now,
+        .time = group->start,
         .count = group->count,
         .contacts = group->contacts,
         .gap_rate = group->gap_rate,
@@ -109,7 +132,7 @@ static enum percuss_result settle(struct percuss_slow *slow, struct group *group
     struct percuss_reply reply = {0};
     size_t applied = 0;
     bool asks = slow->config.service.solve != NULL;
-    bool fits = asks && question_make(slow, group, now, request);
+    bool fits = asks && question_make(slow, group, group->start, request);
     if (asks && !fits)
         group_note(group, "%zu contacts are more than one question holds", group->count);
     bool answered = fits && question_ask(slow, group, request, &reply);
@@ -119,7 +142,7 @@ static enum percuss_result settle(struct percuss_slow *slow, struct group *group
     for (size_t i = 0; answered && i < group->count; i++)
         group->impulse[i] = reply.contacts[i].impulse;
     if (answered)
-        tokens_keep(slow, group->contacts, request, &reply, now + reply.window);
+        tokens_keep(slow, group->contacts, request, &reply, group->start + reply.window);
     else
         tokens_forget(slow, group->count, group->contacts);
     enum percuss_result result = PERCUSS_RESULT_OK;
@@ -129,9 +152,9 @@ static enum percuss_result settle(struct percuss_slow *slow, struct group *group
                            "engine's matrix",
                            group->count);
     if (!result)
-        result = episode_begin(slow, group, request, now);
+        result = episode_begin(slow, group, request, group->start);
     if (!result)
-        result = report(slow, group, now);
+        result = report(slow, group);
     if (!result)
         result = episodes_play(slow, now, &applied);
     if (answered)
@@ -167,6 +190,8 @@ enum percuss_result impact_solve(struct percuss_slow *slow, const struct group *
     }
     if (!result)
         result = group_probe(slow, group, true);
+    if (!result)
+        go_back(group, now);
     if (!result)
         result = settle(slow, group, request, now);
     free(group);

@@ -161,6 +161,21 @@ void tokens_keep(struct percuss_slow *slow, const struct percuss_slow_contact *c
     }
 }
 
+void tokens_restore(struct percuss_slow *slow, const struct percuss_slow_contact *contacts,
+                    const struct percuss_request *request, double time)
+{
+    for (size_t i = 0; i < request->contact_count; i++) {
+        const uint32_t bodies[2] = {contacts[i].a, contacts[i].b};
+        const uint32_t places[2] = {request->contacts[i].a, request->contacts[i].b};
+        for (int side = 0; side < 2; side++) {
+            const struct percuss_body_motion *motion = &request->bodies[places[side]];
+            struct token *token = &slow->tokens[bodies[side]];
+            memcpy(token->state, motion->state, sizeof token->state);
+            token->time = time - motion->elapsed;
+        }
+    }
+}
+
 void tokens_forget(struct percuss_slow *slow, size_t count,
                    const struct percuss_slow_contact *contacts)
 {

@@ -24,7 +24,7 @@ struct pair {
 
 /* An impulse of an episode that is to be applied. */
 struct entry {
-    double time;       /* s: when it is applied, that of its largest indentation */
+    double time;       /* s: when it is applied */
     double start, end; /* of its sub-impact */
     size_t contact;
     double impulse;
@@ -62,7 +62,9 @@ struct percuss_slow {
 /* Contacts with what the engine says about them; one allocation. */
 struct group {
     size_t count;
+    double start; /* s: the instant that is asked about; before now if lists were revoked */
     struct percuss_slow_contact *contacts;
+    double *moved; /* impulses taken back times how long they had been there, N s^2 */
     double *gap_rate, *delassus, *compression, *impulse, *restitution;
     struct percuss_body_motion *bodies; /* [bodies of the configuration] */
     const struct percuss_reply *reply;  /* NULL: declared */
@@ -109,8 +111,11 @@ enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t 
 struct episode *episode_of(const struct percuss_slow *slow,
                            const struct percuss_slow_contact *contact, double now);
 
-/* Drops what has not happened yet of the episode, asks for the vibration up to now, and forgets it.
- * What is lost is noted in the group. */
+/* The last time up to `time` at which none of its sub-impacts is under way. */
+double episode_pause(const struct episode *episode, double time);
+
+/* Revokes what happens after the group's start: drops it, or takes it back if it was applied. Asks
+ * for the vibration at that time and forgets the episode. What is lost is noted in the group. */
 enum percuss_result episode_preempt(struct percuss_slow *slow, struct episode *episode,
                                     struct group *group, double now);
 
@@ -133,6 +138,10 @@ bool question_put(struct percuss_slow *slow, const struct percuss_request *reque
 void tokens_keep(struct percuss_slow *slow, const struct percuss_slow_contact *contacts,
                  const struct percuss_request *request, const struct percuss_reply *reply,
                  double time);
+
+/* Back to the tokens of a request at `time`. */
+void tokens_restore(struct percuss_slow *slow, const struct percuss_slow_contact *contacts,
+                    const struct percuss_request *request, double time);
 
 /* The vibration of these contacts' bodies is unknown: taken as rest. */
 void tokens_forget(struct percuss_slow *slow, size_t count,

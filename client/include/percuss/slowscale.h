@@ -88,7 +88,8 @@ struct percuss_slow_counts {
     uint64_t impacts;   /* groups solved */
     uint64_t requests;  /* questions put; one an impact, unless one of the next two */
     uint64_t repeated;  /* questions put again: state unknown, horizon too short */
-    uint64_t preempted; /* questions put again up to the moment when another body hit */
+    uint64_t preempted; /* questions put again up to the moment when another body hit: for the
+                           vibration then */
     uint64_t declared;  /* impacts solved with the declared restitution */
 };
 PERCUSS_API struct percuss_slow_counts percuss_slow_counts(const struct percuss_slow *slow);

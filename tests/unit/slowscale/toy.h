@@ -173,6 +173,7 @@ static inline void toy_fill(const struct toy_answer *answer, const struct percus
         for (uint32_t j = 0; j < answer->count[i]; j++) {
             contact->impulse += answer->subs[i][j].impulse;
             contact->end_time = answer->subs[i][j].end;
+            contact->sub_impacts[j].compression_impulse = 0.5 * answer->subs[i][j].impulse;
         }
     }
 }

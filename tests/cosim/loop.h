@@ -1,0 +1,255 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The whole loop in one process: free bodies, the slow scale, and the solver as its service, with
+ * states under numbers as tokens. Bodies hold their places and only gaps change: W and n are fixed.
+ */
+#ifndef PERCUSS_TEST_LOOP_H
+#define PERCUSS_TEST_LOOP_H
+
+#include "physics/support.h"
+
+#include <percuss/slowscale.h>
+
+enum { LOOP_BODIES = 6, LOOP_CONTACTS = 6, LOOP_STATES = 256 };
+
+struct loop {
+    struct lab *lab;
+    double time;
+    size_t body_count, pair_count;
+    struct percuss_body_motion bodies[LOOP_BODIES];
+    struct percuss_slow_inertia inertias[LOOP_BODIES];
+    char ids[LOOP_BODIES][PERCUSS_ID_SIZE];
+    struct percuss_slow_contact pairs[LOOP_CONTACTS]; /* that may touch: a above b along z */
+    struct percuss_slow *slow;
+    size_t states;
+    struct body_state *state[LOOP_STATES];
+    struct solve_result result;
+    /* of the last impact, and sums */
+    double vibration; /* J, of all bodies, by the last reply */
+    double restitution[LOOP_CONTACTS], restitution_reply[LOOP_CONTACTS];
+    size_t reports;
+    char message[512];
+};
+
+static inline bool loop_probe(void *context, struct percuss_slow_view *view)
+{
+    struct loop *loop = context;
+    percuss_slow_gap_rates(loop->bodies, view->count, view->contacts, view->gap_rate);
+    if (view->delassus)
+        percuss_slow_free_delassus(loop->bodies, loop->inertias, view->count, view->contacts,
+                                   view->delassus);
+    for (size_t i = 0; view->bodies && i < loop->body_count; i++) {
+        char id[PERCUSS_ID_SIZE];
+        memcpy(id, view->bodies[i].id, sizeof id);
+        view->bodies[i] = loop->bodies[i];
+        memcpy(view->bodies[i].id, id, sizeof id);
+    }
+    return true;
+}
+
+static inline bool loop_apply(void *context, const struct percuss_slow_contact *contact,
+                              double impulse)
+{
+    struct loop *loop = context;
+    percuss_slow_free_apply(loop->bodies, loop->inertias, contact, impulse);
+    return true;
+}
+
+static inline double loop_now(void *context)
+{
+    return ((struct loop *)context)->time;
+}
+
+static inline void loop_release(struct percuss_reply *reply)
+{
+    free(reply->contacts);
+    free(reply->states_after);
+    *reply = (struct percuss_reply){0};
+}
+
+static inline void loop_ask(struct loop *loop, const struct percuss_request *request)
+{
+    static struct solve_request question;
+    question = (struct solve_request){.body_count = request->body_count,
+                                      .contact_count = request->contact_count,
+                                      .delassus = request->delassus};
+    for (size_t i = 0; i < request->body_count; i++) {
+        const struct percuss_body_motion *from = &request->bodies[i];
+        struct solve_body *to = &question.bodies[i];
+        memcpy(to->id, from->id, sizeof to->id);
+        memcpy(to->position, from->position, sizeof to->position);
+        memcpy(to->orientation, from->orientation, sizeof to->orientation);
+        memcpy(to->velocity, from->velocity, sizeof to->velocity);
+        memcpy(to->angular_velocity, from->angular_velocity, sizeof to->angular_velocity);
+        to->state = from->state[0] ? loop->state[atoi(from->state)] : NULL;
+        to->elapsed = from->elapsed;
+    }
+    for (size_t i = 0; i < request->contact_count; i++) {
+        const struct percuss_contact *from = &request->contacts[i];
+        struct solve_contact *to = &question.contacts[i];
+        *to = (struct solve_contact){.a = from->a,
+                                     .b = from->b,
+                                     .gap = from->gap,
+                                     .gap_acceleration = from->gap_acceleration};
+        memcpy(to->point, from->point, sizeof to->point);
+        memcpy(to->normal, from->normal, sizeof to->normal);
+    }
+    question.options.tolerance = request->options.tolerance;
+    question.options.horizon = request->options.horizon;
+    solve(loop->lab->workspace, &loop->lab->set, &question, &loop->result);
+}
+
+static inline enum percuss_result loop_solve(void *context, const struct percuss_request *request,
+                                             struct percuss_reply *reply)
+{
+    struct loop *loop = context;
+    struct solve_result *result = &loop->result;
+    static struct percuss_sub_impact subs[LOOP_CONTACTS][PERCUSS_MAX_SUB_IMPACTS];
+    loop_ask(loop, request);
+    reply->status = result->status;
+    snprintf(reply->message, sizeof reply->message, "%s", result->fault.text);
+    if (result->status != PERCUSS_OK && result->status != PERCUSS_TRUNCATED)
+        return PERCUSS_RESULT_OK;
+    reply->complete = result->complete;
+    reply->end_reason = result->end_reason;
+    reply->window = result->window;
+    reply->contact_count = result->contact_count;
+    reply->states_after_count = request->body_count;
+    reply->contacts = calloc(result->contact_count, sizeof *reply->contacts);
+    reply->states_after = calloc(request->body_count, sizeof *reply->states_after);
+    for (size_t i = 0; i < result->contact_count; i++) {
+        const struct solve_contact_result *from = &result->contacts[i];
+        struct percuss_contact_result *to = &reply->contacts[i];
+        to->impulse = from->impulse;
+        to->restitution = from->restitution;
+        to->end_time = from->end_time;
+        to->sub_impact_count = (uint32_t)from->sub_impact_count;
+        to->sub_impacts_listed = (uint32_t)from->sub_impacts_listed;
+        to->sub_impacts = subs[i];
+        for (size_t j = 0; j < from->sub_impacts_listed; j++)
+            subs[i][j] = (struct percuss_sub_impact){
+                .start = from->sub_impacts[j].start,
+                .compression_end = from->sub_impacts[j].compression_end,
+                .end = from->sub_impacts[j].end,
+                .compression_impulse = from->sub_impacts[j].compression_impulse,
+                .impulse = from->sub_impacts[j].impulse};
+    }
+    loop->vibration = 0.0;
+    for (size_t i = 0; i < request->body_count; i++) {
+        loop->vibration += result->bodies[i].vibration;
+        const struct body_state *state = result->bodies[i].state_after;
+        if (!state)
+            continue;
+        assert_true(loop->states < LOOP_STATES);
+        size_t number = loop->states++;
+        loop->state[number] = malloc(body_state_size(state));
+        memcpy(loop->state[number], state, body_state_size(state));
+        snprintf(reply->states_after[i].state, PERCUSS_ID_SIZE, "%zu", number);
+    }
+    return PERCUSS_RESULT_OK;
+}
+
+static inline void loop_report(void *context, const struct percuss_slow_report *report)
+{
+    struct loop *loop = context;
+    loop->reports++;
+    snprintf(loop->message, sizeof loop->message, "%s", report->message);
+    if (!report->reply)
+        fail_msg("no answer: %s", report->message);
+    for (size_t i = 0; i < report->count; i++) {
+        loop->restitution[i] = report->restitution[i];
+        loop->restitution_reply[i] = report->reply->contacts[i].restitution;
+    }
+}
+
+/* Adds a body of the lab at (x, 0, z) with a speed along z; returns its index. */
+static inline uint32_t loop_add(struct loop *loop, const char *id, double x, double z, double speed)
+{
+    const struct body *body = body_set_find(&loop->lab->set, id);
+    uint32_t index = (uint32_t)loop->body_count++;
+    assert_non_null(body);
+    snprintf(loop->ids[index], PERCUSS_ID_SIZE, "%s", id);
+    loop->bodies[index] = (struct percuss_body_motion){.orientation = {1.0, 0.0, 0.0, 0.0},
+                                                       .position = {x, 0.0, z},
+                                                       .velocity = {0.0, 0.0, speed}};
+    loop->inertias[index] = (struct percuss_slow_inertia){
+        body->mass, {body->inertia[0], body->inertia[1], body->inertia[2]}};
+    return index;
+}
+
+/* A pair that may touch above b at a's x and height z. */
+static inline void loop_pair(struct loop *loop, uint32_t a, uint32_t b, double z, double gap)
+{
+    loop->pairs[loop->pair_count++] =
+        (struct percuss_slow_contact){.a = a,
+                                      .b = b,
+                                      .point = {loop->bodies[a].position[0], 0.0, z},
+                                      .normal = {0.0, 0.0, 1.0},
+                                      .gap = gap};
+}
+
+static inline void loop_start(struct loop *loop, enum percuss_slow_application application,
+                              double tolerance)
+{
+    struct percuss_slow_body bodies[LOOP_BODIES];
+    struct percuss_slow_config config = percuss_slow_config_default();
+    for (size_t i = 0; i < loop->body_count; i++)
+        bodies[i] = (struct percuss_slow_body){loop->ids[i], false};
+    config.body_count = loop->body_count;
+    config.bodies = bodies;
+    config.engine = (struct percuss_slow_engine){loop, loop_probe, loop_apply, loop_now};
+    config.service = (struct percuss_slow_service){loop, loop_solve, loop_release, NULL};
+    config.options.tolerance = tolerance;
+    config.application = application;
+    config.report = loop_report;
+    config.report_context = loop;
+    assert_int_equal(percuss_slow_create(&config, &loop->slow), PERCUSS_RESULT_OK);
+}
+
+static inline void loop_step(struct loop *loop, double dt)
+{
+    double rates[LOOP_CONTACTS];
+    loop->time += dt;
+    percuss_slow_gap_rates(loop->bodies, loop->pair_count, loop->pairs, rates);
+    for (size_t i = 0; i < loop->pair_count; i++)
+        loop->pairs[i].gap += dt * rates[i];
+    if (percuss_slow_advance(loop->slow, loop->pair_count, loop->pairs))
+        fail_msg("%s", percuss_slow_error_text());
+}
+
+/* Until `end` in steps of at most `step`, each of which ends where something is due. */
+static inline void loop_run(struct loop *loop, double end, double step)
+{
+    while (loop->time < end) {
+        double rates[LOOP_CONTACTS];
+        double h = fmin(fmin(step, end - loop->time), percuss_slow_next(loop->slow) - loop->time);
+        percuss_slow_gap_rates(loop->bodies, loop->pair_count, loop->pairs, rates);
+        for (size_t i = 0; i < loop->pair_count; i++)
+            if (loop->pairs[i].gap > 0.0 && rates[i] < 0.0) /* a little behind the touch */
+                h = fmin(h, -(loop->pairs[i].gap + 1e-15) / rates[i]);
+        loop_step(loop, h);
+    }
+}
+
+static inline double loop_kinetic(const struct loop *loop)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < loop->body_count; i++)
+        for (int k = 0; k < 3; k++) {
+            double v = loop->bodies[i].velocity[k], o = loop->bodies[i].angular_velocity[k];
+            sum += 0.5 * loop->inertias[i].mass * v * v;
+            sum += 0.5 * loop->inertias[i].moments[k] * o * o;
+        }
+    return sum;
+}
+
+static inline void loop_free(struct loop *loop)
+{
+    percuss_slow_free(loop->slow);
+    for (size_t i = 0; i < loop->states; i++)
+        free(loop->state[i]);
+    free(loop);
+}
+
+#endif
