@@ -50,7 +50,8 @@ static void repeated_impacts_keep_the_books(void **state)
         struct loop *loop = make_loop(lab, 1, (double[]){0.13}, (double[]){0.0}, (double[]){-0.25});
         loop_start(loop, PERCUSS_SLOW_LIST, 1e-6);
         double rung = 0.0;
-        for (size_t impact = 1; impact <= 12; impact++) {
+        size_t impacts = damped ? 3 : 8;
+        for (size_t impact = 1; impact <= impacts; impact++) {
             double before = loop_kinetic(loop), moved = momentum(loop);
             loop_step(loop, 0.0);
             assert_int_equal(loop->reports, impact);
@@ -71,7 +72,7 @@ static void repeated_impacts_keep_the_books(void **state)
                                           loop->bodies[1].angular_velocity[1] * -0.13 -
                                           random_between(&seed, 0.1, 0.4);
         }
-        assert_true(percuss_slow_counts(loop->slow).requests == 12);
+        assert_true(percuss_slow_counts(loop->slow).requests == impacts);
         loop_free(loop);
         lab_free(lab);
     }
