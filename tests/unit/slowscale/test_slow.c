@@ -275,6 +275,72 @@ static void a_cut_off_window_is_not_final(void **state)
     toy_free(toy);
 }
 
+/* A wall that is hit on both sides at once does not carry one impact to the other. */
+static void a_fixed_body_does_not_couple(void **state)
+{
+    (void)state;
+    for (int fixed = 0; fixed < 2; fixed++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        wishes.bodies = (struct percuss_slow_body[]){{"s0", false}, {"wall", fixed}, {"s2", false}};
+        struct toy *toy = toy_create(3, &wishes);
+        toy->inertias[1].mass = INFINITY;
+        toy->bodies[2].velocity[0] = -0.1;
+        const struct toy_answer hit = {
+            .window = 1e-3,
+            .count = {1, 1},
+            .subs = {{{.end = 1e-4, .impulse = 0.03}}, {{.end = 1e-4, .impulse = 0.03}}}};
+        toy->answers = 2;
+        toy->answer[0] = toy->answer[1] = hit;
+        toy_step(toy, 0.0);
+        assert_int_equal(toy->asked, fixed ? 2 : 1);
+        assert_int_equal(toy->question[0].contact_count, fixed ? 1 : 2);
+        toy_run(toy, 0.01, 1e-3);
+        near(toy->bodies[0].velocity[0], -0.1, 1e-15);
+        near(toy->bodies[2].velocity[0], 0.2, 1e-15);
+        near(toy->bodies[1].velocity[0], 0.0, 0.0);
+        toy_free(toy);
+    }
+}
+
+/* Many impacts of a row between two heavy ends without a service: nothing comes from nothing, and
+ * no pair sinks into another. Steps of 0.1 ms without event location. */
+static void nothing_comes_from_nothing(void **state)
+{
+    (void)state;
+    size_t impacts = 0;
+    for (int trial = 0; trial < 20; trial++) {
+        struct percuss_slow_config wishes = percuss_slow_config_default();
+        wishes.restitution = trial / 19.0;
+        struct toy *toy = toy_create(4, &wishes);
+        toy->inertias[0].mass = toy->inertias[3].mass = 5.0;
+        for (int i = 0; i < 4; i++)
+            toy->bodies[i].position[0] += 1e-3 * i;
+        toy->bodies[0].velocity[0] = 0.02;
+        toy->bodies[1].velocity[0] = 0.3 + 0.01 * trial;
+        toy->bodies[3].velocity[0] = -0.02;
+        double momentum = 5.0 * 0.02 + 0.1 * toy->bodies[1].velocity[0] - 5.0 * 0.02, energy = 1.0;
+        while (toy->time < 1.0) {
+            double sum = 0.0, left = 0.0;
+            toy_step(toy, 1e-4);
+            for (int i = 0; i < 4; i++) {
+                double v = toy->bodies[i].velocity[0];
+                sum += toy->inertias[i].mass * v;
+                left += 0.5 * toy->inertias[i].mass * v * v;
+                if (i > 0) /* slower than rest_speed for a second, or one step of the fastest */
+                    assert_true(toy->bodies[i].position[0] - toy->bodies[i - 1].position[0] >
+                                0.02 - 1e-3);
+            }
+            near(sum, momentum, 1e-12 * 0.1);
+            assert_true(left <= energy * (1.0 + 1e-12));
+            energy = left;
+        }
+        impacts += toy->reports;
+        assert_true(percuss_slow_counts(toy->slow).declared == toy->reports);
+        toy_free(toy);
+    }
+    assert_true(impacts > 100); /* two or three where e is small, dozens where it is not */
+}
+
 static void bad_settings_are_named(void **state)
 {
     (void)state;
@@ -315,6 +381,8 @@ int main(void)
         cmocka_unit_test(an_unknown_state_is_asked_from_rest),
         cmocka_unit_test(without_an_answer_the_declared_value_is_used),
         cmocka_unit_test(a_cut_off_window_is_not_final),
+        cmocka_unit_test(a_fixed_body_does_not_couple),
+        cmocka_unit_test(nothing_comes_from_nothing),
         cmocka_unit_test(bad_settings_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

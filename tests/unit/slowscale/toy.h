@@ -226,7 +226,7 @@ static inline struct toy *toy_create(size_t count, const struct percuss_slow_con
     toy->bodies[0].velocity[0] = 0.2;
     struct percuss_slow_config config = *wishes;
     config.body_count = count;
-    config.bodies = names;
+    config.bodies = wishes->bodies ? wishes->bodies : names;
     config.engine = (struct percuss_slow_engine){toy, toy_probe, toy_apply, toy_now};
     config.report = toy_report;
     config.report_context = toy;
