@@ -58,7 +58,9 @@ bool question_make(const struct percuss_slow *slow, const struct group *group, d
         memcpy(to->point, from->point, sizeof to->point);
         memcpy(to->normal, from->normal, sizeof to->normal);
         to->gap = from->gap;
-        to->gap_acceleration = from->gap_acceleration;
+        /* what lies together is carried by what presses it */
+        bool rests = fabs(group->gap_rate[i]) <= slow->config.rest_speed;
+        to->gap_acceleration = rests ? 0.0 : from->gap_acceleration;
         if (!enter_body(slow, group, from->a, now, request, map, &to->a) ||
             !enter_body(slow, group, from->b, now, request, map, &to->b))
             return false;

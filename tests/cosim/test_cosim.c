@@ -146,12 +146,49 @@ static void a_revoked_list_is_near_the_truth(void **state)
     }
 }
 
+/* A beam lies on two balls and is hit from above: the permanent contacts belong to the impact and
+ * open. Without gravity, so that nothing presses them. */
+static void permanent_contacts_open(void **state)
+{
+    (void)state;
+    struct lab *lab = make_lab(0.0);
+    struct loop *loop = calloc(1, sizeof *loop);
+    assert_non_null(loop);
+    loop->lab = lab;
+    uint32_t hammer = loop_add(loop, "ball", 0.05, bar + ball, -0.3);
+    uint32_t left = loop_add(loop, "ball", -0.4, -bar - ball, 0.0);
+    uint32_t right = loop_add(loop, "ball", 0.3, -bar - ball, 0.0);
+    uint32_t beam = loop_add(loop, "beam", 0.0, 0.0, 0.0);
+    loop_pair(loop, hammer, beam, bar, 0.0);
+    /* the beam is a of these; points lie where the balls are */
+    const uint32_t supports[2] = {left, right};
+    for (int i = 0; i < 2; i++) {
+        loop_pair(loop, beam, supports[i], -bar, 0.0);
+        loop->pairs[1 + i].point[0] = loop->bodies[supports[i]].position[0];
+    }
+    double before = loop_kinetic(loop), moved = momentum(loop);
+    loop_start(loop, PERCUSS_SLOW_LIST, 1e-6);
+    loop_step(loop, 0.0);
+    assert_true(percuss_slow_rests(loop->slow, beam, left, 0) == false); /* it takes part */
+    loop_run(loop, 0.1, 1e-3);
+    struct percuss_slow_counts counts = percuss_slow_counts(loop->slow);
+    assert_true(counts.impacts == 1 && counts.requests == 1 && counts.declared == 0);
+    measured("momentum", momentum(loop), moved, 1e-12 * fabs(moved));
+    measured_relative("energy", loop_kinetic(loop) + loop->vibration, before, 1e-5);
+    for (size_t i = 0; i < loop->pair_count; i++)
+        assert_true(loop->pairs[i].gap > 0.0);
+    assert_true(loop->bodies[left].velocity[2] < 0.0 && loop->bodies[right].velocity[2] < 0.0);
+    loop_free(loop);
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(repeated_impacts_keep_the_books),
         cmocka_unit_test(lists_and_totals_end_alike),
         cmocka_unit_test(a_revoked_list_is_near_the_truth),
+        cmocka_unit_test(permanent_contacts_open),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
