@@ -80,7 +80,9 @@ bool question_put(struct percuss_slow *slow, const struct percuss_request *reque
         snprintf(why, size, "%s", problem);
         return false;
     }
-    bool answered = reply->status == PERCUSS_OK || reply->status == PERCUSS_TRUNCATED;
+    /* cut off for its effort an answer ends anywhere; at a horizon, between sub-impacts */
+    bool answered = reply->status == PERCUSS_OK ||
+                    (reply->status == PERCUSS_TRUNCATED && reply->end_reason != PERCUSS_END_LIMIT);
     if (answered && reply->contact_count == request->contact_count)
         return true;
     snprintf(why, size, "%s: %s", status_name(reply->status), reply->message);

@@ -175,7 +175,9 @@ static void fill_errors(const struct accuracy *accuracy, struct solve_result *re
     result->impulse_time = accuracy->steps.impulse;
     result->impulse_modes = accuracy->modes.impulse;
     result->restitution_by_speed = accuracy->restitution_by_speed;
-    result->tolerance_met = accuracy->tolerance_met;
+    /* what was cut off for its effort was compared with nothing */
+    result->tolerance_met =
+        accuracy->tolerance_met && accuracy->outcome.end_reason != PERCUSS_END_LIMIT;
     result->energy = accuracy->outcome.energy;
     result->time_shift = accuracy->outcome.time_shift;
     result->window = accuracy->outcome.window;

@@ -193,6 +193,22 @@ static void unequal_masses(void **state)
     compare(&mixed, 1e-6);
 }
 
+/* Too much for one request: said, and not called accurate. */
+static void effort_is_bounded(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_create();
+    struct row row = equal_row(24);
+    row.speed[0] = 1.0;
+    struct solve_request request = row_request(lab, &row);
+    request.options.tolerance = 1e-8;
+    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_TRUNCATED);
+    assert_int_equal(result.end_reason, PERCUSS_END_LIMIT);
+    assert_false(result.tolerance_met);
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -200,6 +216,7 @@ int main(void)
         cmocka_unit_test(several_spheres_hit_many),
         cmocka_unit_test(rows_hit_from_both_sides),
         cmocka_unit_test(unequal_masses),
+        cmocka_unit_test(effort_is_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

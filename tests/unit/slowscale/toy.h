@@ -75,7 +75,7 @@ static inline double toy_momentum(const struct percuss_body_motion *bodies,
 struct toy_answer {
     enum percuss_result result;
     enum percuss_status status;
-    bool truncated;
+    bool truncated, spent; /* at the horizon; for the effort */
     double window;
     uint32_t count[TOY_BODIES];
     struct percuss_sub_impact subs[TOY_BODIES][TOY_SUBS];
@@ -162,7 +162,9 @@ static inline void toy_fill(const struct toy_answer *answer, const struct percus
     reply->states_after_count = request->body_count;
     reply->window = answer->window;
     reply->complete = !answer->truncated;
-    reply->end_reason = answer->truncated ? PERCUSS_END_HORIZON : PERCUSS_END_SEPARATED;
+    reply->end_reason = answer->spent       ? PERCUSS_END_LIMIT
+                        : answer->truncated ? PERCUSS_END_HORIZON
+                                            : PERCUSS_END_SEPARATED;
     for (size_t i = 0; i < request->body_count; i++)
         snprintf(reply->states_after[i].state, PERCUSS_ID_SIZE, "token-%zu-%zu", number, i);
     for (size_t i = 0; i < request->contact_count; i++) {
