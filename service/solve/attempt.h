@@ -15,7 +15,7 @@ struct attempt_context {
     struct prepared_cache *cache;
     struct arena *arena;
     double tolerance; /* on the restitution */
-    double work;      /* left for the request: steps times (modes + 16 contacts^3) */
+    double work;      /* left for the request (impact.h) */
 };
 
 struct attempt {
