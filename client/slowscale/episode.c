@@ -6,7 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "slow.h"
+#include "episode.h"
+#include "pairs.h"
+#include "question.h"
 
 static const double shortest_horizon = 1e-9; /* s, that the service allows */
 static const double margin = 1e-9; /* s before a sub-impact, for its touch not to be cut in two */

@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "slow.h"
+#include "group.h"
 
 struct group *group_create(const struct percuss_slow *slow, size_t count)
 {
     size_t bodies = slow->config.body_count;
-    size_t numbers = count * count + 5 * count;
+    size_t numbers = count * count + 4 * count;
     struct group *group = calloc(1, sizeof *group + bodies * sizeof *group->bodies +
                                         count * sizeof *group->contacts + numbers * sizeof(double));
     if (!group)
@@ -21,8 +21,7 @@ struct group *group_create(const struct percuss_slow *slow, size_t count)
     group->contacts = (struct percuss_slow_contact *)(group->bodies + bodies);
     group->delassus = (double *)(group->contacts + count);
     group->gap_rate = group->delassus + count * count;
-    group->compression = group->gap_rate + count;
-    group->impulse = group->compression + count;
+    group->impulse = group->gap_rate + count;
     group->restitution = group->impulse + count;
     group->moved = group->restitution + count;
     return group;

@@ -6,7 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "slow.h"
+#include "episode.h"
+#include "impact.h"
+#include "pairs.h"
+#include "question.h"
 
 /* Couplings below this, relative to the contacts' own inverse masses, are rounding. */
 static const double no_coupling = 1e-12;

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "slow.h"
+#include "pairs.h"
 
 static bool is_same(const struct percuss_slow_contact *x, const struct percuss_slow_contact *y)
 {

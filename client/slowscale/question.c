@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "slow.h"
+#include "question.h"
 
 static const double longest_horizon = 10.0; /* s, that the service allows */
 enum { MOST_LONGER = 2 };                   /* questions with a longer horizon */

@@ -2,6 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "slow.h"
+#include "episode.h"
+#include "group.h"
+#include "impact.h"
+#include "pairs.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,0 +1,32 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Answers being played, and revoked. */
+#ifndef PERCUSS_SLOW_EPISODE_H
+#define PERCUSS_SLOW_EPISODE_H
+
+#include "group.h"
+
+/* Latches the group's pairs and enters what is to be applied: by the group's reply to `request`, or
+ * without one the group's impulses now. */
+enum percuss_result episode_begin(struct percuss_slow *slow, const struct group *group,
+                                  const struct percuss_request *request, double now);
+
+/* Applies all entries up to now and forgets episodes that are over; *applied counts them. */
+enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t *applied);
+
+/* The revocable episode that the contact is part of and whose window is not over, or NULL. */
+struct episode *episode_of(const struct percuss_slow *slow,
+                           const struct percuss_slow_contact *contact, double now);
+
+/* The last time up to `time` at which none of its sub-impacts is under way. */
+double episode_pause(const struct episode *episode, double time);
+
+/* Revokes what happens after the group's start: drops it, or takes it back if it was applied. Asks
+ * for the vibration at that time and forgets the episode. What is lost is noted in the group. */
+enum percuss_result episode_preempt(struct percuss_slow *slow, struct episode *episode,
+                                    struct group *group, double now);
+
+void episodes_free(struct percuss_slow *slow);
+
+#endif

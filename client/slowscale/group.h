@@ -1,0 +1,31 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Contacts that are asked about together. */
+#ifndef PERCUSS_SLOW_GROUP_H
+#define PERCUSS_SLOW_GROUP_H
+
+#include "slow.h"
+
+/* Contacts with what the engine says about them; one allocation. */
+struct group {
+    size_t count;
+    double start; /* s: the instant that is asked about; before now if lists were revoked */
+    struct percuss_slow_contact *contacts;
+    double *moved; /* impulses taken back times how long they had been there, N s^2 */
+    double *gap_rate, *delassus, *impulse, *restitution;
+    struct percuss_body_motion *bodies; /* [bodies of the configuration] */
+    const struct percuss_reply *reply;  /* NULL: declared */
+    char message[512];
+};
+
+struct group *group_create(const struct percuss_slow *slow, size_t count); /* NULL: no memory */
+
+/* Asks the engine about the group's contacts: rates, and all else if `everything`. */
+enum percuss_result group_probe(const struct percuss_slow *slow, struct group *group,
+                                bool everything);
+
+/* Appends to the message of a group. */
+void group_note(struct group *group, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

@@ -1,0 +1,36 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Questions to the service, and the vibration that its answers name. */
+#ifndef PERCUSS_SLOW_QUESTION_H
+#define PERCUSS_SLOW_QUESTION_H
+
+#include "group.h"
+
+/* The question about a group; false: too many contacts or bodies for one. */
+bool question_make(const struct percuss_slow *slow, const struct group *group, double now,
+                   struct percuss_request *request);
+
+/* Puts it, again where that helps. False: no usable answer, noted in the group; else *reply is to
+ * be released. */
+bool question_ask(struct percuss_slow *slow, struct group *group, struct percuss_request *request,
+                  struct percuss_reply *reply);
+
+/* One question as it is; false: noted in `why`. */
+bool question_put(struct percuss_slow *slow, const struct percuss_request *request,
+                  struct percuss_reply *reply, char *why, size_t size);
+
+/* Keeps the tokens of a reply to a request about these contacts; they hold at `time`. */
+void tokens_keep(struct percuss_slow *slow, const struct percuss_slow_contact *contacts,
+                 const struct percuss_request *request, const struct percuss_reply *reply,
+                 double time);
+
+/* Back to the tokens of a request at `time`. */
+void tokens_restore(struct percuss_slow *slow, const struct percuss_slow_contact *contacts,
+                    const struct percuss_request *request, double time);
+
+/* The vibration of these contacts' bodies is unknown: taken as rest. */
+void tokens_forget(struct percuss_slow *slow, size_t count,
+                   const struct percuss_slow_contact *contacts);
+
+#endif
