@@ -45,7 +45,7 @@ static const double (*coupling_of_level(struct contact_step *step, const struct 
     if (!all)
         return NULL;
     for (size_t a = 0; a < n; a++) {
-        for (size_t b = 0; b < n; b++) {
+        for (size_t b = 0; b <= a; b++) {
             double(*m)[NODES] = all[a * n + b];
             for (int i = 0; i < NODES; i++) {
                 for (int j = 0; j < NODES; j++)
@@ -62,6 +62,9 @@ static const double (*coupling_of_level(struct contact_step *step, const struct 
                 if (pa && pb)
                     kernel_response(table, group->stride, pa, pb, m);
             }
+            /* W, the residual and the modes' products are symmetric */
+            if (a != b)
+                memcpy(all[b * n + a], m, sizeof all[b * n + a]);
         }
     }
     step->coupling[level] = all;
@@ -135,6 +138,15 @@ static double group_loss(const struct contact_step *step, const struct scene_gro
     return sum;
 }
 
+/* Many contacts of a group are open most of the time. */
+static bool bears_force(const double force[NODES])
+{
+    for (int j = 0; j < NODES; j++)
+        if (force[j] != 0.0)
+            return true;
+    return false;
+}
+
 static void advance(struct contact_step *step, const struct scene *scene,
                     const struct motion *motion, const size_t *list, size_t count, int level)
 {
@@ -153,7 +165,7 @@ static void advance(struct contact_step *step, const struct scene *scene,
         kernel_advance(table, group->stride, motion->q[g], motion->v[g], step->end.q[g],
                        step->end.v[g]);
         for (size_t b = 0; b < count; b++)
-            if (group->participation[list[b]])
+            if (group->participation[list[b]] && bears_force(step->force[list[b]]))
                 kernel_push(table, group->stride, group->participation[list[b]],
                             step->force[list[b]], step->end.q[g], step->end.v[g]);
         if (group->set->damping > 0.0)

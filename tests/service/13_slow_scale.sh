@@ -26,10 +26,10 @@ has_lines() {
 }
 next_impact() { # NUMBER WHAT: the next line begins so
     echo >&8
-    wait_for 20 has_lines "$1" || fail "no impact $1"
+    wait_for 40 has_lines "$1" || fail "no impact $1"
     sed -n "$1p" "$out" | grep -q "^$2" || fail "impact $1 is not: $2"
 }
-wait_for 20 has_lines 1 || fail "no first impact"
+wait_for 40 has_lines 1 || fail "no first impact"
 next_impact 2 "percuss e"
 say "killed: the declared value, logged"
 kill -KILL "$daemon"
@@ -53,7 +53,7 @@ mkfifo "$work/pace2"
 "$peers/slow_client" "$domain" list 2 <"$work/pace2" >"$out" 2>"$err" 9>&- &
 others=$!
 exec 8>"$work/pace2"
-wait_for 20 has_lines 1 || fail "no first impact"
+wait_for 40 has_lines 1 || fail "no first impact"
 stop_daemon
 start_daemon
 echo >&8
