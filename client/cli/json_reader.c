@@ -119,6 +119,29 @@ static bool read_choice(const json_t *value, const struct json_path *path,
     return json_fail(fault, path, "'%s' is not one of: %s", given, allowed);
 }
 
+static bool read_named(const json_t *object, const struct json_path *path,
+                       const struct json_member *member, double *numbers, struct json_fault *fault)
+{
+    const char *name;
+    json_t *value;
+    if (!json_is_object(object))
+        return json_fail(fault, path, "an object is needed, not %s", json_kind_of(object));
+    json_object_foreach((json_t *)object, name, value)
+    {
+        struct json_path here = {path, name, 0};
+        char allowed[256] = "";
+        unsigned i = 0;
+        for (; i < member->size && strcmp(name, member->name_of(i)); ++i)
+            append(allowed, sizeof allowed, "%s%s", i ? ", " : "", member->name_of(i));
+        if (i == member->size)
+            return json_fail(fault, &here, "unknown member; allowed are: %s", allowed);
+        if (!json_is_number(value))
+            return json_fail(fault, &here, "a number is needed, not %s", json_kind_of(value));
+        numbers[i] = json_number_value(value);
+    }
+    return true;
+}
+
 static bool read_member(const json_t *value, const struct json_path *path,
                         const struct json_member *member, void *target, struct json_fault *fault)
 {
@@ -139,6 +162,8 @@ static bool read_member(const json_t *value, const struct json_path *path,
             return json_fail(fault, path, "true or false is needed, not %s", json_kind_of(value));
         *(bool *)target = json_is_true(value);
         return true;
+    case JSON_KIND_NAMED:
+        return read_named(value, path, member, target, fault);
     case JSON_KIND_CHOICE:
         return read_choice(value, path, member, target, fault);
     }

@@ -27,6 +27,8 @@ enum json_kind {
     JSON_KIND_TEXT,   /* char[size] */
     JSON_KIND_INDEX,  /* uint32_t */
     JSON_KIND_FLAG,   /* bool */
+    JSON_KIND_NAMED,  /* `size` doubles, an object's members by the names that `name_of` gives their
+                         indices; absent ones stay as they are */
     JSON_KIND_CHOICE  /* unsigned, by the name that `name_of` gives its numbers below `size` */
 };
 

@@ -3,11 +3,18 @@
 
 #include "request_json.h"
 
+#include <math.h>
 #include <percuss/percuss.h>
 #include <stdio.h>
 #include <string.h>
 
-#define BODY(member)    offsetof(struct percuss_body_motion, member)
+/* A body as it is read. */
+struct json_body {
+    struct percuss_body_motion motion;
+    double overrides[PERCUSS_PARAMETER_COUNT]; /* NAN: not given */
+};
+
+#define BODY(member)    offsetof(struct json_body, motion.member)
 #define CONTACT(member) offsetof(struct percuss_contact, member)
 #define OPTION(member)  offsetof(struct percuss_options, member)
 
@@ -20,6 +27,8 @@ static const struct json_member body_members[] = {
     {"state", JSON_KIND_TEXT, BODY(state), PERCUSS_ID_SIZE, NULL},
     {"elapsed", JSON_KIND_NUMBER, BODY(elapsed), 0, NULL},
     {"specimen", JSON_KIND_TEXT, BODY(specimen), PERCUSS_ID_SIZE, NULL},
+    {"overrides", JSON_KIND_NAMED, offsetof(struct json_body, overrides), PERCUSS_PARAMETER_COUNT,
+     percuss_parameter_name},
     {0},
 };
 
@@ -67,9 +76,17 @@ static bool read_bodies(const json_t *array, const struct json_path *path,
         return false;
     for (size_t i = 0; i < json_array_size(array); ++i) {
         struct percuss_body_motion *body = percuss_request_add_body(&request->request, "");
+        struct json_body read = {.motion = *body};
+        for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; ++p)
+            read.overrides[p] = NAN;
         if (!json_read_object(json_array_get(array, i), &(struct json_path){path, NULL, i},
-                              body_members, body, fault))
+                              body_members, &read, fault))
             return false;
+        *body = read.motion;
+        for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; ++p)
+            if (!isnan(read.overrides[p]))
+                body->overrides[body->override_count++] =
+                    (struct percuss_override){p, read.overrides[p]};
     }
     return true;
 }

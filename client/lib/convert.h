@@ -12,6 +12,7 @@
 /* Where a wire request's sequences live while it is written. */
 struct request_storage {
     percuss_v1_BodyMotion bodies[PERCUSS_MAX_BODIES];
+    percuss_v1_Override overrides[PERCUSS_MAX_BODIES][PERCUSS_PARAMETER_COUNT];
     percuss_v1_Contact contacts[PERCUSS_MAX_CONTACTS];
 };
 

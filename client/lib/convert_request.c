@@ -17,8 +17,9 @@ static bool copy_text(char *target, const char *source)
 }
 
 static enum percuss_result convert_body(const struct percuss_body_motion *body, size_t index,
-                                        percuss_v1_BodyMotion *wire)
+                                        struct request_storage *storage)
 {
+    percuss_v1_BodyMotion *wire = &storage->bodies[index];
     const char *field = NULL;
     if (!copy_text(wire->id, body->id))
         field = "id";
@@ -30,6 +31,16 @@ static enum percuss_result convert_body(const struct percuss_body_motion *body, 
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "bodies[%zu].%s: not terminated; up to %d bytes are allowed", index, field,
                          PERCUSS_ID_SIZE - 1);
+    if (body->override_count > PERCUSS_PARAMETER_COUNT)
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                         "bodies[%zu].override_count: %u are too many; up to %d are allowed", index,
+                         body->override_count, PERCUSS_PARAMETER_COUNT);
+    for (uint32_t i = 0; i < body->override_count; ++i)
+        storage->overrides[index][i] =
+            (percuss_v1_Override){body->overrides[i].parameter, body->overrides[i].value};
+    wire->overrides._buffer = storage->overrides[index];
+    wire->overrides._length = wire->overrides._maximum = body->override_count;
+    wire->overrides._release = false;
     memcpy(wire->position, body->position, sizeof wire->position);
     memcpy(wire->orientation, body->orientation, sizeof wire->orientation);
     memcpy(wire->velocity, body->velocity, sizeof wire->velocity);
@@ -78,7 +89,7 @@ enum percuss_result convert_request(const struct percuss_request *request,
     if (result == PERCUSS_RESULT_OK)
         result = check_count("contacts", request->contact_count, PERCUSS_MAX_CONTACTS);
     for (size_t i = 0; result == PERCUSS_RESULT_OK && i < request->body_count; ++i)
-        result = convert_body(&request->bodies[i], i, &storage->bodies[i]);
+        result = convert_body(&request->bodies[i], i, storage);
     if (result != PERCUSS_RESULT_OK)
         return result;
     for (size_t i = 0; i < request->contact_count; ++i)

@@ -59,6 +59,12 @@ const char *percuss_dents_name(unsigned dents)
     return name_of(names, COUNT(names), dents);
 }
 
+const char *percuss_parameter_name(unsigned parameter)
+{
+    static const char *const names[] = {PERCUSS_PARAMETER_LIST(NAME_TEXT)};
+    return name_of(names, COUNT(names), parameter);
+}
+
 const char *percuss_delassus_source_name(unsigned source)
 {
     static const char *const names[] = {PERCUSS_DELASSUS_SOURCE_LIST(NAME_TEXT)};

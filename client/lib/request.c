@@ -12,7 +12,7 @@ struct percuss_options percuss_options_default(void)
 
 void percuss_request_init(struct percuss_request *request)
 {
-    // the 25 KiB of bodies and contacts are filled as they are added
+    // the 32 KiB of bodies and contacts are filled as they are added
     request->sequence = 0;
     request->body_count = 0;
     request->contact_count = 0;

@@ -51,6 +51,16 @@
     X(SERVICE, "service")                                                                          \
     X(CLIENT, "client")
 
+/* What a request may change of a body; units and ranges as in the catalogue. */
+#define PERCUSS_PARAMETER_LIST(X)                                                                  \
+    X(YOUNG, "young")                                                                              \
+    X(POISSON, "poisson")                                                                          \
+    X(DENSITY, "density")                                                                          \
+    X(YIELD, "yield")                                                                              \
+    X(TANGENT, "tangent")                                                                          \
+    X(DAMPING, "damping")                                                                          \
+    X(RADIUS, "radius")
+
 #define PERCUSS_STATUS_MEMBER(name, text)     PERCUSS_##name,
 #define PERCUSS_END_MEMBER(name, text)        PERCUSS_END_##name,
 #define PERCUSS_CONTACT_MEMBER(name, text)    PERCUSS_CONTACT_##name,
@@ -58,6 +68,7 @@
 #define PERCUSS_COMPLIANCE_MEMBER(name, text) PERCUSS_COMPLIANCE_##name,
 #define PERCUSS_DENTS_MEMBER(name, text)      PERCUSS_DENTS_##name,
 #define PERCUSS_DELASSUS_MEMBER(name, text)   PERCUSS_DELASSUS_##name,
+#define PERCUSS_PARAMETER_MEMBER(name, text)  PERCUSS_PARAMETER_##name,
 
 enum percuss_status { PERCUSS_STATUS_LIST(PERCUSS_STATUS_MEMBER) PERCUSS_STATUS_COUNT };
 enum percuss_end_reason { PERCUSS_END_REASON_LIST(PERCUSS_END_MEMBER) PERCUSS_END_COUNT };
@@ -72,6 +83,7 @@ enum percuss_dents { PERCUSS_DENTS_LIST(PERCUSS_DENTS_MEMBER) PERCUSS_DENTS_COUN
 enum percuss_delassus_source {
     PERCUSS_DELASSUS_SOURCE_LIST(PERCUSS_DELASSUS_MEMBER) PERCUSS_DELASSUS_COUNT
 };
+enum percuss_parameter { PERCUSS_PARAMETER_LIST(PERCUSS_PARAMETER_MEMBER) PERCUSS_PARAMETER_COUNT };
 
 /* Sizes on the wire, terminating zero included. */
 enum {

@@ -11,6 +11,7 @@
 #include "endpoint/clock.h"
 #include "endpoint/decode.h"
 #include "endpoint/encode.h"
+#include "endpoint/hash.h"
 
 struct seat *seat_create(void)
 {
@@ -45,6 +46,29 @@ static enum percuss_status check_deadline(const struct question *question, const
                      when, passed);
 }
 
+/* Whose state it is: a body with other parameters has other states. */
+struct subject_name {
+    char text[TOKEN_BODY_SIZE];
+};
+
+static struct token_subject subject_of(const struct question *question, size_t index,
+                                       struct subject_name *name)
+{
+    const percuss_v1_BodyMotion *body = &question->request->bodies._buffer[index];
+    struct hasher hasher = {0};
+    for (uint32_t i = 0; i < body->overrides._length; i++) {
+        hash_number(&hasher, body->overrides._buffer[i].parameter);
+        hash_bytes(&hasher, &body->overrides._buffer[i].value, sizeof(double));
+    }
+    struct digest digest = hash_digest(&hasher);
+    if (body->overrides._length > 0)
+        snprintf(name->text, sizeof name->text, "%s/%016llx%016llx", body->id,
+                 (unsigned long long)digest.first, (unsigned long long)digest.second);
+    else
+        snprintf(name->text, sizeof name->text, "%s", body->id);
+    return (struct token_subject){question->set->revision, name->text};
+}
+
 static enum percuss_status hold_state(struct seat *seat, struct token_store *tokens,
                                       const struct question *question, size_t index,
                                       struct fault *fault)
@@ -54,7 +78,8 @@ static enum percuss_status hold_state(struct seat *seat, struct token_store *tok
     /* an unknown body is the solver's to refuse */
     if (!*token || !body_set_find(question->set, body->id))
         return PERCUSS_OK;
-    struct token_subject subject = {question->set->revision, body->id};
+    struct subject_name name;
+    struct token_subject subject = subject_of(question, index, &name);
     struct fault reason;
     body->state = token_store_hold(tokens, token, &subject, clock_now(), &reason);
     if (body->state)
@@ -93,7 +118,8 @@ static void name_states(struct seat *seat, struct token_store *tokens,
     double now = clock_now();
     for (size_t i = 0; i < seat->result.body_count; i++) {
         const struct solve_body_result *body = &seat->result.bodies[i];
-        struct token_subject subject = {question->set->revision, body->id};
+        struct subject_name name;
+        struct token_subject subject = subject_of(question, i, &name);
         seat->tokens[i][0] = '\0';
         if (body->state_after)
             token_store_put(tokens, &subject, body->state_after, now, seat->tokens[i]);

@@ -19,6 +19,23 @@ static const double least_horizon = 1e-9, max_horizon = 10.0; /* s */
 static const double least_tolerance = 1e-12;   /* of double precision nothing finer is left */
 static const double delassus_asymmetry = 1e-9; /* of the two contacts' own inverse masses */
 
+/* Ranges are the catalogue's, and the solver's to check. */
+static void decode_overrides(struct check *check, const percuss_v1_BodyMotion *wire,
+                             struct solve_body *body)
+{
+    size_t count = wire->overrides._length;
+    check_that(check, count <= PERCUSS_PARAMETER_COUNT, "overrides: %zu given: must be at most %d",
+               count, PERCUSS_PARAMETER_COUNT);
+    body->variation_count = 0;
+    for (size_t i = 0; !check->status && i < count; i++) {
+        const percuss_v1_Override *override = &wire->overrides._buffer[i];
+        check_choice(check, "overrides.parameter", override->parameter, PERCUSS_PARAMETER_COUNT,
+                     parameter_name);
+        body->variations[body->variation_count++] =
+            (struct body_variation){override->parameter, override->value};
+    }
+}
+
 static void decode_body(struct check *check, const percuss_v1_BodyMotion *wire,
                         struct solve_body *body)
 {
@@ -41,6 +58,7 @@ static void decode_body(struct check *check, const percuss_v1_BodyMotion *wire,
     memcpy(body->angular_velocity, wire->angular_velocity, sizeof body->angular_velocity);
     body->state = NULL;
     body->elapsed = wire->elapsed;
+    decode_overrides(check, wire, body);
 }
 
 static void check_index(struct check *check, const char *field, unsigned index, size_t count)

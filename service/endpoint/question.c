@@ -17,6 +17,11 @@ static void hash_body(struct hasher *hasher, const percuss_v1_BodyMotion *body)
     hash_text(hasher, body->state);
     hash_bytes(hasher, &body->elapsed, sizeof body->elapsed);
     hash_text(hasher, body->specimen);
+    hash_number(hasher, body->overrides._length);
+    for (uint32_t i = 0; i < body->overrides._length; i++) {
+        hash_number(hasher, body->overrides._buffer[i].parameter);
+        hash_bytes(hasher, &body->overrides._buffer[i].value, sizeof(double));
+    }
 }
 
 static void hash_contact(struct hasher *hasher, const percuss_v1_Contact *contact)
@@ -96,8 +101,19 @@ static char *copy_list(char *at, const void *list, size_t bytes)
 
 static size_t lists_size(const percuss_v1_Request *request)
 {
-    return round_up(LIST_BYTES(request->bodies)) + round_up(LIST_BYTES(request->contacts)) +
-           round_up(LIST_BYTES(request->delassus));
+    size_t size = round_up(LIST_BYTES(request->bodies)) + round_up(LIST_BYTES(request->contacts)) +
+                  round_up(LIST_BYTES(request->delassus));
+    for (uint32_t i = 0; i < request->bodies._length; i++)
+        size += round_up(LIST_BYTES(request->bodies._buffer[i].overrides));
+    return size;
+}
+
+/* Copies the lists within the bodies of a copied request to `at` and returns the place behind. */
+static char *copy_overrides(percuss_v1_Request *copy, const percuss_v1_Request *request, char *at)
+{
+    for (uint32_t i = 0; i < request->bodies._length; i++)
+        COPY_SEQUENCE(&copy->bodies._buffer[i], &request->bodies._buffer[i], overrides, at);
+    return at;
 }
 
 percuss_v1_Request *question_copy(const percuss_v1_Request *requests, size_t count)
@@ -114,6 +130,7 @@ percuss_v1_Request *question_copy(const percuss_v1_Request *requests, size_t cou
         COPY_SEQUENCE(&copies[i], &requests[i], bodies, at);
         COPY_SEQUENCE(&copies[i], &requests[i], contacts, at);
         COPY_SEQUENCE(&copies[i], &requests[i], delassus, at);
+        at = copy_overrides(&copies[i], &requests[i], at);
     }
     return copies;
 }

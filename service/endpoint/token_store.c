@@ -20,7 +20,7 @@ struct stored_state {
     size_t size;      /* of the state */
     double used;      /* time of the last use */
     char revision[PERCUSS_ID_SIZE];
-    char body[PERCUSS_ID_SIZE];
+    char body[TOKEN_BODY_SIZE];
     _Alignas(max_align_t) unsigned char state[];
 };
 

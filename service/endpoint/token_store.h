@@ -24,9 +24,10 @@ struct token_store *token_store_create(const struct token_limits *limits); /* NU
 void token_store_free(struct token_store *store); /* nothing may be held any more */
 
 /* Whose state it is. */
+enum { TOKEN_BODY_SIZE = PERCUSS_ID_SIZE + 40 };
 struct token_subject {
     const char *revision; /* of the catalogue */
-    const char *body;
+    const char *body;     /* below TOKEN_BODY_SIZE: its id, and a hash of the request's overrides */
 };
 
 /* Keeps a copy of the state and writes its token. Without memory the token is empty: the state is

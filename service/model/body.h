@@ -33,6 +33,7 @@ struct body {
     enum support supports[2]; /* rod, beam: at x = -length/2, +length/2 */
     double damping;           /* modal damping ratio, [0, 1) */
     unsigned modes;           /* fixed number of modes a family; 0: from the tolerance */
+    bool varied;              /* by body_vary */
 
     /* Set by body_complete. */
     double mass; /* kg; INFINITY: half-space */
@@ -47,6 +48,21 @@ struct body {
  * with the field, its value and what is allowed (sizes > 0 and finite, poisson in (-1, 0.5), ...).
  */
 enum percuss_status body_complete(struct body *body, struct fault *fault);
+
+/* A parameter that a request changes. */
+struct body_variation {
+    enum percuss_parameter parameter;
+    double value;
+};
+
+/* A copy of `body` with these parameters instead of its own, each at most once, completed.
+ * PERCUSS_BAD_REQUEST with the parameter, its value and what is allowed: out of range, given twice,
+ * or not a parameter of such a body. */
+enum percuss_status body_vary(const struct body *body, const struct body_variation *variations,
+                              size_t count, struct body *varied, struct fault *fault);
+
+/* Whether two variants of one body of the catalogue have the same modes. */
+bool body_same_modes(const struct body *a, const struct body *b);
 
 /* Whether it can vibrate: a rod or a beam. */
 bool body_is_flexible(const struct body *body);

@@ -17,8 +17,24 @@ static const double MAX_SPEED = 1e4;
 /* So is a mass beyond these. */
 static const double MIN_INVERSE_MASS = 1e-100;
 
+/* Puts the body with the request's own parameters in its place. */
+static enum percuss_status vary(const struct body **body, const struct solve_body *asked,
+                                size_t index, struct arena *arena, struct fault *fault)
+{
+    struct body *varied = arena_take(arena, 1, sizeof *varied);
+    struct fault reason = {0};
+    if (!varied)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    if (body_vary(*body, asked->variations, asked->variation_count, varied, &reason))
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "bodies[%zu].overrides: %.500s", index,
+                         reason.text);
+    *body = varied;
+    return PERCUSS_OK;
+}
+
 static enum percuss_status find_bodies(struct geometry *geometry, const struct body_set *catalogue,
-                                       const struct solve_request *request, struct fault *fault)
+                                       const struct solve_request *request, struct arena *arena,
+                                       struct fault *fault)
 {
     for (size_t i = 0; i < request->body_count; i++) {
         const struct solve_body *body = &request->bodies[i];
@@ -28,6 +44,11 @@ static enum percuss_status find_bodies(struct geometry *geometry, const struct b
                              "bodies[%zu].id: '%s': not in the catalogue (%zu bodies; percuss "
                              "bodies lists them)",
                              i, body->id, catalogue->count);
+        enum percuss_status status = PERCUSS_OK;
+        if (body->variation_count > 0)
+            status = vary(&geometry->bodies[i], body, i, arena, fault);
+        if (status)
+            return status;
         memcpy(geometry->poses[i].position, body->position, sizeof body->position);
         rotation_matrix(body->orientation, geometry->poses[i].rotation);
     }
@@ -238,7 +259,7 @@ enum percuss_status geometry_find(struct geometry *geometry, const struct body_s
     geometry->contact_count = request->contact_count;
     if (!allocate(geometry, arena))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = find_bodies(geometry, catalogue, request, fault);
+    enum percuss_status status = find_bodies(geometry, catalogue, request, arena, fault);
     for (size_t i = 0; !status && i < request->contact_count; i++) {
         status = place_contact(geometry, request, i, fault);
         if (!status)

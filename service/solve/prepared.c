@@ -10,6 +10,8 @@
 #include "fe/matched.h"
 
 enum { BUCKETS = 256, ROUNDING = 8 };
+/* Bodies with parameters of a request's own that are kept: a calibration comes back to a few. */
+enum { MOST_VARIED = 32 };
 
 /* Stands for all modes from index `first` on. */
 struct remainder {
@@ -20,7 +22,7 @@ struct remainder {
 
 struct entry {
     struct entry *next;
-    char id[PERCUSS_ID_SIZE];
+    struct body body; /* a copy: its key, see body_same_modes */
     struct prepared_family *families[FAMILY_COUNT];
     struct remainder *remainders[FAMILY_COUNT];
     enum { UNASKED, KNOWN, NONE } matched_is;
@@ -31,6 +33,7 @@ struct prepared_cache {
     char revision[PERCUSS_ID_SIZE];
     struct entry *buckets[BUCKETS];
     struct prepared_family *retired; /* outgrown, but a scene may still point at them */
+    size_t varied;                   /* entries of varied bodies */
 };
 
 static void family_free(struct prepared_family *family)
@@ -102,20 +105,25 @@ static void remainders_free(struct remainder *list)
     }
 }
 
-static void forget(struct prepared_cache *cache)
+/* Forgets all bodies, or only the varied ones. */
+static void forget(struct prepared_cache *cache, bool only_varied)
 {
     for (size_t b = 0; b < BUCKETS; b++) {
-        for (struct entry *entry = cache->buckets[b]; entry;) {
-            struct entry *next = entry->next;
+        for (struct entry **link = &cache->buckets[b]; *link;) {
+            struct entry *entry = *link;
+            if (only_varied && !entry->body.varied) {
+                link = &entry->next;
+                continue;
+            }
+            *link = entry->next;
             for (int f = 0; f < FAMILY_COUNT; f++) {
                 family_free(entry->families[f]);
                 remainders_free(entry->remainders[f]);
             }
             free(entry);
-            entry = next;
         }
-        cache->buckets[b] = NULL;
     }
+    cache->varied = 0;
 }
 
 static void free_retired(struct prepared_cache *cache)
@@ -132,34 +140,37 @@ void prepared_cache_free(struct prepared_cache *cache)
     if (!cache)
         return;
     free_retired(cache);
-    forget(cache);
+    forget(cache, false);
     free(cache);
 }
 
 void prepared_cache_use(struct prepared_cache *cache, const char *revision)
 {
     free_retired(cache);
+    if (cache->varied > MOST_VARIED)
+        forget(cache, true);
     if (strncmp(cache->revision, revision, sizeof cache->revision) == 0)
         return;
-    forget(cache);
+    forget(cache, false);
     snprintf(cache->revision, sizeof cache->revision, "%s", revision);
 }
 
-static struct entry *find_entry(struct prepared_cache *cache, const char *id)
+static struct entry *find_entry(struct prepared_cache *cache, const struct body *body)
 {
     unsigned hash = 2166136261u;
-    for (const char *c = id; *c; c++)
+    for (const char *c = body->id; *c; c++)
         hash = (hash ^ (unsigned char)*c) * 16777619u;
     struct entry **bucket = &cache->buckets[hash % BUCKETS];
     for (struct entry *entry = *bucket; entry; entry = entry->next)
-        if (strcmp(entry->id, id) == 0)
+        if (body_same_modes(&entry->body, body))
             return entry;
     struct entry *entry = calloc(1, sizeof *entry);
     if (!entry)
         return NULL;
-    snprintf(entry->id, sizeof entry->id, "%s", id);
+    entry->body = *body;
     entry->next = *bucket;
     *bucket = entry;
+    cache->varied += body->varied;
     return entry;
 }
 
@@ -167,7 +178,7 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
                                                   const struct body *body, enum mode_family family,
                                                   size_t count)
 {
-    struct entry *entry = find_entry(cache, body->id);
+    struct entry *entry = find_entry(cache, body);
     if (!entry)
         return NULL;
     struct prepared_family *known = entry->families[family];
@@ -189,7 +200,7 @@ struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const s
                                            enum mode_family family, size_t first)
 {
     const struct prepared_family *modes = prepared_family_get(cache, body, family, first + 1);
-    struct entry *entry = modes ? find_entry(cache, body->id) : NULL;
+    struct entry *entry = modes ? find_entry(cache, body) : NULL;
     if (!entry)
         return NULL;
     for (struct remainder *known = entry->remainders[family]; known; known = known->next)

@@ -23,6 +23,8 @@ struct solve_body {
     double angular_velocity[3];
     const struct body_state *state; /* NULL: at rest, without dents; borrowed */
     double elapsed;                 /* s since that state */
+    size_t variation_count;
+    struct body_variation variations[PERCUSS_PARAMETER_COUNT]; /* instead of the catalogue's */
 };
 
 struct solve_contact {

@@ -15,6 +15,12 @@
 extern "C" {
 #endif
 
+/* A parameter of a body in this request only, instead of the catalogue's. */
+struct percuss_override {
+    enum percuss_parameter parameter; /* PERCUSS_PARAMETER_YOUNG, ... */
+    double value;
+};
+
 /* One body at the stated instant. */
 struct percuss_body_motion {
     char id[PERCUSS_ID_SIZE];       /* name in the server's catalogue */
@@ -25,6 +31,8 @@ struct percuss_body_motion {
     char state[PERCUSS_ID_SIZE];    /* token of an earlier reply; "": at rest, without dents */
     double elapsed;                 /* s since that state */
     char specimen[PERCUSS_ID_SIZE]; /* durable object on a rig; "": none */
+    uint32_t override_count;
+    struct percuss_override overrides[PERCUSS_PARAMETER_COUNT]; /* each parameter once */
 };
 
 struct percuss_contact {
@@ -47,7 +55,7 @@ struct percuss_options {
     double deadline;   /* s from arrival until the server gives up; 0: none */
 };
 
-/* About 25 KiB; only the first body_count and contact_count elements are read. */
+/* About 32 KiB; only the first body_count and contact_count elements are read. */
 struct percuss_request {
     uint64_t sequence; /* 0: the client counts. Set it to repeat a request after a time-out */
     size_t body_count, contact_count;

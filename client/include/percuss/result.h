@@ -47,6 +47,7 @@ PERCUSS_API const char *percuss_end_reason_name(unsigned end_reason);
 PERCUSS_API const char *percuss_contact_model_name(unsigned contact_model);
 PERCUSS_API const char *percuss_method_name(unsigned method);
 PERCUSS_API const char *percuss_compliance_name(unsigned compliance);
+PERCUSS_API const char *percuss_parameter_name(unsigned parameter);
 PERCUSS_API const char *percuss_dents_name(unsigned dents);
 PERCUSS_API const char *percuss_delassus_source_name(unsigned source);
 

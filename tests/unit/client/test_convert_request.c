@@ -27,6 +27,8 @@ static void fill(void)
     strcpy(body->state, "t");
     body->elapsed = 4;
     strcpy(body->specimen, "rig");
+    body->overrides[body->override_count++] =
+        (struct percuss_override){PERCUSS_PARAMETER_DENSITY, 9};
     percuss_request_add_body(&request, "beam");
     struct percuss_contact *contact = percuss_request_add_contact(&request, 0, 1);
     contact->point[0] = 5;
@@ -47,6 +49,10 @@ static void converts_bodies_and_contacts(void **state)
     assert_true(body[0].angular_velocity[1] == 3 && body[0].elapsed == 4);
     assert_string_equal(body[0].state, "t");
     assert_string_equal(body[0].specimen, "rig");
+    assert_int_equal(body[0].overrides._length, 1);
+    assert_int_equal(body[0].overrides._buffer[0].parameter, PERCUSS_PARAMETER_DENSITY);
+    assert_true(body[0].overrides._buffer[0].value == 9);
+    assert_int_equal(body[1].overrides._length, 0);
     assert_true(body[1].orientation[0] == 1 && body[1].elapsed == 0);
     assert_int_equal(wire.contacts._length, 1);
     const percuss_v1_Contact *contact = wire.contacts._buffer;

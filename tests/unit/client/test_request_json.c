@@ -69,7 +69,8 @@ static void reads_the_request_of_the_contract(void **state)
 static void reads_every_member(void **state)
 {
     (void)state;
-    accept("{\"bodies\": [{\"state\": \"t1\", \"elapsed\": 2.5, \"specimen\": \"rod 7\"}],"
+    accept("{\"bodies\": [{\"state\": \"t1\", \"elapsed\": 2.5, \"specimen\": \"rod 7\", "
+           "\"overrides\": {\"damping\": 0.01, \"young\": 71e9}}],"
            "\"contacts\": [{\"gap\": -1e-4, \"gap_acceleration\": -9.81}],"
            "\"options\": {\"horizon\": 0.01, \"contact_model\": \"closed-form\", \"method\": "
            "\"cvode\","
@@ -80,6 +81,9 @@ static void reads_every_member(void **state)
     assert_string_equal(request.request.bodies[0].state, "t1");
     assert_true(request.request.bodies[0].elapsed == 2.5);
     assert_string_equal(request.request.bodies[0].specimen, "rod 7");
+    assert_int_equal(request.request.bodies[0].override_count, 2);
+    assert_int_equal(request.request.bodies[0].overrides[0].parameter, PERCUSS_PARAMETER_YOUNG);
+    assert_true(request.request.bodies[0].overrides[1].value == 0.01);
     assert_true(request.request.contacts[0].gap == -1e-4);
     assert_true(request.request.contacts[0].gap_acceleration == -9.81);
     assert_true(options->horizon == 0.01 && options->deadline == 3.0);
@@ -92,6 +96,17 @@ static void reads_every_member(void **state)
     assert_int_equal(request.client[10], 0x0a);
     assert_int_equal(request.client[15], 0xff);
     assert_int_equal(request.request.sequence, 12);
+}
+
+static void refuses_unknown_overrides(void **state)
+{
+    (void)state;
+    refuse("{\"bodies\": [{\"overrides\": {\"colour\": 1}}]}",
+           "bodies[0].overrides.colour: unknown member; allowed are: young, poisson");
+    refuse("{\"bodies\": [{\"overrides\": {\"young\": \"stiff\"}}]}",
+           "bodies[0].overrides.young: a number is needed, not text");
+    refuse("{\"bodies\": [{\"overrides\": [1]}]}",
+           "bodies[0].overrides: an object is needed, not an array");
 }
 
 static void takes_an_empty_request(void **state)
@@ -221,6 +236,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reads_the_request_of_the_contract),
         cmocka_unit_test(reads_every_member),
+        cmocka_unit_test(refuses_unknown_overrides),
         cmocka_unit_test(takes_an_empty_request),
         cmocka_unit_test(reads_delassus_flat_or_in_rows),
         cmocka_unit_test(refuses_unknown_members),

@@ -45,6 +45,26 @@ static void converts_a_good_request(void **state)
     assert_true(request.options.conditioning);
 }
 
+static void converts_overrides(void **state)
+{
+    (void)state;
+    struct fault fault;
+    percuss_v1_Override overrides[] = {{PERCUSS_PARAMETER_YOUNG, 71e9},
+                                       {PERCUSS_PARAMETER_DAMPING, 0.0}};
+    sample_fill(&sample);
+    sample.bodies[1].overrides._buffer = overrides;
+    sample.bodies[1].overrides._length = 2;
+    assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_OK);
+    assert_int_equal(request.bodies[0].variation_count, 0);
+    assert_int_equal(request.bodies[1].variation_count, 2);
+    assert_int_equal(request.bodies[1].variations[1].parameter, PERCUSS_PARAMETER_DAMPING);
+    assert_true(request.bodies[1].variations[0].value == 71e9);
+    overrides[0].parameter = PERCUSS_PARAMETER_COUNT;
+    assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_BAD_REQUEST);
+    assert_non_null(
+        strstr(fault.text, "bodies[1].overrides.parameter: 7: must be one of 0 (young)"));
+}
+
 static void takes_zeros_for_defaults(void **state)
 {
     (void)state;
@@ -227,6 +247,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(converts_a_good_request),
+        cmocka_unit_test(converts_overrides),
         cmocka_unit_test(takes_zeros_for_defaults),
         cmocka_unit_test(normalises_what_is_nearly_unit),
         cmocka_unit_test(refuses_bad_counts),

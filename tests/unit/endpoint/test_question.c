@@ -78,11 +78,24 @@ static void copies_outlive_their_sample(void **state)
     both[0] = both[1] = sample.wire;
     both[1].delassus._length = 0;
     both[1].delassus._buffer = NULL;
+    percuss_v1_Override override = {PERCUSS_PARAMETER_YOUNG, 71e9};
+    percuss_v1_BodyMotion varied[2];
+    memcpy(varied, sample.bodies, sizeof varied);
+    varied[1].overrides._buffer = &override;
+    varied[1].overrides._length = 1;
+    both[1].bodies._buffer = varied;
+    struct digest with_override = question_digest_single(&both[1]);
+    override.value = 72e9;
+    assert_false(same(question_digest_single(&both[1]), with_override));
     percuss_v1_Request *copies = question_copy(both, 2);
     memset(&sample, 0xff, sizeof sample);
+    memset(varied, 0xff, sizeof varied);
+    override.value = 0.0;
     assert_true(same(question_digest_single(&copies[0]), digest));
     assert_true(copies[1].bodies._buffer[1].velocity[2] == -0.5);
     assert_int_equal(copies[1].delassus._length, 0);
+    assert_int_equal(copies[1].bodies._buffer[1].overrides._length, 1);
+    assert_true(copies[1].bodies._buffer[1].overrides._buffer[0].value == 72e9);
     free(copies);
 }
 

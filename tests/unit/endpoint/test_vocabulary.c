@@ -13,6 +13,8 @@
 #define YIELDING(name, text)                                                                       \
     assert_int_equal(PERCUSS_COMPLIANCE_##name, percuss_v1_COMPLIANCE_##name);
 #define DENTS(name, text) assert_int_equal(PERCUSS_DENTS_##name, percuss_v1_DENTS_##name);
+#define PARAMETER(name, text)                                                                      \
+    assert_int_equal(PERCUSS_PARAMETER_##name, percuss_v1_PARAMETER_##name);
 #define SOURCE(name, text)                                                                         \
     assert_int_equal(PERCUSS_DELASSUS_##name, percuss_v1_DELASSUS_SOURCE_##name);
 
@@ -25,6 +27,7 @@ static void numbers_are_those_of_the_wire(void **state)
     PERCUSS_METHOD_LIST(METHOD)
     PERCUSS_COMPLIANCE_LIST(YIELDING)
     PERCUSS_DENTS_LIST(DENTS)
+    PERCUSS_PARAMETER_LIST(PARAMETER)
     PERCUSS_DELASSUS_SOURCE_LIST(SOURCE)
     assert_int_equal(SUPPORT_FREE, percuss_v1_SUPPORT_FREE);
     assert_int_equal(SUPPORT_PINNED, percuss_v1_SUPPORT_PINNED);
@@ -58,6 +61,7 @@ static void the_idl_has_no_other_constants(void **state)
         {"COMPLIANCE_", PERCUSS_COMPLIANCE_COUNT},
         {"DENTS_", PERCUSS_DENTS_COUNT},
         {"DELASSUS_SOURCE_", PERCUSS_DELASSUS_COUNT},
+        {"PARAMETER_", PERCUSS_PARAMETER_COUNT},
         {"SUPPORT_", SUPPORT_CLAMPED + 1},
     };
     FILE *file = fopen(PERCUSS_SOURCE_DIR "/idl/percuss_wire.idl", "r");
