@@ -6,6 +6,7 @@
 #ifndef PERCUSS_IMPACT_IMPACT_H
 #define PERCUSS_IMPACT_IMPACT_H
 
+#include "impact/force_log.h"
 #include "impact/motion.h"
 #include "impact/result.h"
 #include "impact/track.h"
@@ -15,6 +16,7 @@ struct impact_settings {
     double horizon;  /* s from the stated instant */
     double max_work; /* contact steps and flight intervals, times modes + 8 contacts (contacts that
                         each feels)^2 + 2 contacts^2 + 6 contacts */
+    struct force_log *log; /* takes the contact forces down; NULL: nobody asks. Only impact_modal */
 };
 
 /* Everything here lives in the arena given to impact_create. */

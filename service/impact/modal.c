@@ -287,6 +287,8 @@ static void accept(struct modal_run *run, int level)
 {
     double start = run->motion->time;
     struct motion old = *run->motion;
+    if (run->settings->log)
+        force_log_add(run->settings->log, start, level, run->step.force, run->step.indentation);
     *run->motion = run->step.end;
     run->step.end = old;
     run->damping += run->step.loss;

@@ -60,6 +60,7 @@ static void conclude(const struct attempt_context *context, const struct attempt
 {
     accuracy->assembly = best->assembly;
     accuracy->outcome = best->outcome;
+    accuracy->step_accuracy = best->accuracy;
     accuracy->tolerance_met =
         accuracy->steps.energy_closes &&
         accuracy->steps.restitution + accuracy->modes.restitution <= context->tolerance;

@@ -12,6 +12,7 @@
 struct accuracy {
     struct assembly *assembly;     /* of the answer */
     struct impact_outcome outcome; /* the answer */
+    double step_accuracy;          /* that it was solved with, see impact_settings */
     struct mode_error modes;
     struct step_error steps;
     double restitution_by_speed; /* NAN unless asked for */

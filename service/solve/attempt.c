@@ -5,9 +5,10 @@
 
 #include <math.h>
 
-static double default_horizon(const struct scene *scene)
+double attempt_horizon(const struct solve_request *request, const struct scene *scene)
 {
-    return fmax(0.020, 2.0 * scene_longest_period(scene));
+    double asked = request->options.horizon;
+    return asked > 0.0 ? asked : fmax(0.020, 2.0 * scene_longest_period(scene));
 }
 
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
@@ -15,11 +16,9 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
 {
     struct impact_settings settings = {
         .accuracy = attempt->accuracy,
-        .horizon = context->request->options.horizon,
+        .horizon = attempt_horizon(context->request, scene),
         .max_work = context->work,
     };
-    if (settings.horizon == 0.0)
-        settings.horizon = default_horizon(scene);
     if (!impact_create(&attempt->outcome, scene, context->arena))
         return PERCUSS_INTERNAL;
     enum percuss_status status;

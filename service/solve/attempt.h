@@ -25,6 +25,9 @@ struct attempt {
     struct impact_outcome outcome;
 };
 
+/* Until when a scene is watched: the request's horizon, or the default, s. */
+double attempt_horizon(const struct solve_request *request, const struct scene *scene);
+
 /* Solves a scene by the request's method: the attempt's own, or one derived from it. */
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
                                 const struct scene *scene);

@@ -10,6 +10,7 @@
 #include "solve/accuracy.h"
 #include "solve/compliance.h"
 #include "solve/contact_model.h"
+#include "solve/history.h"
 #include "solve/report.h"
 
 struct solve_workspace {
@@ -139,6 +140,8 @@ static enum percuss_status answer(struct solve_workspace *workspace,
         report_fill(geometry, request, accuracy, &workspace->arena, result);
         status = result->status;
     }
+    if (request->options.trace && (status == PERCUSS_OK || status == PERCUSS_TRUNCATED))
+        status = history_make(geometry, request, accuracy, &workspace->arena, result);
     return status;
 }
 

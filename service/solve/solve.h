@@ -12,6 +12,7 @@
 
 #include "base/fault.h"
 #include "impact/result.h"
+#include "impact/trace.h"
 #include "model/body.h"
 #include "solve/body_state.h"
 
@@ -43,6 +44,7 @@ struct solve_options {
     enum percuss_compliance compliance;
     enum percuss_dents dents;
     bool conditioning;
+    bool trace; /* also the time histories */
 };
 
 struct solve_request {
@@ -100,6 +102,7 @@ struct solve_result {
     double time_shift;
     size_t warning_count;
     char warnings[8][256];
+    const struct trace *trace; /* in the workspace, until its next solve; NULL: not asked for */
 };
 
 /* Memory of one worker: prepared bodies (frequencies, step tables) and everything a solve writes.

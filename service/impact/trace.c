@@ -1,0 +1,272 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/trace.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "impact/kernel.h"
+
+/* Bounds of the instants: of one contact, of all contacts together. */
+enum { MOST_INSTANTS = 4096, MOST_VALUES = 16384, LEAST_INSTANTS = 256 };
+/* A step of a contact phase is shown in 2^FINER parts. */
+enum { FINER = 3 };
+/* A flight is shown in this share of the contact phase before, which is what excites its modes. */
+static const double PHASE_SHARE = 1.0 / 16.0;
+enum { LEAST_FLIGHT = 32, MOST_FLIGHT = 1500 };
+
+struct tracer {
+    const struct scene *scene;
+    const struct trace_sides *sides;
+    struct trace *trace;
+    struct motion now, next;
+    double *impulse, *travel;  /* [contact]: integral of the force and its integral */
+    double (*silent)[NODES];   /* [contact]: no force */
+    double *none;              /* [contact]: zeros */
+    size_t room, stride, skip; /* every stride-th instant is kept */
+};
+
+static bool create(struct tracer *tracer, struct arena *arena)
+{
+    struct trace *trace = tracer->trace;
+    size_t n = tracer->scene->contacts;
+    tracer->room = MOST_VALUES / n;
+    if (tracer->room > MOST_INSTANTS)
+        tracer->room = MOST_INSTANTS;
+    if (tracer->room < LEAST_INSTANTS)
+        tracer->room = LEAST_INSTANTS;
+    *trace = (struct trace){.contacts = n};
+    trace->time = arena_take(arena, tracer->room, sizeof(double));
+    trace->contact = arena_take(arena, n, sizeof *trace->contact);
+    tracer->impulse = arena_take(arena, n, sizeof(double));
+    tracer->travel = arena_take(arena, n, sizeof(double));
+    tracer->silent = arena_take(arena, n, sizeof *tracer->silent);
+    tracer->none = arena_take(arena, n, sizeof(double));
+    if (!trace->time || !trace->contact || !tracer->impulse || !tracer->travel || !tracer->silent ||
+        !tracer->none || !motion_create(&tracer->now, tracer->scene, arena) ||
+        !motion_create(&tracer->next, tracer->scene, arena))
+        return false;
+    for (size_t c = 0; c < n; c++) {
+        struct trace_contact *contact = &trace->contact[c];
+        double **arrays[] = {
+            &contact->force,       &contact->indentation,     &contact->gap,
+            &contact->gap_rate,    &contact->displacement[0], &contact->displacement[1],
+            &contact->velocity[0], &contact->velocity[1],
+        };
+        for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+            if (!(*arrays[i] = arena_take(arena, tracer->room, sizeof(double))))
+                return false;
+    }
+    return true;
+}
+
+/* Drops every second instant; from now on as many fewer are kept. */
+static void thin(struct tracer *tracer)
+{
+    struct trace *trace = tracer->trace;
+    size_t half = trace->count / 2;
+    for (size_t i = 0; i < half; i++) {
+        trace->time[i] = trace->time[2 * i];
+        for (size_t c = 0; c < trace->contacts; c++) {
+            struct trace_contact *contact = &trace->contact[c];
+            contact->force[i] = contact->force[2 * i];
+            contact->indentation[i] = contact->indentation[2 * i];
+            contact->gap[i] = contact->gap[2 * i];
+            contact->gap_rate[i] = contact->gap_rate[2 * i];
+            for (int s = 0; s < 2; s++) {
+                contact->displacement[s][i] = contact->displacement[s][2 * i];
+                contact->velocity[s][i] = contact->velocity[s][2 * i];
+            }
+        }
+    }
+    trace->count = half;
+    tracer->stride *= 2;
+}
+
+/* Where the contact point of one side is along the normal, and how fast. The residual flexibility
+ * follows the force at once; its rate is left out. */
+static void move_of_side(const struct tracer *tracer, size_t c, int s, const double *force,
+                         double *displacement, double *velocity)
+{
+    const struct scene *scene = tracer->scene;
+    const struct trace_sides *sides = tracer->sides;
+    const struct motion *now = &tracer->now;
+    double sign = s == 0 ? 1.0 : -1.0;
+    double fall = s == 0 ? scene->gap_acceleration[c] : 0.0;
+    *displacement = *velocity = NAN;
+    if (!sides->w[s])
+        return;
+    double x = 0.0;
+    double v = 0.0;
+    for (size_t j = 0; j < scene->contacts; j++) {
+        double w = sides->w[s][c * scene->contacts + j];
+        x += w * tracer->travel[j] + sides->residual[s][c * scene->contacts + j] * force[j];
+        v += w * tracer->impulse[j];
+    }
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        double part;
+        double part_rate;
+        if (group->body != sides->body[s][c] || !group->participation[c])
+            continue;
+        kernel_dot2(group->stride, group->participation[c], now->q[g], now->v[g], &part,
+                    &part_rate);
+        x += part;
+        v += part_rate;
+    }
+    double t = now->time;
+    *displacement = t * (sides->velocity[s][c] + 0.5 * fall * t) + sign * x;
+    *velocity = sides->velocity[s][c] + fall * t + sign * v;
+}
+
+/* Takes the present instant down. */
+static void sample(struct tracer *tracer, const double *force, const double *indentation)
+{
+    struct trace *trace = tracer->trace;
+    if (tracer->skip > 0) {
+        tracer->skip--;
+        return;
+    }
+    if (trace->count == tracer->room)
+        thin(tracer);
+    tracer->skip = tracer->stride - 1;
+    size_t i = trace->count++;
+    trace->time[i] = tracer->now.time;
+    for (size_t c = 0; c < trace->contacts; c++) {
+        struct trace_contact *contact = &trace->contact[c];
+        contact->force[i] = fmax(0.0, force[c]);
+        contact->indentation[i] = fmax(0.0, indentation[c]);
+        contact->gap[i] = tracer->now.gap[c];
+        contact->gap_rate[i] = tracer->now.gap_rate[c];
+        for (int s = 0; s < 2; s++)
+            move_of_side(tracer, c, s, force, &contact->displacement[s][i],
+                         &contact->velocity[s][i]);
+    }
+}
+
+/* What the forces at the nodes of a step do to the rigid motion, and their integrals. */
+static void push_rigid(struct tracer *tracer, double (*const force)[NODES], double h)
+{
+    size_t n = tracer->scene->contacts;
+    for (size_t b = 0; b < n; b++) {
+        double impulse = 0.0;
+        double travel = 0.0;
+        for (int j = 0; j < NODES; j++) {
+            impulse += h * collocation.weight[j] * force[b][j];
+            travel += h * h * collocation.position_end[j] * force[b][j];
+        }
+        tracer->travel[b] += h * tracer->impulse[b] + travel;
+        tracer->impulse[b] += impulse;
+        for (size_t a = 0; a < n; a++) {
+            tracer->next.gap[a] += tracer->scene->w[a * n + b] * travel;
+            tracer->next.gap_rate[a] += tracer->scene->w[a * n + b] * impulse;
+        }
+    }
+}
+
+/* A step of a level with these forces at its nodes. False: out of memory. */
+static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
+{
+    const struct scene *scene = tracer->scene;
+    const struct motion *now = &tracer->now;
+    struct motion *next = &tracer->next;
+    double h = step_length(level);
+    next->time = now->time + h;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double a = scene->gap_acceleration[c];
+        next->gap[c] = now->gap[c] + h * (now->gap_rate[c] + 0.5 * a * h);
+        next->gap_rate[c] = now->gap_rate[c] + a * h;
+    }
+    push_rigid(tracer, force, h);
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        const struct step_table *table = oscillators_table(group->set, level);
+        if (!table)
+            return false;
+        kernel_advance(table, group->stride, now->q[g], now->v[g], next->q[g], next->v[g]);
+        for (size_t c = 0; c < scene->contacts; c++)
+            if (group->participation[c])
+                kernel_push(table, group->stride, group->participation[c], force[c], next->q[g],
+                            next->v[g]);
+    }
+    struct motion old = tracer->now;
+    tracer->now = tracer->next;
+    tracer->next = old;
+    return true;
+}
+
+/* A logged step in parts: the cubic of a step is a cubic on each of them. */
+static bool show_step(struct tracer *tracer, const struct force_step *logged)
+{
+    size_t n = tracer->scene->contacts;
+    int finer = logged->level + FINER < STEP_LEVELS ? FINER : 0;
+    int parts = 1 << finer;
+    double force[PERCUSS_MAX_CONTACTS][NODES];
+    double end_force[PERCUSS_MAX_CONTACTS];
+    double end_indentation[PERCUSS_MAX_CONTACTS];
+    for (int p = 0; p < parts; p++) {
+        for (size_t c = 0; c < n; c++) {
+            double end = (p + 1.0) / parts;
+            for (int j = 0; j < NODES; j++)
+                force[c][j] =
+                    collocation_value(logged->force[c], (p + collocation.node[j]) / parts);
+            end_force[c] = collocation_value(logged->force[c], end);
+            end_indentation[c] = collocation_value(logged->indentation[c], end);
+        }
+        if (!step(tracer, logged->level + finer, force))
+            return false;
+        sample(tracer, end_force, end_indentation);
+    }
+    return true;
+}
+
+/* Free motion until `end`. `phase`: how long the contact phase before was, 0: none. */
+static bool show_flight(struct tracer *tracer, double end, double phase)
+{
+    double length = end - tracer->now.time;
+    if (!(length > 0.0))
+        return true;
+    double part = phase > 0.0 ? PHASE_SHARE * phase : length;
+    part = fmax(length / MOST_FLIGHT, fmin(part, length / LEAST_FLIGHT));
+    int level = step_level(part);
+    while (end - tracer->now.time > 1.5 * step_length(level)) {
+        if (!step(tracer, level, tracer->silent))
+            return false;
+        sample(tracer, tracer->none, tracer->none);
+    }
+    double left = end - tracer->now.time;
+    for (size_t c = 0; c < tracer->scene->contacts; c++)
+        tracer->travel[c] += left * tracer->impulse[c];
+    motion_advance(&tracer->now, tracer->scene, left);
+    sample(tracer, tracer->none, tracer->none);
+    return true;
+}
+
+enum percuss_status trace_make(const struct scene *scene, const struct force_log *log,
+                               const struct trace_sides *sides, double shift, double end,
+                               struct arena *arena, struct trace *trace)
+{
+    struct tracer tracer = {.scene = scene, .sides = sides, .trace = trace, .stride = 1};
+    if (!log->complete || !create(&tracer, arena))
+        return PERCUSS_INTERNAL;
+    motion_start(&tracer.now, scene);
+    if (shift < 0.0)
+        motion_rewind(&tracer.now, scene, -shift);
+    sample(&tracer, tracer.none, tracer.none);
+    double phase_start = tracer.now.time;
+    double phase = 0.0;
+    for (size_t i = 0; i < log->count && log->steps[i].start < end; i++) {
+        const struct force_step *logged = &log->steps[i];
+        /* what is shorter than a step is rounding, not a flight */
+        if (logged->start - tracer.now.time > 1e-3 * step_length(logged->level)) {
+            if (!show_flight(&tracer, logged->start, phase))
+                return PERCUSS_INTERNAL;
+            phase_start = tracer.now.time;
+        }
+        if (!show_step(&tracer, logged))
+            return PERCUSS_INTERNAL;
+        phase = tracer.now.time - phase_start;
+    }
+    return show_flight(&tracer, end, phase) ? PERCUSS_OK : PERCUSS_INTERNAL;
+}

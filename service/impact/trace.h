@@ -1,0 +1,43 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Time histories of an impact: contact forces and indentations, and how both bodies move at each
+ * contact. Made from the logged forces by going through the exact motion of the modes once more. */
+#ifndef PERCUSS_IMPACT_TRACE_H
+#define PERCUSS_IMPACT_TRACE_H
+
+#include "impact/force_log.h"
+#include "impact/impact.h"
+
+/* How the scene's rigid coupling and residual flexibility divide between the two bodies of each
+ * contact; [0]: the body that the normal points to. Matrices are contacts^2. NULL `w`: unknown. */
+struct trace_sides {
+    const double *w[2];        /* 1/kg; both together are the scene's */
+    const double *residual[2]; /* m/N */
+    const double *velocity[2]; /* [contact]: along the normal at the stated instant, m/s */
+    const size_t *body[2];     /* [contact] */
+};
+
+/* One contact, arrays over the instants. Displacements are along the normal, zero for the rigid
+ * bodies at the stated instant; those of the contact point without its local indentation. The
+ * acceleration of a gap counts as the first body's. NAN where the sides are unknown. */
+struct trace_contact {
+    double *force, *indentation; /* N, m; 0 while open */
+    double *gap, *gap_rate;      /* rigid */
+    double *displacement[2], *velocity[2];
+};
+
+struct trace {
+    size_t count, contacts;
+    double *time; /* s from the stated instant, ascending */
+    struct trace_contact *contact;
+};
+
+/* Samples the motion behind `log` from its start (`shift` < 0: before the stated instant) to `end`:
+ * contact phases in eighths of the solution's steps, flights by the length of the phase before;
+ * not more than some thousand instants. Memory from the arena. PERCUSS_OK or PERCUSS_INTERNAL. */
+enum percuss_status trace_make(const struct scene *scene, const struct force_log *log,
+                               const struct trace_sides *sides, double shift, double end,
+                               struct arena *arena, struct trace *trace);
+
+#endif

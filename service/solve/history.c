@@ -1,0 +1,143 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/history.h"
+
+#include <math.h>
+
+#include "model/rigid.h"
+#include "model/vector.h"
+#include "solve/report.h"
+
+/* Bounds a solution whose cost is known already. */
+static const double AMPLE_WORK = 1e9;
+
+/* Compliance between two contacts of one body that no mode of the scene holds. */
+static double residual_of_side(const struct geometry *geometry, const struct assembly *assembly,
+                               const struct contact_side *i, const struct contact_side *j,
+                               size_t contact_i, size_t contact_j)
+{
+    double sum = 0.0;
+    for (int f = 0; f < FAMILY_COUNT; f++)
+        if (i->load.acts[f] && j->load.acts[f])
+            sum += modal_compliance(geometry->bodies[i->body], f, &i->load, &j->load);
+    for (size_t g = 0; g < assembly->scene.groups; g++) {
+        const struct scene_group *group = &assembly->groups[g];
+        const double *a = group->participation[contact_i];
+        const double *b = group->participation[contact_j];
+        if (group->body != i->body)
+            continue;
+        for (size_t k = group->count; a && b && k-- > 0;)
+            sum -= a[k] * b[k] / (group->set->omega[k] * group->set->omega[k]);
+    }
+    return sum;
+}
+
+/* The part of the coupling of two contacts that goes through side `which` of the first. */
+static void share_of_side(const struct geometry *geometry, const struct assembly *assembly,
+                          size_t c, int which, double *w, double *residual)
+{
+    const struct contact_side *side = &geometry->sides[c][which];
+    const struct body *body = geometry->bodies[side->body];
+    size_t n = geometry->contact_count;
+    for (size_t j = 0; j < n; j++) {
+        for (int q = 0; q < 2; q++) {
+            const struct contact_side *other = &geometry->sides[j][q];
+            if (other->body != side->body)
+                continue;
+            w[c * n + j] += rigid_inverse_mass(body, side->site.point, side->direction,
+                                               other->site.point, other->direction);
+            if (body_is_flexible(body))
+                residual[c * n + j] += residual_of_side(geometry, assembly, side, other, c, j);
+        }
+    }
+}
+
+static double velocity_along_normal(const struct solve_request *request, size_t contact,
+                                    size_t body)
+{
+    const struct solve_contact *at = &request->contacts[contact];
+    const struct solve_body *moving = &request->bodies[body];
+    double arm[3];
+    double turning[3];
+    sub3(at->point, moving->position, arm);
+    cross3(moving->angular_velocity, arm, turning);
+    return dot3(at->normal, moving->velocity) + dot3(at->normal, turning);
+}
+
+/* How the two bodies share each contact. With the client's own W nobody knows. */
+static bool find_sides(const struct geometry *geometry, const struct solve_request *request,
+                       const struct assembly *assembly, struct arena *arena,
+                       struct trace_sides *sides)
+{
+    size_t n = geometry->contact_count;
+    *sides = (struct trace_sides){0};
+    for (int s = 0; s < 2 && !geometry->from_client; s++) {
+        double *w = arena_take(arena, n * n, sizeof *w);
+        double *residual = arena_take(arena, n * n, sizeof *residual);
+        double *velocity = arena_take(arena, n, sizeof *velocity);
+        size_t *body = arena_take(arena, n, sizeof *body);
+        if (!w || !residual || !velocity || !body)
+            return false;
+        for (size_t c = 0; c < n; c++) {
+            body[c] = geometry->sides[c][s].body;
+            velocity[c] = velocity_along_normal(request, c, body[c]);
+            share_of_side(geometry, assembly, c, s, w, residual);
+        }
+        sides->w[s] = w;
+        sides->residual[s] = residual;
+        sides->velocity[s] = velocity;
+        sides->body[s] = body;
+    }
+    return true;
+}
+
+/* Largest difference of the contacts' impulses, against what stops the approach. */
+static double difference(const struct geometry *geometry, const struct accuracy *accuracy,
+                         const struct impact_outcome *again)
+{
+    double worst = 0.0;
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        double change = fabs(again->tracks[c].impulse - accuracy->outcome.tracks[c].impulse);
+        if (geometry->impulse_compression[c] > 0.0)
+            worst = fmax(worst, change / geometry->impulse_compression[c]);
+    }
+    return worst;
+}
+
+enum percuss_status history_make(const struct geometry *geometry,
+                                 const struct solve_request *request,
+                                 const struct accuracy *accuracy, struct arena *arena,
+                                 struct solve_result *result)
+{
+    const struct scene *scene = &accuracy->assembly->scene;
+    struct force_log log = force_log_make(arena, scene->contacts);
+    struct impact_settings settings = {.accuracy = accuracy->step_accuracy,
+                                       .horizon = attempt_horizon(request, scene),
+                                       .max_work = AMPLE_WORK,
+                                       .log = &log};
+    /* the closed form of a rigid pair is exact */
+    if (impact_is_rigid_pair(scene))
+        settings.accuracy = fmin(settings.accuracy, 1e-9);
+    struct impact_outcome again;
+    struct trace_sides sides;
+    struct trace *trace = arena_take(arena, 1, sizeof *trace);
+    enum percuss_status status = PERCUSS_INTERNAL;
+    if (trace && impact_create(&again, scene, arena) &&
+        find_sides(geometry, request, accuracy->assembly, arena, &sides))
+        status = impact_modal(scene, &settings, arena, &again);
+    if (!status)
+        status = trace_make(scene, &log, &sides, again.time_shift, again.window, arena, trace);
+    if (status) {
+        result->status = fault_set(&result->fault, status, "out of memory for the trace");
+        return result->status;
+    }
+    result->trace = trace;
+    double off = difference(geometry, accuracy, &again);
+    if (off > 1e-9)
+        report_warn(result,
+                    "options.trace: the histories are the modal method's, whose restitution "
+                    "differs by %.2g from the answer",
+                    off);
+    return result->status;
+}

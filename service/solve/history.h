@@ -1,0 +1,18 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The time histories of an answer, for requests that ask for them. */
+#ifndef PERCUSS_SOLVE_HISTORY_H
+#define PERCUSS_SOLVE_HISTORY_H
+
+#include "solve/accuracy.h"
+
+/* Solves the answer's scene once more by the modal method, with the forces taken down, and sets
+ * result->trace. Warns where the answer came from another method and that solution differs. Returns
+ * result->status, or PERCUSS_INTERNAL with the message. */
+enum percuss_status history_make(const struct geometry *geometry,
+                                 const struct solve_request *request,
+                                 const struct accuracy *accuracy, struct arena *arena,
+                                 struct solve_result *result);
+
+#endif

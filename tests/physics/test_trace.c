@@ -1,0 +1,210 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Time histories (solve/history.c, impact/trace.c, force_log.c): what they show is the impact that
+ * the reply describes, and kinematics and momentum hold between their columns. */
+#include "physics/support.h"
+
+static const double SPHERE_MASS = 7800.0 * 4.0 / 3.0 * M_PI * 0.015 * 0.015 * 0.015;
+
+static struct lab *lab_of_three(void)
+{
+    struct lab *lab = lab_create();
+    lab_add(lab, "sphere", make_sphere(STEEL, 0.015));
+    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
+    return lab;
+}
+
+static struct solve_request on_beam(double speed, double tolerance)
+{
+    struct solve_request request =
+        strike(sphere_spot("sphere", 0.015), side_spot("beam", 0.1, 0.010, 0.0), speed);
+    request.options.tolerance = tolerance;
+    request.options.trace = true;
+    return request;
+}
+
+/* Impulse of the force shown, by the trapezoidal rule. */
+static double shown_impulse(const struct trace *trace, size_t contact)
+{
+    double sum = 0.0;
+    for (size_t i = 1; i < trace->count; i++)
+        sum += 0.5 * (trace->time[i] - trace->time[i - 1]) *
+               (trace->contact[contact].force[i] + trace->contact[contact].force[i - 1]);
+    return sum;
+}
+
+static void shows_the_reply(const struct solve_result *result)
+{
+    const struct trace *trace = result->trace;
+    assert_non_null(trace);
+    assert_int_equal(trace->contacts, result->contact_count);
+    assert_in_range(trace->count, 64, 4096);
+    for (size_t i = 1; i < trace->count; i++)
+        assert_true(trace->time[i] > trace->time[i - 1]);
+    measured("end of the trace", trace->time[trace->count - 1], result->window,
+             1e-4 * result->window);
+    for (size_t c = 0; c < trace->contacts; c++) {
+        const struct solve_contact_result *contact = &result->contacts[c];
+        double peak = 0.0, deepest = 0.0, listed_peak = 0.0, listed_deepest = 0.0;
+        for (size_t i = 0; i < trace->count; i++) {
+            peak = fmax(peak, trace->contact[c].force[i]);
+            deepest = fmax(deepest, trace->contact[c].indentation[i]);
+        }
+        for (size_t i = 0; i < contact->sub_impacts_listed; i++) {
+            listed_peak = fmax(listed_peak, contact->sub_impacts[i].peak_force);
+            listed_deepest = fmax(listed_deepest, contact->sub_impacts[i].max_indentation);
+        }
+        /* the trapezoidal rule on some 100 parts of a bell */
+        measured_relative("impulse shown", shown_impulse(trace, c), contact->impulse, 2e-3);
+        measured_relative("peak shown", peak, listed_peak, 5e-3);
+        measured_relative("indentation shown", deepest, listed_deepest, 5e-3);
+    }
+}
+
+/* Both bodies' points are an indentation apart in the wrong direction while they touch. */
+static void bodies_meet_while_they_touch(const struct solve_result *result, size_t c, double gap)
+{
+    const struct trace_contact *contact = &result->trace->contact[c];
+    double deepest = 0.0, worst = 0.0;
+    for (size_t i = 0; i < result->trace->count; i++)
+        deepest = fmax(deepest, contact->indentation[i]);
+    for (size_t i = 0; i < result->trace->count; i++) {
+        double apart = gap + contact->displacement[0][i] - contact->displacement[1][i];
+        if (contact->force[i] > 0.0)
+            worst = fmax(worst, fabs(apart + contact->indentation[i]));
+        else /* a thousandth of the indentation bears 3e-5 of the force */
+            assert_true(apart >= -1e-3 * deepest);
+    }
+    measured("worst overlap mismatch", worst / deepest, 0.0, 1e-3);
+}
+
+static void a_beam_shows_all_sub_impacts(void **state)
+{
+    (void)state;
+    static struct solve_result result, plain;
+    struct lab *lab = lab_of_three();
+    struct solve_request request = on_beam(0.25, 1e-6);
+    lab_solve(lab, &request, &result);
+    assert_true(result.contacts[0].sub_impact_count >= 2);
+    shows_the_reply(&result);
+    bodies_meet_while_they_touch(&result, 0, 0.0);
+    /* the sphere is rigid: its velocity is momentum */
+    const struct trace_contact *contact = &result.trace->contact[0];
+    size_t last = result.trace->count - 1;
+    measured("sphere before", contact->velocity[0][0], -0.25, 1e-15);
+    measured_relative("sphere after", contact->velocity[0][last],
+                      -0.25 + result.contacts[0].impulse / SPHERE_MASS, 1e-9);
+    measured_relative(
+        "gap rate after", contact->gap_rate[last],
+        -0.25 + result.contacts[0].impulse * result.contacts[0].inverse_effective_mass, 1e-9);
+    /* the derivative of what the beam's point does is its velocity, away from contacts */
+    double worst = 0.0;
+    for (size_t i = last - 40; i + 1 < last; i++) {
+        double h = result.trace->time[i + 1] - result.trace->time[i - 1];
+        double slope = (contact->displacement[1][i + 1] - contact->displacement[1][i - 1]) / h;
+        worst = fmax(worst, fabs(slope - contact->velocity[1][i]));
+    }
+    measured("slope of the beam's point, m/s", worst, 0.0, 0.05);
+    /* asking for it changes nothing */
+    struct solve_request without = request;
+    without.options.trace = false;
+    double impulse = result.contacts[0].impulse;
+    lab_solve(lab, &without, &plain);
+    assert_null(plain.trace);
+    assert_true(plain.contacts[0].impulse == impulse);
+    assert_int_equal(plain.warning_count, result.warning_count);
+    lab_free(lab);
+}
+
+static void a_rod_a_wall_and_a_ringing_beam(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_of_three();
+    struct solve_request request = strike(sphere_spot("sphere", 0.015), end_spot("rod", 1.0), 0.3);
+    request.options.trace = true;
+    request.options.tolerance = 1e-5;
+    lab_solve(lab, &request, &result);
+    shows_the_reply(&result);
+    bodies_meet_while_they_touch(&result, 0, 0.0);
+    /* two rigid bodies are solved in closed form, and shown all the same */
+    lab_add(lab, "other", make_sphere(ALUMINIUM, 0.02));
+    request = strike(sphere_spot("sphere", 0.015), sphere_spot("other", 0.02), 1.0);
+    request.options.trace = true;
+    request.contacts[0].gap = 2e-5;
+    lab_solve(lab, &request, &result);
+    assert_int_equal(result.warning_count, 0);
+    shows_the_reply(&result);
+    bodies_meet_while_they_touch(&result, 0, 2e-5);
+    lab_free(lab);
+}
+
+static void other_methods_and_masses_are_told(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_of_three();
+    /* by CVODE the answer differs in some digits, which is said */
+    struct solve_request request = on_beam(0.1, 1e-4);
+    request.options.method = PERCUSS_METHOD_CVODE;
+    lab_solve(lab, &request, &result);
+    assert_non_null(result.trace);
+    bool told = false;
+    for (size_t i = 0; i < result.warning_count; i++)
+        told = told || strstr(result.warnings[i], "options.trace");
+    assert_true(told);
+    /* with the caller's W the share of each body is unknown; the contact is shown */
+    double w = 1.1 * result.contacts[0].inverse_effective_mass;
+    request = on_beam(0.1, 1e-4);
+    request.delassus = &w;
+    lab_solve(lab, &request, &result);
+    assert_non_null(result.trace);
+    assert_true(isnan(result.trace->contact[0].displacement[0][5]));
+    assert_true(isnan(result.trace->contact[0].velocity[1][5]));
+    measured_relative("impulse shown", shown_impulse(result.trace, 0), result.contacts[0].impulse,
+                      2e-3);
+    lab_free(lab);
+}
+
+/* Two spheres at once on one beam, and a horizon inside: each contact is shown to the end. */
+static void several_contacts_share_the_instants(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_of_three();
+    struct solve_request request = on_beam(0.25, 1e-5);
+    struct solve_request other =
+        strike(sphere_spot("sphere", 0.015), side_spot("beam", -0.3, 0.010, 0.0), 0.2);
+    request.bodies[2] = other.bodies[0];
+    request.contacts[1] = other.contacts[0];
+    /* the beam stands where the first strike puts it: the second point is 0.4 m along it */
+    for (int i = 0; i < 3; i++) {
+        double along = other.bodies[1].position[i] - request.bodies[1].position[i];
+        request.bodies[2].position[i] -= along;
+        request.contacts[1].point[i] -= along;
+    }
+    request.contacts[1].a = 2;
+    request.body_count = 3;
+    request.contact_count = 2;
+    lab_solve(lab, &request, &result);
+    shows_the_reply(&result);
+    bodies_meet_while_they_touch(&result, 0, 0.0);
+    bodies_meet_while_they_touch(&result, 1, 0.0);
+    request.options.horizon = 1e-3;
+    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_TRUNCATED);
+    shows_the_reply(&result);
+    lab_free(lab);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_beam_shows_all_sub_impacts),
+        cmocka_unit_test(a_rod_a_wall_and_a_ringing_beam),
+        cmocka_unit_test(other_methods_and_masses_are_told),
+        cmocka_unit_test(several_contacts_share_the_instants),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
