@@ -7,24 +7,30 @@
 #include <stdlib.h>
 
 #include "cli.h"
+#include "plot.h"
+#include "plot_impact.h"
 #include "reply_json.h"
 #include "reply_table.h"
 #include "request_json.h"
 #include "scene.h"
 
-enum { KEY_SPEED = OPTION_OWN, KEY_REQUEST };
+enum { KEY_SPEED = OPTION_OWN, KEY_REQUEST, KEY_TRACE, KEY_PLOT };
 
 struct query {
     struct common *common;
     struct scene scene;
     double speed; /* NAN: not given */
     const char *file;
+    const char *trace, *plot; /* files; NULL: not wanted */
 };
 
 static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "V", 0, "speed of A towards B, m/s", 10},
     {"request", KEY_REQUEST, "FILE", 0, "ask a whole request in JSON instead; - is standard input",
      30},
+    {"trace", KEY_TRACE, "FILE", 0, "write the time histories as comma-separated values", 40},
+    {"plot", KEY_PLOT, "FILE", 0,
+     "draw motion and contact force over time with gnuplot: FILE.png or FILE.svg", 40},
     {0},
 };
 
@@ -53,6 +59,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_REQUEST:
         query->file = text;
+        return 0;
+    case KEY_TRACE:
+        query->trace = text;
+        return 0;
+    case KEY_PLOT:
+        plot_check_name(text, state);
+        query->plot = text;
         return 0;
     case ARGP_KEY_END:
         check(query, state);
@@ -88,8 +101,12 @@ static int ask(const struct query *query, const struct percuss_request *request,
                struct percuss_client *client)
 {
     struct percuss_reply reply;
+    struct percuss_trace trace = {0};
+    double timeout = common_timeout(query->common);
+    bool traced = query->trace || query->plot;
     enum percuss_result result =
-        percuss_solve(client, request, common_timeout(query->common), &reply);
+        traced ? percuss_solve_traced(client, request, timeout, &reply, &trace)
+               : percuss_solve(client, request, timeout, &reply);
     if (result != PERCUSS_RESULT_OK)
         return complain_result(result);
     if (query->common->json)
@@ -99,6 +116,14 @@ static int ask(const struct query *query, const struct percuss_request *request,
     if (reply.status == PERCUSS_UNKNOWN_BODY)
         explain_unknown(query, request, client);
     int code = status_exit_code(reply.status);
+    int written = EXIT_ANSWERED;
+    if (query->trace && trace.contact_count > 0)
+        written = write_trace_csv(query->trace, &trace);
+    if (query->plot && trace.contact_count > 0 && written == EXIT_ANSWERED)
+        written = plot_impact(query->plot, request, &reply, &trace);
+    if (written != EXIT_ANSWERED)
+        code = written;
+    percuss_trace_free(&trace);
     percuss_reply_free(&reply);
     return code;
 }

@@ -33,6 +33,7 @@ struct percuss_client {
     uint64_t pings_answered;
     struct pending_table pending;
     dds_entity_t batch_writer, batch_reader; /* 0 until the first batch */
+    dds_entity_t trace_reader;               /* 0 until the first trace */
     dds_entity_t server_reader, body_reader; /* 0 until asked for */
     int announcement_room;                   /* of the largest read so far, see announcements.c */
 };

@@ -9,6 +9,7 @@
 
 #include "convert.h"
 #include "error.h"
+#include "gather.h"
 #include "receive.h"
 
 enum percuss_result exchange_check_connected(const struct percuss_client *client)
@@ -65,7 +66,7 @@ static enum percuss_result enter(struct percuss_client *client, uint64_t sequenc
 /* Enters and writes a request; the lock is held. */
 static enum percuss_result send_request(struct percuss_client *client,
                                         const struct percuss_request *request, bool waited,
-                                        struct pending **pending)
+                                        struct gather *gather, struct pending **pending)
 {
     struct request_storage storage;
     percuss_v1_Request wire;
@@ -78,6 +79,8 @@ static enum percuss_result send_request(struct percuss_client *client,
         return result;
     memcpy(wire.client, client->id, sizeof wire.client);
     wire.sequence = (*pending)->sequence;
+    wire.options.trace = wire.options.trace || gather;
+    (*pending)->gather = gather;
     dds_return_t code = dds_write(client->request_writer, &wire);
     if (code < 0) {
         pending_remove(&client->pending, *pending);
@@ -99,20 +102,32 @@ static enum percuss_result collect(struct percuss_client *client, struct pending
     return result;
 }
 
-enum percuss_result percuss_solve(struct percuss_client *client,
-                                  const struct percuss_request *request, double timeout,
-                                  struct percuss_reply *reply)
+/* What is waited for besides the reply. */
+struct histories {
+    const struct gather *gather;
+    size_t contacts;
+};
+
+static bool histories_are_complete(const struct percuss_client *client, const void *subject)
+{
+    (void)client;
+    const struct histories *histories = subject;
+    return gather_is_complete(histories->gather, histories->contacts);
+}
+
+enum percuss_result exchange_solve(struct percuss_client *client,
+                                   const struct percuss_request *request, double deadline,
+                                   struct gather *gather, struct percuss_reply *reply)
 {
     struct pending *pending;
-    double deadline;
-    *reply = (struct percuss_reply){0};
-    enum percuss_result result = receive_deadline(timeout, &deadline);
-    if (result != PERCUSS_RESULT_OK)
-        return result;
     pthread_mutex_lock(&client->lock);
-    result = send_request(client, request, true, &pending);
+    enum percuss_result result = send_request(client, request, true, gather, &pending);
     if (result == PERCUSS_RESULT_OK) {
         result = exchange_await(client, pending, deadline);
+        // a refusal has no contacts
+        struct histories histories = {gather, pending->reply.contact_count};
+        if (result == PERCUSS_RESULT_OK && gather)
+            result = receive_until(client, histories_are_complete, &histories, deadline);
         if (result == PERCUSS_RESULT_OK)
             result = collect(client, pending, reply);
         else
@@ -122,12 +137,23 @@ enum percuss_result percuss_solve(struct percuss_client *client,
     return result;
 }
 
+enum percuss_result percuss_solve(struct percuss_client *client,
+                                  const struct percuss_request *request, double timeout,
+                                  struct percuss_reply *reply)
+{
+    double deadline;
+    *reply = (struct percuss_reply){0};
+    enum percuss_result result = receive_deadline(timeout, &deadline);
+    return result == PERCUSS_RESULT_OK ? exchange_solve(client, request, deadline, NULL, reply)
+                                       : result;
+}
+
 enum percuss_result percuss_submit(struct percuss_client *client,
                                    const struct percuss_request *request, uint64_t *sequence)
 {
     struct pending *pending;
     pthread_mutex_lock(&client->lock);
-    enum percuss_result result = send_request(client, request, false, &pending);
+    enum percuss_result result = send_request(client, request, false, NULL, &pending);
     if (result == PERCUSS_RESULT_OK && sequence)
         *sequence = pending->sequence;
     pthread_mutex_unlock(&client->lock);

@@ -14,4 +14,9 @@ enum percuss_result exchange_check_connected(const struct percuss_client *client
 enum percuss_result exchange_await(struct percuss_client *client, const struct pending *pending,
                                    double deadline);
 
+/* Sends a request and waits for its reply, and with `gather` for its histories as well. */
+enum percuss_result exchange_solve(struct percuss_client *client,
+                                   const struct percuss_request *request, double deadline,
+                                   struct gather *gather, struct percuss_reply *reply);
+
 #endif

@@ -11,6 +11,7 @@
 enum { PENDING_BUCKETS = 256 };
 
 struct batch;
+struct gather;
 
 struct pending {
     uint64_t sequence;
@@ -19,6 +20,7 @@ struct pending {
     enum percuss_result result; /* ready: OK with a reply or a filled batch, or NO_MEMORY */
     struct percuss_reply reply;
     struct batch *batch;            /* borrowed; NULL: a single request */
+    struct gather *gather;          /* borrowed; NULL: no trace is wanted */
     struct pending *next;           /* in its bucket */
     struct pending *previous_ready; /* in order of arrival */
     struct pending *next_ready;

@@ -11,6 +11,7 @@
 #include "batch.h"
 #include "convert.h"
 #include "error.h"
+#include "gather.h"
 
 static const double longest_wait = 1e6; /* s; so that infinity fits nanoseconds and a timespec */
 
@@ -93,6 +94,25 @@ static bool take_batch_part(struct percuss_client *client, dds_entity_t reader, 
     return *count == 1;
 }
 
+/* Files one part of a trace. */
+static bool take_trace_part(struct percuss_client *client, dds_entity_t reader, dds_return_t *count)
+{
+    void *sample[1] = {NULL}; // NULL: lent by the reader
+    dds_sample_info_t info;
+    *count = dds_take(reader, sample, &info, 1, 1);
+    if (*count == 1 && info.valid_data) {
+        const percuss_v1_Trace *wire = sample[0];
+        pthread_mutex_lock(&client->lock);
+        struct pending *pending = pending_find(&client->pending, wire->sequence);
+        if (pending && pending->gather)
+            gather_add(pending->gather, wire);
+        pthread_mutex_unlock(&client->lock);
+    }
+    if (*count == 1)
+        dds_return_loan(reader, sample, 1);
+    return *count == 1;
+}
+
 /* Takes everything that a reader holds; `take` takes some and tells whether more may be left. */
 static enum percuss_result take_all(struct percuss_client *client, dds_entity_t reader,
                                     bool (*take)(struct percuss_client *, dds_entity_t,
@@ -107,7 +127,7 @@ static enum percuss_result take_all(struct percuss_client *client, dds_entity_t 
 /* Waits up to `seconds` for anything and files it. The lock is released meanwhile. */
 static enum percuss_result lead(struct percuss_client *client, double seconds)
 {
-    dds_entity_t batch_reader = client->batch_reader;
+    dds_entity_t batch_reader = client->batch_reader, trace_reader = client->trace_reader;
     client->leading = true;
     pthread_mutex_unlock(&client->lock);
 
@@ -120,6 +140,8 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
         result = take_all(client, client->reply_reader, take_replies);
     if (triggered > 0 && result == PERCUSS_RESULT_OK && batch_reader)
         result = take_all(client, batch_reader, take_batch_part);
+    if (triggered > 0 && result == PERCUSS_RESULT_OK && trace_reader)
+        result = take_all(client, trace_reader, take_trace_part);
 
     pthread_mutex_lock(&client->lock);
     client->leading = false;

@@ -130,7 +130,7 @@ static bool is_cheap(const percuss_v1_Request *request)
     const percuss_v1_Options *options = &request->options;
     return request->contacts._length <= 1 && options->method == PERCUSS_METHOD_MODAL &&
            options->contact_model <= PERCUSS_CONTACT_CLOSED_FORM && !options->conditioning &&
-           is_at_least(options, cheap_tolerance);
+           !options->trace && is_at_least(options, cheap_tolerance);
 }
 
 /* Whether no other client has asked lately: while the reading thread solves, nobody else is heard.

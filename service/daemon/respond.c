@@ -101,6 +101,9 @@ static enum percuss_status prepare(struct seat *seat, struct token_store *tokens
                                    const struct question *question, struct fault *fault)
 {
     enum percuss_status status = decode_request(question->request, &seat->request, fault);
+    if (!status && question->in_batch && seat->request.options.trace)
+        status = fault_set(fault, PERCUSS_BAD_REQUEST,
+                           "options.trace: true: must be false in a batch: ask by itself");
     if (!status)
         status = check_deadline(question, "before the solve began", fault);
     if (status)

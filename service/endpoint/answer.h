@@ -32,7 +32,8 @@ struct answer {
     percuss_v1_BatchReply *parts;     /* EXCHANGE_BATCH */
     percuss_v1_EnsembleReply *report; /* EXCHANGE_ENSEMBLE */
     struct answer **members;          /* of a batch: it points into them */
-    size_t part_count, member_count;
+    percuss_v1_Trace *traces;         /* EXCHANGE_SINGLE: written before the reply */
+    size_t part_count, member_count, trace_count;
     size_t taken, room; /* of the block behind this structure */
 };
 

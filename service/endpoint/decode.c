@@ -100,9 +100,6 @@ static void decode_options(struct check *check, const percuss_v1_Options *wire,
     check_choice(check, "method", wire->method, PERCUSS_METHOD_COUNT, method_name);
     check_choice(check, "compliance", wire->compliance, PERCUSS_COMPLIANCE_COUNT, compliance_name);
     check_choice(check, "dents", wire->dents, PERCUSS_DENTS_COUNT, dents_name);
-    check_that(check, !wire->trace,
-               "trace: true: must be false: force histories are not available from this server "
-               "version");
     check_range(check, "deadline", wire->deadline, 0.0, max_time);
     *options = (struct solve_options){
         .tolerance = wire->tolerance,
@@ -112,6 +109,7 @@ static void decode_options(struct check *check, const percuss_v1_Options *wire,
         .compliance = wire->compliance,
         .dents = wire->dents,
         .conditioning = wire->conditioning,
+        .trace = wire->trace,
     };
 }
 

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "endpoint/encode_trace.h"
 #include "endpoint/text.h"
 
 /* The fields that every kind of reply begins with. */
@@ -250,7 +251,8 @@ struct answer *encode_result(const struct envelope *envelope, const struct solve
 {
     if (!encode_status_has_result(result->status))
         return encode_refusal(envelope, result->status, result->fault.text);
-    struct answer *answer = create_blank(envelope, lists_room(result, listed));
+    struct answer *answer =
+        create_blank(envelope, lists_room(result, listed) + encode_trace_room(result->trace));
     if (!answer)
         return NULL;
     answer->reply->status = result->status;
@@ -261,5 +263,6 @@ struct answer *encode_result(const struct envelope *envelope, const struct solve
         fill_velocities(answer, result);
     fill_bodies(answer, result, tokens);
     fill_warnings(answer, result);
+    encode_trace(answer, envelope, result->trace);
     return answer;
 }

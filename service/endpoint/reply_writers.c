@@ -14,6 +14,9 @@
 
 enum { TAKEN_AT_ONCE = 32 };
 
+/* Replies of every exchange, and what goes with them on a topic of its own. */
+enum { REPLY_TRACE = EXCHANGE_COUNT, REPLY_KINDS };
+
 static const double stall_pause = 1.0; /* s */
 
 /* A client. */
@@ -21,9 +24,9 @@ struct destination {
     struct key_node node; /* key: client */
     LIST_ENTRY(destination) all;
     uint8_t client[16];
-    unsigned readers[EXCHANGE_COUNT];
-    dds_entity_t writers[EXCHANGE_COUNT]; /* 0: none */
-    double stalled_until[EXCHANGE_COUNT];
+    unsigned readers[REPLY_KINDS];
+    dds_entity_t writers[REPLY_KINDS]; /* 0: none */
+    double stalled_until[REPLY_KINDS];
 };
 
 /* A reader of replies somewhere in the domain; when it goes, only its key is told. */
@@ -31,13 +34,13 @@ struct remote_reader {
     struct key_node node; /* key: GUID */
     LIST_ENTRY(remote_reader) all;
     struct destination *destination;
-    enum exchange exchange;
+    unsigned kind;
 };
 
 struct reply_writers {
     pthread_mutex_t lock; /* of the destinations and what is in them */
     dds_entity_t participant, source;
-    dds_entity_t topics[EXCHANGE_COUNT];
+    dds_entity_t topics[REPLY_KINDS];
     struct key_map destinations, readers;
     LIST_HEAD(destination_list, destination) all_destinations;
     LIST_HEAD(reader_list, remote_reader) all_readers;
@@ -46,15 +49,16 @@ struct reply_writers {
 static const struct {
     const char *topic;
     const dds_topic_descriptor_t *type;
-} replies[EXCHANGE_COUNT] = {
+} replies[REPLY_KINDS] = {
     [EXCHANGE_SINGLE] = {WIRE_TOPIC_REPLY, &percuss_v1_Reply_desc},
     [EXCHANGE_BATCH] = {WIRE_TOPIC_BATCH_REPLY, &percuss_v1_BatchReply_desc},
     [EXCHANGE_ENSEMBLE] = {WIRE_TOPIC_ENSEMBLE_REPLY, &percuss_v1_EnsembleReply_desc},
+    [REPLY_TRACE] = {WIRE_TOPIC_TRACE, &percuss_v1_Trace_desc},
 };
 
 static bool create_entities(struct reply_writers *writers, struct fault *fault)
 {
-    for (int i = 0; i < EXCHANGE_COUNT; i++) {
+    for (int i = 0; i < REPLY_KINDS; i++) {
         writers->topics[i] =
             dds_create_topic(writers->participant, replies[i].type, replies[i].topic, NULL, NULL);
         if (writers->topics[i] < 0) {
@@ -142,7 +146,7 @@ static struct destination *find_or_create(struct reply_writers *writers, const u
 
 static void drop_if_unread(struct reply_writers *writers, struct destination *destination)
 {
-    for (int i = 0; i < EXCHANGE_COUNT; i++) {
+    for (int i = 0; i < REPLY_KINDS; i++) {
         if (destination->readers[i] > 0)
             return;
     }
@@ -152,29 +156,28 @@ static void drop_if_unread(struct reply_writers *writers, struct destination *de
 }
 
 static dds_entity_t create_writer(const struct reply_writers *writers, const uint8_t client[16],
-                                  enum exchange exchange)
+                                  unsigned kind)
 {
     char partition[WIRE_PARTITION_SIZE];
     wire_partition_name(client, partition);
     dds_qos_t *qos = wire_qos_exchange(partition);
-    dds_entity_t writer =
-        dds_create_writer(writers->participant, writers->topics[exchange], qos, NULL);
+    dds_entity_t writer = dds_create_writer(writers->participant, writers->topics[kind], qos, NULL);
     dds_delete_qos(qos);
     return writer > 0 ? writer : 0;
 }
 
 /* A reader came: false if it can get no writer. */
 static bool add_reader(struct reply_writers *writers, struct remote_reader *reader,
-                       const uint8_t client[16], enum exchange exchange)
+                       const uint8_t client[16], unsigned kind)
 {
     pthread_mutex_lock(&writers->lock);
     struct destination *destination = find_or_create(writers, client);
     if (destination) {
-        destination->readers[exchange]++;
-        if (!destination->writers[exchange])
-            destination->writers[exchange] = create_writer(writers, client, exchange);
+        destination->readers[kind]++;
+        if (!destination->writers[kind])
+            destination->writers[kind] = create_writer(writers, client, kind);
         reader->destination = destination;
-        reader->exchange = exchange;
+        reader->kind = kind;
         key_map_insert(&writers->readers, &reader->node);
         LIST_INSERT_HEAD(&writers->all_readers, reader, all);
     }
@@ -186,14 +189,14 @@ static bool add_reader(struct reply_writers *writers, struct remote_reader *read
 static void remove_reader(struct reply_writers *writers, struct remote_reader *reader)
 {
     struct destination *destination = reader->destination;
-    enum exchange exchange = reader->exchange;
+    unsigned kind = reader->kind;
     dds_entity_t unused = 0;
     pthread_mutex_lock(&writers->lock);
     key_map_remove(&writers->readers, &reader->node);
     LIST_REMOVE(reader, all);
-    if (--destination->readers[exchange] == 0) {
-        unused = destination->writers[exchange];
-        destination->writers[exchange] = 0;
+    if (--destination->readers[kind] == 0) {
+        unused = destination->writers[kind];
+        destination->writers[kind] = 0;
         drop_if_unread(writers, destination);
     }
     pthread_mutex_unlock(&writers->lock);
@@ -229,10 +232,10 @@ static bool find_client(const dds_qos_t *qos, uint8_t client[16])
     return found;
 }
 
-static enum exchange find_exchange(const char *topic)
+static unsigned find_kind(const char *topic)
 {
-    int i = 0;
-    while (i < EXCHANGE_COUNT && strcmp(topic, replies[i].topic) != 0)
+    unsigned i = 0;
+    while (i < REPLY_KINDS && strcmp(topic, replies[i].topic) != 0)
         i++;
     return i;
 }
@@ -254,12 +257,12 @@ static void follow_one(struct reply_writers *writers, const dds_builtintopic_end
     uint8_t client[16];
     if (node || !alive || !info->valid_data || !find_client(endpoint->qos, client))
         return;
-    enum exchange exchange = find_exchange(endpoint->topic_name);
-    struct remote_reader *reader = exchange < EXCHANGE_COUNT ? calloc(1, sizeof *reader) : NULL;
+    unsigned kind = find_kind(endpoint->topic_name);
+    struct remote_reader *reader = kind < REPLY_KINDS ? calloc(1, sizeof *reader) : NULL;
     if (!reader)
         return;
     reader->node.key = key;
-    if (add_reader(writers, reader, client, exchange))
+    if (add_reader(writers, reader, client, kind))
         presence(context, client, true);
     else
         free(reader);
@@ -279,29 +282,28 @@ void reply_writers_follow(struct reply_writers *writers, presence_function *pres
 
 /* The writer for a client's replies; 0 with the reason if there is none to be used now. */
 static dds_entity_t find_writer(struct reply_writers *writers, const uint8_t client[16],
-                                enum exchange exchange, enum delivery *reason)
+                                unsigned kind, enum delivery *reason)
 {
     dds_entity_t writer = 0;
     *reason = DELIVERY_NO_READER;
     pthread_mutex_lock(&writers->lock);
     const struct destination *destination = find(writers, client);
-    if (destination && destination->writers[exchange]) {
-        bool stalled = clock_now() < destination->stalled_until[exchange];
+    if (destination && destination->writers[kind]) {
+        bool stalled = clock_now() < destination->stalled_until[kind];
         *reason = stalled ? DELIVERY_STALLED : DELIVERY_DONE;
-        writer = stalled ? 0 : destination->writers[exchange];
+        writer = stalled ? 0 : destination->writers[kind];
     }
     pthread_mutex_unlock(&writers->lock);
     return writer;
 }
 
 /* Spares the other clients the wait for one that is stopped or cut off. */
-static void mark_stalled(struct reply_writers *writers, const uint8_t client[16],
-                         enum exchange exchange)
+static void mark_stalled(struct reply_writers *writers, const uint8_t client[16], unsigned kind)
 {
     pthread_mutex_lock(&writers->lock);
     struct destination *destination = find(writers, client);
     if (destination)
-        destination->stalled_until[exchange] = clock_now() + stall_pause;
+        destination->stalled_until[kind] = clock_now() + stall_pause;
     pthread_mutex_unlock(&writers->lock);
 }
 
@@ -317,6 +319,19 @@ static dds_return_t write_all(dds_entity_t writer, const struct answer *answer)
     return result;
 }
 
+/* The histories go first, to a client that reads such: the reply tells that all were written. */
+static void write_traces(struct reply_writers *writers, const uint8_t client[16],
+                         const struct answer *answer)
+{
+    enum delivery delivery;
+    dds_entity_t writer = find_writer(writers, client, REPLY_TRACE, &delivery);
+    dds_return_t result = DDS_RETCODE_OK;
+    for (size_t i = 0; writer && !result && i < answer->trace_count; i++)
+        result = dds_write(writer, &answer->traces[i]);
+    if (result == DDS_RETCODE_TIMEOUT)
+        mark_stalled(writers, client, REPLY_TRACE);
+}
+
 enum delivery reply_writers_write(struct reply_writers *writers, const uint8_t client[16],
                                   const struct answer *answer)
 {
@@ -324,6 +339,8 @@ enum delivery reply_writers_write(struct reply_writers *writers, const uint8_t c
     dds_entity_t writer = find_writer(writers, client, answer->exchange, &delivery);
     if (!writer)
         return delivery;
+    if (answer->trace_count > 0)
+        write_traces(writers, client, answer);
     dds_return_t result = write_all(writer, answer);
     if (result == DDS_RETCODE_TIMEOUT) {
         mark_stalled(writers, client, answer->exchange);
@@ -339,7 +356,7 @@ void reply_writers_flush(struct reply_writers *writers, double seconds)
     struct destination *destination;
     LIST_FOREACH(destination, &writers->all_destinations, all)
     {
-        for (int i = 0; i < EXCHANGE_COUNT; i++) {
+        for (int i = 0; i < REPLY_KINDS; i++) {
             double left = end - clock_now();
             if (destination->writers[i] && left > 0.0)
                 dds_wait_for_acks(destination->writers[i], (dds_duration_t)(left * 1e9));

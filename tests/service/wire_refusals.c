@@ -83,7 +83,6 @@ static void bad_options(struct peer *peer)
     BAD(request.options.compliance, 99, "options.compliance: 99");
     BAD(request.options.dents, 99, "options.dents: 99");
     BAD(request.options.deadline, -1.0, "options.deadline: -1");
-    BAD(request.options.trace, true, "options.trace: true");
 }
 
 static void bad_delassus(struct peer *peer)

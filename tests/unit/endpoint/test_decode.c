@@ -25,6 +25,7 @@ static void converts_a_good_request(void **state)
                                                .compliance = 2,
                                                .dents = 1,
                                                .conditioning = true,
+                                               .trace = true,
                                                .deadline = 3.0};
     assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_OK);
     assert_int_equal(request.body_count, 2);
@@ -42,7 +43,7 @@ static void converts_a_good_request(void **state)
     assert_int_equal(request.options.method, PERCUSS_METHOD_CVODE);
     assert_int_equal(request.options.compliance, PERCUSS_COMPLIANCE_MATCHED);
     assert_int_equal(request.options.dents, PERCUSS_DENTS_IGNORE);
-    assert_true(request.options.conditioning);
+    assert_true(request.options.conditioning && request.options.trace);
 }
 
 static void converts_overrides(void **state)
@@ -190,9 +191,6 @@ static void refuses_bad_options(void **state)
     REFUSED(wire.options.dents, 2, "options.dents: 2: must be one of 0 (keep), 1 (ignore)");
     REFUSED(wire.options.deadline, -1.0, "options.deadline: -1: must be in [0, 1e+09]");
     REFUSED(wire.options.deadline, NAN, "options.deadline: nan: must be in [0, 1e+09]");
-    REFUSED(wire.options.trace, true,
-            "options.trace: true: must be false: force histories are not available from this "
-            "server version");
 }
 
 static void refuses_a_bad_delassus(void **state)

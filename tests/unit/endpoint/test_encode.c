@@ -10,6 +10,7 @@
 
 #include "endpoint/batch.h"
 #include "endpoint/encode.h"
+#include "endpoint/encode_trace.h"
 
 static void copies_a_result(void **state)
 {
@@ -189,6 +190,46 @@ static void cuts_batches_into_parts(void **state)
     cuts_a_batch(3, 64, 256);
 }
 
+/* Every instant of every column once, in samples of bounded size. */
+static void cuts_histories_into_parts(void **state)
+{
+    (void)state;
+    enum { INSTANTS = 2 * TRACE_PART_INSTANTS + 7, CONTACTS = 2 };
+    static double values[9][INSTANTS];
+    struct trace_contact contacts[CONTACTS];
+    struct trace trace = {INSTANTS, CONTACTS, values[0], contacts};
+    struct envelope envelope = sample_envelope(9);
+    for (int k = 0; k < 9; k++)
+        for (int i = 0; i < INSTANTS; i++)
+            values[k][i] = 1e4 * k + i;
+    for (int c = 0; c < CONTACTS; c++)
+        contacts[c] = (struct trace_contact){values[1],
+                                             values[2],
+                                             values[3],
+                                             values[4],
+                                             {values[5], values[7]},
+                                             {values[6], values[8]}};
+    struct solve_result *result = sample_result(CONTACTS, 1);
+    result->trace = &trace;
+    struct answer *answer = encode_result(&envelope, result, sample_tokens, 16);
+    assert_int_equal(answer->trace_count, 3 * CONTACTS);
+    for (uint32_t i = 0; i < answer->trace_count; i++) {
+        const percuss_v1_Trace *part = &answer->traces[i];
+        uint32_t first = part->part * TRACE_PART_INSTANTS;
+        assert_int_equal(part->contact, i / 3);
+        assert_int_equal(part->part, i % 3);
+        assert_int_equal(part->parts, 3);
+        assert_true(part->sequence == 9);
+        assert_int_equal(part->velocity_b._length, i % 3 == 2 ? 7 : TRACE_PART_INSTANTS);
+        assert_true(part->time._buffer[0] == first);
+        assert_true(part->displacement_a._buffer[6] == 5e4 + 6 + first);
+        assert_true(part->velocity_b._buffer[6] == 8e4 + 6 + first);
+        assert_in_range(serialised(part, &percuss_v1_Trace_desc), 1, BATCH_PART_BYTES);
+    }
+    answer_release(answer);
+    free(result);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +239,7 @@ int main(void)
         cmocka_unit_test(says_which_refusals_are_of_the_moment),
         cmocka_unit_test(bounds_the_size_of_a_reply),
         cmocka_unit_test(cuts_batches_into_parts),
+        cmocka_unit_test(cuts_histories_into_parts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,94 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "plot.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cli.h"
+
+enum { NOT_FOUND = 127 };
+
+static bool ends_in(const char *file, const char *ending)
+{
+    size_t length = strlen(file), tail = strlen(ending);
+    return length > tail && !strcmp(file + length - tail, ending);
+}
+
+void plot_check_name(const char *file, struct argp_state *state)
+{
+    if (!ends_in(file, ".png") && !ends_in(file, ".svg"))
+        argp_error(state, "--plot: '%s': a name that ends in .png or .svg is needed", file);
+}
+
+void plot_text(const struct plot *plot, const char *text)
+{
+    fputc('\'', plot->script);
+    for (; *text; ++text) {
+        if (*text == '\'')
+            fputc('\'', plot->script);
+        if (*text != '\n')
+            fputc(*text, plot->script);
+    }
+    fputc('\'', plot->script);
+}
+
+int plot_begin(struct plot *plot, const char *file, unsigned width, unsigned height)
+{
+    *plot = (struct plot){tmpfile(), file};
+    if (!plot->script) {
+        complain("--plot: a temporary file: %s", strerror(errno));
+        return EXIT_FAILURE;
+    }
+    if (ends_in(file, ".png"))
+        fprintf(plot->script, "set terminal pngcairo noenhanced size %u,%u font 'sans,12'\n", width,
+                height);
+    else
+        fprintf(plot->script,
+                "set terminal svg noenhanced size %u,%u dynamic font 'sans,12' "
+                "background 'white'\n",
+                width, height);
+    fputs("set encoding utf8\nset output ", plot->script);
+    plot_text(plot, file);
+    fputs("\nset datafile missing 'nan'\nset grid lc rgb '#dddddd'\nset border 3\n"
+          "set tics nomirror out\nset key top right\n"
+          "set linetype 1 lc rgb '#1f5fa8' lw 2 pt 7\nset linetype 2 lc rgb '#c8501e' lw 2 pt 5\n"
+          "set linetype 3 lc rgb '#3c8c46' lw 2 pt 9\nset linetype 4 lc rgb '#8a4ba0' lw 2 pt 13\n"
+          "set linetype 5 lc rgb '#a88f1f' lw 2 pt 11\nset linetype 6 lc rgb '#505050' lw 2 pt 6\n",
+          plot->script);
+    return EXIT_ANSWERED;
+}
+
+/* In the child: gnuplot reads the script as its standard input. */
+static void become_gnuplot(FILE *script)
+{
+    if (dup2(fileno(script), STDIN_FILENO) >= 0)
+        execlp("gnuplot", "gnuplot", "-", (char *)NULL);
+    _exit(NOT_FOUND);
+}
+
+int plot_end(struct plot *plot)
+{
+    int status = 0;
+    bool written = fflush(plot->script) == 0 && !ferror(plot->script);
+    rewind(plot->script);
+    pid_t child = written ? fork() : -1;
+    if (child == 0)
+        become_gnuplot(plot->script);
+    bool ended = child > 0 && waitpid(child, &status, 0) == child;
+    fclose(plot->script);
+    if (!ended)
+        complain("--plot: gnuplot could not be started: %s", strerror(errno));
+    else if (WIFEXITED(status) && WEXITSTATUS(status) == NOT_FOUND)
+        complain("--plot: gnuplot is not installed (Debian: apt-get install gnuplot-nox); "
+                 "the numbers are available as CSV all the same");
+    else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        complain("--plot: gnuplot could not draw %s", plot->file);
+    else
+        return EXIT_ANSWERED;
+    return EXIT_FAILURE;
+}
