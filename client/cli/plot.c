@@ -54,7 +54,7 @@ int plot_begin(struct plot *plot, const char *file, unsigned width, unsigned hei
                 width, height);
     fputs("set encoding utf8\nset output ", plot->script);
     plot_text(plot, file);
-    fputs("\nset datafile missing 'nan'\nset grid lc rgb '#dddddd'\nset border 3\n"
+    fputs("\nset datafile missing 'nan'\nset grid lt 1 lw 0.5 lc rgb '#d0d0d0'\nset border 3\n"
           "set tics nomirror out\nset key top right\n"
           "set linetype 1 lc rgb '#1f5fa8' lw 2 pt 7\nset linetype 2 lc rgb '#c8501e' lw 2 pt 5\n"
           "set linetype 3 lc rgb '#3c8c46' lw 2 pt 9\nset linetype 4 lc rgb '#8a4ba0' lw 2 pt 13\n"

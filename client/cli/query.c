@@ -40,6 +40,7 @@ static void check(const struct query *query, struct argp_state *state)
     const struct scene *scene = &query->scene;
     if (query->file && (scene->given || !isnan(query->speed)))
         argp_error(state, "--request says everything; no other flag of the impact goes with it");
+    scene_check_single(scene, state);
     if (!query->file && !(scene->a && scene->b && !isnan(query->speed)))
         argp_error(state, "--a ID --b ID --speed V or --request FILE is needed");
 }

@@ -63,6 +63,30 @@ static void parse_site(const char *text, struct scene *scene, struct argp_state 
         argp_error(state, "--at: '%s': a fraction 0..1 is needed", text);
 }
 
+static void parse_b(char *text, struct scene *scene, struct argp_state *state)
+{
+    if (scene->b_count == SCENE_CHOICES)
+        argp_error(state, "--b: up to %d bodies are allowed", SCENE_CHOICES);
+    scene->b = scene->all_b[scene->b_count++] = text;
+}
+
+static void parse_contact_model(const char *text, struct scene *scene, struct argp_state *state)
+{
+    if (scene->model_count == SCENE_CHOICES)
+        argp_error(state, "--contact-model: up to %d are allowed", SCENE_CHOICES);
+    unsigned model = parse_choice("contact-model", text, PERCUSS_CONTACT_COUNT,
+                                  percuss_contact_model_name, state);
+    scene->options.contact_model = scene->models[scene->model_count++] = model;
+}
+
+void scene_check_single(const struct scene *scene, struct argp_state *state)
+{
+    if (scene->b_count > 1)
+        argp_error(state, "--b: one body is needed, not %zu", scene->b_count);
+    if (scene->model_count > 1)
+        argp_error(state, "--contact-model: one is needed, not %zu", scene->model_count);
+}
+
 static error_t parse_scene(int key, char *text, struct argp_state *state)
 {
     struct scene *scene = state->input;
@@ -72,7 +96,7 @@ static error_t parse_scene(int key, char *text, struct argp_state *state)
         scene->a = text;
         break;
     case KEY_B:
-        scene->b = text;
+        parse_b(text, scene, state);
         break;
     case KEY_AT:
         parse_site(text, scene, state);
@@ -84,8 +108,7 @@ static error_t parse_scene(int key, char *text, struct argp_state *state)
         options->horizon = parse_positive("horizon", text, state);
         break;
     case KEY_CONTACT_MODEL:
-        options->contact_model = parse_choice("contact-model", text, PERCUSS_CONTACT_COUNT,
-                                              percuss_contact_model_name, state);
+        parse_contact_model(text, scene, state);
         break;
     case KEY_METHOD:
         options->method =

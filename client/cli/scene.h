@@ -7,8 +7,14 @@
 
 #include "cli.h"
 
+enum { SCENE_CHOICES = 8 };
+
 struct scene {
-    const char *a, *b; /* NULL: not given */
+    const char *a, *b; /* NULL: not given; b: the last one given */
+    /* all bodies B and contact models given, for the commands that take several */
+    const char *all_b[SCENE_CHOICES];
+    enum percuss_contact_model models[SCENE_CHOICES];
+    size_t b_count, model_count;
     double at;
     bool at_given;
     bool given; /* any flag */
@@ -17,6 +23,10 @@ struct scene {
 
 /* Parses --a, --b, --at, --tolerance, ... into the `struct scene` that is its input. */
 extern const struct argp scene_argp;
+
+/* For commands with one impact: ends the process through argp_error if --b or --contact-model was
+ * given more than once. */
+void scene_check_single(const struct scene *scene, struct argp_state *state);
 
 /* Nothing given, defaults. */
 struct scene scene_default(void);

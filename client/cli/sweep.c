@@ -10,12 +10,14 @@
 #include <unistd.h>
 
 #include "cli.h"
+#include "plot.h"
 #include "scene.h"
 #include "sweep_output.h"
 
 /* Enough to keep a server's workers busy, few enough for its queue. */
 enum { OUTSTANDING = 16, MOST_POINTS = 1000000 };
-enum { KEY_SPEED = OPTION_OWN, KEY_CSV };
+enum { KEY_SPEED = OPTION_OWN, KEY_CSV, KEY_PLOT };
+enum { MOST_CURVES = SCENE_CHOICES * SCENE_CHOICES };
 
 struct sweep {
     struct common *common;
@@ -23,11 +25,14 @@ struct sweep {
     double low, high;
     unsigned count; /* 0: no --speed */
     bool csv;
+    const char *plot; /* file; NULL: no picture */
 };
 
 static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "LO:HI:N", 0, "N speeds from LO to HI, m/s", 10},
     {"csv", KEY_CSV, NULL, 0, "print comma-separated values", 90},
+    {"plot", KEY_PLOT, "FILE", 0,
+     "draw the restitution against the speed with gnuplot: FILE.png or FILE.svg", 40},
     {0},
 };
 
@@ -65,6 +70,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_CSV:
         sweep->csv = true;
         return 0;
+    case KEY_PLOT:
+        plot_check_name(text, state);
+        sweep->plot = text;
+        return 0;
     case ARGP_KEY_END:
         check(sweep, state);
         return 0;
@@ -78,15 +87,19 @@ static const struct argp_child children[] = {
 static const struct argp sweep_argp = {
     .options = options,
     .parser = parse,
-    .doc = "Asks for the same impact at N speeds and prints a line for each.\v"
-           "Example: percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.4:31 --csv",
+    .doc = "Asks for the same impact at N speeds and prints a line for each. --b and "
+           "--contact-model may be given several times: a curve for each.\v"
+           "Examples: percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.4:31 --csv\n"
+           "percuss sweep --a steel-sphere --b al-rod-1 --b al-rod-2 --contact-model hertz "
+           "--contact-model closed-form --speed 0.05:0.5:19 --plot rods.svg",
     .children = children,
 };
 
-/* A sweep under way. */
+/* A curve under way. */
 struct run {
     const struct sweep *sweep;
     struct percuss_client *client;
+    struct scene scene; /* of this curve */
     struct scene_bodies bodies;
     struct percuss_reply *replies; /* one a speed */
     uint64_t *sequences;
@@ -103,7 +116,7 @@ static double speed_at(const struct sweep *sweep, unsigned i)
 static int send_point(struct run *run, unsigned i)
 {
     struct percuss_request request;
-    int code = scene_request(&run->sweep->scene, &run->bodies, speed_at(run->sweep, i), &request);
+    int code = scene_request(&run->scene, &run->bodies, speed_at(run->sweep, i), &request);
     if (code != EXIT_ANSWERED)
         return code;
     enum percuss_result result = percuss_submit(run->client, &request, &run->sequences[i]);
@@ -164,24 +177,6 @@ static int ask_all(struct run *run)
     return code;
 }
 
-static void print(const struct run *run)
-{
-    struct sweep_points points = {run->sweep->count, NULL, run->replies};
-    double *speeds = calloc(run->sweep->count, sizeof *speeds);
-    if (!speeds)
-        return;
-    for (unsigned i = 0; i < run->sweep->count; ++i)
-        speeds[i] = speed_at(run->sweep, i);
-    points.speeds = speeds;
-    if (run->sweep->common->json)
-        sweep_print_json(&points);
-    else if (run->sweep->csv)
-        sweep_print_csv(&points);
-    else
-        sweep_print_table(&points);
-    free(speeds);
-}
-
 /* The worst exit code of the replies; explains an unknown body once. */
 static int judge(const struct run *run)
 {
@@ -198,39 +193,104 @@ static int judge(const struct run *run)
         complain("%s: %s", percuss_status_name(refused->status), refused->message);
     struct percuss_request request;
     if (refused && refused->status == PERCUSS_UNKNOWN_BODY &&
-        scene_request(&run->sweep->scene, &run->bodies, run->sweep->low, &request) == EXIT_ANSWERED)
+        scene_request(&run->scene, &run->bodies, run->sweep->low, &request) == EXIT_ANSWERED)
         scene_explain_unknown(&request, &run->bodies.list);
     return worst;
 }
 
-static int run_sweep(struct run *run)
+/* Asks for all points of a curve; the replies stay the run's. */
+static int run_curve(struct run *run)
 {
     unsigned count = run->sweep->count;
     run->replies = calloc(count, sizeof *run->replies);
     run->sequences = calloc(count, sizeof *run->sequences);
-    int code = run->replies && run->sequences ? ask_all(run) : EXIT_FAILURE;
-    if (code == EXIT_ANSWERED) {
-        print(run);
-        code = judge(run);
-    }
-    for (unsigned i = 0; run->replies && i < count; ++i)
+    int code = scene_find_bodies(&run->scene, run->sweep->common, run->client, &run->bodies);
+    if (code == EXIT_ANSWERED)
+        code = run->replies && run->sequences ? ask_all(run) : EXIT_FAILURE;
+    return code;
+}
+
+static void free_run(struct run *run)
+{
+    for (unsigned i = 0; run->replies && i < run->sweep->count; ++i)
         percuss_reply_free(&run->replies[i]);
     free(run->replies);
     free(run->sequences);
+    percuss_body_list_free(&run->bodies.list);
+}
+
+static int print(const struct sweep *sweep, const struct run *runs, size_t count)
+{
+    struct sweep_curve curves[MOST_CURVES];
+    double *speeds = calloc(sweep->count, sizeof *speeds);
+    if (!speeds)
+        return EXIT_FAILURE;
+    for (unsigned i = 0; i < sweep->count; ++i)
+        speeds[i] = speed_at(sweep, i);
+    for (size_t k = 0; k < count; ++k)
+        curves[k] = (struct sweep_curve){
+            runs[k].scene.b, percuss_contact_model_name(runs[k].scene.options.contact_model),
+            runs[k].replies};
+    struct sweep_points points = {sweep->scene.a, sweep->count, speeds, count, curves};
+    if (sweep->common->json)
+        sweep_print_json(&points);
+    else if (sweep->csv)
+        sweep_print_csv(&points);
+    else
+        sweep_print_table(&points);
+    int code = sweep->plot ? sweep_plot(sweep->plot, &points) : EXIT_ANSWERED;
+    free(speeds);
+    return code;
+}
+
+/* A run for every body and contact model given; returns how many. */
+static size_t list_runs(const struct sweep *sweep, struct percuss_client *client, struct run *runs)
+{
+    const struct scene *scene = &sweep->scene;
+    size_t models = scene->model_count ? scene->model_count : 1, count = 0;
+    for (size_t b = 0; b < scene->b_count; ++b) {
+        for (size_t m = 0; m < models; ++m) {
+            struct run *run = &runs[count++];
+            *run = (struct run){.sweep = sweep, .client = client, .scene = *scene};
+            run->scene.b = scene->all_b[b];
+            if (scene->model_count)
+                run->scene.options.contact_model = scene->models[m];
+        }
+    }
+    return count;
+}
+
+static int run_sweep(const struct sweep *sweep, struct percuss_client *client)
+{
+    struct run *runs = calloc(MOST_CURVES, sizeof *runs);
+    if (!runs)
+        return EXIT_FAILURE;
+    size_t count = list_runs(sweep, client, runs);
+    int code = EXIT_ANSWERED;
+    for (size_t k = 0; code == EXIT_ANSWERED && k < count; ++k)
+        code = run_curve(&runs[k]);
+    if (code == EXIT_ANSWERED) {
+        code = print(sweep, runs, count);
+        for (size_t k = 0; k < count; ++k) {
+            int judged = judge(&runs[k]);
+            code = judged > code ? judged : code;
+        }
+    }
+    for (size_t k = 0; k < count; ++k)
+        free_run(&runs[k]);
+    free(runs);
     return code;
 }
 
 int command_sweep(int argc, char **argv, struct common *common)
 {
     struct sweep sweep = {.common = common, .scene = scene_default()};
+    struct percuss_client *client;
     argp_parse(&sweep_argp, argc, argv, 0, NULL, &sweep);
-    struct run run = {.sweep = &sweep};
-    int code = open_client(common, NULL, &run.client);
-    if (code == EXIT_ANSWERED)
-        code = scene_find_bodies(&sweep.scene, common, run.client, &run.bodies);
-    if (code == EXIT_ANSWERED)
-        code = run_sweep(&run);
-    percuss_body_list_free(&run.bodies.list);
-    percuss_client_free(run.client);
+    int code = open_client(common, NULL, &client);
+    if (code != EXIT_ANSWERED)
+        return code;
+    code = run_sweep(&sweep, client);
+    percuss_client_free(client);
     return code;
 }

@@ -7,7 +7,10 @@
 #include <math.h>
 #include <percuss/percuss.h>
 #include <stdio.h>
+#include <string.h>
 
+#include "cli.h"
+#include "plot.h"
 #include "reply_json.h"
 #include "reply_table.h"
 
@@ -18,9 +21,10 @@ struct row {
     const char *status;
 };
 
-static struct row row_of(const struct sweep_points *points, unsigned i)
+static struct row row_of(const struct sweep_points *points, const struct sweep_curve *curve,
+                         unsigned i)
 {
-    const struct percuss_reply *reply = &points->replies[i];
+    const struct percuss_reply *reply = &curve->replies[i];
     struct row row = {.speed = points->speeds[i],
                       .restitution = NAN,
                       .error = NAN,
@@ -39,34 +43,50 @@ static struct row row_of(const struct sweep_points *points, unsigned i)
     return row;
 }
 
-void sweep_print_table(const struct sweep_points *points)
+static void print_curve(const struct sweep_points *points, const struct sweep_curve *curve)
 {
+    if (points->curve_count > 1)
+        printf("%s%s on %s, contact model %s\n", curve == points->curves ? "" : "\n", points->a,
+               curve->b, curve->contact_model);
     printf("%10s %12s %9s %13s %11s %11s %12s  %s\n", "speed m/s", "restitution", "error",
            "impulse N s", "sub-impacts", "significant", "end time ms", "status");
     for (unsigned i = 0; i < points->count; ++i) {
-        struct row row = row_of(points, i);
+        struct row row = row_of(points, curve, i);
         printf("%10.5g %12.6f %9.1e %13.6g %11u %11u %12.4f  %s\n", row.speed, row.restitution,
                row.error, row.impulse, row.sub_impacts, row.significant, 1e3 * row.end_time,
                row.status);
     }
 }
 
+void sweep_print_table(const struct sweep_points *points)
+{
+    for (size_t k = 0; k < points->curve_count; ++k)
+        print_curve(points, &points->curves[k]);
+}
+
 void sweep_print_csv(const struct sweep_points *points)
 {
-    puts("speed,restitution,error,impulse,sub_impacts,significant,end_time,status");
-    for (unsigned i = 0; i < points->count; ++i) {
-        struct row row = row_of(points, i);
-        printf("%.17g,%.17g,%.17g,%.17g,%u,%u,%.17g,%s\n", row.speed, row.restitution, row.error,
-               row.impulse, row.sub_impacts, row.significant, row.end_time, row.status);
+    bool several = points->curve_count > 1;
+    printf("%sspeed,restitution,error,impulse,sub_impacts,significant,end_time,status\n",
+           several ? "b,contact_model," : "");
+    for (size_t k = 0; k < points->curve_count; ++k) {
+        const struct sweep_curve *curve = &points->curves[k];
+        for (unsigned i = 0; i < points->count; ++i) {
+            struct row row = row_of(points, curve, i);
+            if (several)
+                printf("%s,%s,", curve->b, curve->contact_model);
+            printf("%.17g,%.17g,%.17g,%.17g,%u,%u,%.17g,%s\n", row.speed, row.restitution,
+                   row.error, row.impulse, row.sub_impacts, row.significant, row.end_time,
+                   row.status);
+        }
     }
 }
 
-void sweep_print_json(const struct sweep_points *points)
+static json_t *curve_to_json(const struct sweep_points *points, const struct sweep_curve *curve)
 {
-    json_t *root = json_object(), *array = json_array();
-    json_object_set_new(root, "points", array);
+    json_t *array = json_array();
     for (unsigned i = 0; i < points->count; ++i) {
-        struct row row = row_of(points, i);
+        struct row row = row_of(points, curve, i);
         json_t *point = json_object();
         json_object_set_new(point, "speed", json_number(row.speed));
         json_object_set_new(point, "restitution", json_number(row.restitution));
@@ -76,8 +96,93 @@ void sweep_print_json(const struct sweep_points *points)
         json_object_set_new(point, "significant", json_integer(row.significant));
         json_object_set_new(point, "end_time", json_number(row.end_time));
         json_object_set_new(point, "status", json_string(row.status));
-        json_object_set_new(point, "reply", reply_to_json(&points->replies[i]));
+        json_object_set_new(point, "reply", reply_to_json(&curve->replies[i]));
         json_array_append_new(array, point);
     }
+    return array;
+}
+
+void sweep_print_json(const struct sweep_points *points)
+{
+    json_t *root = json_object(), *curves = json_array();
+    for (size_t k = 0; k < points->curve_count; ++k) {
+        json_t *curve = json_object();
+        json_object_set_new(curve, "b", json_string(points->curves[k].b));
+        json_object_set_new(curve, "contact_model", json_string(points->curves[k].contact_model));
+        json_object_set_new(curve, "points", curve_to_json(points, &points->curves[k]));
+        json_array_append_new(curves, curve);
+    }
+    if (points->curve_count == 1) {
+        json_object_set(root, "points", json_object_get(json_array_get(curves, 0), "points"));
+        json_decref(curves);
+    } else {
+        json_object_set_new(root, "curves", curves);
+    }
     json_print(root);
+}
+
+static void write_data(const struct plot *plot, const struct sweep_points *points)
+{
+    for (size_t k = 0; k < points->curve_count; ++k) {
+        fprintf(plot->script, "$curve%zu << EOD\n", k);
+        for (unsigned i = 0; i < points->count; ++i) {
+            struct row row = row_of(points, &points->curves[k], i);
+            if (row.sub_impacts > 0)
+                fprintf(plot->script, "%.9g %.9g %.3g %u %u\n", row.speed, row.restitution,
+                        isnan(row.error) ? 0.0 : row.error, row.sub_impacts, row.significant);
+        }
+        fputs("EOD\n", plot->script);
+    }
+}
+
+/* What tells the curves apart: the bodies, the models or both. */
+static void write_title(const struct plot *plot, const struct sweep_points *points, size_t k)
+{
+    const struct sweep_curve *curve = &points->curves[k], *first = points->curves;
+    bool bodies = false, models = false;
+    char title[160];
+    for (size_t i = 1; i < points->curve_count; ++i) {
+        bodies = bodies || strcmp(points->curves[i].b, first->b);
+        models = models || strcmp(points->curves[i].contact_model, first->contact_model);
+    }
+    if (models)
+        snprintf(title, sizeof title, "%s, %s", curve->b, curve->contact_model);
+    else
+        snprintf(title, sizeof title, "%s", bodies ? curve->b : "estimated error");
+    plot_text(plot, title);
+}
+
+int sweep_plot(const char *file, const struct sweep_points *points)
+{
+    struct plot plot;
+    char title[160];
+    int code = plot_begin(&plot, file, 1000, 800);
+    if (code != EXIT_ANSWERED)
+        return code;
+    write_data(&plot, points);
+    snprintf(title, sizeof title, "%s on %s%s", points->a, points->curves[0].b,
+             points->curve_count == 1 ? "" : " and others");
+    fputs("set multiplot title ", plot.script);
+    plot_text(&plot, title);
+    fputs("\nset lmargin 10\nset key top right\nset bars 0.5\n"
+          "set origin 0,0.32\nset size 1,0.64\nset ylabel 'restitution e'\nplot ",
+          plot.script);
+    for (size_t k = 0; k < points->curve_count; ++k) {
+        fprintf(plot.script,
+                "%s$curve%zu using 1:2 with lines lt %zu lw 1 notitle, "
+                "$curve%zu using 1:2:3 with yerrorbars lt %zu lw 1 ps 0.6 title ",
+                k ? ", " : "", k, k + 1, k, k + 1);
+        write_title(&plot, points, k);
+    }
+    fputs("\nset origin 0,0\nset size 1,0.33\nset key top left\nset ylabel 'sub-impacts'\n"
+          "set xlabel 'speed / (m/s)'\nset yrange [0:*]\nset offsets 0,0,0.5,0\nset ytics 1\nplot ",
+          plot.script);
+    for (size_t k = 0; k < points->curve_count; ++k)
+        fprintf(plot.script,
+                "%s$curve%zu using 1:4 with points lt %zu pt 6 ps 0.9 %s, "
+                "$curve%zu using 1:5 with points lt %zu pt 7 ps 0.4 %s",
+                k ? ", " : "", k, k + 1, k ? "notitle" : "title 'all'", k, k + 1,
+                k ? "notitle" : "title 'without negligible ones'");
+    fputs("\nunset multiplot\n", plot.script);
+    return plot_end(&plot);
 }

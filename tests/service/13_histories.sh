@@ -42,6 +42,15 @@ picture "$work/beam.png" 20000
 cmp -s "$work/trace.csv" "$work/again.csv" || fail "the same question has other histories"
 expect 0 percuss query --a steel-sphere --b al-rod --speed 0.3 --plot "$work/rod.svg"
 picture "$work/rod.svg" 10000
+expect 0 percuss sweep --a steel-sphere --b al-rod-1 --b al-rod-2 --contact-model hertz \
+    --contact-model auto --speed 0.05:0.5:4 --csv --plot "$work/rods.svg"
+picture "$work/rods.svg" 8000
+[ "$(grep -c '^al-rod-[12],\(hertz\|auto\),0\.' "$out")" -eq 16 ] || fail "not four curves of four points"
+shows "b,contact_model,speed,restitution,"
+expect 0 percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.3:9 --plot "$work/sweep.png"
+picture "$work/sweep.png" 10000
+expect 2 query --b al-rod
+says "--b: one body is needed, not 2"
 expect 2 query --plot "$work/beam.jpg"
 says ".png or .svg"
 mkdir "$work/empty"
