@@ -76,6 +76,7 @@ only() {
 }
 only 'cvode|arkode|sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol' 'service/numeric'
 only 'lapacke' 'service/numeric'
+only 'cminpack' 'client/measured'
 only 'yaml' 'service/catalogue|service/daemon'
 only 'jansson' 'client/cli'
 only 'dds/' 'service/endpoint|service/daemon|client/lib'

@@ -1,0 +1,50 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Time histories of the bodies' motion along the normal, as from laser-Doppler vibrometers, and
+ * what they say of the impact. */
+#ifndef PERCUSS_MEASURED_HISTORY_H
+#define PERCUSS_MEASURED_HISTORY_H
+
+#include "impact.h"
+
+/* Arrays of `count`. */
+struct history {
+    size_t count;
+    double *time;           /* ascending, s */
+    double *velocity_a;     /* of the rigid body A, m/s */
+    double *velocity_b;     /* of body B; NULL: not measured (at rest before) */
+    bool from_displacement; /* velocities are differences of measured displacements */
+};
+
+/* Reads columns time and velocity_a or displacement_a, optionally velocity_b or displacement_b;
+ * others are ignored. False with the reason. */
+bool history_read(const char *file, struct history *history, struct measured_fault *fault);
+
+void history_free(struct history *history);
+
+enum { HISTORY_SUB_IMPACTS = 64 };
+
+struct history_sub_impact {
+    double start, end; /* s */
+    double jump;       /* of A's velocity, m/s */
+};
+
+struct history_impacts {
+    size_t count;
+    struct history_sub_impact list[HISTORY_SUB_IMPACTS];
+    double before; /* velocity of A until the first, of B relative to it taken off, m/s: < 0 */
+    double noise;  /* standard deviation of one velocity reading, m/s */
+};
+
+/* Finds sub-impacts as jumps of A's velocity (a rigid body moves evenly between contacts) that
+ * stand out of the noise. Starts and ends are extrapolated with the 5/2 power of time by which a
+ * Hertz contact begins to change a velocity. Directions may be either way round. False with the
+ * reason: too few readings, no jump, no readings before the first. */
+bool history_find(const struct history *history, struct history_impacts *impacts,
+                  struct measured_fault *fault);
+
+/* The impact as far as the history tells it. */
+struct measured_impact history_impact(const struct history_impacts *impacts);
+
+#endif

@@ -1,0 +1,54 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Measured impacts of one pair of bodies and their simulated twins. SI units; NAN: not known. */
+#ifndef PERCUSS_MEASURED_IMPACT_H
+#define PERCUSS_MEASURED_IMPACT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct measured_impact {
+    double speed; /* of approach */
+    double restitution;
+    double impulse;       /* of all sub-impacts */
+    double sub_impacts;   /* a count */
+    double first_impulse; /* of the first sub-impact */
+    double first_duration;
+    double second_start; /* of the second sub-impact of at least 1 % of the impulse, after the
+                            start of the first */
+    double at;           /* place along a beam, 0..1 */
+    double momentum;     /* impulse over the mass of body A: from its velocity, m/s */
+    double first_momentum;
+};
+
+/* Nothing known. */
+struct measured_impact measured_impact_unknown(void);
+
+struct measured_set {
+    size_t count, room;
+    struct measured_impact *impacts;
+};
+
+void measured_set_free(struct measured_set *set);
+
+struct measured_fault {
+    char text[512];
+};
+
+/* Reads comma-separated values with a line of column names: any of speed, restitution, impulse,
+ * sub_impacts, first_impulse, first_duration, second_start, at, and history, the name of a file of
+ * time histories (relative to this one). Empty fields and nan are unknown; # begins a comment.
+ * Every impact needs a speed (or a history, which has it) and a restitution, an impulse or a
+ * history. False with file, line, value and what is allowed. */
+bool measured_read(const char *file, struct measured_set *set, struct measured_fault *fault);
+
+/* Appends an impact. False: out of memory. */
+bool measured_append(struct measured_set *set, const struct measured_impact *impact);
+
+/* Fills what follows once the mass of A and the inverse effective mass w (1/kg) are known:
+ * impulses from momenta, e = impulse w / speed - 1 (Eq. (6)) and the other way round, and the first
+ * impulse where it is the only one. */
+void measured_complete(struct measured_impact *impact, double mass_a, double w);
+
+#endif
