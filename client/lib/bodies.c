@@ -20,6 +20,8 @@ static void convert_body(const percuss_v1_Body *wire, struct percuss_body *body)
     memcpy(body->shape, wire->shape, sizeof body->shape);
     memcpy(body->material, wire->material, sizeof body->material);
     memcpy(body->description, wire->description, sizeof body->description);
+    _Static_assert(sizeof body->parameters == sizeof wire->parameters, "as many as on the wire");
+    memcpy(body->parameters, wire->parameters, sizeof body->parameters);
     memcpy(body->half_extents, wire->half_extents, sizeof body->half_extents);
 }
 

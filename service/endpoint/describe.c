@@ -95,6 +95,8 @@ static void describe_compact(const struct body *body, percuss_v1_Body *wire)
 void describe_body(const struct body *body, percuss_v1_Body *wire)
 {
     *wire = (percuss_v1_Body){.mass = body->mass, .radius = body->radius};
+    for (int i = 0; i < PERCUSS_PARAMETER_COUNT; i++)
+        wire->parameters[i] = body_parameter(body, i);
     snprintf(wire->id, sizeof wire->id, "%s", body->id);
     snprintf(wire->shape, sizeof wire->shape, "%s", shape_name(body->shape));
     snprintf(wire->material, sizeof wire->material, "%s", body->material.name);

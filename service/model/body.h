@@ -61,6 +61,9 @@ struct body_variation {
 enum percuss_status body_vary(const struct body *body, const struct body_variation *variations,
                               size_t count, struct body *varied, struct fault *fault);
 
+/* The body's value; NAN: a body of this shape has no such parameter. */
+double body_parameter(const struct body *body, enum percuss_parameter parameter);
+
 /* Whether two variants of one body of the catalogue have the same modes. */
 bool body_same_modes(const struct body *a, const struct body *b);
 

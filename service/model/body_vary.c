@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Bodies that differ from the catalogue's in some parameters. */
+#include <math.h>
 #include <string.h>
 
 #include "model/body.h"
@@ -27,6 +28,13 @@ static double *find_parameter(struct body *body, unsigned parameter)
     default:
         return NULL;
     }
+}
+
+double body_parameter(const struct body *body, enum percuss_parameter parameter)
+{
+    struct body copy = *body;
+    const double *value = find_parameter(&copy, parameter);
+    return value ? *value : NAN;
 }
 
 enum percuss_status body_vary(const struct body *body, const struct body_variation *variations,

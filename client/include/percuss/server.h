@@ -20,6 +20,8 @@ struct percuss_body {
     double radius;                    /* sphere, rod, round beam, cylinder, m; 0: none */
     double tip_radius;                /* of a rod's ends, m; INFINITY: flat; other shapes: 0 */
     enum percuss_support supports[2]; /* rod, beam: at its ends at -x and +x */
+    double parameters[PERCUSS_PARAMETER_COUNT]; /* what a request may override; NAN: it has none;
+                                                   infinite yield: stays elastic */
 };
 
 struct percuss_body_list {

@@ -24,9 +24,13 @@ static void described(const struct body *body, const char *shape, const char *de
     assert_true(wire.tip_radius == (is_rod ? body->tip_radius : 0.0));
     assert_true(wire.radius == body->radius);
     assert_int_equal(wire.supports[1], body->supports[1]);
+    assert_true(wire.parameters[PERCUSS_PARAMETER_YOUNG] == 7.0);
+    bool flexible = is_rod || body->shape == SHAPE_BEAM;
+    assert_int_equal(isnan(wire.parameters[PERCUSS_PARAMETER_DAMPING]), !flexible);
+    assert_int_equal(isnan(wire.parameters[PERCUSS_PARAMETER_RADIUS]), body->radius == 0.0);
 }
 
-#define COMMON .id = "x", .material.name = "steel", .mass = 3.0
+#define COMMON .id = "x", .material.name = "steel", .material.young = 7.0, .mass = 3.0
 
 static void describes_every_shape(void **state)
 {
