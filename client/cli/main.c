@@ -16,8 +16,9 @@ static const struct {
     const char *name;
     command_function *function;
 } commands[] = {
-    {"query", command_query},   {"sweep", command_sweep},   {"ensemble", command_ensemble},
-    {"bodies", command_bodies}, {"status", command_status}, {"ping", command_ping},
+    {"query", command_query},     {"sweep", command_sweep},         {"ensemble", command_ensemble},
+    {"bodies", command_bodies},   {"status", command_status},       {"ping", command_ping},
+    {"compare", command_compare}, {"calibrate", command_calibrate},
 };
 
 struct invocation {
@@ -57,6 +58,8 @@ static const struct argp main_argp = {
            "  bodies    the bodies that the server knows\n"
            "  status    what the server is doing\n"
            "  ping      round-trip time to the server\n"
+           "  compare   measured impacts beside their simulated twins\n"
+           "  calibrate parameters of the bodies from measured impacts\n"
            "  ensemble  many impacts with random inputs (no server offers it yet)\n\n"
            "percuss COMMAND --help explains a command. Try: "
            "percuss query --a steel-sphere --b al-beam --speed 0.3\n\n"

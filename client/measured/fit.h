@@ -18,6 +18,10 @@ struct fit_problem {
     bool (*evaluate)(void *context, const double *x, double *residuals);
     void *context;
     double difference; /* change of a parameter for a derivative */
+    /* Residuals of one group share errors: group[i] below `groups`. The intervals then rest on the
+     * scatter between groups only. NULL: all are independent and alike. */
+    const size_t *group;
+    size_t groups;
 };
 
 struct fit {
@@ -31,7 +35,7 @@ struct fit {
 };
 
 /* Starts from fit->x and leaves the best there (Levenberg and Marquardt, by MINPACK). The intervals
- * scale with the residuals that remain. False: evaluate failed, too few residuals, or out of
+ * come from the residuals that remain. False: evaluate failed, too few residuals, or out of
  * memory. */
 bool fit_solve(const struct fit_problem *problem, struct fit *fit);
 

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "impact/trace.h"
 #include "model/rigid.h"
 #include "model/vector.h"
 #include "solve/report.h"

@@ -12,9 +12,10 @@
 
 #include "base/fault.h"
 #include "impact/result.h"
-#include "impact/trace.h"
 #include "model/body.h"
 #include "solve/body_state.h"
+
+struct trace; /* impact/trace.h */
 
 struct solve_body {
     char id[PERCUSS_ID_SIZE];
@@ -100,9 +101,9 @@ struct solve_result {
     char reason[512];
     double omitted_error;
     double time_shift;
+    const struct trace *trace; /* in the workspace, until its next solve; NULL: not asked for */
     size_t warning_count;
     char warnings[8][256];
-    const struct trace *trace; /* in the workspace, until its next solve; NULL: not asked for */
 };
 
 /* Memory of one worker: prepared bodies (frequencies, step tables) and everything a solve writes.

@@ -3,6 +3,7 @@
 
 /* Time histories (solve/history.c, impact/trace.c, force_log.c): what they show is the impact that
  * the reply describes, and kinematics and momentum hold between their columns. */
+#include "impact/trace.h"
 #include "physics/support.h"
 
 static const double SPHERE_MASS = 7800.0 * 4.0 / 3.0 * M_PI * 0.015 * 0.015 * 0.015;

@@ -55,7 +55,7 @@ static void a_line_has_its_textbook_intervals(void **state)
     for (int i = 0; i < POINTS; ++i)
         sum += pow(intercept + slope * data.x[i] - data.y[i], 2.0);
     double sigma = sqrt(sum / (POINTS - 2));
-    struct fit_problem problem = {2, POINTS, line, &data, 1e-4};
+    struct fit_problem problem = {2, POINTS, line, &data, 1e-4, NULL, 0};
     struct fit fit = {.x = {1.0, 1.0}};
     assert_true(fit_solve(&problem, &fit));
     near(fit.x[0], intercept, 1e-6);
@@ -89,7 +89,7 @@ static void intervals_cover_the_truth(void **state)
             data.x[i] = 0.1 * i;
             data.y[i] = truth[0] * exp(-truth[1] * data.x[i]) + 0.02 * random_normal(&random);
         }
-        struct fit_problem problem = {2, POINTS, decay, &data, 1e-4};
+        struct fit_problem problem = {2, POINTS, decay, &data, 1e-4, NULL, 0};
         struct fit fit = {.x = {1.0, 1.0}};
         assert_true(fit_solve(&problem, &fit));
         for (int k = 0; k < 2; ++k)
@@ -97,6 +97,37 @@ static void intervals_cover_the_truth(void **state)
     }
     for (int k = 0; k < 2; ++k)
         assert_in_range(covered[k], 367, 393);
+}
+
+/* Readings in fives that share most of their error: as independent ones they promise too much. */
+static void groups_that_share_errors_widen_intervals(void **state)
+{
+    (void)state;
+    struct random random = {29};
+    int covered = 0, covered_alone = 0;
+    size_t group[POINTS];
+    for (int trial = 0; trial < 400; ++trial) {
+        struct data data;
+        double shared = 0.0;
+        for (int i = 0; i < POINTS; ++i) {
+            if (i % 2 == 0)
+                shared = 0.02 * random_normal(&random);
+            group[i] = (size_t)i / 2;
+            data.x[i] = 0.1 * i;
+            data.y[i] = 1.5 + 0.7 * data.x[i] + shared + 0.004 * random_normal(&random);
+        }
+        struct fit_problem problem = {2, POINTS, line, &data, 1e-4, NULL, 0};
+        struct fit fit = {.x = {1.0, 1.0}};
+        assert_true(fit_solve(&problem, &fit));
+        covered_alone += fabs(fit.x[1] - 0.7) <= fit.half_width[1];
+        problem.group = group;
+        problem.groups = POINTS / 2;
+        assert_true(fit_solve(&problem, &fit));
+        covered += fabs(fit.x[1] - 0.7) <= fit.half_width[1];
+    }
+    /* 380 expected; sandwich intervals of 20 groups fall some per cent short */
+    assert_in_range(covered, 356, 394);
+    assert_true(covered_alone < 345);
 }
 
 /* Only the sum of the first two matters, and the third not at all. */
@@ -117,7 +148,7 @@ static void what_is_not_determined_is_told(void **state)
         data.x[i] = 0.1 * i;
         data.y[i] = 3.0 * data.x[i] + 0.01 * random_normal(&random);
     }
-    struct fit_problem problem = {3, POINTS, degenerate, &data, 1e-4};
+    struct fit_problem problem = {3, POINTS, degenerate, &data, 1e-4, NULL, 0};
     struct fit fit = {.x = {1.0, 1.0, 1.0}};
     assert_true(fit_solve(&problem, &fit));
     near(fit.x[0] + fit.x[1], 3.0, 1e-2);
@@ -136,7 +167,7 @@ static bool failing(void *context, const double *p, double *residuals)
 static void a_failure_stops_it(void **state)
 {
     (void)state;
-    struct fit_problem problem = {1, 5, failing, NULL, 1e-4};
+    struct fit_problem problem = {1, 5, failing, NULL, 1e-4, NULL, 0};
     struct fit fit = {.x = {1.0}};
     assert_false(fit_solve(&problem, &fit));
 }
@@ -146,6 +177,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_line_has_its_textbook_intervals),
         cmocka_unit_test(intervals_cover_the_truth),
+        cmocka_unit_test(groups_that_share_errors_widen_intervals),
         cmocka_unit_test(what_is_not_determined_is_told),
         cmocka_unit_test(a_failure_stops_it),
     };

@@ -1,0 +1,286 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* percuss calibrate: parameters of the bodies from measured impacts. */
+
+#include "calibrate.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "twins.h"
+
+enum { KEY_FIT = OPTION_OWN, KEY_NOISE };
+/* Finer than an answer needs to be, so that derivatives by differences are good. */
+static const double FINE_TOLERANCE = 1e-4;
+/* A damping ratio of 0 has no size of its own to be measured by. */
+static const double DAMPING_SIZE = 0.01;
+static const double MOST_DAMPING = 0.9, LEAST_SHARE = 0.02;
+
+struct calibrate {
+    struct common *common;
+    struct scene scene;
+    const char *file;
+    struct calibrate_parameter parameters[FIT_PARAMETERS];
+    size_t count;
+    double noise;
+};
+
+static const struct argp_option options[] = {
+    {"fit", KEY_FIT, "PARAMETER:ID[=START]", 0,
+     "what to calibrate: young, poisson, density, yield, tangent, damping or radius of a body; may "
+     "be given several times. START: the catalogue's value unless given",
+     30},
+    {"noise", KEY_NOISE, "R", 0,
+     "relative standard deviation of the measured numbers to start with (default 0.01)", 30},
+    {0},
+};
+
+static unsigned parse_parameter(const char *name, size_t length, const char *text,
+                                struct argp_state *state)
+{
+    for (unsigned i = 0; i < PERCUSS_PARAMETER_COUNT; ++i) {
+        const char *known = percuss_parameter_name(i);
+        if (strlen(known) == length && !strncmp(known, name, length))
+            return i;
+    }
+    argp_error(state,
+               "--fit: '%s': PARAMETER:ID[=START] is needed with young, poisson, density, yield, "
+               "tangent, damping or radius",
+               text);
+    return 0;
+}
+
+static void parse_fit(const char *text, struct calibrate *calibrate, struct argp_state *state)
+{
+    const char *colon = strchr(text, ':'), *equals = strchr(text, '=');
+    if (calibrate->count == FIT_PARAMETERS)
+        argp_error(state, "--fit: up to %d parameters are allowed", FIT_PARAMETERS);
+    struct calibrate_parameter *parameter = &calibrate->parameters[calibrate->count++];
+    size_t length = colon ? (size_t)(colon - text) : strlen(text);
+    *parameter = (struct calibrate_parameter){
+        .parameter = parse_parameter(text, colon ? length : 0, text, state), .start = NAN};
+    size_t id = equals ? (size_t)(equals - colon) - 1 : strlen(colon + 1);
+    if (id == 0 || id >= sizeof parameter->body)
+        argp_error(state, "--fit: '%s': the id of a body is needed behind the colon", text);
+    snprintf(parameter->body, sizeof parameter->body, "%.*s", (int)id, colon + 1);
+    if (equals)
+        parameter->start = parse_number("fit", equals + 1, state);
+    for (size_t i = 0; i + 1 < calibrate->count; ++i)
+        if (calibrate->parameters[i].parameter == parameter->parameter &&
+            !strcmp(calibrate->parameters[i].body, parameter->body))
+            argp_error(state, "--fit: '%s': given twice", text);
+}
+
+static void check(const struct calibrate *calibrate, struct argp_state *state)
+{
+    const struct scene *scene = &calibrate->scene;
+    scene_check_single(scene, state);
+    if (!calibrate->file || !scene->a || !scene->b || calibrate->count == 0)
+        argp_error(state, "MEASURED.csv --a ID --b ID --fit PARAMETER:ID are needed");
+    for (size_t i = 0; i < calibrate->count; ++i) {
+        const char *body = calibrate->parameters[i].body;
+        if (strcmp(body, scene->a) != 0 && strcmp(body, scene->b) != 0)
+            argp_error(state, "--fit: '%s' is neither --a nor --b", body);
+    }
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct calibrate *calibrate = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &calibrate->scene;
+        state->child_inputs[1] = calibrate->common;
+        return 0;
+    case KEY_FIT:
+        parse_fit(text, calibrate, state);
+        return 0;
+    case KEY_NOISE:
+        calibrate->noise = parse_number("noise", text, state);
+        if (!(calibrate->noise > 0.0 && calibrate->noise < 1.0))
+            argp_error(state, "--noise: '%s': a number between 0 and 1 is needed", text);
+        return 0;
+    case ARGP_KEY_ARG:
+        if (calibrate->file)
+            argp_error(state, "one file is needed, not '%s' as well", text);
+        calibrate->file = text;
+        return 0;
+    case ARGP_KEY_END:
+        check(calibrate, state);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp_child children[] = {
+    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
+static const struct argp calibrate_argp = {
+    .options = options,
+    .parser = parse,
+    .args_doc = "MEASURED.csv",
+    .doc = "Finds parameters of the bodies with which the simulated twins of measured impacts fit "
+           "best, with 95 % confidence intervals, and says which of them the data do not "
+           "determine.\v"
+           "It fits the first sub-impact's impulse and duration and the start of the second, as "
+           "far as they were measured; the restitution of several sub-impacts in a row is too "
+           "sensitive. MEASURED.csv: as for percuss compare.\n"
+           "Example: percuss calibrate measured.csv --a steel-sphere --b al-beam --fit "
+           "young:al-beam --fit damping:al-beam",
+    .children = children,
+};
+
+/* A calibration under way. */
+struct run {
+    struct calibrate *calibrate;
+    struct twins twins;
+    struct measured_set set;
+    struct twin *list;
+    int code; /* of the last asking */
+};
+
+/* The parameter's value at the fit's number, which is 1 at the start. */
+static double value_at(const struct calibrate_parameter *parameter, double x)
+{
+    if (parameter->parameter == PERCUSS_PARAMETER_DAMPING)
+        /* even about 0, so that the fit may cross it */
+        return fmin(MOST_DAMPING, fabs(parameter->start + (x - 1.0) * parameter->size));
+    return parameter->start * fmax(x, LEAST_SHARE);
+}
+
+static bool simulate(void *context, const double *x, double faster, struct measured_impact *twins)
+{
+    struct run *run = context;
+    const struct calibrate *calibrate = run->calibrate;
+    struct twin_override overrides[2 * FIT_PARAMETERS];
+    size_t count = 0;
+    for (size_t i = 0; i < calibrate->count; ++i) {
+        const struct calibrate_parameter *parameter = &calibrate->parameters[i];
+        const char *ids[2] = {calibrate->scene.a, calibrate->scene.b};
+        for (unsigned body = 0; body < 2; ++body)
+            if (!strcmp(parameter->body, ids[body]))
+                overrides[count++] =
+                    (struct twin_override){body, {parameter->parameter, value_at(parameter, x[i])}};
+    }
+    run->code = twins_ask(&run->twins, &run->set, overrides, count, faster, run->list);
+    for (size_t i = 0; run->code == EXIT_ANSWERED && i < run->set.count; ++i)
+        twins[i] = run->list[i].impact;
+    return run->code == EXIT_ANSWERED;
+}
+
+/* Where to start: what was given, or what the catalogue says. */
+static int find_starts(struct run *run)
+{
+    struct calibrate *calibrate = run->calibrate;
+    for (size_t i = 0; i < calibrate->count; ++i) {
+        struct calibrate_parameter *parameter = &calibrate->parameters[i];
+        const struct percuss_body *body =
+            percuss_body_find(&run->twins.bodies.list, parameter->body);
+        const char *name = percuss_parameter_name(parameter->parameter);
+        if (body && isnan(body->parameters[parameter->parameter])) {
+            complain("--fit: a %s like %s has no %s", body->shape, body->id, name);
+            return EXIT_USAGE;
+        }
+        if (isnan(parameter->start) && body)
+            parameter->start = body->parameters[parameter->parameter];
+        bool damping = parameter->parameter == PERCUSS_PARAMETER_DAMPING;
+        if (body && (!isfinite(parameter->start) || (!damping && parameter->start == 0.0))) {
+            complain("--fit: the catalogue has no %s of %s to start from; give --fit %s:%s=START",
+                     name, parameter->body, name, parameter->body);
+            return EXIT_USAGE;
+        }
+        parameter->size = damping ? fmax(DAMPING_SIZE, parameter->start) : parameter->start;
+    }
+    return EXIT_ANSWERED;
+}
+
+/* Too few readings is the data's fault; anything else was complained of. */
+static int explain(const struct run *run, const struct calibration *calibration)
+{
+    size_t used = 0, known = 0;
+    if (run->code != EXIT_ANSWERED)
+        return run->code;
+    for (int q = 0; q < QUANTITIES; ++q) {
+        used += calibration->used[q];
+        known += calibration->known[q];
+    }
+    if (known == 0)
+        complain("%s: tells neither the impulse nor the duration of the first sub-impact nor the "
+                 "start of the second (columns first_impulse, first_duration, second_start, or a "
+                 "history, or sub_impacts = 1): the restitution of several sub-impacts is chaotic "
+                 "and calibrates nothing",
+                 run->calibrate->file);
+    else
+        complain("%s: %zu usable numbers of %zu do not suffice for %zu parameters (the others "
+                 "are no smooth function of the parameters or more than 30 %% off the model: start "
+                 "nearer with --fit PARAMETER:ID=START)",
+                 run->calibrate->file, used, known, run->calibrate->count);
+    return EXIT_USAGE;
+}
+
+static int run_calibration(struct run *run)
+{
+    struct calibrate *calibrate = run->calibrate;
+    struct calibration calibration = {0};
+    struct calibration_problem problem = {
+        .set = &run->set,
+        .parameters = calibrate->count,
+        .simulate = simulate,
+        .context = run,
+        .noise = calibrate->noise,
+    };
+    for (size_t i = 0; i < calibrate->count; ++i)
+        calibration.fit.x[i] = 1.0;
+    if (!calibration_solve(&problem, &calibration))
+        return explain(run, &calibration);
+    struct calibrate_report report = {calibrate->parameters, calibrate->count, &calibration,
+                                      run->set.count};
+    for (size_t i = 0; i < calibrate->count; ++i) {
+        struct calibrate_parameter *parameter = &calibrate->parameters[i];
+        parameter->value = value_at(parameter, calibration.fit.x[i]);
+        parameter->half_width = parameter->size * calibration.fit.half_width[i];
+    }
+    if (calibrate->common->json)
+        calibrate_print_json(&report);
+    else
+        calibrate_print_table(&report);
+    return calibrate_warn(&report) ? EXIT_ANSWERED_WITH_WARNING : EXIT_ANSWERED;
+}
+
+static int prepare(struct run *run)
+{
+    int code = find_starts(run);
+    if (code == EXIT_ANSWERED)
+        code = twins_ask(&run->twins, &run->set, NULL, 0, 1.0, run->list);
+    if (code == EXIT_ANSWERED)
+        code = twins_complete(&run->twins, &run->set, run->list);
+    return code;
+}
+
+int command_calibrate(int argc, char **argv, struct common *common)
+{
+    struct calibrate calibrate = {.common = common, .scene = scene_default(), .noise = 0.01};
+    struct run run = {.calibrate = &calibrate};
+    struct measured_fault fault;
+    argp_parse(&calibrate_argp, argc, argv, 0, NULL, &calibrate);
+    if (calibrate.scene.options.tolerance == 0.0)
+        calibrate.scene.options.tolerance = FINE_TOLERANCE;
+    if (!measured_read(calibrate.file, &run.set, &fault)) {
+        complain("%s", fault.text);
+        return EXIT_USAGE;
+    }
+    run.list = calloc(run.set.count, sizeof *run.list);
+    int code = run.list ? twins_open(&run.twins, common, &calibrate.scene) : EXIT_FAILURE;
+    if (code == EXIT_ANSWERED) {
+        code = prepare(&run);
+        if (code == EXIT_ANSWERED)
+            code = run_calibration(&run);
+        twins_close(&run.twins);
+    }
+    free(run.list);
+    measured_set_free(&run.set);
+    return code;
+}

@@ -1,0 +1,33 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What a calibration found. */
+#ifndef PERCUSS_CLI_CALIBRATE_H
+#define PERCUSS_CLI_CALIBRATE_H
+
+#include <percuss/percuss.h>
+
+#include "calibration.h"
+
+struct calibrate_parameter {
+    enum percuss_parameter parameter;
+    char body[PERCUSS_ID_SIZE];
+    double start;             /* NAN: the catalogue's */
+    double size;              /* what the fit measures changes by */
+    double value, half_width; /* of the 95 % interval */
+};
+
+struct calibrate_report {
+    const struct calibrate_parameter *parameters;
+    size_t count;
+    const struct calibration *calibration;
+    size_t impacts;
+};
+
+void calibrate_print_table(const struct calibrate_report *report);
+void calibrate_print_json(const struct calibrate_report *report);
+
+/* Says on stderr what the data do not determine; returns whether there is anything to say. */
+bool calibrate_warn(const struct calibrate_report *report);
+
+#endif

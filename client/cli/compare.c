@@ -1,0 +1,176 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* percuss compare: what a rig measured against what the server computes. */
+
+#include "compare.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "cli.h"
+#include "plot.h"
+
+enum { KEY_CSV = OPTION_OWN, KEY_PLOT, KEY_PERMUTATIONS, KEY_SEED };
+enum { DEFAULT_PERMUTATIONS = 1999, MOST_PERMUTATIONS = 1000000, MOST_SEED = 1u << 31 };
+
+struct compare {
+    struct common *common;
+    struct scene scene;
+    const char *file, *plot;
+    bool csv;
+    unsigned permutations, seed;
+};
+
+static const struct argp_option options[] = {
+    {"csv", KEY_CSV, NULL, 0, "print the impacts as comma-separated values", 90},
+    {"plot", KEY_PLOT, "FILE", 0,
+     "draw measured and simulated restitution with gnuplot: FILE.png or FILE.svg", 40},
+    {"permutations", KEY_PERMUTATIONS, "N", 0,
+     "random permutations behind the p-value of the energy distance (default 1999)", 40},
+    {"seed", KEY_SEED, "N", 0, "of the permutations (default 1)", 40},
+    {0},
+};
+
+static void check(const struct compare *compare, struct argp_state *state)
+{
+    scene_check_single(&compare->scene, state);
+    if (!compare->file || !compare->scene.a || !compare->scene.b)
+        argp_error(state, "MEASURED.csv --a ID --b ID are needed");
+    if (compare->csv && compare->common->json)
+        argp_error(state, "--csv or --json, not both");
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct compare *compare = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &compare->scene;
+        state->child_inputs[1] = compare->common;
+        return 0;
+    case KEY_CSV:
+        compare->csv = true;
+        return 0;
+    case KEY_PLOT:
+        plot_check_name(text, state);
+        compare->plot = text;
+        return 0;
+    case KEY_PERMUTATIONS:
+        compare->permutations = parse_count("permutations", text, MOST_PERMUTATIONS, state);
+        return 0;
+    case KEY_SEED:
+        compare->seed = parse_count("seed", text, MOST_SEED, state);
+        return 0;
+    case ARGP_KEY_ARG:
+        if (compare->file)
+            argp_error(state, "one file is needed, not '%s' as well", text);
+        compare->file = text;
+        return 0;
+    case ARGP_KEY_END:
+        check(compare, state);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp_child children[] = {
+    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
+static const struct argp compare_argp = {
+    .options = options,
+    .parser = parse,
+    .args_doc = "MEASURED.csv",
+    .doc =
+        "Puts measured impacts beside their simulated twins: residuals, and how different the two "
+        "distributions of the restitution are.\v"
+        "MEASURED.csv has a line of column names: speed, restitution and optionally impulse, "
+        "sub_impacts, first_impulse, first_duration, second_start, at; or history, the name of a "
+        "file with the columns time and velocity_a (or displacement_a), from which the others "
+        "follow. percuss(1) says more.\n"
+        "Example: percuss compare measured.csv --a steel-sphere --b al-beam --plot measured.svg",
+    .children = children,
+};
+
+/* Fills the statistics. False: out of memory. */
+static bool evaluate(const struct compare *compare, struct comparison *comparison)
+{
+    size_t n = comparison->set->count;
+    double *measured = calloc(3 * n, sizeof *measured), *simulated, *residuals;
+    if (!measured)
+        return false;
+    simulated = measured + n;
+    residuals = measured + 2 * n;
+    double squares = 0.0;
+    for (size_t i = 0; i < n; ++i) {
+        const struct measured_impact *impact = &comparison->set->impacts[i];
+        const struct measured_impact *twin = &comparison->twins[i].impact;
+        measured[i] = impact->restitution;
+        simulated[i] = twin->restitution;
+        residuals[i] = simulated[i] - measured[i];
+        squares += residuals[i] * residuals[i];
+        comparison->counted += !isnan(impact->sub_impacts);
+        comparison->counts_equal += impact->sub_impacts == twin->sub_impacts;
+    }
+    comparison->measured_mean = sample_mean(measured, n);
+    comparison->measured_deviation = sample_deviation(measured, n);
+    comparison->simulated_mean = sample_mean(simulated, n);
+    comparison->simulated_deviation = sample_deviation(simulated, n);
+    comparison->residual_mean = sample_mean(residuals, n);
+    comparison->residual_half_width = n > 1 ? student_quantile(0.975, (double)(n - 1)) *
+                                                  sample_deviation(residuals, n) / sqrt((double)n)
+                                            : NAN;
+    comparison->residual_rms = sqrt(squares / (double)n);
+    bool good = distance_kolmogorov(measured, n, simulated, n, &comparison->kolmogorov) &&
+                distance_energy(measured, n, simulated, n, compare->permutations, compare->seed,
+                                &comparison->energy);
+    free(measured);
+    return good;
+}
+
+static int report(const struct compare *compare, const struct comparison *comparison)
+{
+    if (compare->common->json)
+        compare_print_json(comparison);
+    else if (compare->csv)
+        compare_print_csv(comparison);
+    else
+        compare_print_table(comparison);
+    return compare->plot ? compare_plot(compare->plot, comparison) : EXIT_ANSWERED;
+}
+
+static int run(const struct compare *compare, struct twins *twins, struct measured_set *set)
+{
+    struct twin *list = calloc(set->count, sizeof *list);
+    struct comparison comparison = {.scene = &compare->scene, .set = set, .twins = list};
+    int code = list ? twins_ask(twins, set, NULL, 0, 1.0, list) : EXIT_FAILURE;
+    if (code == EXIT_ANSWERED)
+        code = twins_complete(twins, set, list);
+    if (code == EXIT_ANSWERED)
+        code = evaluate(compare, &comparison) ? report(compare, &comparison) : EXIT_FAILURE;
+    free(list);
+    return code;
+}
+
+int command_compare(int argc, char **argv, struct common *common)
+{
+    struct compare compare = {.common = common,
+                              .scene = scene_default(),
+                              .permutations = DEFAULT_PERMUTATIONS,
+                              .seed = 1};
+    struct measured_set set;
+    struct measured_fault fault;
+    struct twins twins;
+    argp_parse(&compare_argp, argc, argv, 0, NULL, &compare);
+    if (!measured_read(compare.file, &set, &fault)) {
+        complain("%s", fault.text);
+        return EXIT_USAGE;
+    }
+    int code = twins_open(&twins, common, &compare.scene);
+    if (code == EXIT_ANSWERED) {
+        code = run(&compare, &twins, &set);
+        twins_close(&twins);
+    }
+    measured_set_free(&set);
+    return code;
+}

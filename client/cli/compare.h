@@ -1,0 +1,29 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Measured impacts beside their simulated twins. */
+#ifndef PERCUSS_CLI_COMPARE_H
+#define PERCUSS_CLI_COMPARE_H
+
+#include "distance.h"
+#include "twins.h"
+
+struct comparison {
+    const struct scene *scene;
+    const struct measured_set *set;
+    const struct twin *twins;
+    double measured_mean, measured_deviation; /* of the restitution */
+    double simulated_mean, simulated_deviation;
+    double residual_mean, residual_half_width, residual_rms; /* simulated less measured */
+    struct distance kolmogorov, energy;
+    size_t counted, counts_equal; /* impacts with a measured number of sub-impacts */
+};
+
+void compare_print_table(const struct comparison *comparison);
+void compare_print_csv(const struct comparison *comparison);
+void compare_print_json(const struct comparison *comparison);
+
+/* The restitution against the speed, and both empirical distributions. Exit code; complains. */
+int compare_plot(const char *file, const struct comparison *comparison);
+
+#endif

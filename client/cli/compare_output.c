@@ -1,0 +1,169 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "compare.h"
+#include "plot.h"
+#include "reply_json.h"
+
+/* p-values below this are called small. */
+static const double SMALL = 0.05;
+
+static void print_distance(const char *name, const struct distance *distance)
+{
+    printf("  %-20s %.4g, p = %.3g%s\n", name, distance->value, distance->p,
+           distance->p < SMALL ? ": the distributions differ" : "");
+}
+
+void compare_print_table(const struct comparison *comparison)
+{
+    printf("%6s %10s %12s %12s %10s %9s %9s\n", "impact", "speed m/s", "measured e", "simulated e",
+           "residual", "measured", "simulated");
+    printf("%54s %19s\n", "", "sub-impacts");
+    for (size_t i = 0; i < comparison->set->count; ++i) {
+        const struct measured_impact *measured = &comparison->set->impacts[i];
+        const struct measured_impact *twin = &comparison->twins[i].impact;
+        char count[16] = "-";
+        if (!isnan(measured->sub_impacts))
+            snprintf(count, sizeof count, "%.0f", measured->sub_impacts);
+        printf("%6zu %10.5g %12.4f %12.4f %10.4f %9s %9.0f\n", i + 1, measured->speed,
+               measured->restitution, twin->restitution, twin->restitution - measured->restitution,
+               count, twin->sub_impacts);
+    }
+    printf("\n%s on %s, %zu impacts\n", comparison->scene->a, comparison->scene->b,
+           comparison->set->count);
+    printf("  %-20s mean %.4f, standard deviation %.4f\n", "measured e", comparison->measured_mean,
+           comparison->measured_deviation);
+    printf("  %-20s mean %.4f, standard deviation %.4f\n", "simulated e",
+           comparison->simulated_mean, comparison->simulated_deviation);
+    printf("  %-20s mean %.4f +- %.4f (95 %%), root mean square %.4f\n", "residual",
+           comparison->residual_mean, comparison->residual_half_width, comparison->residual_rms);
+    print_distance("Kolmogorov-Smirnov", &comparison->kolmogorov);
+    print_distance("energy distance", &comparison->energy);
+    if (comparison->counted > 0)
+        printf("  %-20s equal in %zu of %zu impacts\n", "sub-impacts", comparison->counts_equal,
+               comparison->counted);
+}
+
+static void print_csv_of(const struct measured_impact *impact)
+{
+    printf(",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", impact->restitution, impact->impulse,
+           impact->sub_impacts, impact->first_impulse, impact->first_duration,
+           impact->second_start);
+}
+
+void compare_print_csv(const struct comparison *comparison)
+{
+    puts("speed,at,restitution,impulse,sub_impacts,first_impulse,first_duration,second_start,"
+         "simulated_restitution,simulated_impulse,simulated_sub_impacts,simulated_first_impulse,"
+         "simulated_first_duration,simulated_second_start,residual");
+    for (size_t i = 0; i < comparison->set->count; ++i) {
+        const struct measured_impact *measured = &comparison->set->impacts[i];
+        const struct measured_impact *twin = &comparison->twins[i].impact;
+        printf("%.17g,%.17g", measured->speed, measured->at);
+        print_csv_of(measured);
+        print_csv_of(twin);
+        printf(",%.17g\n", twin->restitution - measured->restitution);
+    }
+}
+
+static json_t *impact_to_json(const struct measured_impact *impact)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "restitution", json_number(impact->restitution));
+    json_object_set_new(object, "impulse", json_number(impact->impulse));
+    json_object_set_new(object, "sub_impacts", json_number(impact->sub_impacts));
+    json_object_set_new(object, "first_impulse", json_number(impact->first_impulse));
+    json_object_set_new(object, "first_duration", json_number(impact->first_duration));
+    json_object_set_new(object, "second_start", json_number(impact->second_start));
+    return object;
+}
+
+static json_t *moments_to_json(double mean, double deviation)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "mean", json_number(mean));
+    json_object_set_new(object, "standard_deviation", json_number(deviation));
+    return object;
+}
+
+static json_t *distance_to_json(const struct distance *distance)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "value", json_number(distance->value));
+    json_object_set_new(object, "p", json_number(distance->p));
+    return object;
+}
+
+void compare_print_json(const struct comparison *comparison)
+{
+    json_t *root = json_object(), *array = json_array(), *residual = json_object();
+    for (size_t i = 0; i < comparison->set->count; ++i) {
+        const struct measured_impact *measured = &comparison->set->impacts[i];
+        const struct twin *twin = &comparison->twins[i];
+        json_t *object = json_object();
+        json_object_set_new(object, "speed", json_number(measured->speed));
+        json_object_set_new(object, "at", json_number(measured->at));
+        json_object_set_new(object, "measured", impact_to_json(measured));
+        json_object_set_new(object, "simulated", impact_to_json(&twin->impact));
+        json_object_set_new(object, "status", json_string(percuss_status_name(twin->status)));
+        json_object_set_new(object, "residual",
+                            json_number(twin->impact.restitution - measured->restitution));
+        json_array_append_new(array, object);
+    }
+    json_object_set_new(residual, "mean", json_number(comparison->residual_mean));
+    json_object_set_new(residual, "half_width", json_number(comparison->residual_half_width));
+    json_object_set_new(residual, "root_mean_square", json_number(comparison->residual_rms));
+    json_object_set_new(root, "measured",
+                        moments_to_json(comparison->measured_mean, comparison->measured_deviation));
+    json_object_set_new(
+        root, "simulated",
+        moments_to_json(comparison->simulated_mean, comparison->simulated_deviation));
+    json_object_set_new(root, "residual", residual);
+    json_object_set_new(root, "kolmogorov_smirnov", distance_to_json(&comparison->kolmogorov));
+    json_object_set_new(root, "energy_distance", distance_to_json(&comparison->energy));
+    json_object_set_new(root, "sub_impacts_known", json_integer((json_int_t)comparison->counted));
+    json_object_set_new(root, "sub_impacts_equal",
+                        json_integer((json_int_t)comparison->counts_equal));
+    json_object_set_new(root, "impacts", array);
+    json_print(root);
+}
+
+static void write_data(const struct plot *plot, const struct comparison *comparison)
+{
+    fputs("$impacts << EOD\n", plot->script);
+    for (size_t i = 0; i < comparison->set->count; ++i)
+        fprintf(plot->script, "%.9g %.9g %.9g %zu\n", comparison->set->impacts[i].speed,
+                comparison->set->impacts[i].restitution, comparison->twins[i].impact.restitution,
+                comparison->set->count);
+    fputs("EOD\n", plot->script);
+}
+
+int compare_plot(const char *file, const struct comparison *comparison)
+{
+    struct plot plot;
+    char title[160];
+    int code = plot_begin(&plot, file, 1000, 800);
+    if (code != EXIT_ANSWERED)
+        return code;
+    write_data(&plot, comparison);
+    snprintf(title, sizeof title, "%s on %s, %zu impacts", comparison->scene->a,
+             comparison->scene->b, comparison->set->count);
+    fputs("set multiplot layout 2,1 title ", plot.script);
+    plot_text(&plot, title);
+    fputs("\nset lmargin 10\nset xlabel 'speed / (m/s)'\nset ylabel 'restitution e'\n"
+          "plot $impacts using 1:2:(0):($3-$2) with vectors nohead lc rgb '#b0b0b0' notitle, "
+          "'' using 1:2 with points lt 2 title 'measured', "
+          "'' using 1:3 with points lt 1 title 'simulated'\n"
+          "set key bottom right\nset xlabel 'restitution e'\n"
+          "set ylabel 'share of impacts below'\nset yrange [0:1]\n"
+          "plot $impacts using 2:(1.0/$4) smooth cumulative with steps lt 2 title 'measured', "
+          "'' using 3:(1.0/$4) smooth cumulative with steps lt 1 title 'simulated'\n"
+          "unset multiplot\n",
+          plot.script);
+    return plot_end(&plot);
+}
