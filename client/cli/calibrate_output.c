@@ -13,8 +13,8 @@
 static const double WIDE = 0.5;
 /* Parameters more alike than this can stand in for each other. */
 static const double ALIKE = 0.95;
-/* More readings left out than this share tell of another fault. */
-static const double MANY = 0.2;
+/* Some second sub-impacts are always near a jump; more than this share tell of another fault. */
+static const double MANY = 0.5;
 
 static bool is_determined(const struct calibrate_parameter *parameter)
 {
@@ -117,7 +117,7 @@ bool calibrate_warn(const struct calibrate_report *report)
         if ((double)left <= MANY * (double)calibration->known[q])
             continue;
         complain("%s: %zu of %zu readings are no smooth function of the parameters, or off by more "
-                 "than five "
+                 "than four "
                  "standard deviations, and were left out",
                  quantity_name(q), left, calibration->known[q]);
         warned = true;
