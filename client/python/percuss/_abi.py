@@ -8,7 +8,7 @@ from ctypes import c_uint, c_uint8, c_uint32, c_uint64, c_void_p
 from typing import Any
 
 from ._library import load
-from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS
+from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS, Parameter
 
 _Id = c_char * ID_SIZE
 _Octets = c_uint8 * 16
@@ -17,6 +17,10 @@ _Vector = c_double * 3
 
 class ClientConfig(ctypes.Structure):
     _fields_ = [("domain", c_uint32), ("id", _Octets), ("first_sequence", c_uint64), ("window", c_uint)]
+
+
+class Override(ctypes.Structure):
+    _fields_ = [("parameter", c_uint), ("value", c_double)]
 
 
 class BodyMotion(ctypes.Structure):
@@ -29,6 +33,8 @@ class BodyMotion(ctypes.Structure):
         ("state", _Id),
         ("elapsed", c_double),
         ("specimen", _Id),
+        ("override_count", c_uint32),
+        ("overrides", Override * len(Parameter)),
     ]
 
 
@@ -201,7 +207,27 @@ class Body(ctypes.Structure):
         ("radius", c_double),
         ("tip_radius", c_double),
         ("supports", c_uint * 2),
+        ("parameters", c_double * len(Parameter)),
     ]
+
+
+class ContactTrace(ctypes.Structure):
+    _fields_ = [
+        ("count", c_size_t),
+        ("time", POINTER(c_double)),
+        ("force", POINTER(c_double)),
+        ("indentation", POINTER(c_double)),
+        ("gap", POINTER(c_double)),
+        ("gap_rate", POINTER(c_double)),
+        ("displacement_a", POINTER(c_double)),
+        ("velocity_a", POINTER(c_double)),
+        ("displacement_b", POINTER(c_double)),
+        ("velocity_b", POINTER(c_double)),
+    ]
+
+
+class Trace(ctypes.Structure):
+    _fields_ = [("contact_count", c_size_t), ("contacts", POINTER(ContactTrace))]
 
 
 class BodyList(ctypes.Structure):
@@ -265,6 +291,9 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "percuss_server": Server,
     "percuss_server_list": ServerList,
     "percuss_pair": Pair,
+    "percuss_override": Override,
+    "percuss_contact_trace": ContactTrace,
+    "percuss_trace": Trace,
 }
 
 library = load()

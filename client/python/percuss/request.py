@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _abi
-from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS, Compliance, ContactModel, Dents, Method
+from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS, Compliance, ContactModel, Dents, Method, Parameter
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
@@ -68,6 +68,8 @@ class BodyMotion:
     """s since that state."""
     specimen: str = ""
     """Name of a durable object on a rig; empty: none."""
+    overrides: dict[Parameter, float] = field(default_factory=dict)
+    """Parameters of the body in this request only, instead of the catalogue's."""
 
 
 @dataclass
@@ -141,7 +143,10 @@ def _fill_bodies(bodies: Sequence[BodyMotion], target: Any) -> None:
             _text(f"bodies[{i}].state", body.state),
             body.elapsed,
             _text(f"bodies[{i}].specimen", body.specimen),
+            len(body.overrides),
         )
+        for k, (parameter, value) in enumerate(body.overrides.items()):
+            target[i].overrides[k] = _abi.Override(parameter, value)
 
 
 def _index(field_name: str, index: int) -> int:
@@ -217,6 +222,7 @@ def _read_body(body: Any) -> BodyMotion:
         body.state.decode(),
         body.elapsed,
         body.specimen.decode(),
+        {Parameter(one.parameter): one.value for one in body.overrides[: body.override_count]},
     )
 
 

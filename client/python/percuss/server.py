@@ -12,7 +12,7 @@ from . import _abi
 from .errors import check
 from .reply import text
 from .request import FloatArray, Request, read_scene
-from .vocabulary import Support
+from .vocabulary import Parameter, Support
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,8 @@ class Body:
     """Of a rod's ends, m; inf: flat; other shapes: 0."""
     supports: tuple[Support, Support]
     """Of a rod or beam at its ends at -x and +x."""
+    parameters: dict[Parameter, float]
+    """What a request may override; inf: a yield stress that it never reaches."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,7 @@ def read_body(source: Any) -> Body:
         source.radius,
         source.tip_radius,
         (Support(first), Support(second)),
+        {one: source.parameters[one] for one in Parameter if not np.isnan(source.parameters[one])},
     )
 
 
@@ -114,6 +117,7 @@ def _write_body(body: Body) -> _abi.Body:
         body.radius,
         body.tip_radius,
         body.supports,
+        tuple(body.parameters.get(one, np.nan) for one in Parameter),
     )
 
 

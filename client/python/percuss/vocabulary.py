@@ -87,6 +87,18 @@ class Dents(Choice):
     IGNORE = 1
 
 
+class Parameter(Choice):
+    """What a request may change of a body."""
+
+    YOUNG = 0
+    POISSON = 1
+    DENSITY = 2
+    YIELD = 3
+    TANGENT = 4
+    DAMPING = 5
+    RADIUS = 6
+
+
 class DelassusSource(Choice):
     """Whose Delassus matrix was used."""
 
