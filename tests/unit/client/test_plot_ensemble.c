@@ -1,0 +1,110 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Tests client/cli/plot_ensemble.c and plot.c: gnuplot draws every panel, and each alone. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "plot_ensemble.h"
+
+enum { SAMPLES = 500, BINS = 10, QUANTILES = 5 };
+
+static double edges[BINS + 1], speeds[SAMPLES], restitutions[SAMPLES];
+static uint64_t counts[BINS];
+static const double probabilities[QUANTILES] = {0.05, 0.25, 0.5, 0.75, 0.95};
+static const double quantiles[QUANTILES] = {0.1, 0.25, 0.4, 0.6, 0.72};
+static const double low[QUANTILES] = {0.08, 0.22, 0.37, 0.58, 0.7};
+static const double high[QUANTILES] = {0.12, 0.28, 0.43, 0.62, 0.74};
+static const char *const inputs[] = {"speed", "young of 'al-beam'"};
+static const double first[] = {0.3, 0.05}, total[] = {0.9, 0.6};
+
+static struct ensemble_picture whole(void)
+{
+    for (int i = 0; i <= BINS; ++i)
+        edges[i] = 0.08 * i;
+    for (int i = 0; i < BINS; ++i)
+        counts[i] = (uint64_t)(10 + i * (BINS - i));
+    for (int i = 0; i < SAMPLES; ++i) {
+        speeds[i] = 0.1 + 0.3 * i / SAMPLES;
+        restitutions[i] = 0.4 + 0.3 * sin(60.0 * speeds[i]);
+    }
+    return (struct ensemble_picture){"steel-sphere on al-beam",
+                                     0.44,
+                                     0.21,
+                                     BINS,
+                                     edges,
+                                     counts,
+                                     QUANTILES,
+                                     probabilities,
+                                     quantiles,
+                                     low,
+                                     high,
+                                     SAMPLES,
+                                     speeds,
+                                     restitutions,
+                                     2,
+                                     inputs,
+                                     first,
+                                     total};
+}
+
+static long drawn(const struct ensemble_picture *picture)
+{
+    char file[] = "/tmp/percuss-plot-XXXXXX.png";
+    int descriptor = mkstemps(file, 4);
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    assert_int_equal(plot_ensemble(file, picture), 0);
+    unsigned char head[8] = {0};
+    FILE *in = fopen(file, "rb");
+    assert_non_null(in);
+    assert_int_equal(fread(head, 1, 8, in), 8);
+    assert_memory_equal(head, "\x89PNG\r\n\x1a\n", 8);
+    fseek(in, 0, SEEK_END);
+    long size = ftell(in);
+    fclose(in);
+    const char *keep = getenv("PERCUSS_KEEP_PLOT");
+    if (keep)
+        rename(file, keep);
+    else
+        unlink(file);
+    return size;
+}
+
+static void draws_all_panels(void **state)
+{
+    (void)state;
+    struct ensemble_picture picture = whole();
+    assert_true(drawn(&picture) > 20000);
+}
+
+static void draws_each_panel_alone(void **state)
+{
+    (void)state;
+    for (int panel = 0; panel < 4; ++panel) {
+        struct ensemble_picture picture = whole();
+        picture.bins = panel == 0 ? picture.bins : 0;
+        picture.quantile_count = panel == 1 ? picture.quantile_count : 0;
+        picture.sample_count = panel == 2 ? picture.sample_count : 0;
+        picture.input_count = panel == 3 ? picture.input_count : 0;
+        assert_true(drawn(&picture) > 4000);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(draws_each_panel_alone),
+        cmocka_unit_test(draws_all_panels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
