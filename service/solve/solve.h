@@ -16,7 +16,6 @@
 #include "solve/body_state.h"
 
 struct trace; /* impact/trace.h */
-
 struct solve_body {
     char id[PERCUSS_ID_SIZE];
     double position[3];

@@ -62,13 +62,6 @@ PERCUSS_API enum percuss_result percuss_solve(struct percuss_client *client,
                                               const struct percuss_request *request, double timeout,
                                               struct percuss_reply *reply);
 
-/* As percuss_solve, with the time histories of the answer (options.trace is set). `trace` is to be
- * freed with percuss_trace_free after OK; a refusal has none. */
-PERCUSS_API enum percuss_result percuss_solve_traced(struct percuss_client *client,
-                                                     const struct percuss_request *request,
-                                                     double timeout, struct percuss_reply *reply,
-                                                     struct percuss_trace *trace);
-
 /* Sends a request and returns its sequence (may be NULL); nothing of `request` is kept. WINDOW_FULL
  * until replies are collected or cancelled. Sending a sequence that is outstanding repeats it. */
 PERCUSS_API enum percuss_result percuss_submit(struct percuss_client *client,
@@ -110,9 +103,6 @@ PERCUSS_API enum percuss_result percuss_servers(struct percuss_client *client, d
 /* The catalogue of the connected server, for percuss_body_list_free. */
 PERCUSS_API enum percuss_result percuss_bodies(struct percuss_client *client, double timeout,
                                                struct percuss_body_list *list);
-
-/* Releases the arrays and empties the trace; an empty trace is allowed. */
-PERCUSS_API void percuss_trace_free(struct percuss_trace *trace);
 
 /* Releases the arrays and empties the reply; an empty reply is allowed. */
 PERCUSS_API void percuss_reply_free(struct percuss_reply *reply);

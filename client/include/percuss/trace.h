@@ -25,4 +25,24 @@ struct percuss_trace {
     struct percuss_contact_trace *contacts;
 };
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct percuss_client;
+
+/* As percuss_solve, with the time histories of the answer (options.trace is set). `trace` is to be
+ * freed with percuss_trace_free after OK; a refusal has none. */
+PERCUSS_API enum percuss_result percuss_solve_traced(struct percuss_client *client,
+                                                     const struct percuss_request *request,
+                                                     double timeout, struct percuss_reply *reply,
+                                                     struct percuss_trace *trace);
+
+/* Releases the arrays and empties the trace; an empty trace is allowed. */
+PERCUSS_API void percuss_trace_free(struct percuss_trace *trace);
+
+#ifdef __cplusplus
+}
+#endif
+
 #endif
