@@ -8,10 +8,8 @@
 set -eu
 
 build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-serial-dev
-liblapacke-dev libyaml-dev libjansson-dev"
-test="libcmocka-dev python3-venv libmujoco-dev gnuplot-nox"
 liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox"
-test="libcmocka-dev python3-venv"
+test="libcmocka-dev python3-venv libmujoco-dev valgrind"
 
 packages=$build
 [ "${1:-build}" = build ] || packages="$build $test"

@@ -61,6 +61,7 @@ static void use_half_space(struct geometry *geometry, const char *why)
     struct compliance *compliance = geometry->compliance;
     compliance->used = PERCUSS_COMPLIANCE_HALF_SPACE;
     memset(compliance->series, 0, geometry->contact_count * sizeof *compliance->series);
+    memset(compliance->sides, 0, geometry->contact_count * sizeof *compliance->sides);
     snprintf(compliance->reason, sizeof compliance->reason, "%s", why);
 }
 
@@ -82,8 +83,8 @@ static void find_matched(struct geometry *geometry, struct prepared_cache *cache
             return;
         }
         for (int which = 0; which < 2; which++) {
-            double part;
-            if (!side_compliance(geometry, cache, c, which, &part)) {
+            double *part = &compliance->sides[c][which];
+            if (!side_compliance(geometry, cache, c, which, part)) {
                 char why[sizeof compliance->reason];
                 const struct contact_side *side = &geometry->sides[c][which];
                 snprintf(why, sizeof why, "no matched compliance is known for %s there",
@@ -91,7 +92,7 @@ static void find_matched(struct geometry *geometry, struct prepared_cache *cache
                 use_half_space(geometry, why);
                 return;
             }
-            compliance->series[c] += part;
+            compliance->series[c] += *part;
         }
     }
 }
@@ -103,9 +104,12 @@ enum percuss_status compliance_choose(struct geometry *geometry,
                                       struct fault *fault)
 {
     struct compliance *compliance = arena_take(arena, 1, sizeof *compliance);
-    if (compliance)
-        compliance->series = arena_take(arena, geometry->contact_count, sizeof *compliance->series);
-    if (!compliance || !compliance->series)
+    size_t n = geometry->contact_count;
+    if (compliance) {
+        compliance->series = arena_take(arena, n, sizeof *compliance->series);
+        compliance->sides = arena_take(arena, n, sizeof *compliance->sides);
+    }
+    if (!compliance || !compliance->series || !compliance->sides)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     geometry->compliance = compliance;
     enum percuss_compliance asked = request->options.compliance;

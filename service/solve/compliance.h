@@ -13,6 +13,7 @@
 struct compliance {
     enum percuss_compliance used; /* HALF_SPACE or MATCHED, of all contacts */
     double *series;               /* [contact], m/N; 0: half-space */
+    double (*sides)[2];           /* [contact]: the parts of either body in it */
     char reason[128];             /* why half-space although matched was asked for, or empty */
 };
 

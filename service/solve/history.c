@@ -8,6 +8,7 @@
 #include "impact/trace.h"
 #include "model/rigid.h"
 #include "model/vector.h"
+#include "solve/compliance.h"
 #include "solve/report.h"
 
 /* Bounds a solution whose cost is known already. */
@@ -41,6 +42,7 @@ static void share_of_side(const struct geometry *geometry, const struct assembly
     const struct contact_side *side = &geometry->sides[c][which];
     const struct body *body = geometry->bodies[side->body];
     size_t n = geometry->contact_count;
+    residual[c * n + c] = geometry->compliance->sides[c][which];
     for (size_t j = 0; j < n; j++) {
         for (int q = 0; q < 2; q++) {
             const struct contact_side *other = &geometry->sides[j][q];

@@ -223,7 +223,7 @@ struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const s
 
 bool prepared_matched_get(struct prepared_cache *cache, const struct body *body, double *compliance)
 {
-    struct entry *entry = find_entry(cache, body->id);
+    struct entry *entry = find_entry(cache, body);
     if (!entry)
         return false;
     if (entry->matched_is == UNASKED)
