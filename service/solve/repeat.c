@@ -1,0 +1,170 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/repeat.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "solve/accuracy.h"
+
+/* As much as one request may take, see accuracy.c. */
+static const double MAX_WORK = 4e7, MAX_WORK_CVODE = 4e9;
+/* As many modes of a family of a body, see mode_search.c. */
+enum { MAX_MODES = 1200 };
+/* A run that gains or loses more of its energy is not to be used (as in report.c). */
+static const double MAX_DEFECT = 0.01;
+
+struct repeat {
+    struct prepared_cache *cache;
+    struct arena scene_memory, run_memory;
+    struct assembly *assembly; /* in scene_memory; NULL: none yet */
+};
+
+struct repeat *repeat_create(void)
+{
+    struct repeat *repeat = calloc(1, sizeof *repeat);
+    if (!repeat)
+        return NULL;
+    repeat->cache = prepared_cache_create();
+    if (!repeat->cache) {
+        free(repeat);
+        return NULL;
+    }
+    return repeat;
+}
+
+void repeat_free(struct repeat *repeat)
+{
+    if (!repeat)
+        return;
+    prepared_cache_free(repeat->cache);
+    arena_release(&repeat->scene_memory);
+    arena_release(&repeat->run_memory);
+    free(repeat);
+}
+
+static enum percuss_status no_memory(struct fault *fault)
+{
+    return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+}
+
+/* Share of the energy gained or lost; what acceleration takes may leave next to nothing available,
+ * so that the approach counts too. */
+static double energy_defect(const struct geometry *geometry, const struct impact_outcome *solved)
+{
+    double approach = 0.0;
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        approach += 0.5 * geometry->impulse_compression[c] * fabs(geometry->gap_rate[c]);
+    return fabs(solved->energy.closure) / fmax(solved->energy.available, approach);
+}
+
+static void read_track(const struct geometry *geometry, const struct impact_outcome *solved,
+                       size_t contact, struct repeat_outcome *outcome)
+{
+    const struct track *track = &solved->tracks[contact];
+    *outcome = (struct repeat_outcome){
+        .restitution = attempt_restitution(geometry, solved, contact),
+        .impulse = track->impulse,
+        .end_time = track->end_time,
+        .sub_impacts = (unsigned)track->count,
+        .error = NAN,
+    };
+    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++) {
+        outcome->peak_force = fmax(outcome->peak_force, track->list[i].peak_force);
+        outcome->significant += !track->list[i].negligible;
+    }
+    bool complete = solved->end_reason == PERCUSS_END_SEPARATED ||
+                    solved->end_reason == PERCUSS_END_HANDED_BACK;
+    outcome->status = complete ? PERCUSS_OK : PERCUSS_TRUNCATED;
+}
+
+/* What the run says, unless it does not keep the energy. */
+static enum percuss_status judge(const struct geometry *geometry,
+                                 const struct impact_outcome *solved, size_t contact,
+                                 struct repeat_outcome *outcome, struct fault *fault)
+{
+    read_track(geometry, solved, contact, outcome);
+    double defect = energy_defect(geometry, solved);
+    if (!(defect <= MAX_DEFECT) || !isfinite(outcome->impulse))
+        outcome->status = fault_set(fault, PERCUSS_INTERNAL,
+                                    "energy: a solution gains or loses %.3g of it", defect);
+    return outcome->status;
+}
+
+enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *catalogue,
+                                  const struct solve_request *request, size_t contact,
+                                  struct repeat_model *model, struct repeat_outcome *outcome,
+                                  struct fault *fault)
+{
+    *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
+    repeat->assembly = NULL; /* its prepared bodies may go */
+    arena_reset(&repeat->run_memory);
+    prepared_cache_use(repeat->cache, catalogue->revision);
+    struct geometry *geometry = arena_take(&repeat->run_memory, 1, sizeof *geometry);
+    struct accuracy *accuracy = arena_take(&repeat->run_memory, 1, sizeof *accuracy);
+    if (!geometry || !accuracy)
+        return outcome->status = no_memory(fault);
+    outcome->status = geometry_find(geometry, catalogue, request, &repeat->run_memory, fault);
+    if (!outcome->status)
+        outcome->status =
+            accuracy_solve(accuracy, geometry, request, repeat->cache, &repeat->run_memory, fault);
+    if (outcome->status)
+        return outcome->status;
+    judge(geometry, &accuracy->outcome, contact, outcome, fault);
+    outcome->error = accuracy->steps.restitution + accuracy->modes.restitution;
+    if (model) /* rounding must not lose the highest mode */
+        *model =
+            (struct repeat_model){accuracy->assembly->highest * (1.0 + 1e-12), accuracy->accuracy};
+    return outcome->status;
+}
+
+/* Makes the scene anew; its memory outlives the run. */
+static bool make_scene(struct repeat *repeat, const struct body_set *catalogue,
+                       const struct geometry *geometry, const struct solve_request *request,
+                       const struct repeat_model *model)
+{
+    prepared_cache_use(repeat->cache, catalogue->revision);
+    arena_reset(&repeat->scene_memory);
+    struct mode_choice choice = {.cut = model->cut, .allowed = 0.0, .most = MAX_MODES};
+    struct assembly *assembly = arena_take(&repeat->scene_memory, 1, sizeof *assembly);
+    bool made = assembly && assemble(assembly, geometry, request, repeat->cache, &choice,
+                                     &repeat->scene_memory);
+    repeat->assembly = made ? assembly : NULL;
+    return made;
+}
+
+enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *catalogue,
+                                 const struct solve_request *request, size_t contact,
+                                 const struct repeat_model *model, bool same_scene,
+                                 struct repeat_outcome *outcome, struct fault *fault)
+{
+    bool cvode = request->options.method == PERCUSS_METHOD_CVODE;
+    struct attempt attempt = {.accuracy = model->accuracy};
+    *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
+    arena_reset(&repeat->run_memory);
+    struct geometry *geometry = arena_take(&repeat->run_memory, 1, sizeof *geometry);
+    if (!geometry)
+        return outcome->status = no_memory(fault);
+    outcome->status = geometry_find(geometry, catalogue, request, &repeat->run_memory, fault);
+    if (outcome->status)
+        return outcome->status;
+    bool kept = same_scene && repeat->assembly;
+    if (!kept && !make_scene(repeat, catalogue, geometry, request, model))
+        return outcome->status = no_memory(fault);
+    struct attempt_context context = {
+        .geometry = geometry,
+        .request = request,
+        .arena = &repeat->run_memory,
+        .work = cvode ? MAX_WORK_CVODE : MAX_WORK,
+    };
+    struct scene scene = repeat->assembly->scene;
+    scene.gap_rate = geometry->gap_rate;
+    if (attempt_run(&context, &attempt, &scene))
+        return outcome->status = no_memory(fault);
+    if (attempt.outcome.always_overlapped)
+        return outcome->status = fault_set(fault, PERCUSS_BAD_REQUEST,
+                                           "contacts[].gap: the bodies overlap and never touched "
+                                           "before");
+    return judge(geometry, &attempt.outcome, contact, outcome, fault);
+}

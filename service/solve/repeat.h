@@ -1,0 +1,49 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Many impacts with one model: the modes and steps are fixed once by the accuracy search, then
+ * every impact is one run without an error estimate. Same request and model, same bits, whatever
+ * was solved before and by whom. */
+#ifndef PERCUSS_SOLVE_REPEAT_H
+#define PERCUSS_SOLVE_REPEAT_H
+
+#include "solve/solve.h"
+
+/* What an accuracy search settles on. */
+struct repeat_model {
+    double cut;      /* modes up to this angular frequency take part, rad/s */
+    double accuracy; /* of the time steps */
+};
+
+/* One contact of one impact. */
+struct repeat_outcome {
+    enum percuss_status status; /* OK, TRUNCATED, or a refusal */
+    double restitution;         /* NAN where the contact does not approach */
+    double impulse;
+    double end_time;                   /* of the last sub-impact; 0 without any */
+    double peak_force;                 /* largest of all sub-impacts */
+    unsigned sub_impacts, significant; /* all; those of at least 1 % of the impulse */
+    double error;                      /* estimated; repeat_search only, else NAN */
+};
+
+/* Memory of one worker. */
+struct repeat;
+struct repeat *repeat_create(void); /* NULL: out of memory */
+void repeat_free(struct repeat *repeat);
+
+/* Solves by the accuracy search; fills `model` (NULL: not wanted) and what `contact` did. Returns
+ * outcome->status; refusals carry a message. The request must have passed solve(). */
+enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *catalogue,
+                                  const struct solve_request *request, size_t contact,
+                                  struct repeat_model *model, struct repeat_outcome *outcome,
+                                  struct fault *fault);
+
+/* Solves once with that model. `same_scene`: the request differs from this worker's last one in
+ * velocities only and the model not at all, so that the scene is kept. Bodies are prepared once a
+ * revision of the catalogue. */
+enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *catalogue,
+                                 const struct solve_request *request, size_t contact,
+                                 const struct repeat_model *model, bool same_scene,
+                                 struct repeat_outcome *outcome, struct fault *fault);
+
+#endif
