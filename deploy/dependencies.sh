@@ -8,7 +8,7 @@
 set -eu
 
 build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-serial-dev
-liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox"
+liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom123-dev"
 test="libcmocka-dev python3-venv libmujoco-dev valgrind"
 
 packages=$build

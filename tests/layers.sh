@@ -75,7 +75,7 @@ only() {
     [ -z "$found" ] || complain "<$pattern> outside $owner: $found"
 }
 only 'cvode|arkode|sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol' 'service/numeric'
-only 'lapacke' 'service/numeric'
+only 'lapacke|Random123' 'service/numeric'
 only 'cminpack' 'client/measured'
 only 'yaml' 'service/catalogue|service/daemon'
 only 'jansson' 'client/cli'

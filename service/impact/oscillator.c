@@ -50,25 +50,37 @@ double oscillator_free_loss(double omega, double damping, double time, double q,
     return damping * omega * square;
 }
 
+static double square(double complex x)
+{
+    return creal(x) * creal(x) + cimag(x) * cimag(x);
+}
+
+/* For |z c| < 3. int exp(z(c-s)) s^m ds = c^(m+1) m! sum_k x^k / (m+1+k)!, without cancellation for
+ * small x = z c, gives the highest moment; by parts, downward, the others, each with an error of at
+ * most about |x|/m that of the one before. */
+static void small_moments(double complex z, double c, double complex moments[NODES])
+{
+    double complex x = z * c;
+    double complex term = 1.0 / NODES;
+    double complex sum = term;
+    for (int k = 1; k < 40 && square(term) > 1e-36 * square(sum); k++) {
+        double share = 1.0 / (NODES + k);
+        term *= CMPLX(creal(x) * share, cimag(x) * share);
+        sum += term;
+    }
+    double power[NODES + 1] = {1.0};
+    for (int m = 1; m <= NODES; m++)
+        power[m] = power[m - 1] * c;
+    moments[NODES - 1] = power[NODES] * sum;
+    for (int m = NODES - 1; m > 0; m--)
+        moments[m - 1] = (z * moments[m] + power[m]) / m;
+}
+
 void oscillator_moments(double complex z, double c, double complex moments[NODES])
 {
     double complex x = z * c;
-    if (cabs(x) < 3.0) {
-        /* int exp(z(c-s)) s^m ds = c^(m+1) m! sum_k x^k / (m+1+k)!: no cancellation for small x */
-        double power = c;
-        double lead = 1.0;
-        for (int m = 0; m < NODES; m++) {
-            lead /= m + 1;
-            double complex term = lead;
-            double complex sum = term;
-            for (int k = 1; k < 40 && cabs(term) > 1e-18 * cabs(sum); k++) {
-                term *= x / (m + 1 + k);
-                sum += term;
-            }
-            double factorial = tgamma(m + 1.0);
-            moments[m] = power * factorial * sum;
-            power *= c;
-        }
+    if (square(x) < 9.0) {
+        small_moments(z, c, moments);
         return;
     }
     /* by parts, upward: each step divides by |x| >= 3 */

@@ -105,6 +105,17 @@ static void remainders_free(struct remainder *list)
     }
 }
 
+static void entry_clear(struct entry *entry)
+{
+    for (int f = 0; f < FAMILY_COUNT; f++) {
+        family_free(entry->families[f]);
+        remainders_free(entry->remainders[f]);
+        entry->families[f] = NULL;
+        entry->remainders[f] = NULL;
+    }
+    entry->matched_is = UNASKED;
+}
+
 /* Forgets all bodies, or only the varied ones. */
 static void forget(struct prepared_cache *cache, bool only_varied)
 {
@@ -116,10 +127,7 @@ static void forget(struct prepared_cache *cache, bool only_varied)
                 continue;
             }
             *link = entry->next;
-            for (int f = 0; f < FAMILY_COUNT; f++) {
-                family_free(entry->families[f]);
-                remainders_free(entry->remainders[f]);
-            }
+            entry_clear(entry);
             free(entry);
         }
     }
@@ -230,4 +238,11 @@ bool prepared_matched_get(struct prepared_cache *cache, const struct body *body,
         entry->matched_is = matched_compliance(body, 0.0, &entry->matched) ? KNOWN : NONE;
     *compliance = entry->matched;
     return entry->matched_is == KNOWN;
+}
+
+void prepared_cache_forget(struct prepared_cache *cache, const char *id)
+{
+    struct entry *entry = find_entry(cache, id);
+    if (entry)
+        entry_clear(entry);
 }

@@ -32,6 +32,9 @@ void prepared_cache_free(struct prepared_cache *cache);
  * belongs to this revision. */
 void prepared_cache_use(struct prepared_cache *cache, const char *revision);
 
+/* Forgets one body: the next one of that id is another. No scene may use it any more. */
+void prepared_cache_forget(struct prepared_cache *cache, const char *id);
+
 /* At least `count` modes of a family of a body (of the revision in use). The result stays valid
  * until the next prepared_cache_use. NULL: out of memory. */
 const struct prepared_family *prepared_family_get(struct prepared_cache *cache,

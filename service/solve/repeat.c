@@ -44,6 +44,12 @@ void repeat_free(struct repeat *repeat)
     free(repeat);
 }
 
+void repeat_forget(struct repeat *repeat, const char *id)
+{
+    repeat->assembly = NULL;
+    prepared_cache_forget(repeat->cache, id);
+}
+
 static enum percuss_status no_memory(struct fault *fault)
 {
     return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
@@ -159,6 +165,7 @@ enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *c
         .work = cvode ? MAX_WORK_CVODE : MAX_WORK,
     };
     struct scene scene = repeat->assembly->scene;
+    scene.w = geometry->w;
     scene.gap_rate = geometry->gap_rate;
     if (attempt_run(&context, &attempt, &scene))
         return outcome->status = no_memory(fault);

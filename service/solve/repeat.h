@@ -31,6 +31,9 @@ struct repeat;
 struct repeat *repeat_create(void); /* NULL: out of memory */
 void repeat_free(struct repeat *repeat);
 
+/* The body of that id is another one from now on. */
+void repeat_forget(struct repeat *repeat, const char *id);
+
 /* Solves by the accuracy search; fills `model` (NULL: not wanted) and what `contact` did. Returns
  * outcome->status; refusals carry a message. The request must have passed solve(). */
 enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *catalogue,
@@ -40,7 +43,7 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
 
 /* Solves once with that model. `same_scene`: the request differs from this worker's last one in
  * velocities only and the model not at all, so that the scene is kept. Bodies are prepared once a
- * revision of the catalogue. */
+ * revision of the catalogue, but for those forgotten. */
 enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *catalogue,
                                  const struct solve_request *request, size_t contact,
                                  const struct repeat_model *model, bool same_scene,

@@ -1,0 +1,379 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "ensemble/ensemble.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ensemble/variation.h"
+
+enum {
+    PILOTS = 24,
+    AGREEING = 21, /* 7 of 8: where a sequence of sub-impacts is chaotic no affordable model does */
+    VERIFIED = 200,
+    SUBSTITUTED = 1000, /* samples with one input drawn anew, at most, for each input */
+    LEAST_SUBSTITUTED = 32,
+    FIRST_CHECK = 256
+};
+
+struct ensemble_worker {
+    const struct ensemble *ensemble;
+    struct repeat *repeat;
+    struct variation variation;
+};
+
+struct ensemble_worker *ensemble_worker_create(const struct ensemble *ensemble, struct fault *fault)
+{
+    struct ensemble_worker *worker = calloc(1, sizeof *worker);
+    struct repeat *repeat = repeat_create();
+    if (!worker || !repeat) {
+        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    } else if (!variation_create(&worker->variation, &ensemble->spec, fault)) {
+        worker->ensemble = ensemble;
+        worker->repeat = repeat;
+        return worker;
+    }
+    repeat_free(repeat);
+    free(worker);
+    return NULL;
+}
+
+void ensemble_worker_free(struct ensemble_worker *worker)
+{
+    if (!worker)
+        return;
+    variation_release(&worker->variation);
+    repeat_free(worker->repeat);
+    free(worker);
+}
+
+/* Values of all inputs from a point of the unit cube. */
+static void fill_values(const struct ensemble *ensemble, const double *point, uint64_t index,
+                        double *values)
+{
+    const struct ensemble_spec *spec = &ensemble->spec;
+    for (size_t i = 0; i < spec->input_count; i++) {
+        const struct ensemble_input *input = &spec->inputs[i];
+        bool listed = input->distribution == DISTRIBUTION_IS_LIST;
+        values[i] = listed ? input->values[index % input->value_count] : input->first;
+    }
+    for (size_t d = 0; d < ensemble->sampling.dimensions; d++)
+        values[ensemble->drawn[d]] = input_value(&spec->inputs[ensemble->drawn[d]], point[d]);
+}
+
+void ensemble_inputs(const struct ensemble *ensemble, uint64_t index, double *values)
+{
+    double point[SAMPLING_MAX_DIMENSIONS];
+    sampling_point(&ensemble->sampling, index, point);
+    copula_apply(&ensemble->copula, point);
+    fill_values(ensemble, point, index, values);
+}
+
+/* Puts the values in place. */
+static enum percuss_status apply(struct ensemble_worker *worker, const double *values,
+                                 struct fault *fault)
+{
+    struct variation *variation = &worker->variation;
+    enum percuss_status status = variation_apply(variation, values, fault);
+    for (size_t i = 0; !status && i < variation->set.count; i++)
+        if (variation_changes_modes(variation, &variation->set.bodies[i]))
+            repeat_forget(worker->repeat, variation->set.bodies[i].id);
+    return status;
+}
+
+/* Runs the model on one set of values. */
+static enum percuss_status solve_values(struct ensemble_worker *worker, const double *values,
+                                        struct repeat_outcome *outcome, struct fault *fault)
+{
+    const struct ensemble *ensemble = worker->ensemble;
+    *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
+    outcome->status = apply(worker, values, fault);
+    if (outcome->status)
+        return outcome->status;
+    return repeat_solve(worker->repeat, &worker->variation.set, &worker->variation.request,
+                        ensemble->spec.contact, &ensemble->model.model, ensemble->same_scene,
+                        outcome, fault);
+}
+
+/* The same by the full accuracy search. */
+static enum percuss_status search_values(struct ensemble_worker *worker, const double *values,
+                                         struct repeat_model *model, struct repeat_outcome *outcome,
+                                         struct fault *fault)
+{
+    *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
+    outcome->status = apply(worker, values, fault);
+    if (outcome->status)
+        return outcome->status;
+    return repeat_search(worker->repeat, &worker->variation.set, &worker->variation.request,
+                         worker->ensemble->spec.contact, model, outcome, fault);
+}
+
+static bool has_result(enum percuss_status status)
+{
+    return status == PERCUSS_OK || status == PERCUSS_TRUNCATED;
+}
+
+void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensemble_sample *sample,
+                    struct fault *fault)
+{
+    double values[ENSEMBLE_MAX_INPUTS];
+    struct repeat_outcome outcome;
+    ensemble_inputs(worker->ensemble, index, values);
+    enum percuss_status status = solve_values(worker, values, &outcome, fault);
+    bool good = has_result(status);
+    *sample = (struct ensemble_sample){
+        .restitution = good ? outcome.restitution : NAN,
+        .impulse = good ? outcome.impulse : NAN,
+        .end_time = good ? outcome.end_time : NAN,
+        .peak_force = good ? outcome.peak_force : NAN,
+        .sub_impacts =
+            (uint16_t)(outcome.sub_impacts < UINT16_MAX ? outcome.sub_impacts : UINT16_MAX),
+        .significant = (uint16_t)outcome.significant,
+        .status = (uint8_t)status,
+    };
+}
+
+/* A pilot's inputs, its solution by the full search, and the model of that. */
+struct pilot {
+    double values[ENSEMBLE_MAX_INPUTS];
+    double restitution;
+    struct repeat_model model;
+};
+
+/* Solves the pilots; returns how many have an answer. A refusal of all is the ensemble's. */
+static unsigned solve_pilots(struct ensemble_worker *worker, struct pilot *pilots,
+                             enum percuss_status *status, struct fault *fault)
+{
+    const struct ensemble *ensemble = worker->ensemble;
+    struct random_stream stream = {ensemble->spec.seed, STREAM_PILOTS};
+    unsigned solved = 0;
+    for (unsigned k = 0; k < PILOTS; k++) {
+        double point[SAMPLING_MAX_DIMENSIONS];
+        struct pilot *pilot = &pilots[solved];
+        struct repeat_outcome outcome;
+        for (size_t d = 0; d < ensemble->sampling.dimensions; d++)
+            point[d] = random_uniform(&stream, k, d);
+        copula_apply(&ensemble->copula, point);
+        /* lists taken in order are looked at along all their length */
+        fill_values(ensemble, point, k * ensemble->count / PILOTS, pilot->values);
+        *status = search_values(worker, pilot->values, &pilot->model, &outcome, fault);
+        pilot->restitution = outcome.restitution;
+        solved += has_result(*status);
+    }
+    return solved;
+}
+
+/* How many pilots agree with a model within the tolerance. */
+static unsigned count_agreeing(struct ensemble_worker *worker, struct ensemble *ensemble,
+                               const struct pilot *pilots, unsigned count)
+{
+    unsigned agreeing = 0;
+    for (unsigned k = 0; k < count; k++) {
+        struct repeat_outcome outcome;
+        /* the first with another model must not keep the scene */
+        ensemble->same_scene = k > 0 && !spec_changes_scene(&ensemble->spec);
+        solve_values(worker, pilots[k].values, &outcome, NULL);
+        double difference = fabs(outcome.restitution - pilots[k].restitution);
+        agreeing += has_result(outcome.status) && difference <= ensemble->model.tolerance;
+    }
+    return agreeing;
+}
+
+static int by_cut(const void *a, const void *b)
+{
+    const struct repeat_model *p = a, *q = b;
+    return (p->cut > q->cut) - (p->cut < q->cut);
+}
+
+/* Fewer modes first, then longer steps, as far as the pilots allow. */
+static void choose_model(struct ensemble_worker *worker, struct ensemble *ensemble,
+                         const struct pilot *pilots, unsigned count)
+{
+    struct repeat_model models[PILOTS];
+    struct ensemble_model *chosen = &ensemble->model;
+    unsigned wanted = (count * AGREEING + PILOTS - 1) / PILOTS;
+    double steps = INFINITY;
+    for (unsigned k = 0; k < count; k++) {
+        models[k] = pilots[k].model;
+        steps = fmin(steps, models[k].accuracy);
+    }
+    qsort(models, count, sizeof *models, by_cut);
+    chosen->pilots = count;
+    for (unsigned k = 0; k < count; k++) {
+        if (k > 0 && by_cut(&models[k], &models[k - 1]) == 0)
+            continue;
+        chosen->model = models[k];
+        chosen->model.accuracy = steps;
+        chosen->agreeing = count_agreeing(worker, ensemble, pilots, count);
+        if (chosen->agreeing >= wanted)
+            break;
+    }
+    for (double accuracy = 10.0 * chosen->tolerance; accuracy > steps; accuracy /= 10.0) {
+        struct ensemble_model finer = *chosen;
+        chosen->model.accuracy = accuracy;
+        unsigned agreeing = count_agreeing(worker, ensemble, pilots, count);
+        if (agreeing >= finer.agreeing) {
+            chosen->agreeing = agreeing;
+            break;
+        }
+        *chosen = finer;
+    }
+}
+
+static enum percuss_status find_model(struct ensemble *ensemble, struct fault *fault)
+{
+    const struct solve_options *options = &ensemble->spec.request->options;
+    ensemble->model.tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3;
+    struct pilot *pilots = calloc(PILOTS, sizeof *pilots);
+    if (!pilots)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    enum percuss_status status = PERCUSS_INTERNAL;
+    struct ensemble_worker *worker = ensemble_worker_create(ensemble, fault);
+    if (worker) {
+        unsigned count = solve_pilots(worker, pilots, &status, fault);
+        if (count > 0) {
+            choose_model(worker, ensemble, pilots, count);
+            status = PERCUSS_OK;
+        }
+    }
+    ensemble->same_scene = !spec_changes_scene(&ensemble->spec);
+    ensemble_worker_free(worker);
+    free(pilots);
+    return status;
+}
+
+/* The impact as it is stated must be one that solve() answers. */
+static enum percuss_status try_request(const struct ensemble_spec *spec, struct fault *fault)
+{
+    struct solve_workspace *workspace = solve_workspace_create();
+    struct solve_result *result = calloc(1, sizeof *result);
+    enum percuss_status status = PERCUSS_INTERNAL;
+    if (workspace && result) {
+        status = solve(workspace, spec->catalogue, spec->request, result);
+        *fault = result->fault;
+    } else {
+        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    }
+    solve_workspace_free(workspace);
+    free(result);
+    return has_result(status) ? PERCUSS_OK : status;
+}
+
+/* Dimensions, their correlations, and how many points. */
+static enum percuss_status find_dimensions(struct ensemble *ensemble, struct fault *fault)
+{
+    const struct ensemble_spec *spec = &ensemble->spec;
+    size_t dimension_of[ENSEMBLE_MAX_INPUTS] = {0}, dimensions = 0;
+    uint64_t count = spec->samples;
+    for (size_t i = 0; i < spec->input_count; i++) {
+        if (count == 0 && spec->inputs[i].distribution == DISTRIBUTION_IS_LIST)
+            count = spec->inputs[i].value_count;
+        if (!spec_is_drawn(spec, i))
+            continue;
+        dimension_of[i] = dimensions;
+        ensemble->drawn[dimensions++] = i;
+    }
+    enum percuss_status status =
+        sampling_create(&ensemble->sampling, spec->sampling, dimensions, count, spec->seed, fault);
+    if (status)
+        return status;
+    ensemble->count = ensemble->sampling.count;
+    struct copula_pair *pairs = calloc(spec->correlation_count + 1, sizeof *pairs);
+    if (!pairs)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    for (size_t p = 0; p < spec->correlation_count; p++) {
+        pairs[p] = spec->correlations[p];
+        pairs[p].first = dimension_of[pairs[p].first];
+        pairs[p].second = dimension_of[pairs[p].second];
+    }
+    status = copula_create(&ensemble->copula, dimensions, pairs, spec->correlation_count, fault);
+    free(pairs);
+    return status;
+}
+
+enum percuss_status ensemble_create(struct ensemble *ensemble, const struct ensemble_spec *spec,
+                                    struct fault *fault)
+{
+    memset(ensemble, 0, sizeof *ensemble);
+    ensemble->spec = *spec;
+    enum percuss_status status = try_request(spec, fault);
+    if (!status)
+        status = spec_check(spec, fault);
+    if (!status)
+        status = find_dimensions(ensemble, fault);
+    if (!status)
+        status = find_model(ensemble, fault);
+    if (status)
+        ensemble_release(ensemble);
+    return status;
+}
+
+void ensemble_release(struct ensemble *ensemble)
+{
+    copula_release(&ensemble->copula);
+}
+
+static uint64_t verified(uint64_t done)
+{
+    return done < VERIFIED ? done : VERIFIED;
+}
+
+/* Samples to be repeated with an input drawn anew: all of that within half the work so far. Without
+ * a second input there is nothing to tell apart, and correlated ones cannot change by themselves.
+ */
+static uint64_t substituted(const struct ensemble *ensemble, uint64_t done)
+{
+    size_t dimensions = ensemble->sampling.dimensions;
+    if (dimensions < 2 || ensemble->copula.factor)
+        return 0;
+    uint64_t each = done / (2 * dimensions);
+    each = each < SUBSTITUTED ? each : SUBSTITUTED;
+    return each < LEAST_SUBSTITUTED ? 0 : each;
+}
+
+uint64_t ensemble_extras(const struct ensemble *ensemble, uint64_t done)
+{
+    return verified(done) + substituted(ensemble, done) * ensemble->sampling.dimensions;
+}
+
+struct ensemble_extra_place ensemble_extra_place(const struct ensemble *ensemble, uint64_t done,
+                                                 uint64_t k)
+{
+    uint64_t checks = verified(done);
+    if (k < checks)
+        return (struct ensemble_extra_place){k * done / checks, SIZE_MAX};
+    uint64_t each = substituted(ensemble, done);
+    uint64_t place = (k - checks) % each;
+    return (struct ensemble_extra_place){place * done / each, (size_t)((k - checks) / each)};
+}
+
+double ensemble_extra(struct ensemble_worker *worker, uint64_t done, uint64_t k)
+{
+    const struct ensemble *ensemble = worker->ensemble;
+    struct ensemble_extra_place place = ensemble_extra_place(ensemble, done, k);
+    double values[ENSEMBLE_MAX_INPUTS];
+    struct repeat_outcome outcome;
+    ensemble_inputs(ensemble, place.sample, values);
+    enum percuss_status status;
+    if (place.dimension == SIZE_MAX) {
+        status = search_values(worker, values, NULL, &outcome, NULL);
+    } else {
+        struct random_stream stream = {ensemble->spec.seed, STREAM_SUBSTITUTES};
+        size_t input = ensemble->drawn[place.dimension];
+        values[input] = input_value(&ensemble->spec.inputs[input],
+                                    random_uniform(&stream, place.sample, place.dimension));
+        status = solve_values(worker, values, &outcome, NULL);
+    }
+    return has_result(status) ? outcome.restitution : NAN;
+}
+
+uint64_t ensemble_next_check(const struct ensemble *ensemble, uint64_t done)
+{
+    bool stops = ensemble->spec.half_width > 0.0 || ensemble->spec.quantile_half_width > 0.0;
+    uint64_t next = stops ? FIRST_CHECK : ensemble->count;
+    while (next <= done && next < ensemble->count)
+        next *= 2;
+    return next < ensemble->count ? next : ensemble->count;
+}

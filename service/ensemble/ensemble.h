@@ -1,0 +1,75 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Many impacts with uncertain inputs. Sample i is a function of the request, the seed and i alone:
+ * any worker may solve any of them in any order, and the report, made from all of them in order, is
+ * the same to the bit. No threads here: the caller has them. */
+#ifndef PERCUSS_ENSEMBLE_ENSEMBLE_H
+#define PERCUSS_ENSEMBLE_ENSEMBLE_H
+
+#include "ensemble/spec.h"
+#include "solve/repeat.h"
+
+/* What one impact did. */
+struct ensemble_sample {
+    double restitution, impulse, end_time, peak_force; /* NAN where it was refused */
+    uint16_t sub_impacts, significant;
+    uint8_t status; /* enum percuss_status */
+};
+
+/* How the one model for all samples was chosen: the coarsest of those that an accuracy search
+ * settled on for some pilot samples with which most pilots agree within the tolerance. */
+struct ensemble_model {
+    struct repeat_model model;
+    double tolerance;
+    unsigned pilots, agreeing;
+};
+
+struct ensemble {
+    struct ensemble_spec spec; /* what it points to is the caller's and must stay */
+    struct sampling sampling;
+    struct copula copula;
+    size_t drawn[ENSEMBLE_MAX_INPUTS]; /* inputs that the dimensions belong to */
+    uint64_t count;                    /* of samples, at most */
+    struct ensemble_model model;
+    bool same_scene; /* inputs change velocities only */
+};
+
+struct ensemble_worker;
+struct ensemble_worker *ensemble_worker_create(const struct ensemble *ensemble,
+                                               struct fault *fault);
+void ensemble_worker_free(struct ensemble_worker *worker);
+
+/* Checks the request and chooses the model, which takes some ten milliseconds. PERCUSS_OK, or the
+ * refusal: of the ensemble, or of the impact as it is stated. */
+enum percuss_status ensemble_create(struct ensemble *ensemble, const struct ensemble_spec *spec,
+                                    struct fault *fault);
+void ensemble_release(struct ensemble *ensemble);
+
+/* The inputs of sample `index` < count: spec.input_count values. */
+void ensemble_inputs(const struct ensemble *ensemble, uint64_t index, double *values);
+
+/* Solves sample `index`. The message of a refusal goes to `fault` (NULL: nobody reads it). */
+void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensemble_sample *sample,
+                    struct fault *fault);
+
+/* After `done` samples (their places in order, none missing) some more solutions tell how good they
+ * are and what each input does; `ensemble_extras` is their number. */
+uint64_t ensemble_extras(const struct ensemble *ensemble, uint64_t done);
+
+/* Extra solution k: its restitution. The first ones repeat samples with the full accuracy search,
+ * the others with one input drawn anew. */
+double ensemble_extra(struct ensemble_worker *worker, uint64_t done, uint64_t k);
+
+/* What extra k belongs to: the sample, and the dimension drawn anew (SIZE_MAX: none). */
+struct ensemble_extra_place {
+    uint64_t sample;
+    size_t dimension;
+};
+struct ensemble_extra_place ensemble_extra_place(const struct ensemble *ensemble, uint64_t done,
+                                                 uint64_t k);
+
+/* The next number of samples, beyond `done`, at which to ask whether they are enough. */
+uint64_t ensemble_next_check(const struct ensemble *ensemble, uint64_t done);
+
+#endif

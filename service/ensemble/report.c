@@ -1,0 +1,379 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "ensemble/report.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double LEVEL = 0.95;
+static const double default_quantiles[] = {0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975};
+/* More of a distribution than this outside its truncation is worth a word. */
+static const double TRUNCATED_SHARE = 0.01;
+
+static double value_of(const struct ensemble_sample *sample, int quantity)
+{
+    const double all[] = {sample->restitution, sample->impulse, sample->end_time,
+                          sample->peak_force};
+    return all[quantity];
+}
+
+static void quantiles_of(const struct ensemble_spec *spec, const double **probabilities,
+                         size_t *count)
+{
+    bool given = spec->quantile_count > 0;
+    *probabilities = given ? spec->quantiles : default_quantiles;
+    *count = given ? spec->quantile_count : sizeof default_quantiles / sizeof *default_quantiles;
+}
+
+__attribute__((format(printf, 2, 3))) static void warn(struct ensemble_report *report,
+                                                       const char *format, ...)
+{
+    if (report->warning_count == REPORT_WARNINGS)
+        return;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(report->warnings[report->warning_count++], sizeof *report->warnings, format, args);
+    va_end(args);
+}
+
+static bool take_quantity(struct report_quantity *quantity, struct arena *arena)
+{
+    size_t n = quantity->quantile_count;
+    quantity->quantiles = arena_take(arena, n, sizeof(double));
+    quantity->quantiles_low = arena_take(arena, n, sizeof(double));
+    quantity->quantiles_high = arena_take(arena, n, sizeof(double));
+    quantity->edges = arena_take(arena, quantity->bins + 1, sizeof(double));
+    quantity->counts = arena_take(arena, quantity->bins, sizeof(uint64_t));
+    quantity->curve_values = arena_take(arena, REPORT_CURVE + 1, sizeof(double));
+    quantity->curve_shares = arena_take(arena, REPORT_CURVE + 1, sizeof(double));
+    return quantity->quantiles && quantity->quantiles_low && quantity->quantiles_high &&
+           quantity->edges && quantity->counts && quantity->curve_values && quantity->curve_shares;
+}
+
+static void fill_curve(struct report_quantity *quantity, const double *sorted, size_t count)
+{
+    bool few = count <= REPORT_CURVE;
+    quantity->curve_count = few ? count : REPORT_CURVE + 1;
+    for (size_t i = 0; i < quantity->curve_count; i++) {
+        double share = few ? (double)(i + 1) / (double)count : (double)i / REPORT_CURVE;
+        quantity->curve_shares[i] = share;
+        quantity->curve_values[i] = few ? sorted[i] : summary_quantile(sorted, count, share);
+    }
+}
+
+static bool fill_quantity(struct ensemble_report *report, const struct ensemble *ensemble,
+                          struct report_quantity *quantity, struct interval_sample *sample)
+{
+    quantiles_of(&ensemble->spec, &quantity->probabilities, &quantity->quantile_count);
+    quantity->bins = ensemble->spec.bins ? ensemble->spec.bins : summary_bins(sample->kept);
+    if (!take_quantity(quantity, &report->memory))
+        return false;
+    quantity->moments = summary_moments(sample->values, sample->count);
+    quantity->mean = interval_mean(sample, &quantity->moments);
+    quantity->deviation = interval_deviation(sample, &quantity->moments);
+    for (size_t i = 0; i < quantity->quantile_count; i++) {
+        double p = quantity->probabilities[i];
+        struct interval interval = interval_quantile(sample, p);
+        quantity->quantiles[i] = summary_quantile(sample->sorted, sample->kept, p);
+        quantity->quantiles_low[i] = interval.low;
+        quantity->quantiles_high[i] = interval.high;
+    }
+    summary_histogram(sample->sorted, sample->kept, quantity->bins, quantity->edges,
+                      quantity->counts);
+    fill_curve(quantity, sample->sorted, sample->kept);
+    return true;
+}
+
+/* At rest and left alone, one contact separates two bodies with at most the energy they met with:
+ * 0 <= e <= 1. Vibration, acceleration and other contacts may add to it or take from it. */
+static struct shape_range possible_range(const struct ensemble_spec *spec)
+{
+    const struct solve_request *request = spec->request;
+    bool alone = request->contact_count == 1 && request->contacts[0].gap_acceleration == 0.0;
+    for (size_t b = 0; b < request->body_count; b++)
+        alone = alone && !request->bodies[b].state;
+    return alone ? (struct shape_range){0.0, 1.0} : (struct shape_range){-1.0, INFINITY};
+}
+
+static void fill_shape(struct ensemble_report *report, const struct ensemble *ensemble,
+                       const double *sorted)
+{
+    static const double sigmas[REPORT_INTERVALS] = {0.5, 1.0, 1.5, 2.0};
+    const struct moments *moments = &report->quantities[0].moments;
+    report->range = possible_range(&ensemble->spec);
+    for (int i = 0; i < REPORT_INTERVALS; i++)
+        report->intervals[i] = shape_sigma_interval(sorted, moments, sigmas[i], &report->range);
+    report->beta = shape_fit_beta(sorted, moments, &report->range);
+}
+
+static bool fill_quantities(struct ensemble_report *report, const struct ensemble *ensemble,
+                            const struct ensemble_sample *samples)
+{
+    static const char *const names[] = {"restitution", "impulse", "end_time", "peak_force"};
+    double *values = malloc((report->done + 1) * sizeof *values);
+    double *sorted = malloc((report->done + 1) * sizeof *sorted);
+    bool good = values && sorted;
+    for (int q = 0; good && q < REPORT_QUANTITIES; q++) {
+        for (uint64_t i = 0; i < report->done; i++)
+            values[i] = value_of(&samples[i], q);
+        struct interval_sample sample = {
+            .values = values,
+            .count = report->done,
+            .replicates = ensemble->sampling.replicates,
+            .sorted = sorted,
+            .kept = summary_sort(values, report->done, sorted),
+            .level = LEVEL,
+        };
+        report->quantities[q].name = names[q];
+        good = fill_quantity(report, ensemble, &report->quantities[q], &sample);
+        if (good && q == 0)
+            fill_shape(report, ensemble, sorted);
+    }
+    free(values);
+    free(sorted);
+    return good;
+}
+
+static bool has_result(const struct ensemble_sample *sample)
+{
+    return sample->status == PERCUSS_OK || sample->status == PERCUSS_TRUNCATED;
+}
+
+static bool fill_counts(struct ensemble_report *report, const struct ensemble_sample *samples)
+{
+    size_t most = 0;
+    for (uint64_t i = 0; i < report->done; i++)
+        if (has_result(&samples[i]) && samples[i].sub_impacts > most)
+            most = samples[i].sub_impacts;
+    report->count_length = most + 1;
+    report->sub_impact_counts = arena_take(&report->memory, most + 1, sizeof(uint64_t));
+    report->significant_counts = arena_take(&report->memory, most + 1, sizeof(uint64_t));
+    if (!report->sub_impact_counts || !report->significant_counts)
+        return false;
+    for (uint64_t i = 0; i < report->done; i++) {
+        report->refused += !has_result(&samples[i]);
+        report->truncated += samples[i].status == PERCUSS_TRUNCATED;
+        if (!has_result(&samples[i]))
+            continue;
+        report->sub_impact_counts[samples[i].sub_impacts]++;
+        report->significant_counts[samples[i].significant]++;
+    }
+    return true;
+}
+
+/* Jansen's estimator: half the mean square change of the restitution when the input is drawn anew
+ * and all others stay. */
+static double total_index(const struct ensemble_report *report, const struct ensemble *ensemble,
+                          const struct ensemble_sample *samples, const double *extras,
+                          size_t dimension)
+{
+    double sum = 0.0;
+    size_t found = 0;
+    uint64_t count = extras ? ensemble_extras(ensemble, report->done) : 0;
+    for (uint64_t k = 0; k < count; k++) {
+        struct ensemble_extra_place place = ensemble_extra_place(ensemble, report->done, k);
+        double change = extras[k] - samples[place.sample].restitution;
+        if (place.dimension != dimension || !isfinite(change))
+            continue;
+        sum += change * change;
+        found++;
+    }
+    double deviation = report->quantities[0].moments.deviation;
+    return found && deviation > 0.0 ? 0.5 * sum / (double)found / (deviation * deviation) : NAN;
+}
+
+static bool fill_input(struct report_input *out, struct influence_pair *pairs, size_t kept,
+                       struct arena *arena)
+{
+    out->influence = influence_first_order(pairs, kept);
+    out->parts = arena_take(arena, REPORT_PARTS, sizeof *out->parts);
+    if (!out->parts)
+        return false;
+    double range = kept ? pairs[kept - 1].x - pairs[0].x : 0.0;
+    out->resolution = 0.01 * range;
+    if (range > 0.0) {
+        out->part_count = REPORT_PARTS;
+        influence_parts(pairs, kept, out->resolution, out->parts, REPORT_PARTS);
+    }
+    return true;
+}
+
+/* Uncertain: drawn, or a list that differs from sample to sample. */
+static bool is_uncertain(const struct ensemble_spec *spec, size_t input)
+{
+    const struct ensemble_input *one = &spec->inputs[input];
+    return spec_is_drawn(spec, input) ||
+           (one->distribution == DISTRIBUTION_IS_LIST && one->value_count > 1);
+}
+
+static bool fill_inputs(struct ensemble_report *report, const struct ensemble *ensemble,
+                        const struct ensemble_sample *samples, const double *extras)
+{
+    const struct ensemble_spec *spec = &ensemble->spec;
+    size_t n = report->done;
+    struct influence_pair *pairs = malloc((n + 1) * sizeof *pairs);
+    double *column = malloc((n + 1) * sizeof *column);
+    report->inputs = arena_take(&report->memory, spec->input_count, sizeof *report->inputs);
+    bool good = pairs && column && report->inputs;
+    size_t dimension = 0;
+    for (size_t i = 0; good && i < spec->input_count; i++) {
+        if (!is_uncertain(spec, i))
+            continue;
+        struct report_input *out = &report->inputs[report->input_count++];
+        for (size_t k = 0; k < n; k++) {
+            double values[ENSEMBLE_MAX_INPUTS];
+            ensemble_inputs(ensemble, k, values);
+            column[k] = values[i];
+            pairs[k] = (struct influence_pair){values[i], samples[k].restitution};
+        }
+        out->input = i;
+        out->values = summary_moments(column, n);
+        out->total = spec_is_drawn(spec, i)
+                         ? total_index(report, ensemble, samples, extras, dimension++)
+                         : NAN;
+        good = fill_input(out, pairs, influence_sort(pairs, n), &report->memory);
+    }
+    free(pairs);
+    free(column);
+    return good;
+}
+
+/* Largest difference of the quantiles of two samples of equal size, which are sorted here. */
+static double quantile_shift(const struct ensemble_spec *spec, double *a, double *b, size_t count)
+{
+    const double *probabilities;
+    size_t quantiles;
+    double worst = 0.0;
+    quantiles_of(spec, &probabilities, &quantiles);
+    summary_sort(a, count, a);
+    summary_sort(b, count, b);
+    for (size_t i = 0; i < quantiles; i++)
+        worst = fmax(worst, fabs(summary_quantile(a, count, probabilities[i]) -
+                                 summary_quantile(b, count, probabilities[i])));
+    return worst;
+}
+
+static bool fill_verification(struct ensemble_report *report, const struct ensemble *ensemble,
+                              const struct ensemble_sample *samples, const double *extras)
+{
+    struct report_verification *out = &report->verification;
+    uint64_t count = ensemble_extras(ensemble, report->done);
+    double *memory = calloc(3 * count + 1, sizeof *memory);
+    double *fast = memory, *searched = memory + count, *difference = memory + 2 * count;
+    size_t within = 0;
+    if (!memory)
+        return false;
+    for (uint64_t k = 0; k < count; k++) {
+        struct ensemble_extra_place place = ensemble_extra_place(ensemble, report->done, k);
+        double shift = samples[place.sample].restitution - extras[k];
+        if (place.dimension != SIZE_MAX || !isfinite(shift))
+            continue;
+        fast[out->count] = samples[place.sample].restitution;
+        searched[out->count] = extras[k];
+        difference[out->count++] = shift;
+        within += fabs(shift) <= ensemble->model.tolerance;
+        out->largest = fmax(out->largest, fabs(shift));
+    }
+    struct moments moments = summary_moments(difference, out->count);
+    struct interval_sample sample = {difference, out->count, 1, NULL, out->count, LEVEL};
+    out->within = (double)within / (double)out->count;
+    out->mean_shift = moments.mean;
+    out->mean_shift_half_width = interval_mean(&sample, &moments).high - moments.mean;
+    out->deviation_shift = summary_moments(fast, out->count).deviation -
+                           summary_moments(searched, out->count).deviation;
+    out->quantile_shift = quantile_shift(&ensemble->spec, fast, searched, out->count);
+    free(memory);
+    return true;
+}
+
+static void fill_warnings(struct ensemble_report *report, const struct ensemble *ensemble)
+{
+    const struct ensemble_spec *spec = &ensemble->spec;
+    const struct report_verification *verification = &report->verification;
+    if (report->refused)
+        warn(report, "samples: %llu of %llu were refused and are left out",
+             (unsigned long long)report->refused, (unsigned long long)report->done);
+    if (report->truncated)
+        warn(report,
+             "samples: %llu of %llu reached the horizon or the effort allowed before they "
+             "were over",
+             (unsigned long long)report->truncated, (unsigned long long)report->done);
+    for (size_t i = 0; i < spec->input_count; i++) {
+        double share = input_truncated(&spec->inputs[i]);
+        if (share > TRUNCATED_SHARE)
+            warn(report,
+                 "inputs[%zu]: %s: %.2g of its distribution lies outside what is possible or "
+                 "allowed and is cut off",
+                 i, input_quantity_name(spec->inputs[i].quantity), share);
+    }
+    if (verification->count && fabs(verification->mean_shift) > ensemble->model.tolerance)
+        warn(report,
+             "verification: the mean is off by %.2g: more than the tolerance: ask for a "
+             "finer one",
+             verification->mean_shift);
+}
+
+bool report_create(struct ensemble_report *report, const struct ensemble *ensemble,
+                   const struct ensemble_sample *samples, uint64_t done, const double *extras)
+{
+    memset(report, 0, sizeof *report);
+    report->done = done;
+    bool good = fill_counts(report, samples) && fill_quantities(report, ensemble, samples) &&
+                fill_inputs(report, ensemble, samples, extras) &&
+                (!extras || fill_verification(report, ensemble, samples, extras));
+    if (good)
+        fill_warnings(report, ensemble);
+    return good;
+}
+
+void report_release(struct ensemble_report *report)
+{
+    arena_release(&report->memory);
+}
+
+/* Largest half-width of the quantiles' intervals; infinite where one is not known. */
+static double widest_quantile(const struct ensemble *ensemble, const struct interval_sample *sample)
+{
+    const double *probabilities;
+    size_t count;
+    double widest = 0.0;
+    quantiles_of(&ensemble->spec, &probabilities, &count);
+    for (size_t i = 0; i < count; i++) {
+        struct interval interval = interval_quantile(sample, probabilities[i]);
+        double half = 0.5 * (interval.high - interval.low);
+        widest = fmax(widest, isnan(half) ? INFINITY : half);
+    }
+    return widest;
+}
+
+struct report_progress report_progress(const struct ensemble *ensemble,
+                                       const struct ensemble_sample *samples, uint64_t done,
+                                       bool quantiles)
+{
+    const struct ensemble_spec *spec = &ensemble->spec;
+    struct report_progress progress = {NAN, NAN, NAN, NAN, false};
+    double *values = malloc(2 * (done + 1) * sizeof *values);
+    if (!values)
+        return progress;
+    for (uint64_t i = 0; i < done; i++)
+        values[i] = samples[i].restitution;
+    double *sorted = values + done;
+    struct interval_sample sample = {values, done, ensemble->sampling.replicates, sorted, 0, LEVEL};
+    struct moments moments = summary_moments(values, done);
+    progress.mean = moments.mean;
+    progress.deviation = moments.deviation;
+    progress.half_width = interval_mean(&sample, &moments).high - moments.mean;
+    bool mean_enough = spec->half_width == 0.0 || progress.half_width <= spec->half_width;
+    if (quantiles && mean_enough && spec->quantile_half_width > 0.0) {
+        sample.kept = summary_sort(values, done, sorted);
+        progress.quantile_half_width = widest_quantile(ensemble, &sample);
+    }
+    progress.enough = mean_enough && (spec->quantile_half_width == 0.0 ||
+                                      progress.quantile_half_width <= spec->quantile_half_width);
+    free(values);
+    return progress;
+}

@@ -1,0 +1,94 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What an ensemble says, from its samples in order. */
+#ifndef PERCUSS_ENSEMBLE_REPORT_H
+#define PERCUSS_ENSEMBLE_REPORT_H
+
+#include "base/arena.h"
+#include "ensemble/ensemble.h"
+#include "ensemble/influence.h"
+#include "ensemble/interval.h"
+#include "ensemble/shape.h"
+
+enum {
+    REPORT_QUANTITIES = 4,
+    REPORT_INTERVALS = 4,
+    REPORT_PARTS = 32,
+    REPORT_CURVE = 512, /* intervals of the distribution function, at most */
+    REPORT_WARNINGS = 8
+};
+
+/* One quantity of the impacts. */
+struct report_quantity {
+    const char *name; /* restitution, impulse, end_time, peak_force */
+    struct moments moments;
+    struct interval mean, deviation; /* 95 % */
+    size_t quantile_count;
+    const double *probabilities;
+    double *quantiles, *quantiles_low, *quantiles_high;
+    size_t bins;
+    double *edges;
+    uint64_t *counts;
+    size_t curve_count; /* the distribution function: all values where they are few, else quantiles
+                           at equal steps */
+    double *curve_values, *curve_shares;
+};
+
+/* What one uncertain input does to the restitution. */
+struct report_input {
+    size_t input; /* index into the spec's */
+    struct influence influence;
+    double total; /* share of the variance that is left when only this input is unknown (total Sobol
+                     index; Jansen 1999); NAN: not found */
+    struct moments values;
+    double resolution; /* of the parts: a hundredth of the input's range */
+    size_t part_count;
+    struct influence_part *parts; /* along the input */
+};
+
+/* Samples solved again by the full accuracy search. */
+struct report_verification {
+    size_t count;
+    double within;                            /* share that agrees within the tolerance */
+    double largest;                           /* difference */
+    double mean_shift, mean_shift_half_width; /* ensemble - search; 95 % */
+    double deviation_shift;
+    double quantile_shift; /* largest, of the quantiles asked for */
+};
+
+struct ensemble_report {
+    struct arena memory; /* of all arrays */
+    uint64_t done;       /* samples solved */
+    uint64_t refused, truncated;
+    struct report_quantity quantities[REPORT_QUANTITIES];
+    size_t count_length; /* [k]: samples with k sub-impacts; k < count_length */
+    uint64_t *sub_impact_counts, *significant_counts;
+    struct shape_range range; /* of the restitution */
+    struct sigma_interval intervals[REPORT_INTERVALS];
+    struct beta_fit beta;
+    size_t input_count; /* uncertain ones */
+    struct report_input *inputs;
+    struct report_verification verification;
+    size_t warning_count;
+    char warnings[REPORT_WARNINGS][256];
+};
+
+/* The report on samples 0 .. done - 1 and the extras that belong to them (NULL: none were solved).
+ * False: out of memory. Release it all the same. */
+bool report_create(struct ensemble_report *report, const struct ensemble *ensemble,
+                   const struct ensemble_sample *samples, uint64_t done, const double *extras);
+void report_release(struct ensemble_report *report);
+
+/* Mean of the restitution so far, for progress and for stopping. */
+struct report_progress {
+    double mean, deviation;
+    double half_width;          /* of the mean's 95 % interval */
+    double quantile_half_width; /* largest of the quantiles asked for; only for report_is_enough */
+    bool enough;                /* the bounds that were asked for are met */
+};
+struct report_progress report_progress(const struct ensemble *ensemble,
+                                       const struct ensemble_sample *samples, uint64_t done,
+                                       bool quantiles);
+
+#endif

@@ -1,0 +1,73 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "ensemble/sampling.h"
+
+/* Indices of the random numbers that belong to a whole replicate: no point has them. */
+static const uint64_t REPLICATE_BASE = UINT64_C(1) << 62;
+
+const char *sampling_name(unsigned method)
+{
+    static const char *const names[] = {"plain", "latin-hypercube", "sobol"};
+    return method < SAMPLING_METHODS ? names[method] : "?";
+}
+
+enum percuss_status sampling_create(struct sampling *sampling, enum sampling_method method,
+                                    size_t dimensions, uint64_t count, uint64_t seed,
+                                    struct fault *fault)
+{
+    if (method == SAMPLING_IS_SOBOL && dimensions > SOBOL_DIMENSIONS)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "sampling: sobol: has %d dimensions and %zu inputs are uncertain: use "
+                         "latin-hypercube or plain",
+                         SOBOL_DIMENSIONS, dimensions);
+    uint64_t replicates = method == SAMPLING_IS_PLAIN ? 1 : SAMPLING_REPLICATES;
+    *sampling = (struct sampling){
+        .method = method,
+        .dimensions = dimensions,
+        .count = (count + replicates - 1) / replicates * replicates,
+        .replicates = replicates,
+        .stream = {seed, STREAM_SAMPLES},
+    };
+    for (unsigned d = 0; method == SAMPLING_IS_SOBOL && d < dimensions; d++)
+        sampling->sobol[d] = sobol_directions(d);
+    return PERCUSS_OK;
+}
+
+/* 64 random bits that all points of a replicate share in a dimension. */
+static uint64_t shared_bits(const struct sampling *sampling, uint64_t replicate, uint64_t dimension)
+{
+    return random_bits(&sampling->stream, REPLICATE_BASE + replicate, dimension);
+}
+
+static double latin_coordinate(const struct sampling *sampling, uint64_t index, uint64_t dimension)
+{
+    uint64_t size = sampling->count / sampling->replicates;
+    uint64_t replicate = index % sampling->replicates;
+    uint64_t key = shared_bits(sampling, replicate, dimension);
+    uint64_t cell = random_permute(key, index / sampling->replicates, size);
+    double within = random_uniform(&sampling->stream, index, dimension);
+    double u = ((double)cell + within) / (double)size;
+    return u < 1.0 ? u : 1.0 - 0x1p-53;
+}
+
+/* Every bit of the coordinate is flipped or not for the whole replicate: the points stay as evenly
+ * spread, and each is uniform. */
+static double sobol_coordinate(const struct sampling *sampling, uint64_t index, uint64_t dimension)
+{
+    uint64_t point = sobol_point(&sampling->sobol[dimension], index / sampling->replicates);
+    uint64_t shift = shared_bits(sampling, index % sampling->replicates, dimension);
+    return random_uniform_of(point << 32 ^ shift);
+}
+
+void sampling_point(const struct sampling *sampling, uint64_t index, double *point)
+{
+    for (size_t d = 0; d < sampling->dimensions; d++) {
+        if (sampling->method == SAMPLING_IS_LATIN_HYPERCUBE)
+            point[d] = latin_coordinate(sampling, index, d);
+        else if (sampling->method == SAMPLING_IS_SOBOL)
+            point[d] = sobol_coordinate(sampling, index, d);
+        else
+            point[d] = random_uniform(&sampling->stream, index, d);
+    }
+}

@@ -1,0 +1,48 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Points of the unit cube, each a function of its index: plain random points, Latin hypercubes,
+ * Sobol's sequence. The latter two come as independent replicates (another permutation, another
+ * random shift), side by side: point i belongs to replicate i mod R. Their spread tells the error
+ * of what is averaged over all of them. */
+#ifndef PERCUSS_ENSEMBLE_SAMPLING_H
+#define PERCUSS_ENSEMBLE_SAMPLING_H
+
+#include <stddef.h>
+
+#include "base/fault.h"
+#include "ensemble/sobol.h"
+#include "numeric/random_stream.h"
+
+/* The numbers of SAMPLING_* on the wire. */
+enum sampling_method {
+    SAMPLING_IS_PLAIN,
+    SAMPLING_IS_LATIN_HYPERCUBE,
+    SAMPLING_IS_SOBOL,
+    SAMPLING_METHODS
+};
+const char *sampling_name(unsigned method);
+
+enum { SAMPLING_REPLICATES = 16, SAMPLING_MAX_DIMENSIONS = 64 };
+
+/* Purposes of the streams of one seed. */
+enum { STREAM_SAMPLES, STREAM_PILOTS, STREAM_SUBSTITUTES, STREAM_BOOTSTRAP };
+
+struct sampling {
+    enum sampling_method method;
+    size_t dimensions;
+    uint64_t count;      /* points in all; of a Latin hypercube this decides where they lie */
+    uint64_t replicates; /* 1 for plain points */
+    struct random_stream stream;
+    struct sobol_directions sobol[SOBOL_DIMENSIONS];
+};
+
+/* `count` is rounded up to whole replicates. BAD_REQUEST: too many dimensions for Sobol. */
+enum percuss_status sampling_create(struct sampling *sampling, enum sampling_method method,
+                                    size_t dimensions, uint64_t count, uint64_t seed,
+                                    struct fault *fault);
+
+/* Point `index` < count: `dimensions` numbers in (0, 1). */
+void sampling_point(const struct sampling *sampling, uint64_t index, double *point);
+
+#endif
