@@ -16,6 +16,7 @@
 #define WIRE_TOPIC_BATCH_REPLY       "percuss/v1/BatchReply"
 #define WIRE_TOPIC_ENSEMBLE_REQUEST  "percuss/v1/EnsembleRequest"
 #define WIRE_TOPIC_ENSEMBLE_PROGRESS "percuss/v1/EnsembleProgress"
+#define WIRE_TOPIC_ENSEMBLE_SAMPLES  "percuss/v1/EnsembleSamples"
 #define WIRE_TOPIC_ENSEMBLE_REPLY    "percuss/v1/EnsembleReply"
 #define WIRE_TOPIC_TRACE             "percuss/v1/Trace"
 #define WIRE_TOPIC_SERVER_STATUS     "percuss/v1/ServerStatus"

@@ -104,12 +104,10 @@ static enum lane lane_for(const percuss_v1_Request *requests, size_t count)
     return i < count ? LANE_LONG : LANE_SHORT;
 }
 
-/* Hands requests to the workers, or refuses them at once. */
-static void enqueue(struct service *service, const struct request_name *name,
-                    const percuss_v1_Request *requests, size_t count, double arrival)
+/* Hands a task (NULL: it could not be made) to the workers, or refuses it at once. */
+static void enqueue(struct service *service, const struct request_name *name, struct task *task,
+                    enum lane lane, double arrival)
 {
-    struct task *task =
-        atomic_load(&service->draining) ? NULL : task_create(name->exchange, requests, count);
     if (!task) {
         turn_away(service, name);
         return;
@@ -118,11 +116,23 @@ static void enqueue(struct service *service, const struct request_name *name,
     task->sequence = name->sequence;
     task->arrival = arrival;
     task->edition = editions_hold(&service->editions);
-    if (!queue_put(service->lanes[lane_for(requests, count)], task)) {
+    if (task->ensemble)
+        ensembles_enter(&service->ensembles, task);
+    if (!queue_put(service->lanes[lane], task)) {
+        if (task->ensemble)
+            ensembles_leave(&service->ensembles, task);
         editions_let_go(&service->editions, task->edition);
         task_free(task);
         turn_away(service, name);
     }
+}
+
+static void enqueue_requests(struct service *service, const struct request_name *name,
+                             const percuss_v1_Request *requests, size_t count, double arrival)
+{
+    bool draining = atomic_load(&service->draining);
+    enqueue(service, name, draining ? NULL : task_create(name->exchange, requests, count),
+            lane_for(requests, count), arrival);
 }
 
 static bool is_cheap(const percuss_v1_Request *request)
@@ -176,7 +186,7 @@ static void receive_single(void *context, const percuss_v1_Request *request, boo
     if (here)
         answer_here(service, &name, request, arrival);
     else
-        enqueue(service, &name, request, 1, arrival);
+        enqueue_requests(service, &name, request, 1, arrival);
 }
 
 static void receive_batch(void *context, const percuss_v1_BatchRequest *batch)
@@ -190,14 +200,27 @@ static void receive_batch(void *context, const percuss_v1_BatchRequest *batch)
         reply_at_once(service, &name, PERCUSS_BAD_REQUEST,
                       "requests: none given: must be 1 to 256");
     else if (admit(service, &name, question_digest_batch(batch), arrival))
-        enqueue(service, &name, batch->requests._buffer, batch->requests._length, arrival);
+        enqueue_requests(service, &name, batch->requests._buffer, batch->requests._length, arrival);
 }
 
 static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *request)
 {
+    struct service *service = context;
+    double arrival = clock_now();
     struct request_name name = {request->client, EXCHANGE_ENSEMBLE, request->sequence};
-    reply_at_once(context, &name, PERCUSS_BAD_REQUEST,
-                  "ensembles are not available from this server version");
+    if (request->cancel) {
+        ensembles_cancel(&service->ensembles, request->client, request->sequence);
+        return;
+    }
+    if (request->sequence == 0) {
+        reply_at_once(service, &name, PERCUSS_BAD_REQUEST,
+                      "sequence: 0: must be > 0 for an ensemble");
+        return;
+    }
+    if (!admit(service, &name, question_digest_ensemble(request), arrival))
+        return;
+    bool draining = atomic_load(&service->draining);
+    enqueue(service, &name, draining ? NULL : task_create_ensemble(request), LANE_LONG, arrival);
 }
 
 static void note_presence(void *context, const uint8_t client[16], bool present)

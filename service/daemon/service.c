@@ -71,6 +71,7 @@ struct service *service_create(const struct settings *settings, struct fault *fa
         return NULL;
     }
     service->settings = settings;
+    ensembles_create(&service->ensembles);
     service->started = clock_now();
     if (editions_create(&service->editions, settings->catalogue, fault))
         goto failed;
@@ -101,6 +102,7 @@ void service_free(struct service *service)
         if (service->lanes[lane])
             queue_close(service->lanes[lane]);
     }
+    ensembles_cancel_all(&service->ensembles);
     workers_join(service);
     if (service->endpoint)
         endpoint_flush(service->endpoint, flush_seconds);
@@ -111,6 +113,7 @@ void service_free(struct service *service)
     reply_store_free(service->replies);
     token_store_free(service->tokens);
     editions_release(&service->editions);
+    ensembles_release(&service->ensembles);
     free(service);
 }
 
@@ -154,8 +157,8 @@ void service_announce(struct service *service)
         .answered = atomic_load(&service->answered),
         .refused = atomic_load(&service->refused),
         .uptime = clock_now() - service->started,
-        .progress = NAN,
     };
+    ensembles_describe(&service->ensembles, status.activity, &status.progress);
     const char *state = atomic_load(&service->draining) ? "draining" : "ready";
     snprintf(status.version, sizeof status.version, "%s", PERCUSS_VERSION);
     snprintf(status.state, sizeof status.state, "%s", state);
@@ -214,6 +217,8 @@ static void count(struct service *service, const struct answer *answer)
         all = answer->member_count;
     for (size_t i = 0; answer->reply && i < all; i++)
         answered += encode_status_has_result(answer->reply[i].status);
+    if (answer->exchange == EXCHANGE_ENSEMBLE)
+        answered = encode_status_has_result(answer->report->status);
     atomic_fetch_add(&service->answered, answered);
     atomic_fetch_add(&service->refused, all - answered);
 }

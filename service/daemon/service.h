@@ -6,6 +6,7 @@
 #define PERCUSS_DAEMON_SERVICE_H
 
 #include "daemon/edition.h"
+#include "daemon/ensembles.h"
 #include "daemon/queue.h"
 #include "daemon/respond.h"
 #include "daemon/settings.h"
@@ -23,7 +24,8 @@ struct service {
     struct token_store *tokens;
     struct reply_store *replies;
     struct queue *lanes[LANE_COUNT];
-    struct seat *desk; /* of the reading thread, which solves what is cheap itself */
+    struct ensembles ensembles; /* in the long lane */
+    struct seat *desk;          /* of the reading thread, which solves what is cheap itself */
     uint8_t last_client[16];
     double company_until; /* monotonic, s: till then several clients count as asking */
     double started;       /* monotonic, s */

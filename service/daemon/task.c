@@ -23,11 +23,26 @@ struct task *task_create(enum exchange exchange, const percuss_v1_Request *reque
     return NULL;
 }
 
+struct task *task_create_ensemble(const percuss_v1_EnsembleRequest *request)
+{
+    struct task *task = task_create(EXCHANGE_ENSEMBLE, &request->scene, 1);
+    if (!task)
+        return NULL;
+    task->ensemble = question_copy_ensemble(request);
+    if (!task->ensemble) {
+        task_free(task);
+        return NULL;
+    }
+    task->ensemble->scene = task->requests[0];
+    return task;
+}
+
 void task_free(struct task *task)
 {
     for (size_t i = 0; task->answers && i < task->count; i++)
         answer_release(task->answers[i]);
     free(task->answers);
     free(task->requests);
+    free(task->ensemble);
     free(task);
 }

@@ -7,6 +7,7 @@
 
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <sys/queue.h>
 
 #include "daemon/edition.h"
 #include "endpoint/answer.h"
@@ -23,11 +24,17 @@ struct task {
     atomic_size_t left;      /* to be answered; whoever answers the last one sends the reply */
     struct answer **answers; /* of the requests */
     atomic_bool abandoned;   /* nobody waits for the reply any more */
+    percuss_v1_EnsembleRequest *ensemble; /* a copy whose scene is requests[0]; NULL: none */
+    atomic_bool cancelled;                /* its client wants no more samples */
+    LIST_ENTRY(task) ensembles;
 };
 
 /* A task for copies of `count` >= 1 requests; client, sequence, arrival and edition are the
  * caller's to set. NULL: out of memory. */
 struct task *task_create(enum exchange exchange, const percuss_v1_Request *requests, size_t count);
+
+/* A task for a copy of an ensemble, likewise. */
+struct task *task_create_ensemble(const percuss_v1_EnsembleRequest *request);
 
 /* Releases all but the edition. */
 void task_free(struct task *task);

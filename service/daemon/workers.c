@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "daemon/ensemble_run.h"
 #include "endpoint/batch.h"
 
 static const int long_lane_nice = 10;
@@ -54,6 +55,8 @@ static void finish(struct service *service, struct task *task)
     } else {
         service_deliver(service, &name, task->answers[0]);
     }
+    if (task->ensemble)
+        ensembles_leave(&service->ensembles, task);
     editions_let_go(&service->editions, task->edition);
     task_free(task);
 }
@@ -72,6 +75,8 @@ static void work_on(struct worker *worker, struct task *task, size_t index)
     };
     if (reply_store_is_gone(service->replies, task->client))
         atomic_store(&task->abandoned, true);
+    else if (task->ensemble)
+        task->answers[index] = ensemble_respond(service, task);
     else
         task->answers[index] = respond(worker->seat, service->tokens, &question);
     if (atomic_fetch_sub(&task->left, 1) == 1)

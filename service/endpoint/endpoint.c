@@ -220,6 +220,12 @@ enum delivery endpoint_reply(struct endpoint *endpoint, const uint8_t client[16]
     return reply_writers_write(endpoint->writers, client, answer);
 }
 
+enum delivery endpoint_publish(struct endpoint *endpoint, const uint8_t client[16],
+                               unsigned channel, const void *sample, unsigned patience)
+{
+    return reply_writers_publish(endpoint->writers, client, channel, sample, patience);
+}
+
 void endpoint_flush(struct endpoint *endpoint, double seconds)
 {
     reply_writers_flush(endpoint->writers, seconds);

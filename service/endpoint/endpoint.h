@@ -38,6 +38,10 @@ void endpoint_stop(struct endpoint *endpoint);
 enum delivery endpoint_reply(struct endpoint *endpoint, const uint8_t client[16],
                              const struct answer *answer);
 
+/* Writes a sample to a client, see reply_writers_publish. Thread-safe. */
+enum delivery endpoint_publish(struct endpoint *endpoint, const uint8_t client[16],
+                               unsigned channel, const void *sample, unsigned patience);
+
 /* Waits until the clients have what was written, at most `seconds`. */
 void endpoint_flush(struct endpoint *endpoint, double seconds);
 

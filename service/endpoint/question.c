@@ -76,6 +76,42 @@ struct digest question_digest_batch(const percuss_v1_BatchRequest *batch)
     return hash_digest(&hasher);
 }
 
+static void hash_input(struct hasher *hasher, const percuss_v1_EnsembleInput *input)
+{
+    hash_text(hasher, input->name);
+    hash_text(hasher, input->body);
+    hash_number(hasher, input->distribution);
+    const double numbers[] = {input->first, input->second, input->lower, input->upper};
+    hash_bytes(hasher, numbers, sizeof numbers);
+    hash_bytes(hasher, input->values._buffer, input->values._length * sizeof(double));
+}
+
+struct digest question_digest_ensemble(const percuss_v1_EnsembleRequest *request)
+{
+    struct hasher hasher = {0};
+    hash_request(&hasher, &request->scene);
+    hash_number(&hasher, request->inputs._length);
+    for (uint32_t i = 0; i < request->inputs._length; i++)
+        hash_input(&hasher, &request->inputs._buffer[i]);
+    hash_number(&hasher, request->correlations._length);
+    for (uint32_t i = 0; i < request->correlations._length; i++) {
+        const percuss_v1_EnsembleCorrelation *pair = &request->correlations._buffer[i];
+        hash_number(&hasher, pair->first);
+        hash_number(&hasher, pair->second);
+        hash_bytes(&hasher, &pair->coefficient, sizeof pair->coefficient);
+    }
+    hash_number(&hasher, request->sampling);
+    hash_number(&hasher, request->samples);
+    hash_number(&hasher, request->seed);
+    const double widths[] = {request->half_width, request->quantile_half_width};
+    hash_bytes(&hasher, widths, sizeof widths);
+    hash_bytes(&hasher, request->quantiles._buffer, request->quantiles._length * sizeof(double));
+    hash_number(&hasher, request->bins);
+    hash_number(&hasher, request->contact);
+    hash_number(&hasher, request->list_samples);
+    return hash_digest(&hasher);
+}
+
 static size_t round_up(size_t bytes)
 {
     return (bytes + alignof(max_align_t) - 1) / alignof(max_align_t) * alignof(max_align_t);
@@ -133,4 +169,24 @@ percuss_v1_Request *question_copy(const percuss_v1_Request *requests, size_t cou
         at = copy_overrides(&copies[i], &requests[i], at);
     }
     return copies;
+}
+
+percuss_v1_EnsembleRequest *question_copy_ensemble(const percuss_v1_EnsembleRequest *request)
+{
+    size_t size = round_up(sizeof *request) + round_up(LIST_BYTES(request->inputs)) +
+                  round_up(LIST_BYTES(request->correlations)) +
+                  round_up(LIST_BYTES(request->quantiles));
+    for (uint32_t i = 0; i < request->inputs._length; i++)
+        size += round_up(LIST_BYTES(request->inputs._buffer[i].values));
+    percuss_v1_EnsembleRequest *copy = malloc(size);
+    if (!copy)
+        return NULL;
+    *copy = *request;
+    char *at = (char *)copy + round_up(sizeof *request);
+    COPY_SEQUENCE(copy, request, inputs, at);
+    COPY_SEQUENCE(copy, request, correlations, at);
+    COPY_SEQUENCE(copy, request, quantiles, at);
+    for (uint32_t i = 0; i < request->inputs._length; i++)
+        COPY_SEQUENCE(&copy->inputs._buffer[i], &request->inputs._buffer[i], values, at);
+    return copy;
 }

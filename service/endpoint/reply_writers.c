@@ -15,7 +15,7 @@
 enum { TAKEN_AT_ONCE = 32 };
 
 /* Replies of every exchange, and what goes with them on a topic of its own. */
-enum { REPLY_TRACE = EXCHANGE_COUNT, REPLY_KINDS };
+enum { CHANNEL_TRACE = EXCHANGE_COUNT, REPLY_KINDS };
 
 static const double stall_pause = 1.0; /* s */
 
@@ -24,9 +24,9 @@ struct destination {
     struct key_node node; /* key: client */
     LIST_ENTRY(destination) all;
     uint8_t client[16];
-    unsigned readers[REPLY_KINDS];
-    dds_entity_t writers[REPLY_KINDS]; /* 0: none */
-    double stalled_until[REPLY_KINDS];
+    unsigned readers[CHANNEL_COUNT];
+    dds_entity_t writers[CHANNEL_COUNT]; /* 0: none */
+    double stalled_until[CHANNEL_COUNT];
 };
 
 /* A reader of replies somewhere in the domain; when it goes, only its key is told. */
@@ -34,13 +34,13 @@ struct remote_reader {
     struct key_node node; /* key: GUID */
     LIST_ENTRY(remote_reader) all;
     struct destination *destination;
-    unsigned kind;
+    unsigned channel;
 };
 
 struct reply_writers {
     pthread_mutex_t lock; /* of the destinations and what is in them */
     dds_entity_t participant, source;
-    dds_entity_t topics[REPLY_KINDS];
+    dds_entity_t topics[CHANNEL_COUNT];
     struct key_map destinations, readers;
     LIST_HEAD(destination_list, destination) all_destinations;
     LIST_HEAD(reader_list, remote_reader) all_readers;
@@ -49,16 +49,18 @@ struct reply_writers {
 static const struct {
     const char *topic;
     const dds_topic_descriptor_t *type;
-} replies[REPLY_KINDS] = {
+} replies[CHANNEL_COUNT] = {
     [EXCHANGE_SINGLE] = {WIRE_TOPIC_REPLY, &percuss_v1_Reply_desc},
     [EXCHANGE_BATCH] = {WIRE_TOPIC_BATCH_REPLY, &percuss_v1_BatchReply_desc},
     [EXCHANGE_ENSEMBLE] = {WIRE_TOPIC_ENSEMBLE_REPLY, &percuss_v1_EnsembleReply_desc},
-    [REPLY_TRACE] = {WIRE_TOPIC_TRACE, &percuss_v1_Trace_desc},
+    [CHANNEL_PROGRESS] = {WIRE_TOPIC_ENSEMBLE_PROGRESS, &percuss_v1_EnsembleProgress_desc},
+    [CHANNEL_TRACE] = {WIRE_TOPIC_TRACE, &percuss_v1_Trace_desc},
+    [CHANNEL_SAMPLES] = {WIRE_TOPIC_ENSEMBLE_SAMPLES, &percuss_v1_EnsembleSamples_desc},
 };
 
 static bool create_entities(struct reply_writers *writers, struct fault *fault)
 {
-    for (int i = 0; i < REPLY_KINDS; i++) {
+    for (int i = 0; i < CHANNEL_COUNT; i++) {
         writers->topics[i] =
             dds_create_topic(writers->participant, replies[i].type, replies[i].topic, NULL, NULL);
         if (writers->topics[i] < 0) {
@@ -146,7 +148,7 @@ static struct destination *find_or_create(struct reply_writers *writers, const u
 
 static void drop_if_unread(struct reply_writers *writers, struct destination *destination)
 {
-    for (int i = 0; i < REPLY_KINDS; i++) {
+    for (int i = 0; i < CHANNEL_COUNT; i++) {
         if (destination->readers[i] > 0)
             return;
     }
@@ -156,28 +158,29 @@ static void drop_if_unread(struct reply_writers *writers, struct destination *de
 }
 
 static dds_entity_t create_writer(const struct reply_writers *writers, const uint8_t client[16],
-                                  unsigned kind)
+                                  unsigned channel)
 {
     char partition[WIRE_PARTITION_SIZE];
     wire_partition_name(client, partition);
     dds_qos_t *qos = wire_qos_exchange(partition);
-    dds_entity_t writer = dds_create_writer(writers->participant, writers->topics[kind], qos, NULL);
+    dds_entity_t writer =
+        dds_create_writer(writers->participant, writers->topics[channel], qos, NULL);
     dds_delete_qos(qos);
     return writer > 0 ? writer : 0;
 }
 
 /* A reader came: false if it can get no writer. */
 static bool add_reader(struct reply_writers *writers, struct remote_reader *reader,
-                       const uint8_t client[16], unsigned kind)
+                       const uint8_t client[16], unsigned channel)
 {
     pthread_mutex_lock(&writers->lock);
     struct destination *destination = find_or_create(writers, client);
     if (destination) {
-        destination->readers[kind]++;
-        if (!destination->writers[kind])
-            destination->writers[kind] = create_writer(writers, client, kind);
+        destination->readers[channel]++;
+        if (!destination->writers[channel])
+            destination->writers[channel] = create_writer(writers, client, channel);
         reader->destination = destination;
-        reader->kind = kind;
+        reader->channel = channel;
         key_map_insert(&writers->readers, &reader->node);
         LIST_INSERT_HEAD(&writers->all_readers, reader, all);
     }
@@ -189,14 +192,14 @@ static bool add_reader(struct reply_writers *writers, struct remote_reader *read
 static void remove_reader(struct reply_writers *writers, struct remote_reader *reader)
 {
     struct destination *destination = reader->destination;
-    unsigned kind = reader->kind;
+    unsigned channel = reader->channel;
     dds_entity_t unused = 0;
     pthread_mutex_lock(&writers->lock);
     key_map_remove(&writers->readers, &reader->node);
     LIST_REMOVE(reader, all);
-    if (--destination->readers[kind] == 0) {
-        unused = destination->writers[kind];
-        destination->writers[kind] = 0;
+    if (--destination->readers[channel] == 0) {
+        unused = destination->writers[channel];
+        destination->writers[channel] = 0;
         drop_if_unread(writers, destination);
     }
     pthread_mutex_unlock(&writers->lock);
@@ -232,10 +235,10 @@ static bool find_client(const dds_qos_t *qos, uint8_t client[16])
     return found;
 }
 
-static unsigned find_kind(const char *topic)
+static unsigned find_channel(const char *topic)
 {
-    unsigned i = 0;
-    while (i < REPLY_KINDS && strcmp(topic, replies[i].topic) != 0)
+    int i = 0;
+    while (i < CHANNEL_COUNT && strcmp(topic, replies[i].topic) != 0)
         i++;
     return i;
 }
@@ -257,12 +260,12 @@ static void follow_one(struct reply_writers *writers, const dds_builtintopic_end
     uint8_t client[16];
     if (node || !alive || !info->valid_data || !find_client(endpoint->qos, client))
         return;
-    unsigned kind = find_kind(endpoint->topic_name);
-    struct remote_reader *reader = kind < REPLY_KINDS ? calloc(1, sizeof *reader) : NULL;
+    unsigned channel = find_channel(endpoint->topic_name);
+    struct remote_reader *reader = channel < CHANNEL_COUNT ? calloc(1, sizeof *reader) : NULL;
     if (!reader)
         return;
     reader->node.key = key;
-    if (add_reader(writers, reader, client, kind))
+    if (add_reader(writers, reader, client, channel))
         presence(context, client, true);
     else
         free(reader);
@@ -282,28 +285,28 @@ void reply_writers_follow(struct reply_writers *writers, presence_function *pres
 
 /* The writer for a client's replies; 0 with the reason if there is none to be used now. */
 static dds_entity_t find_writer(struct reply_writers *writers, const uint8_t client[16],
-                                unsigned kind, enum delivery *reason)
+                                unsigned channel, enum delivery *reason)
 {
     dds_entity_t writer = 0;
     *reason = DELIVERY_NO_READER;
     pthread_mutex_lock(&writers->lock);
     const struct destination *destination = find(writers, client);
-    if (destination && destination->writers[kind]) {
-        bool stalled = clock_now() < destination->stalled_until[kind];
+    if (destination && destination->writers[channel]) {
+        bool stalled = clock_now() < destination->stalled_until[channel];
         *reason = stalled ? DELIVERY_STALLED : DELIVERY_DONE;
-        writer = stalled ? 0 : destination->writers[kind];
+        writer = stalled ? 0 : destination->writers[channel];
     }
     pthread_mutex_unlock(&writers->lock);
     return writer;
 }
 
 /* Spares the other clients the wait for one that is stopped or cut off. */
-static void mark_stalled(struct reply_writers *writers, const uint8_t client[16], unsigned kind)
+static void mark_stalled(struct reply_writers *writers, const uint8_t client[16], unsigned channel)
 {
     pthread_mutex_lock(&writers->lock);
     struct destination *destination = find(writers, client);
     if (destination)
-        destination->stalled_until[kind] = clock_now() + stall_pause;
+        destination->stalled_until[channel] = clock_now() + stall_pause;
     pthread_mutex_unlock(&writers->lock);
 }
 
@@ -324,12 +327,12 @@ static void write_traces(struct reply_writers *writers, const uint8_t client[16]
                          const struct answer *answer)
 {
     enum delivery delivery;
-    dds_entity_t writer = find_writer(writers, client, REPLY_TRACE, &delivery);
+    dds_entity_t writer = find_writer(writers, client, CHANNEL_TRACE, &delivery);
     dds_return_t result = DDS_RETCODE_OK;
     for (size_t i = 0; writer && !result && i < answer->trace_count; i++)
         result = dds_write(writer, &answer->traces[i]);
     if (result == DDS_RETCODE_TIMEOUT)
-        mark_stalled(writers, client, REPLY_TRACE);
+        mark_stalled(writers, client, CHANNEL_TRACE);
 }
 
 enum delivery reply_writers_write(struct reply_writers *writers, const uint8_t client[16],
@@ -349,6 +352,23 @@ enum delivery reply_writers_write(struct reply_writers *writers, const uint8_t c
     return result == DDS_RETCODE_OK ? DELIVERY_DONE : DELIVERY_NO_READER;
 }
 
+enum delivery reply_writers_publish(struct reply_writers *writers, const uint8_t client[16],
+                                    unsigned channel, const void *sample, unsigned patience)
+{
+    enum delivery delivery;
+    dds_entity_t writer = find_writer(writers, client, channel, &delivery);
+    if (!writer)
+        return delivery;
+    dds_return_t result = dds_write(writer, sample);
+    for (unsigned i = 1; result == DDS_RETCODE_TIMEOUT && i < patience; i++)
+        result = dds_write(writer, sample);
+    if (result == DDS_RETCODE_TIMEOUT) {
+        mark_stalled(writers, client, channel);
+        return DELIVERY_STALLED;
+    }
+    return result == DDS_RETCODE_OK ? DELIVERY_DONE : DELIVERY_NO_READER;
+}
+
 void reply_writers_flush(struct reply_writers *writers, double seconds)
 {
     double end = clock_now() + seconds;
@@ -356,7 +376,7 @@ void reply_writers_flush(struct reply_writers *writers, double seconds)
     struct destination *destination;
     LIST_FOREACH(destination, &writers->all_destinations, all)
     {
-        for (int i = 0; i < REPLY_KINDS; i++) {
+        for (int i = 0; i < CHANNEL_COUNT; i++) {
             double left = end - clock_now();
             if (destination->writers[i] && left > 0.0)
                 dds_wait_for_acks(destination->writers[i], (dds_duration_t)(left * 1e9));

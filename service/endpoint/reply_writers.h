@@ -15,6 +15,9 @@
 /* More clients than this at once get no replies. */
 enum { REPLY_WRITERS_CLIENTS = 1024 };
 
+/* What is written to clients: the replies of each exchange, and these. */
+enum { CHANNEL_PROGRESS = EXCHANGE_COUNT, CHANNEL_SAMPLES, CHANNEL_TRACE, CHANNEL_COUNT };
+
 struct reply_writers;
 
 /* NULL with a fault if DDS refuses. */
@@ -41,6 +44,11 @@ enum delivery {
 /* Writes the answer, all parts of it, to its client. */
 enum delivery reply_writers_write(struct reply_writers *writers, const uint8_t client[16],
                                   const struct answer *answer);
+
+/* Writes a sample of a channel that is no exchange, EnsembleProgress or EnsembleSamples.
+ * `patience`: how many times 0.1 s it may take; 0: at most once. */
+enum delivery reply_writers_publish(struct reply_writers *writers, const uint8_t client[16],
+                                    unsigned channel, const void *sample, unsigned patience);
 
 /* Waits until the clients have everything that was written, at most `seconds`. */
 void reply_writers_flush(struct reply_writers *writers, double seconds);

@@ -1,0 +1,263 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/ensemble_run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "daemon/crew.h"
+#include "endpoint/clock.h"
+#include "endpoint/decode_ensemble.h"
+#include "endpoint/encode.h"
+#include "endpoint/encode_ensemble.h"
+
+/* Listed samples: parts of about this size, but no more of them than the writer keeps. */
+enum { PART_BYTES = 64 * 1024, MOST_PARTS = 1000, PATIENCE = 20, MOST_WORKERS = 64 };
+
+struct ensemble_run {
+    struct service *service;
+    struct task *task;
+    double deadline; /* monotonic, s; INFINITY: none */
+    struct decoded_ensemble *decoded;
+    struct ensemble ensemble;
+    unsigned worker_count;
+    struct ensemble_worker *workers[MOST_WORKERS];
+    struct ensemble_sample *samples;
+    double *extras;
+    uint64_t done;
+    bool in_extras;
+    char message[160]; /* what cut it short; empty: nothing */
+};
+
+static void publish_progress(struct ensemble_run *run, uint64_t done)
+{
+    struct report_progress progress = report_progress(&run->ensemble, run->samples, done, false);
+    percuss_v1_EnsembleProgress sample = {
+        .sequence = run->task->sequence,
+        .done = done,
+        .samples = run->ensemble.count,
+        .mean = progress.mean,
+        .standard_deviation = progress.deviation,
+        .half_width = progress.half_width,
+    };
+    memcpy(sample.client, run->task->client, sizeof sample.client);
+    endpoint_publish(run->service->endpoint, run->task->client, CHANNEL_PROGRESS, &sample, 0);
+    ensembles_note(&run->service->ensembles, done, run->ensemble.count);
+}
+
+/* Whether anybody still wants the rest. */
+static bool is_wanted(struct ensemble_run *run)
+{
+    struct task *task = run->task;
+    if (reply_store_is_gone(run->service->replies, task->client))
+        atomic_store(&task->abandoned, true);
+    if (atomic_load(&task->abandoned))
+        return false;
+    if (atomic_load(&task->cancelled))
+        snprintf(run->message, sizeof run->message, "cancelled");
+    else if (clock_now() > run->deadline)
+        snprintf(run->message, sizeof run->message, "options.deadline: %g s: has passed",
+                 task->requests[0].options.deadline);
+    return !run->message[0];
+}
+
+static bool watch(void *context, uint64_t done)
+{
+    struct ensemble_run *run = context;
+    publish_progress(run, run->in_extras ? run->done : done);
+    return is_wanted(run);
+}
+
+static void work_on_sample(void *context, unsigned member, uint64_t item)
+{
+    struct ensemble_run *run = context;
+    ensemble_solve(run->workers[member], item, &run->samples[item], NULL);
+}
+
+static void work_on_extra(void *context, unsigned member, uint64_t item)
+{
+    struct ensemble_run *run = context;
+    run->extras[item] = ensemble_extra(run->workers[member], run->done, item);
+}
+
+/* Solves samples until there are all, or enough, or nobody wants more. */
+static void solve_samples(struct ensemble_run *run)
+{
+    bool wanted = is_wanted(run);
+    while (wanted && run->done < run->ensemble.count) {
+        uint64_t next = ensemble_next_check(&run->ensemble, run->done);
+        struct crew_job job = {run->worker_count, run->done, next, work_on_sample, watch, run};
+        run->done = crew_run(&job);
+        wanted = run->done == next && is_wanted(run);
+        if (wanted && next < run->ensemble.count &&
+            report_progress(&run->ensemble, run->samples, next, true).enough)
+            break;
+    }
+    publish_progress(run, run->done);
+}
+
+/* After an early end the extras are left out: they would take time that was not given. */
+static void solve_extras(struct ensemble_run *run)
+{
+    uint64_t count = run->message[0] ? 0 : ensemble_extras(&run->ensemble, run->done);
+    run->extras = count ? calloc(count, sizeof *run->extras) : NULL;
+    run->in_extras = true;
+    struct crew_job job = {run->worker_count, 0, count, work_on_extra, watch, run};
+    if (run->extras && crew_run(&job) == count)
+        return;
+    free(run->extras);
+    run->extras = NULL;
+}
+
+/* Writes the samples for the client to list. */
+static void publish_samples(struct ensemble_run *run)
+{
+    size_t columns = encode_sample_columns(&run->ensemble);
+    uint64_t rows = PART_BYTES / (columns * sizeof(double));
+    if (rows * MOST_PARTS < run->done)
+        rows = (run->done + MOST_PARTS - 1) / MOST_PARTS;
+    uint64_t parts = (run->done + rows - 1) / rows;
+    double *values = malloc(rows * columns * sizeof *values);
+    for (uint64_t part = 0; values && part < parts; part++) {
+        uint64_t first = part * rows;
+        uint64_t count = run->done - first < rows ? run->done - first : rows;
+        for (uint64_t i = 0; i < count; i++)
+            encode_sample(&run->ensemble, first + i, &run->samples[first + i],
+                          values + i * columns);
+        percuss_v1_EnsembleSamples sample = {
+            .sequence = run->task->sequence,
+            .part = (uint32_t)part,
+            .parts = (uint32_t)parts,
+            .columns = (uint32_t)columns,
+            .first = first,
+            .rows = {._buffer = values,
+                     ._length = (uint32_t)(count * columns),
+                     ._maximum = (uint32_t)(count * columns)},
+        };
+        memcpy(sample.client, run->task->client, sizeof sample.client);
+        if (endpoint_publish(run->service->endpoint, run->task->client, CHANNEL_SAMPLES, &sample,
+                             PATIENCE) != DELIVERY_DONE)
+            break;
+    }
+    free(values);
+}
+
+static struct answer *refuse(const struct envelope *envelope, enum percuss_status status,
+                             const char *message)
+{
+    struct answer *answer = encode_ensemble_refusal(envelope, status, message);
+    if (answer && status == PERCUSS_TRUNCATED)
+        answer->passing = true;
+    return answer;
+}
+
+/* The reply on what was solved. */
+static struct answer *report(struct ensemble_run *run, const struct envelope *envelope)
+{
+    bool cut = run->message[0];
+    if (run->done == 0)
+        return refuse(envelope,
+                      atomic_load(&run->task->cancelled) ? PERCUSS_TRUNCATED : PERCUSS_TIMEOUT,
+                      cut ? run->message : "no thread could be started");
+    char message[256] = "";
+    if (cut)
+        snprintf(message, sizeof message, "%s: %llu of %llu samples were solved", run->message,
+                 (unsigned long long)run->done, (unsigned long long)run->ensemble.count);
+    struct ensemble_ending ending = {cut ? PERCUSS_TRUNCATED : PERCUSS_OK, message};
+    struct ensemble_report results;
+    struct answer *answer = NULL;
+    if (report_create(&results, &run->ensemble, run->samples, run->done, run->extras))
+        answer = encode_ensemble(envelope, &run->ensemble, &results, &ending);
+    if (answer)
+        answer->passing = cut; /* asked again there may be more */
+    report_release(&results);
+    return answer;
+}
+
+/* One worker a thread. False: no memory. */
+static bool hire(struct ensemble_run *run, struct fault *fault)
+{
+    unsigned wanted = run->service->settings->workers;
+    wanted = wanted < MOST_WORKERS ? wanted : MOST_WORKERS;
+    run->samples = calloc(run->ensemble.count, sizeof *run->samples);
+    if (!run->samples) {
+        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+        return false;
+    }
+    for (; run->worker_count < wanted; run->worker_count++) {
+        run->workers[run->worker_count] = ensemble_worker_create(&run->ensemble, fault);
+        if (!run->workers[run->worker_count])
+            return false;
+    }
+    return true;
+}
+
+/* From the wire to an ensemble that is ready to run. */
+static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault)
+{
+    struct task *task = run->task;
+    double seconds = task->requests[0].options.deadline;
+    run->deadline = seconds > 0.0 ? task->arrival + seconds : INFINITY;
+    run->decoded = calloc(1, sizeof *run->decoded);
+    if (!run->decoded)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    enum percuss_status status = decode_ensemble(task->ensemble, run->decoded, fault);
+    if (status)
+        return status;
+    run->decoded->spec.catalogue = task->edition->set;
+    if (!is_wanted(run))
+        return fault_set(fault, PERCUSS_TIMEOUT, "%s before the first sample", run->message);
+    return ensemble_create(&run->ensemble, &run->decoded->spec, fault);
+}
+
+static void release(struct ensemble_run *run)
+{
+    ensembles_note(&run->service->ensembles, 0, 0);
+    for (unsigned i = 0; i < run->worker_count; i++)
+        ensemble_worker_free(run->workers[i]);
+    ensemble_release(&run->ensemble);
+    free(run->extras);
+    free(run->samples);
+    free(run->decoded);
+    free(run);
+}
+
+static struct answer *carry_out(struct ensemble_run *run, const struct envelope *envelope)
+{
+    struct fault fault = {""};
+    enum percuss_status status = prepare(run, &fault);
+    if (status)
+        return refuse(envelope, status, fault.text);
+    if (!hire(run, &fault))
+        return refuse(envelope, PERCUSS_INTERNAL, fault.text);
+    publish_progress(run, 0);
+    solve_samples(run);
+    solve_extras(run);
+    if (atomic_load(&run->task->abandoned))
+        return NULL;
+    if (run->task->ensemble->list_samples)
+        publish_samples(run);
+    return report(run, envelope);
+}
+
+struct answer *ensemble_respond(struct service *service, struct task *task)
+{
+    double start = clock_now();
+    struct ensemble_run *run = calloc(1, sizeof *run);
+    if (!run)
+        return NULL;
+    run->service = service;
+    run->task = task;
+    struct request_name name = {task->client, task->exchange, task->sequence};
+    struct envelope envelope = service_envelope(service, &name, task->edition);
+    struct answer *answer = carry_out(run, &envelope);
+    release(run);
+    if (answer) {
+        answer->report->timing.queue = start - task->arrival;
+        answer->report->timing.solve = clock_now() - start;
+    }
+    return answer;
+}
