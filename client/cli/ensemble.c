@@ -1,13 +1,315 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* percuss ensemble: no server answers ensembles yet. */
+/* percuss ensemble: many impacts with uncertain inputs. */
+
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 #include "cli.h"
+#include "ensemble_output.h"
+#include "input_text.h"
+#include "reply_json.h"
+#include "scene.h"
+
+enum {
+    KEY_SPEED = OPTION_OWN,
+    KEY_INPUT,
+    KEY_CORRELATE,
+    KEY_SAMPLES,
+    KEY_SEED,
+    KEY_SAMPLING,
+    KEY_HALF_WIDTH,
+    KEY_QUANTILE_HALF_WIDTH,
+    KEY_QUANTILES,
+    KEY_BINS,
+    KEY_CSV,
+    KEY_DEADLINE,
+    KEY_PROGRESS
+};
+
+struct ensemble {
+    struct common *common;
+    struct scene scene;
+    struct percuss_ensemble_request *request;
+    bool has_speed, has_samples, progress;
+    const char *csv;
+};
+
+static const struct argp_option options[] = {
+    {"speed", KEY_SPEED, "DIST", 0, "speed of A towards B, m/s: a distribution", 10},
+    {"input", KEY_INPUT, "NAME[@ID]=DIST", 0,
+     "another uncertain number: direction; site, young, poisson, density, radius, yield, damping "
+     "of a body (again for more)",
+     11},
+    {"correlate", KEY_CORRELATE, "I,J=RHO", 0,
+     "inputs I and J (0: the first, in order) are correlated", 11},
+    {"samples", KEY_SAMPLES, "N", 0,
+     "how many at most (default 1000, or each value of the lists once)", 12},
+    {"seed", KEY_SEED, "N", 0, "of the random numbers (default 1)", 12},
+    {"sampling", KEY_SAMPLING, "S", 0, "plain, latin-hypercube or sobol (default plain)", 12},
+    {"half-width", KEY_HALF_WIDTH, "W", 0,
+     "stop when the 95 % interval of the mean restitution is within -+ W", 13},
+    {"quantile-half-width", KEY_QUANTILE_HALF_WIDTH, "W", 0, "and those of all quantiles", 13},
+    {"quantiles", KEY_QUANTILES, "P,P,...", 0, "probabilities of the quantiles", 14},
+    {"bins", KEY_BINS, "N", 0, "of the histogram", 14},
+    {"csv", KEY_CSV, "FILE", 0, "write every sample", 15},
+    {"deadline", KEY_DEADLINE, "S", 0, "seconds after which the server answers with what it has",
+     15},
+    {"progress", KEY_PROGRESS, NULL, 0, "show progress even if stderr is no terminal", 15},
+    {0},
+};
+
+static void add_input(struct ensemble *ensemble, const char *text, bool speed,
+                      struct argp_state *state)
+{
+    struct percuss_ensemble_request *request = ensemble->request;
+    struct input_fault fault;
+    if (request->input_count == PERCUSS_MAX_INPUTS)
+        argp_error(state, "--input: more than %d inputs", PERCUSS_MAX_INPUTS);
+    struct percuss_input *input = &request->inputs[request->input_count++];
+    bool read;
+    if (speed) {
+        *input = (struct percuss_input){.name = "speed"};
+        read = input_text_distribution(text, input, &fault);
+    } else {
+        read = input_text_read(text, input, &fault);
+    }
+    if (!read)
+        argp_error(state, "--%s: %s", speed ? "speed" : "input", fault.text);
+}
+
+static void add_correlation(struct ensemble *ensemble, const char *text, struct argp_state *state)
+{
+    struct percuss_ensemble_request *request = ensemble->request;
+    struct percuss_correlation *pair = &request->correlations[request->correlation_count];
+    int end = 0;
+    if (request->correlation_count == PERCUSS_MAX_CORRELATIONS)
+        argp_error(state, "--correlate: more than %d pairs", PERCUSS_MAX_CORRELATIONS);
+    if (sscanf(text, "%u,%u=%lf%n", &pair->first, &pair->second, &pair->coefficient, &end) != 3 ||
+        text[end])
+        argp_error(state, "--correlate: '%s' is not I,J=RHO, for example 0,1=0.8", text);
+    ++request->correlation_count;
+}
+
+static void parse_quantiles(struct percuss_ensemble_request *request, const char *text,
+                            struct argp_state *state)
+{
+    for (const char *at = text; at;) {
+        char *end;
+        double p = strtod(at, &end);
+        if (end == at || (*end && *end != ',') || !(p > 0.0 && p < 1.0) ||
+            request->quantile_count == PERCUSS_MAX_QUANTILES)
+            argp_error(state, "--quantiles: '%s' is not a list of up to %d probabilities", text,
+                       PERCUSS_MAX_QUANTILES);
+        request->quantiles[request->quantile_count++] = p;
+        at = *end ? end + 1 : NULL;
+    }
+}
+
+static enum percuss_sampling parse_sampling(const char *text, struct argp_state *state)
+{
+    unsigned i = 0;
+    while (i < PERCUSS_SAMPLING_COUNT && strcmp(text, percuss_sampling_name(i)) != 0)
+        ++i;
+    if (i == PERCUSS_SAMPLING_COUNT)
+        argp_error(state, "--sampling: '%s' is not plain, latin-hypercube or sobol", text);
+    return i;
+}
+
+static double parse_width(const char *option, const char *text, struct argp_state *state)
+{
+    double width = parse_number(option, text, state);
+    if (!(width > 0.0))
+        argp_error(state, "--%s: '%s': a number > 0 is needed", option, text);
+    return width;
+}
+
+static uint64_t parse_seed(const char *text, struct argp_state *state)
+{
+    char *end;
+    unsigned long long seed = strtoull(text, &end, 10);
+    if (end == text || *end || strchr(text, '-'))
+        argp_error(state, "--seed: '%s' is not a whole number", text);
+    return seed;
+}
+
+/* Without a number of samples, lists say how many. */
+static void settle(struct ensemble *ensemble, struct argp_state *state)
+{
+    struct percuss_ensemble_request *request = ensemble->request;
+    if (!ensemble->scene.a || !ensemble->scene.b || !ensemble->has_speed)
+        argp_error(state, "--a ID --b ID --speed DIST are needed");
+    for (size_t i = 0; !ensemble->has_samples && i < request->input_count; ++i)
+        if (request->inputs[i].distribution == PERCUSS_DISTRIBUTION_LIST)
+            request->samples = 0;
+    request->list_samples = ensemble->csv != NULL;
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct ensemble *ensemble = state->input;
+    struct percuss_ensemble_request *request = ensemble->request;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &ensemble->scene;
+        state->child_inputs[1] = ensemble->common;
+        return 0;
+    case KEY_SPEED:
+        if (ensemble->has_speed)
+            argp_error(state, "--speed: given twice");
+        add_input(ensemble, text, true, state);
+        ensemble->has_speed = true;
+        return 0;
+    case KEY_INPUT:
+        add_input(ensemble, text, false, state);
+        return 0;
+    case KEY_CORRELATE:
+        add_correlation(ensemble, text, state);
+        return 0;
+    case KEY_SAMPLES:
+        request->samples = parse_count("samples", text, PERCUSS_MAX_SAMPLES, state);
+        ensemble->has_samples = true;
+        return 0;
+    case KEY_SEED:
+        request->seed = parse_seed(text, state);
+        return 0;
+    case KEY_SAMPLING:
+        request->sampling = parse_sampling(text, state);
+        return 0;
+    case KEY_HALF_WIDTH:
+        request->half_width = parse_width("half-width", text, state);
+        return 0;
+    case KEY_QUANTILE_HALF_WIDTH:
+        request->quantile_half_width = parse_width("quantile-half-width", text, state);
+        return 0;
+    case KEY_QUANTILES:
+        parse_quantiles(request, text, state);
+        return 0;
+    case KEY_BINS:
+        request->bins = parse_count("bins", text, 1000, state);
+        return 0;
+    case KEY_CSV:
+        ensemble->csv = text;
+        return 0;
+    case KEY_DEADLINE:
+        ensemble->scene.options.deadline = parse_width("deadline", text, state);
+        return 0;
+    case KEY_PROGRESS:
+        ensemble->progress = true;
+        return 0;
+    case ARGP_KEY_END:
+        settle(ensemble, state);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp_child children[] = {
+    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
+static const struct argp ensemble_argp = {
+    .options = options,
+    .parser = parse,
+    .doc = "Asks for many impacts with uncertain inputs and prints what their restitution is as a "
+           "distribution. DIST is a number, uniform:LOWEST:HIGHEST, "
+           "normal:MEAN:DEVIATION[:LOWEST:HIGHEST], log-normal: the same, or list:FILE[:COLUMN]. "
+           "Interrupted, it prints what was found so far.\v"
+           "Example: percuss ensemble --a steel-sphere --b al-beam --speed uniform:0.089:0.411 "
+           "--input young@al-beam=normal:70e9:1e9 --samples 10000",
+    .children = children,
+};
+
+static volatile sig_atomic_t interrupted;
+
+static void interrupt(int signal_number)
+{
+    (void)signal_number;
+    interrupted = 1;
+}
+
+static bool show_progress(void *context, const struct percuss_ensemble_progress *progress)
+{
+    enum { WIDTH = 30 };
+    const struct ensemble *ensemble = context;
+    if (!ensemble->progress || progress->samples == 0)
+        return !interrupted;
+    fprintf(stderr, "\r[%-*.*s] %llu/%llu", WIDTH,
+            (int)(WIDTH * progress->done / progress->samples), "##############################",
+            (unsigned long long)progress->done, (unsigned long long)progress->samples);
+    if (!isnan(progress->half_width))
+        fprintf(stderr, "  e %.4f -+ %.4f ", progress->mean, progress->half_width);
+    return !interrupted;
+}
+
+static int ask(struct ensemble *ensemble, struct percuss_client *client,
+               const struct percuss_body_list *bodies)
+{
+    const struct percuss_ensemble_request *request = ensemble->request;
+    struct percuss_ensemble_reply reply;
+    ensemble->progress = ensemble->progress || isatty(STDERR_FILENO);
+    /* a second interrupt ends the program */
+    sigaction(SIGINT, &(struct sigaction){.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND},
+              NULL);
+    enum percuss_result result = percuss_solve_ensemble(
+        client, request, common_timeout(ensemble->common), show_progress, ensemble, &reply);
+    if (ensemble->progress)
+        fputc('\n', stderr);
+    if (result != PERCUSS_RESULT_OK)
+        return complain_result(result);
+    int code = status_exit_code(reply.status);
+    if (ensemble->csv && reply.statistic_count > 0 &&
+        !ensemble_write_csv(ensemble->csv, request, &reply))
+        code = EXIT_FAILURE;
+    if (ensemble->common->json)
+        json_print(ensemble_to_json(&reply));
+    else
+        ensemble_print_table(request, &reply);
+    if (reply.status == PERCUSS_UNKNOWN_BODY)
+        scene_explain_unknown(&request->scene, bodies);
+    percuss_ensemble_reply_free(&reply);
+    return code;
+}
+
+static int run(struct ensemble *ensemble)
+{
+    struct percuss_client *client;
+    struct scene_bodies bodies = {0};
+    double speed = 0.0;
+    for (size_t i = 0; i < ensemble->request->input_count; ++i)
+        if (!strcmp(ensemble->request->inputs[i].name, "speed"))
+            speed = input_text_middle(&ensemble->request->inputs[i]);
+    int code = open_client(ensemble->common, NULL, &client);
+    if (code != EXIT_ANSWERED)
+        return code;
+    code = scene_find_bodies(&ensemble->scene, ensemble->common, client, &bodies);
+    if (code == EXIT_ANSWERED)
+        code = scene_request(&ensemble->scene, &bodies, speed, &ensemble->request->scene);
+    if (code == EXIT_ANSWERED)
+        code = ask(ensemble, client, &bodies.list);
+    percuss_body_list_free(&bodies.list);
+    percuss_client_free(client);
+    return code;
+}
 
 int command_ensemble(int argc, char **argv, struct common *common)
 {
-    (void)argc, (void)argv, (void)common;
-    complain("ensembles are not offered by percuss " PERCUSS_VERSION " yet; nothing was sent");
-    return EXIT_USAGE;
+    struct ensemble ensemble = {.common = common, .scene = scene_default()};
+    ensemble.request = malloc(sizeof *ensemble.request);
+    if (!ensemble.request) {
+        complain("out of memory");
+        return EXIT_FAILURE;
+    }
+    percuss_ensemble_request_init(ensemble.request);
+    ensemble.request->seed = 1;
+    argp_parse(&ensemble_argp, argc, argv, 0, NULL, &ensemble);
+    int code = run(&ensemble);
+    for (size_t i = 0; i < ensemble.request->input_count; ++i)
+        free((void *)ensemble.request->inputs[i].values);
+    free(ensemble.request);
+    return code;
 }

@@ -60,7 +60,7 @@ static const struct argp main_argp = {
            "  ping      round-trip time to the server\n"
            "  compare   measured impacts beside their simulated twins\n"
            "  calibrate parameters of the bodies from measured impacts\n"
-           "  ensemble  many impacts with random inputs (no server offers it yet)\n\n"
+           "  ensemble  many impacts with uncertain inputs: the restitution as a distribution\n\n"
            "percuss COMMAND --help explains a command. Try: "
            "percuss query --a steel-sphere --b al-beam --speed 0.3\n\n"
            "Exit status: 0 answered, 1 answered with a warning status, 2 usage, 3 no server, "

@@ -32,7 +32,9 @@ struct percuss_client {
     uint64_t next_sequence;
     uint64_t pings_answered;
     struct pending_table pending;
-    dds_entity_t batch_writer, batch_reader; /* 0 until the first batch */
+    dds_entity_t batch_writer, batch_reader;       /* 0 until the first batch */
+    dds_entity_t ensemble_writer, ensemble_reader; /* 0 until the first ensemble */
+    dds_entity_t progress_reader, samples_reader;
     dds_entity_t trace_reader;               /* 0 until the first trace */
     dds_entity_t server_reader, body_reader; /* 0 until asked for */
     int announcement_room;                   /* of the largest read so far, see announcements.c */

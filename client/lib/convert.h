@@ -26,4 +26,20 @@ enum percuss_result convert_request(const struct percuss_request *request,
 /* Copies a wire reply; the arrays share one block, `reply->storage`. NO_MEMORY leaves it empty. */
 enum percuss_result convert_reply(const percuss_v1_Reply *wire, struct percuss_reply *reply);
 
+/* Where a wire ensemble's sequences live while it is written. */
+struct ensemble_storage {
+    struct request_storage scene;
+    percuss_v1_EnsembleInput inputs[PERCUSS_MAX_INPUTS];
+    percuss_v1_EnsembleCorrelation correlations[PERCUSS_MAX_CORRELATIONS];
+};
+
+/* As convert_request; lists and quantiles stay the request's. */
+enum percuss_result convert_ensemble_request(const struct percuss_ensemble_request *request,
+                                             struct ensemble_storage *storage,
+                                             percuss_v1_EnsembleRequest *wire);
+
+/* Copies a wire reply, but for the listed samples. NO_MEMORY leaves it empty. */
+enum percuss_result convert_ensemble_reply(const percuss_v1_EnsembleReply *wire,
+                                           struct percuss_ensemble_reply *reply);
+
 #endif

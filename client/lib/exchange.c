@@ -46,7 +46,7 @@ static enum percuss_result enter(struct percuss_client *client, uint64_t sequenc
                                  struct pending **pending)
 {
     *pending = sequence ? pending_find(&client->pending, sequence) : NULL;
-    if (*pending && ((*pending)->waited || (*pending)->batch))
+    if (*pending && ((*pending)->waited || (*pending)->batch || (*pending)->ensemble))
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "sequence: %llu: another thread waits for it",
                          (unsigned long long)sequence);

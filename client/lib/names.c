@@ -1,6 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include <percuss/ensemble.h>
 #include <percuss/result.h>
 #include <stddef.h>
 
@@ -69,4 +70,16 @@ const char *percuss_delassus_source_name(unsigned source)
 {
     static const char *const names[] = {PERCUSS_DELASSUS_SOURCE_LIST(NAME_TEXT)};
     return name_of(names, COUNT(names), source);
+}
+
+const char *percuss_distribution_name(unsigned distribution)
+{
+    static const char *const names[] = {PERCUSS_DISTRIBUTION_LIST(NAME_TEXT)};
+    return name_of(names, COUNT(names), distribution);
+}
+
+const char *percuss_sampling_name(unsigned sampling)
+{
+    static const char *const names[] = {PERCUSS_SAMPLING_LIST(NAME_TEXT)};
+    return name_of(names, COUNT(names), sampling);
 }

@@ -12,6 +12,7 @@ enum { PENDING_BUCKETS = 256 };
 
 struct batch;
 struct gather;
+struct ensemble_exchange;
 
 struct pending {
     uint64_t sequence;
@@ -19,10 +20,11 @@ struct pending {
     bool ready;
     enum percuss_result result; /* ready: OK with a reply or a filled batch, or NO_MEMORY */
     struct percuss_reply reply;
-    struct batch *batch;            /* borrowed; NULL: a single request */
+    struct batch *batch;                /* borrowed; NULL: a single request */
+    struct ensemble_exchange *ensemble; /* the same of an ensemble */
     struct gather *gather;          /* borrowed; NULL: no trace is wanted */
-    struct pending *next;           /* in its bucket */
-    struct pending *previous_ready; /* in order of arrival */
+    struct pending *next;               /* in its bucket */
+    struct pending *previous_ready;     /* in order of arrival */
     struct pending *next_ready;
 };
 

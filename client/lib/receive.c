@@ -10,6 +10,7 @@
 
 #include "batch.h"
 #include "convert.h"
+#include "ensemble_exchange.h"
 #include "error.h"
 #include "gather.h"
 
@@ -40,7 +41,7 @@ static void file_reply(struct percuss_client *client, struct percuss_reply *repl
     if (reply->sequence == 0) {
         ++client->pings_answered;
         memcpy(client->server, reply->server, sizeof client->server);
-    } else if (pending && !pending->ready && !pending->batch) {
+    } else if (pending && !pending->ready && !pending->batch && !pending->ensemble) {
         pending->reply = *reply;
         *reply = (struct percuss_reply){0};
         pending_set_ready(&client->pending, pending, result);
@@ -57,8 +58,9 @@ static void take_reply(struct percuss_client *client, const percuss_v1_Reply *wi
     file_reply(client, &reply, result);
 }
 
-static void take_batch_reply(struct percuss_client *client, const percuss_v1_BatchReply *wire)
+static void take_batch_reply(struct percuss_client *client, const void *sample)
 {
+    const percuss_v1_BatchReply *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = pending_find(&client->pending, wire->sequence);
     if (pending && !pending->ready && pending->batch) {
@@ -66,6 +68,44 @@ static void take_batch_reply(struct percuss_client *client, const percuss_v1_Bat
         if (result != PERCUSS_RESULT_PENDING)
             pending_set_ready(&client->pending, pending, result);
     }
+    pthread_mutex_unlock(&client->lock);
+}
+
+/* The ensemble that waits under that sequence; the lock is held. NULL: none. */
+static struct pending *find_ensemble(struct percuss_client *client, uint64_t sequence)
+{
+    struct pending *pending = pending_find(&client->pending, sequence);
+    return pending && pending->ensemble ? pending : NULL;
+}
+
+static void take_ensemble_reply(struct percuss_client *client, const void *sample)
+{
+    const percuss_v1_EnsembleReply *wire = sample;
+    pthread_mutex_lock(&client->lock);
+    struct pending *pending = find_ensemble(client, wire->sequence);
+    if (pending && !pending->ready)
+        pending_set_ready(&client->pending, pending,
+                          convert_ensemble_reply(wire, &pending->ensemble->reply));
+    pthread_mutex_unlock(&client->lock);
+}
+
+static void take_progress(struct percuss_client *client, const void *sample)
+{
+    const percuss_v1_EnsembleProgress *wire = sample;
+    pthread_mutex_lock(&client->lock);
+    struct pending *pending = find_ensemble(client, wire->sequence);
+    if (pending)
+        ensemble_exchange_note(pending->ensemble, wire);
+    pthread_mutex_unlock(&client->lock);
+}
+
+static void take_samples(struct percuss_client *client, const void *sample)
+{
+    const percuss_v1_EnsembleSamples *wire = sample;
+    pthread_mutex_lock(&client->lock);
+    struct pending *pending = find_ensemble(client, wire->sequence);
+    if (pending)
+        ensemble_exchange_add(pending->ensemble, wire);
     pthread_mutex_unlock(&client->lock);
 }
 
@@ -82,35 +122,56 @@ static bool take_replies(struct percuss_client *client, dds_entity_t reader, dds
     return *count == CLIENT_TAKE_AT_ONCE;
 }
 
-static bool take_batch_part(struct percuss_client *client, dds_entity_t reader, dds_return_t *count)
+/* Takes one sample, lent by the reader, and files it. */
+static bool take_one(struct percuss_client *client, dds_entity_t reader, dds_return_t *count,
+                     void (*file)(struct percuss_client *, const void *))
 {
-    void *sample[1] = {NULL}; // NULL: lent by the reader
+    void *sample[1] = {NULL};
     dds_sample_info_t info;
     *count = dds_take(reader, sample, &info, 1, 1);
     if (*count == 1 && info.valid_data)
-        take_batch_reply(client, sample[0]);
+        file(client, sample[0]);
     if (*count == 1)
         dds_return_loan(reader, sample, 1);
     return *count == 1;
 }
 
 /* Files one part of a trace. */
+static void take_trace(struct percuss_client *client, const void *sample)
+{
+    const percuss_v1_Trace *wire = sample;
+    pthread_mutex_lock(&client->lock);
+    struct pending *pending = pending_find(&client->pending, wire->sequence);
+    if (pending && pending->gather)
+        gather_add(pending->gather, wire);
+    pthread_mutex_unlock(&client->lock);
+}
+
 static bool take_trace_part(struct percuss_client *client, dds_entity_t reader, dds_return_t *count)
 {
-    void *sample[1] = {NULL}; // NULL: lent by the reader
-    dds_sample_info_t info;
-    *count = dds_take(reader, sample, &info, 1, 1);
-    if (*count == 1 && info.valid_data) {
-        const percuss_v1_Trace *wire = sample[0];
-        pthread_mutex_lock(&client->lock);
-        struct pending *pending = pending_find(&client->pending, wire->sequence);
-        if (pending && pending->gather)
-            gather_add(pending->gather, wire);
-        pthread_mutex_unlock(&client->lock);
-    }
-    if (*count == 1)
-        dds_return_loan(reader, sample, 1);
-    return *count == 1;
+    return take_one(client, reader, count, take_trace);
+}
+
+static bool take_batch_part(struct percuss_client *client, dds_entity_t reader, dds_return_t *count)
+{
+    return take_one(client, reader, count, take_batch_reply);
+}
+
+static bool take_ensemble_replies(struct percuss_client *client, dds_entity_t reader,
+                                  dds_return_t *count)
+{
+    return take_one(client, reader, count, take_ensemble_reply);
+}
+
+static bool take_progresses(struct percuss_client *client, dds_entity_t reader, dds_return_t *count)
+{
+    return take_one(client, reader, count, take_progress);
+}
+
+static bool take_sample_parts(struct percuss_client *client, dds_entity_t reader,
+                              dds_return_t *count)
+{
+    return take_one(client, reader, count, take_samples);
 }
 
 /* Takes everything that a reader holds; `take` takes some and tells whether more may be left. */
@@ -128,6 +189,7 @@ static enum percuss_result take_all(struct percuss_client *client, dds_entity_t 
 static enum percuss_result lead(struct percuss_client *client, double seconds)
 {
     dds_entity_t batch_reader = client->batch_reader, trace_reader = client->trace_reader;
+    dds_entity_t ensemble_reader = client->ensemble_reader;
     client->leading = true;
     pthread_mutex_unlock(&client->lock);
 
@@ -142,6 +204,13 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
         result = take_all(client, batch_reader, take_batch_part);
     if (triggered > 0 && result == PERCUSS_RESULT_OK && trace_reader)
         result = take_all(client, trace_reader, take_trace_part);
+    if (triggered > 0 && result == PERCUSS_RESULT_OK && ensemble_reader) {
+        result = take_all(client, client->samples_reader, take_sample_parts);
+        if (result == PERCUSS_RESULT_OK)
+            result = take_all(client, client->progress_reader, take_progresses);
+        if (result == PERCUSS_RESULT_OK)
+            result = take_all(client, ensemble_reader, take_ensemble_replies);
+    }
 
     pthread_mutex_lock(&client->lock);
     client->leading = false;

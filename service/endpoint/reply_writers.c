@@ -15,7 +15,6 @@
 enum { TAKEN_AT_ONCE = 32 };
 
 /* Replies of every exchange, and what goes with them on a topic of its own. */
-enum { CHANNEL_TRACE = EXCHANGE_COUNT, REPLY_KINDS };
 
 static const double stall_pause = 1.0; /* s */
 

@@ -15,6 +15,7 @@
 #ifndef PERCUSS_PERCUSS_H
 #define PERCUSS_PERCUSS_H
 
+#include <percuss/ensemble.h>
 #include <percuss/reply.h>
 #include <percuss/request.h>
 #include <percuss/result.h>

@@ -1,0 +1,22 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#ifndef PERCUSS_CLI_ENSEMBLE_OUTPUT_H
+#define PERCUSS_CLI_ENSEMBLE_OUTPUT_H
+
+#include <jansson.h>
+#include <percuss/percuss.h>
+
+/* The reply for people. */
+void ensemble_print_table(const struct percuss_ensemble_request *request,
+                          const struct percuss_ensemble_reply *reply);
+
+/* The reply with the wire's names and nesting; the caller releases it. */
+json_t *ensemble_to_json(const struct percuss_ensemble_reply *reply);
+
+/* Writes the listed samples, one a line. False: the file could not be written, or there are none;
+ * complains. */
+bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request *request,
+                        const struct percuss_ensemble_reply *reply);
+
+#endif

@@ -1,0 +1,205 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli.h"
+#include "ensemble_output.h"
+
+/* "[low, high]" with a word for bounds that so few samples cannot give. */
+struct bounds_text {
+    char text[64];
+};
+
+static struct bounds_text bounds_of(double low, double high)
+{
+    struct bounds_text bounds;
+    char ends[2][24];
+    const double values[] = {low, high};
+    for (int i = 0; i < 2; ++i)
+        snprintf(ends[i], sizeof ends[i], isnan(values[i]) ? "?" : "%.4f", values[i]);
+    snprintf(bounds.text, sizeof bounds.text, "[%s, %s]", ends[0], ends[1]);
+    return bounds;
+}
+
+static void print_restitution(const struct percuss_statistic *e)
+{
+    printf("  restitution         95 %% confidence\n");
+    printf("    mean      %.4f  %s\n", e->mean, bounds_of(e->mean_low, e->mean_high).text);
+    printf("    deviation %.4f  %s\n", e->standard_deviation,
+           bounds_of(e->standard_deviation_low, e->standard_deviation_high).text);
+    printf("    skewness  %+.3f\n", e->skewness);
+    printf("    range     %.4f .. %.4f\n", e->lowest, e->highest);
+    for (size_t i = 0; i < e->quantile_count; ++i)
+        printf("    %6.4g %%  %.4f  %s\n", 100.0 * e->probabilities[i], e->quantiles[i],
+               bounds_of(e->quantiles_low[i], e->quantiles_high[i]).text);
+}
+
+static void print_histogram(const struct percuss_statistic *e)
+{
+    enum { WIDTH = 50 };
+    static const char bar[WIDTH + 1] = "##################################################";
+    uint64_t most = 1;
+    for (size_t i = 0; i < e->bin_count; ++i)
+        most = e->bin_counts[i] > most ? e->bin_counts[i] : most;
+    printf("\n");
+    for (size_t i = 0; i < e->bin_count; ++i)
+        printf("  %7.4f .. %7.4f %8llu %.*s\n", e->bin_edges[i], e->bin_edges[i + 1],
+               (unsigned long long)e->bin_counts[i], (int)(WIDTH * e->bin_counts[i] / most), bar);
+}
+
+static void print_others(const struct percuss_ensemble_reply *reply)
+{
+    printf("\n  %-12s %12s %12s %12s %12s %12s\n", "", "mean", "deviation", "lowest", "median",
+           "highest");
+    for (size_t i = 1; i < reply->statistic_count; ++i) {
+        const struct percuss_statistic *s = &reply->statistics[i];
+        double median = NAN;
+        for (size_t k = 0; k < s->quantile_count; ++k)
+            if (s->probabilities[k] == 0.5)
+                median = s->quantiles[k];
+        printf("  %-12s %12.5g %12.5g %12.5g %12.5g %12.5g\n", s->quantity, s->mean,
+               s->standard_deviation, s->lowest, median, s->highest);
+    }
+}
+
+static void print_sub_impacts(const struct percuss_ensemble_reply *reply)
+{
+    double all = (double)(reply->samples - reply->refused);
+    printf("\n  sub-impacts   share/%%   without negligible ones/%%\n");
+    for (size_t k = 0; k < reply->count_length; ++k)
+        if (reply->sub_impact_counts[k] || reply->significant_counts[k])
+            printf("  %11zu %9.3f %12.3f\n", k, 100.0 * (double)reply->sub_impact_counts[k] / all,
+                   100.0 * (double)reply->significant_counts[k] / all);
+}
+
+static void print_intervals(const struct percuss_ensemble_reply *reply)
+{
+    printf("\n  mean -+ k deviations     samples/%%  impossible/%%   quantiles instead\n");
+    for (size_t i = 0; i < reply->interval_count; ++i) {
+        const struct percuss_sigma_interval *s = &reply->intervals[i];
+        printf("  %3.1f [%8.4f, %7.4f] %9.1f %12.1f      [%.4f, %.4f]\n", s->sigmas, s->low,
+               s->high, 100.0 * s->covered, 100.0 * s->unphysical, s->quantile_low,
+               s->quantile_high);
+    }
+    if (!isnan(reply->beta.alpha))
+        printf("  Beta(%.3g, %.3g) is %.3g away (p %s %.2g)%s\n", reply->beta.alpha,
+               reply->beta.beta, reply->beta.distance, reply->beta.p_value < 1e-9 ? "<" : "=",
+               fmax(reply->beta.p_value, 1e-9),
+               reply->beta.p_value < 0.05 ? ": it does not describe this distribution" : "");
+}
+
+/* Ranges of one input where the restitution is chaotic, neighbours together. */
+static void print_chaos(const struct percuss_sensitivity *input)
+{
+    size_t known = 0, chaotic = 0;
+    for (size_t i = 0; i < input->part_count; ++i) {
+        known += !isnan(input->parts[i].local);
+        chaotic += input->parts[i].chaotic;
+    }
+    if (known == 0)
+        return;
+    printf("    known to %.3g it leaves more than half of the spread in", input->resolution);
+    if (chaotic == 0)
+        printf(" no part of its range");
+    for (size_t i = 0; i < input->part_count; ++i) {
+        if (!input->parts[i].chaotic)
+            continue;
+        size_t last = i;
+        while (last + 1 < input->part_count && input->parts[last + 1].chaotic)
+            ++last;
+        printf(" %.4g..%.4g", input->parts[i].low, input->parts[last].high);
+        i = last;
+    }
+    printf("\n");
+}
+
+static void print_sensitivities(const struct percuss_ensemble_reply *reply)
+{
+    printf("\n  share of the variance that an input explains by itself, and with all others "
+           "known\n");
+    for (size_t i = 0; i < reply->sensitivity_count; ++i) {
+        const struct percuss_sensitivity *s = &reply->sensitivities[i];
+        char name[160], total[32] = "";
+        snprintf(name, sizeof name, "%s%s%s", s->input, s->body[0] ? "@" : "", s->body);
+        if (!isnan(s->total))
+            snprintf(total, sizeof total, "%8.3f", s->total);
+        printf("  %-24s %8.3f (noise %.3f) %s\n", name, s->first_order, s->noise, total);
+        print_chaos(s);
+    }
+}
+
+static void print_model(const struct percuss_ensemble_reply *reply)
+{
+    printf("\n  %llu samples in %.3g s", (unsigned long long)reply->samples, reply->timing.solve);
+    if (reply->refused || reply->truncated)
+        printf(" (%llu refused, %llu truncated)", (unsigned long long)reply->refused,
+               (unsigned long long)reply->truncated);
+    printf(", modes up to %.4g Hz\n", reply->cut);
+    if (reply->check.count)
+        printf("  against the full accuracy search (%llu samples): %.1f %% within the tolerance, "
+               "the mean off by %.1e -+ %.1e\n",
+               (unsigned long long)reply->check.count, 100.0 * reply->check.within,
+               reply->check.mean_shift, reply->check.mean_shift_half_width);
+}
+
+void ensemble_print_table(const struct percuss_ensemble_request *request,
+                          const struct percuss_ensemble_reply *reply)
+{
+    if (reply->statistic_count > 0) {
+        const struct percuss_contact *contact = &request->scene.contacts[request->contact];
+        printf("%s on %s, %s sampling\n", request->scene.bodies[contact->a].id,
+               request->scene.bodies[contact->b].id, percuss_sampling_name(request->sampling));
+        print_restitution(&reply->statistics[0]);
+        print_histogram(&reply->statistics[0]);
+        print_sub_impacts(reply);
+        print_others(reply);
+        print_intervals(reply);
+        print_sensitivities(reply);
+        print_model(reply);
+    }
+    if (reply->message[0])
+        fprintf(stderr, "percuss: %s: %s\n", percuss_status_name(reply->status), reply->message);
+    for (size_t i = 0; i < reply->warning_count; ++i)
+        fprintf(stderr, "percuss: warning: %s\n", reply->warnings[i]);
+}
+
+static void write_head(FILE *stream, const struct percuss_ensemble_request *request)
+{
+    for (size_t i = 0; i < request->input_count; ++i) {
+        const struct percuss_input *input = &request->inputs[i];
+        fprintf(stream, "%s%s%s,", input->name, input->body[0] ? "@" : "", input->body);
+    }
+    fputs("restitution,impulse,end_time,peak_force,sub_impacts,significant,status\n", stream);
+}
+
+bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request *request,
+                        const struct percuss_ensemble_reply *reply)
+{
+    size_t columns = reply->column_count;
+    if (!reply->rows || columns != request->input_count + 7) {
+        complain("%s: the samples did not arrive", file);
+        return false;
+    }
+    FILE *stream = fopen(file, "w");
+    if (!stream) {
+        complain("%s: %s", file, strerror(errno));
+        return false;
+    }
+    write_head(stream, request);
+    for (uint64_t i = 0; i < reply->samples; ++i) {
+        const double *row = reply->rows + i * columns;
+        for (size_t c = 0; c + 3 < columns; ++c)
+            fprintf(stream, "%.17g,", row[c]);
+        fprintf(stream, "%.0f,%.0f,%s\n", row[columns - 3], row[columns - 2],
+                percuss_status_name((unsigned)row[columns - 1]));
+    }
+    bool failed = ferror(stream) != 0;
+    failed = fclose(stream) != 0 || failed;
+    if (failed)
+        complain("%s: could not be written", file);
+    return !failed;
+}
