@@ -13,10 +13,13 @@ enum {
     PILOTS = 24,
     AGREEING = 21, /* 7 of 8: where a sequence of sub-impacts is chaotic no affordable model does */
     VERIFIED = 200,
+    MODEL_LEVELS = 12,
     SUBSTITUTED = 1000, /* samples with one input drawn anew, at most, for each input */
     LEAST_SUBSTITUTED = 32,
     FIRST_CHECK = 256
 };
+
+static const double MODEL_RATIO = 1.25; /* between frequencies that are tried */
 
 struct ensemble_worker {
     const struct ensemble *ensemble;
@@ -165,12 +168,13 @@ static unsigned solve_pilots(struct ensemble_worker *worker, struct pilot *pilot
     return solved;
 }
 
-/* How many pilots agree with a model within the tolerance. */
+/* How many pilots agree with a model within the tolerance; it gives up when fewer than `wanted`
+ * can. */
 static unsigned count_agreeing(struct ensemble_worker *worker, struct ensemble *ensemble,
-                               const struct pilot *pilots, unsigned count)
+                               const struct pilot *pilots, unsigned count, unsigned wanted)
 {
     unsigned agreeing = 0;
-    for (unsigned k = 0; k < count; k++) {
+    for (unsigned k = 0; k < count && agreeing + count - k >= wanted; k++) {
         struct repeat_outcome outcome;
         /* the first with another model must not keep the scene */
         ensemble->same_scene = k > 0 && !spec_changes_scene(&ensemble->spec);
@@ -181,45 +185,42 @@ static unsigned count_agreeing(struct ensemble_worker *worker, struct ensemble *
     return agreeing;
 }
 
-static int by_cut(const void *a, const void *b)
-{
-    const struct repeat_model *p = a, *q = b;
-    return (p->cut > q->cut) - (p->cut < q->cut);
-}
-
-/* Fewer modes first, then longer steps, as far as the pilots allow. */
-static void choose_model(struct ensemble_worker *worker, struct ensemble *ensemble,
+/* As few modes as the pilots allow, from a small share of what the search takes for any of them up
+ * to all of that, with steps as fine as the finest. */
+static void choose_modes(struct ensemble_worker *worker, struct ensemble *ensemble,
                          const struct pilot *pilots, unsigned count)
 {
-    struct repeat_model models[PILOTS];
     struct ensemble_model *chosen = &ensemble->model;
     unsigned wanted = (count * AGREEING + PILOTS - 1) / PILOTS;
-    double steps = INFINITY;
+    double highest = 0.0, steps = INFINITY;
     for (unsigned k = 0; k < count; k++) {
-        models[k] = pilots[k].model;
-        steps = fmin(steps, models[k].accuracy);
+        highest = fmax(highest, pilots[k].model.cut);
+        steps = fmin(steps, pilots[k].model.accuracy);
     }
-    qsort(models, count, sizeof *models, by_cut);
     chosen->pilots = count;
-    for (unsigned k = 0; k < count; k++) {
-        if (k > 0 && by_cut(&models[k], &models[k - 1]) == 0)
-            continue;
-        chosen->model = models[k];
-        chosen->model.accuracy = steps;
-        chosen->agreeing = count_agreeing(worker, ensemble, pilots, count);
-        if (chosen->agreeing >= wanted)
-            break;
+    for (int below = MODEL_LEVELS; below >= 0; below--) {
+        chosen->model = (struct repeat_model){highest * pow(MODEL_RATIO, -below), steps};
+        chosen->agreeing = count_agreeing(worker, ensemble, pilots, count, below > 0 ? wanted : 0);
+        if (chosen->agreeing >= wanted || highest == 0.0)
+            return;
     }
-    for (double accuracy = 10.0 * chosen->tolerance; accuracy > steps; accuracy /= 10.0) {
-        struct ensemble_model finer = *chosen;
+}
+
+/* As long steps as do not lose a pilot. */
+static void choose_steps(struct ensemble_worker *worker, struct ensemble *ensemble,
+                         const struct pilot *pilots, unsigned count)
+{
+    struct ensemble_model *chosen = &ensemble->model;
+    double finest = chosen->model.accuracy;
+    for (double accuracy = 10.0 * chosen->tolerance; accuracy > finest; accuracy /= 10.0) {
         chosen->model.accuracy = accuracy;
-        unsigned agreeing = count_agreeing(worker, ensemble, pilots, count);
-        if (agreeing >= finer.agreeing) {
+        unsigned agreeing = count_agreeing(worker, ensemble, pilots, count, chosen->agreeing);
+        if (agreeing >= chosen->agreeing) {
             chosen->agreeing = agreeing;
-            break;
+            return;
         }
-        *chosen = finer;
     }
+    chosen->model.accuracy = finest;
 }
 
 static enum percuss_status find_model(struct ensemble *ensemble, struct fault *fault)
@@ -234,7 +235,8 @@ static enum percuss_status find_model(struct ensemble *ensemble, struct fault *f
     if (worker) {
         unsigned count = solve_pilots(worker, pilots, &status, fault);
         if (count > 0) {
-            choose_model(worker, ensemble, pilots, count);
+            choose_modes(worker, ensemble, pilots, count);
+            choose_steps(worker, ensemble, pilots, count);
             status = PERCUSS_OK;
         }
     }

@@ -17,8 +17,8 @@ struct ensemble_sample {
     uint8_t status; /* enum percuss_status */
 };
 
-/* How the one model for all samples was chosen: the coarsest of those that an accuracy search
- * settled on for some pilot samples with which most pilots agree within the tolerance. */
+/* How the one model for all samples was chosen: some pilot samples are solved by the full accuracy
+ * search, and it is the coarsest model with which most of them agree within the tolerance. */
 struct ensemble_model {
     struct repeat_model model;
     double tolerance;

@@ -251,6 +251,15 @@ static bool allocate(struct geometry *geometry, struct arena *arena)
            geometry->w && geometry->impulse_compression;
 }
 
+enum percuss_status geometry_find_rates(struct geometry *geometry,
+                                        const struct solve_request *request, struct fault *fault)
+{
+    for (size_t i = 0; i < request->contact_count; i++)
+        find_gap_rate(geometry, request, i);
+    enum percuss_status status = check_approach(geometry, fault);
+    return status ? status : find_compression(geometry, fault);
+}
+
 enum percuss_status geometry_find(struct geometry *geometry, const struct body_set *catalogue,
                                   const struct solve_request *request, struct arena *arena,
                                   struct fault *fault)
@@ -260,17 +269,12 @@ enum percuss_status geometry_find(struct geometry *geometry, const struct body_s
     if (!allocate(geometry, arena))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     enum percuss_status status = find_bodies(geometry, catalogue, request, arena, fault);
-    for (size_t i = 0; !status && i < request->contact_count; i++) {
+    for (size_t i = 0; !status && i < request->contact_count; i++)
         status = place_contact(geometry, request, i, fault);
-        if (!status)
-            find_gap_rate(geometry, request, i);
-    }
     if (!status)
         status = choose_w(geometry, request, arena, fault);
     if (!status)
-        status = check_approach(geometry, fault);
-    if (!status)
-        status = find_compression(geometry, fault);
+        status = geometry_find_rates(geometry, request, fault);
     return status;
 }
 

@@ -43,6 +43,11 @@ enum percuss_status geometry_find(struct geometry *geometry, const struct body_s
                                   const struct solve_request *request, struct arena *arena,
                                   struct fault *fault);
 
+/* The part that velocities decide, of a geometry whose request differs in them only. OK,
+ * NOT_APPROACHING or BAD_REQUEST. */
+enum percuss_status geometry_find_rates(struct geometry *geometry,
+                                        const struct solve_request *request, struct fault *fault);
+
 /* The load of contact `contact` on a body (an index) if it acts on the family, or NULL. */
 const struct site_load *geometry_load(const struct geometry *geometry, size_t contact, size_t body,
                                       enum mode_family family);

@@ -18,7 +18,8 @@ static const double MAX_DEFECT = 0.01;
 struct repeat {
     struct prepared_cache *cache;
     struct arena scene_memory, run_memory;
-    struct assembly *assembly; /* in scene_memory; NULL: none yet */
+    struct geometry *geometry; /* in scene_memory as what follows; NULL: no scene is kept */
+    struct scene scene;
 };
 
 struct repeat *repeat_create(void)
@@ -46,7 +47,7 @@ void repeat_free(struct repeat *repeat)
 
 void repeat_forget(struct repeat *repeat, const char *id)
 {
-    repeat->assembly = NULL;
+    repeat->geometry = NULL;
     prepared_cache_forget(repeat->cache, id);
 }
 
@@ -104,7 +105,7 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
                                   struct fault *fault)
 {
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
-    repeat->assembly = NULL; /* its prepared bodies may go */
+    repeat->geometry = NULL; /* its prepared bodies may go */
     arena_reset(&repeat->run_memory);
     prepared_cache_use(repeat->cache, catalogue->revision);
     struct geometry *geometry = arena_take(&repeat->run_memory, 1, sizeof *geometry);
@@ -126,18 +127,27 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
 }
 
 /* Makes the scene anew; its memory outlives the run. */
-static bool make_scene(struct repeat *repeat, const struct body_set *catalogue,
-                       const struct geometry *geometry, const struct solve_request *request,
-                       const struct repeat_model *model)
+static enum percuss_status make_scene(struct repeat *repeat, const struct body_set *catalogue,
+                                      const struct solve_request *request,
+                                      const struct repeat_model *model, struct fault *fault)
 {
-    prepared_cache_use(repeat->cache, catalogue->revision);
-    arena_reset(&repeat->scene_memory);
+    struct arena *memory = &repeat->scene_memory;
     struct mode_choice choice = {.cut = model->cut, .allowed = 0.0, .most = MAX_MODES};
-    struct assembly *assembly = arena_take(&repeat->scene_memory, 1, sizeof *assembly);
-    bool made = assembly && assemble(assembly, geometry, request, repeat->cache, &choice,
-                                     &repeat->scene_memory);
-    repeat->assembly = made ? assembly : NULL;
-    return made;
+    repeat->geometry = NULL;
+    prepared_cache_use(repeat->cache, catalogue->revision);
+    arena_reset(memory);
+    struct geometry *geometry = arena_take(memory, 1, sizeof *geometry);
+    struct assembly *assembly = arena_take(memory, 1, sizeof *assembly);
+    if (!geometry || !assembly)
+        return no_memory(fault);
+    enum percuss_status status = geometry_find(geometry, catalogue, request, memory, fault);
+    if (status)
+        return status;
+    if (!assemble(assembly, geometry, request, repeat->cache, &choice, memory) ||
+        !assemble_remainder(assembly, geometry, repeat->cache, memory, &repeat->scene))
+        return no_memory(fault);
+    repeat->geometry = geometry;
+    return PERCUSS_OK;
 }
 
 enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *catalogue,
@@ -149,29 +159,23 @@ enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *c
     struct attempt attempt = {.accuracy = model->accuracy};
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
     arena_reset(&repeat->run_memory);
-    struct geometry *geometry = arena_take(&repeat->run_memory, 1, sizeof *geometry);
-    if (!geometry)
-        return outcome->status = no_memory(fault);
-    outcome->status = geometry_find(geometry, catalogue, request, &repeat->run_memory, fault);
+    if (same_scene && repeat->geometry)
+        outcome->status = geometry_find_rates(repeat->geometry, request, fault);
+    else
+        outcome->status = make_scene(repeat, catalogue, request, model, fault);
     if (outcome->status)
         return outcome->status;
-    bool kept = same_scene && repeat->assembly;
-    if (!kept && !make_scene(repeat, catalogue, geometry, request, model))
-        return outcome->status = no_memory(fault);
     struct attempt_context context = {
-        .geometry = geometry,
+        .geometry = repeat->geometry,
         .request = request,
         .arena = &repeat->run_memory,
         .work = cvode ? MAX_WORK_CVODE : MAX_WORK,
     };
-    struct scene scene = repeat->assembly->scene;
-    scene.w = geometry->w;
-    scene.gap_rate = geometry->gap_rate;
-    if (attempt_run(&context, &attempt, &scene))
+    if (attempt_run(&context, &attempt, &repeat->scene))
         return outcome->status = no_memory(fault);
     if (attempt.outcome.always_overlapped)
         return outcome->status = fault_set(fault, PERCUSS_BAD_REQUEST,
                                            "contacts[].gap: the bodies overlap and never touched "
                                            "before");
-    return judge(geometry, &attempt.outcome, contact, outcome, fault);
+    return judge(repeat->geometry, &attempt.outcome, contact, outcome, fault);
 }
