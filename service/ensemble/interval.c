@@ -26,7 +26,6 @@ static double replicated_half_width(const struct interval_sample *sample, const 
     return student(sample, n - 1.0) * moments.deviation / sqrt(n);
 }
 
-/* The values of one replicate, one by one: sums of what `f` makes of them. */
 static double replicate_mean(const struct interval_sample *sample, size_t replicate)
 {
     double sum = 0.0;
@@ -40,9 +39,10 @@ static double replicate_mean(const struct interval_sample *sample, size_t replic
     return sum / (double)kept;
 }
 
-static double replicate_deviation(const struct interval_sample *sample, size_t replicate)
+/* Mean square difference from the mean of all. */
+static double replicate_square(const struct interval_sample *sample, size_t replicate, double mean)
 {
-    double mean = replicate_mean(sample, replicate), sum = 0.0;
+    double sum = 0.0;
     size_t kept = 0;
     for (size_t i = replicate; i < sample->count; i += sample->replicates) {
         if (!isfinite(sample->values[i]))
@@ -50,7 +50,7 @@ static double replicate_deviation(const struct interval_sample *sample, size_t r
         sum += (sample->values[i] - mean) * (sample->values[i] - mean);
         kept++;
     }
-    return sqrt(sum / ((double)kept - 1.0));
+    return sum / (double)kept;
 }
 
 static double replicate_share(const struct interval_sample *sample, size_t replicate, double x)
@@ -95,8 +95,8 @@ struct interval interval_deviation(const struct interval_sample *sample,
     }
     double each[SAMPLING_REPLICATES];
     for (size_t r = 0; r < sample->replicates; r++)
-        each[r] = replicate_deviation(sample, r);
-    return around(s, replicated_half_width(sample, each));
+        each[r] = replicate_square(sample, r, moments->mean);
+    return around(s, replicated_half_width(sample, each) / (2.0 * s));
 }
 
 /* The smallest k with P(X <= k) >= `target` for a binomial count of n trials. */
@@ -113,18 +113,35 @@ static size_t binomial_quantile(size_t n, double p, double target)
     return low;
 }
 
-/* x_(l) is above the quantile if fewer than l values are below it, x_(u) below it if at least u
- * are: each may happen with half of what the level leaves. */
+/* Where the lower bound of the quantile at p lies among n ascending values: *share of the way from
+ * value *rank (from 1) to the next. x_(r) is above the quantile with probability P(X < r), X the
+ * count of values below it; the bound in between that is above with probability `miss` follows from
+ * gaps that are exponential on either side. 0: so few values have none. */
+static size_t lower_bound(size_t n, double p, double miss, double *share)
+{
+    size_t rank = binomial_quantile(n, p, miss);
+    if (rank == 0 || rank >= n)
+        return 0;
+    double r = (double)rank, rest = (double)n - r;
+    double before = special_binomial_cdf(r - 1.0, (double)n, p);
+    double after = special_binomial_cdf(r, (double)n, p);
+    *share = 1.0 / (1.0 + r * (1.0 - p) * (after - miss) / (rest * p * (miss - before)));
+    return rank;
+}
+
 static struct interval plain_quantile(const struct interval_sample *sample, double p)
 {
-    double each_side = 0.5 * (1.0 - sample->level);
+    const double *x = sample->sorted;
     size_t n = sample->kept;
-    size_t low = binomial_quantile(n, p, each_side); /* x_(low): P(count < low) < half */
-    size_t high = binomial_quantile(n, p, 1.0 - each_side) + 1;
-    return (struct interval){
-        low >= 1 ? sample->sorted[low - 1] : NAN,
-        high <= n ? sample->sorted[high - 1] : NAN,
-    };
+    double miss = 0.5 * (1.0 - sample->level), share;
+    struct interval interval = unknown;
+    size_t rank = lower_bound(n, p, miss, &share);
+    if (rank)
+        interval.low = x[rank - 1] + share * (x[rank] - x[rank - 1]);
+    rank = lower_bound(n, 1.0 - p, miss, &share);
+    if (rank)
+        interval.high = x[n - rank] - share * (x[n - rank] - x[n - rank - 1]);
+    return interval;
 }
 
 struct interval interval_quantile(const struct interval_sample *sample, double p)
@@ -137,8 +154,8 @@ struct interval interval_quantile(const struct interval_sample *sample, double p
     double each[SAMPLING_REPLICATES];
     for (size_t r = 0; r < sample->replicates; r++)
         each[r] = replicate_share(sample, r, x);
-    /* between two values the share is not known */
-    double h = replicated_half_width(sample, each) + 1.0 / (double)sample->kept;
+    /* half-way to the next value the share is the same */
+    double h = replicated_half_width(sample, each) + 0.5 / (double)sample->kept;
     return (struct interval){
         p - h > 0.0 ? summary_quantile(sample->sorted, sample->kept, p - h) : NAN,
         p + h < 1.0 ? summary_quantile(sample->sorted, sample->kept, p + h) : NAN,

@@ -29,12 +29,13 @@ struct interval_sample {
 /* Mean: Student's t with the standard error of the values, or of the replicates' means. */
 struct interval interval_mean(const struct interval_sample *sample, const struct moments *moments);
 
-/* Standard deviation: the delta method with the fourth moment, or the replicates' deviations. */
+/* Standard deviation: the delta method with the fourth moment, or the replicates' mean squares. */
 struct interval interval_deviation(const struct interval_sample *sample,
                                    const struct moments *moments);
 
-/* Quantile at p. Plain: the order statistics whose binomial probabilities enclose the level, for
- * any continuous distribution (David and Nagaraja, Order Statistics, 7.1). Replicates: quantiles at
+/* Quantile at p. Plain: between the order statistics whose binomial probabilities enclose the
+ * level, for any continuous distribution (Nyblom 1992, Stat. Prob. Lett. 14, 129: interpolated).
+ * Replicates: quantiles at
  * p -+ h, where h is the half-width for the share of values below (Woodruff 1952). */
 struct interval interval_quantile(const struct interval_sample *sample, double p);
 

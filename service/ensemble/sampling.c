@@ -51,13 +51,21 @@ static double latin_coordinate(const struct sampling *sampling, uint64_t index, 
     return u < 1.0 ? u : 1.0 - 0x1p-53;
 }
 
-/* Every bit of the coordinate is flipped or not for the whole replicate: the points stay as evenly
- * spread, and each is uniform. */
+/* Owen's nested uniform scrambling (1995): whether a bit is flipped depends on those before it, the
+ * same way for the whole replicate; bits that the sequence does not have are each point's own. */
 static double sobol_coordinate(const struct sampling *sampling, uint64_t index, uint64_t dimension)
 {
-    uint64_t point = sobol_point(&sampling->sobol[dimension], index / sampling->replicates);
-    uint64_t shift = shared_bits(sampling, index % sampling->replicates, dimension);
-    return random_uniform_of(point << 32 ^ shift);
+    uint32_t point = sobol_point(&sampling->sobol[dimension], index / sampling->replicates);
+    uint64_t key = shared_bits(sampling, index % sampling->replicates, dimension);
+    uint32_t scrambled = 0;
+    for (uint32_t bit = 0; bit < SOBOL_BITS; bit++) {
+        uint32_t before = bit ? point >> (SOBOL_BITS - bit) : 0;
+        uint32_t flip = random_hash(key, before, bit) & 1;
+        scrambled |= (point ^ flip << (SOBOL_BITS - 1 - bit)) & UINT32_C(1)
+                                                                    << (SOBOL_BITS - 1 - bit);
+    }
+    uint64_t rest = random_bits(&sampling->stream, index, dimension) >> SOBOL_BITS;
+    return random_uniform_of((uint64_t)scrambled << SOBOL_BITS | rest);
 }
 
 void sampling_point(const struct sampling *sampling, uint64_t index, double *point)

@@ -17,7 +17,7 @@ struct random_stream {
 /* 64 random bits. */
 uint64_t random_bits(const struct random_stream *stream, uint64_t index, uint64_t dimension);
 
-/* Uniform in (0, 1): odd multiples of 2^-54, so that neither end occurs. */
+/* Uniform in (0, 1): odd multiples of 2^-53, so that neither end occurs. */
 double random_uniform(const struct random_stream *stream, uint64_t index, uint64_t dimension);
 
 /* The same of 64 given bits. */
@@ -27,5 +27,8 @@ double random_uniform_of(uint64_t bits);
  * on the next power of four, walked until it falls below `count`. Permutations of different keys
  * (64 random bits) are independent. */
 uint64_t random_permute(uint64_t key, uint64_t index, uint64_t count);
+
+/* 32 random bits for a pair of numbers under a key. */
+uint32_t random_hash(uint64_t key, uint32_t first, uint32_t second);
 
 #endif

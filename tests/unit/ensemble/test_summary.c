@@ -1,0 +1,104 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/ensemble/summary.c: statistics of samples that can be reckoned by hand. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "ensemble/summary.h"
+
+static void near(double value, double expected)
+{
+    if (!(fabs(value - expected) <= 1e-13 * fmax(1.0, fabs(expected))))
+        fail_msg("%.17g is not %.17g", value, expected);
+}
+
+/* 2 4 4 4 5 5 7 9: mean 5, squares 32, cubes 42, fourth powers 356 */
+static const double eight[] = {9.0, 2.0, NAN, 4.0, 5.0, 4.0, 7.0, 4.0, 5.0};
+
+static void moments(void **state)
+{
+    (void)state;
+    struct moments m = summary_moments(eight, 9);
+    assert_int_equal(m.count, 8);
+    near(m.mean, 5.0);
+    near(m.deviation, sqrt(32.0 / 7.0));
+    near(m.skewness, sqrt(56.0) / 6.0 * (42.0 / 8.0) / 8.0);
+    near(m.fourth, 356.0 / 8.0);
+    near(m.lowest, 2.0);
+    near(m.highest, 9.0);
+}
+
+/* A large offset costs no digits of the deviation. */
+static void moments_of_an_offset(void **state)
+{
+    (void)state;
+    double values[] = {1e9 + 1.0, 1e9 + 2.0, 1e9 + 3.0};
+    struct moments m = summary_moments(values, 3);
+    near(m.deviation, 1.0);
+    near(m.skewness, 0.0);
+}
+
+static void moments_of_few(void **state)
+{
+    (void)state;
+    double one = 3.0, none = NAN;
+    struct moments m = summary_moments(&one, 1);
+    near(m.mean, 3.0);
+    assert_true(isnan(m.deviation) && isnan(m.skewness));
+    m = summary_moments(&none, 1);
+    assert_int_equal(m.count, 0);
+    assert_true(isnan(m.mean) && isnan(m.lowest));
+}
+
+static void quantiles(void **state)
+{
+    (void)state;
+    double sorted[9];
+    size_t n = summary_sort(eight, 9, sorted);
+    assert_int_equal(n, 8);
+    near(summary_quantile(sorted, n, 0.5), 4.5);
+    near(summary_quantile(sorted, n, 0.0), 2.0);
+    near(summary_quantile(sorted, n, 1.0), 9.0);
+    near(summary_quantile(sorted, n, 0.9), 7.0 + 0.3 * 2.0); /* place 6.3 */
+    near(summary_share(sorted, n, 4.0), 0.5);
+    near(summary_share(sorted, n, 3.9), 0.125);
+    near(summary_share(sorted, n, 9.0), 1.0);
+    near(summary_share(sorted, n, 1.0), 0.0);
+    assert_true(isnan(summary_quantile(sorted, 0, 0.5)));
+}
+
+static void histogram(void **state)
+{
+    (void)state;
+    const double sorted[] = {0.0, 0.1, 1.0, 1.5, 2.0, 4.0};
+    double edges[5];
+    uint64_t counts[4];
+    summary_histogram(sorted, 6, 4, edges, counts);
+    const uint64_t expected[] = {2, 2, 1, 1};
+    assert_memory_equal(counts, expected, sizeof expected);
+    near(edges[0], 0.0);
+    near(edges[3], 3.0);
+    near(edges[4], 4.0);
+    assert_int_equal(summary_bins(10), 8);
+    assert_int_equal(summary_bins(400), 20);
+    assert_int_equal(summary_bins(1000000), 50);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(moments),        cmocka_unit_test(moments_of_an_offset),
+        cmocka_unit_test(moments_of_few), cmocka_unit_test(quantiles),
+        cmocka_unit_test(histogram),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
