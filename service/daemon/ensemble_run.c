@@ -188,8 +188,7 @@ static bool hire(struct ensemble_run *run, struct fault *fault)
         return false;
     }
     for (; run->worker_count < wanted; run->worker_count++) {
-        run->workers[run->worker_count] = ensemble_worker_create(&run->ensemble, fault);
-        if (!run->workers[run->worker_count])
+        if (ensemble_worker_create(&run->workers[run->worker_count], &run->ensemble, fault))
             return false;
     }
     return true;

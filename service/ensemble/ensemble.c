@@ -27,20 +27,22 @@ struct ensemble_worker {
     struct variation variation;
 };
 
-struct ensemble_worker *ensemble_worker_create(const struct ensemble *ensemble, struct fault *fault)
+enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
+                                           const struct ensemble *ensemble, struct fault *fault)
 {
-    struct ensemble_worker *worker = calloc(1, sizeof *worker);
-    struct repeat *repeat = repeat_create();
-    if (!worker || !repeat) {
-        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    } else if (!variation_create(&worker->variation, &ensemble->spec, fault)) {
-        worker->ensemble = ensemble;
-        worker->repeat = repeat;
-        return worker;
+    *worker = calloc(1, sizeof **worker);
+    if (!*worker)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    (*worker)->ensemble = ensemble;
+    enum percuss_status status = variation_create(&(*worker)->variation, &ensemble->spec, fault);
+    (*worker)->repeat = status ? NULL : repeat_create();
+    if (!status && !(*worker)->repeat)
+        status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    if (status) {
+        ensemble_worker_free(*worker);
+        *worker = NULL;
     }
-    repeat_free(repeat);
-    free(worker);
-    return NULL;
+    return status;
 }
 
 void ensemble_worker_free(struct ensemble_worker *worker)
@@ -230,9 +232,9 @@ static enum percuss_status find_model(struct ensemble *ensemble, struct fault *f
     struct pilot *pilots = calloc(PILOTS, sizeof *pilots);
     if (!pilots)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = PERCUSS_INTERNAL;
-    struct ensemble_worker *worker = ensemble_worker_create(ensemble, fault);
-    if (worker) {
+    struct ensemble_worker *worker;
+    enum percuss_status status = ensemble_worker_create(&worker, ensemble, fault);
+    if (!status) {
         unsigned count = solve_pilots(worker, pilots, &status, fault);
         if (count > 0) {
             choose_modes(worker, ensemble, pilots, count);

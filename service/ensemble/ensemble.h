@@ -36,8 +36,9 @@ struct ensemble {
 };
 
 struct ensemble_worker;
-struct ensemble_worker *ensemble_worker_create(const struct ensemble *ensemble,
-                                               struct fault *fault);
+/* BAD_REQUEST: an input that this impact cannot have; INTERNAL: out of memory. */
+enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
+                                           const struct ensemble *ensemble, struct fault *fault);
 void ensemble_worker_free(struct ensemble_worker *worker);
 
 /* Checks the request and chooses the model, which takes some ten milliseconds. PERCUSS_OK, or the
