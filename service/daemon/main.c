@@ -93,7 +93,7 @@ static bool drain(struct service *service, const sigset_t *signals, double secon
         if (!drained && signal_number && signal_number != SIGHUP)
             break;
     }
-    return drained;
+    return drained || service_cut_short(service);
 }
 
 int main(int argc, char **argv)

@@ -19,7 +19,7 @@
 enum { REMEMBERED_CLIENTS = 4096 };
 
 static const double megabyte = 1048576.0;
-static const double flush_seconds = 1.0;
+static const double flush_seconds = 1.0, cut_seconds = 2.0;
 
 static bool create_stores(struct service *service)
 {
@@ -102,7 +102,6 @@ void service_free(struct service *service)
         if (service->lanes[lane])
             queue_close(service->lanes[lane]);
     }
-    ensembles_cancel_all(&service->ensembles);
     workers_join(service);
     if (service->endpoint)
         endpoint_flush(service->endpoint, flush_seconds);
@@ -196,6 +195,12 @@ bool service_drain(struct service *service, double seconds)
     for (int lane = 0; lane < LANE_COUNT; lane++)
         drained = queue_drain(service->lanes[lane], fmax(0.0, end - clock_now())) && drained;
     return drained;
+}
+
+bool service_cut_short(struct service *service)
+{
+    ensembles_cancel_all(&service->ensembles);
+    return service_drain(service, cut_seconds);
 }
 
 struct envelope service_envelope(const struct service *service, const struct request_name *name,

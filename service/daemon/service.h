@@ -55,6 +55,9 @@ void service_begin_drain(struct service *service);
 /* Waits until everything queued is answered and delivered, at most `seconds`. False: not all is. */
 bool service_drain(struct service *service, double seconds);
 
+/* Ends ensembles early, with what they have, and waits for that as service_drain does. */
+bool service_cut_short(struct service *service);
+
 /* Ends the threads and leaves the domain. */
 void service_free(struct service *service);
 

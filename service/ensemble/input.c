@@ -224,6 +224,8 @@ enum percuss_status input_check(const struct ensemble_input *input, size_t index
         break;
     }
     case DISTRIBUTION_IS_UNIFORM:
+        if (!limit_holds(limit, input->first))
+            break;
         if (!limit_holds(limit, input->second))
             return refuse(input, index, "second", input->second, limit->text, fault);
         if (!(input->first <= input->second))

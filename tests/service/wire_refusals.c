@@ -127,17 +127,6 @@ static void bad_batches(struct peer *peer)
     peer_return(peer, PEER_BATCH, reply);
 }
 
-static void ensembles(struct peer *peer)
-{
-    percuss_v1_EnsembleRequest request = {.sequence = 3, .samples = 10};
-    peer_send_ensemble(peer, &request);
-    const percuss_v1_EnsembleReply *reply = peer_receive(peer, PEER_ENSEMBLE, 5.0);
-    REQUIRE(reply->sequence == 3 && reply->status == percuss_v1_STATUS_BAD_REQUEST &&
-                strstr(reply->message, "not available"),
-            "status %u: %s", reply->status, reply->message);
-    peer_return(peer, PEER_ENSEMBLE, reply);
-}
-
 int main(int argc, char **argv)
 {
     if (argc != 2) {
@@ -152,7 +141,6 @@ int main(int argc, char **argv)
     bad_options(&peer);
     bad_delassus(&peer);
     bad_batches(&peer);
-    ensembles(&peer);
     expect(&peer, percuss_v1_STATUS_OK, "");
     peer_close(&peer);
     printf("%llu requests got the status they should\n", (unsigned long long)sequence - 1);

@@ -1,0 +1,122 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+# Ensembles: progress, samples, the same bytes from any number of workers, cancel, deadline, gone clients.
+. "$(dirname "$0")/lib.sh"
+
+ensemble() {
+    percuss ensemble --a steel-sphere --b al-beam --speed uniform:0.089:0.411 "$@"
+}
+
+# without what differs from one server to the next
+bare() {
+    numbers "$1" | sed '/"server":/d'
+}
+
+idle() {
+    percuss status --json >"$work/status" 2>&1 && grep -q '"progress": null' "$work/status"
+}
+
+busy() {
+    percuss status --json >"$work/status" 2>&1 && grep -q '"activity": "ensemble: ' "$work/status"
+}
+
+settings "workers: 1" "drain_seconds: 2"
+start_daemon
+
+say "a thousand samples with progress, as a table and one by one"
+expect 0 ensemble --samples 1000 --progress --csv "$work/samples.csv"
+says "1000/1000"
+shows "restitution"
+shows "sub-impacts"
+[ "$(wc -l <"$work/samples.csv")" -eq 1001 ] || fail "not 1000 samples in the file"
+head -n 1 "$work/samples.csv" | grep -q '^speed,restitution,' || fail "no head line"
+
+say "wrong inputs are explained"
+expect 2 ensemble --input young=normal:1
+says "normal:MEAN:DEVIATION"
+expect 5 ensemble --input young=normal:70e9:1e9
+says "inputs[1].body"
+expect 5 ensemble --input "colour@al-beam=1"
+says "must be one of speed"
+expect 2 ensemble --input "young@al-beam=list:$work/none.csv"
+says "No such file"
+expect 0 "$peers/wire_ensembles" "$domain"
+cat "$out"
+
+say "two workers, and another daemon: the same bytes"
+for sampling in plain latin-hypercube sobol; do
+    expect 0 ensemble --samples 600 --sampling "$sampling" --input young@al-beam=normal:70e9:1e9 \
+        --seed 7 --json
+    bare "$out" >"$work/one-$sampling"
+done
+stop_daemon
+settings "workers: 2" "drain_seconds: 2"
+start_daemon
+for sampling in plain latin-hypercube sobol; do
+    expect 0 ensemble --samples 600 --sampling "$sampling" --input young@al-beam=normal:70e9:1e9 \
+        --seed 7 --json
+    bare "$out" >"$work/two-$sampling"
+    cmp -s "$work/one-$sampling" "$work/two-$sampling" ||
+        fail "$sampling: $(diff "$work/one-$sampling" "$work/two-$sampling" | head -n 6)"
+done
+
+say "enough samples are enough"
+expect 0 ensemble --samples 100000 --half-width 0.02 --json
+samples=$(sed -n 's/^ *"samples": \([0-9]*\),$/\1/p' "$out")
+[ "$samples" -eq 512 ] || [ "$samples" -eq 1024 ] || fail "$samples samples for -+ 0.02"
+
+say "a list is walked through"
+printf 'speed,e\n0.3,1\n0.2,1\n' >"$work/list.csv"
+expect 0 percuss ensemble --a steel-sphere --b al-beam --speed "list:$work/list.csv:speed" \
+    --csv "$work/samples.csv"
+cut -d, -f1 "$work/samples.csv" | tr '\n' ' ' | grep -q '^speed 0.29999.* 0.20000' ||
+    fail "not the list: $(cat "$work/samples.csv")"
+
+say "a deadline cuts it short, with what there is"
+expect 1 ensemble --samples 2000000 --deadline 1 --json
+[ "$(field status)" = TRUNCATED ] || fail "status $(field status)"
+grep -q '"message": "options.deadline: 1 s: has passed: [0-9]* of 2000000 samples were solved"' "$out" ||
+    fail "$(field message)"
+
+say "while one runs, impacts are answered"
+"$bin/percuss" ensemble --domain "$domain" --a steel-sphere --b al-beam \
+    --speed uniform:0.089:0.411 --samples 2000000 --json >"$work/long" 2>"$err" 9>&- &
+others=$!
+wait_for 10 busy || fail "the status does not tell of it"
+expect 0 query
+
+say "interrupted, it says what was found so far"
+kill -INT "$others"
+code=0
+wait "$others" || code=$?
+others=
+[ "$code" -eq 1 ] || fail "exit code $code"
+grep -q '"message": "cancelled: [0-9]* of 2000000 samples were solved"' "$work/long" ||
+    fail "$(cat "$work/long" "$err")"
+wait_for 5 idle || fail "it goes on"
+
+say "one whose client is gone is dropped"
+"$bin/percuss" ensemble --domain "$domain" --a steel-sphere --b al-beam \
+    --speed uniform:0.089:0.411 --samples 2000000 >"$work/long" 2>"$err" 9>&- &
+others=$!
+wait_for 10 busy || fail "the status does not tell of it"
+kill -KILL "$others"
+wait "$others" 2>/dev/null || true
+others=
+wait_for 10 idle || fail "it goes on without its client"
+
+say "the end of the daemon ends it, with what there is"
+"$bin/percuss" ensemble --domain "$domain" --a steel-sphere --b al-beam \
+    --speed uniform:0.089:0.411 --samples 2000000 --json >"$work/long" 2>"$err" 9>&- &
+others=$!
+wait_for 10 busy || fail "the status does not tell of it"
+kill -TERM "$daemon"
+code=0
+wait "$others" || code=$?
+others=
+[ "$code" -eq 1 ] || fail "exit code $code: $(cat "$err")"
+grep -q '"message": "cancelled' "$work/long" || fail "$(cat "$work/long")"
+wait_for 20 is_gone "$daemon" || fail "it does not end"
+logged "error" && fail "an error is logged"
+exit 0
