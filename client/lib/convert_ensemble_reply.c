@@ -1,6 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -159,6 +160,31 @@ static void convert_warnings(struct percuss_ensemble_reply *reply,
     reply->warning_count = *good ? wire->warnings._length : 0;
 }
 
+static void convert_fit_and_check(const percuss_v1_EnsembleReply *wire,
+                                  struct percuss_ensemble_reply *reply)
+{
+    reply->beta.alpha = reply->beta.beta = NAN;
+    if (wire->beta._length > 0) {
+        const percuss_v1_BetaFit *beta = &wire->beta._buffer[0];
+        reply->beta.low = beta->low;
+        reply->beta.high = beta->high;
+        reply->beta.alpha = beta->alpha;
+        reply->beta.beta = beta->beta;
+        reply->beta.distance = beta->distance;
+        reply->beta.p_value = beta->p_value;
+    }
+    if (wire->check._length > 0) {
+        const percuss_v1_EnsembleCheck *check = &wire->check._buffer[0];
+        reply->check.count = check->count;
+        reply->check.within = check->within;
+        reply->check.largest = check->largest;
+        reply->check.mean_shift = check->mean_shift;
+        reply->check.mean_shift_half_width = check->mean_shift_half_width;
+        reply->check.standard_deviation_shift = check->standard_deviation_shift;
+        reply->check.quantile_shift = check->quantile_shift;
+    }
+}
+
 static void convert_numbers(const percuss_v1_EnsembleReply *wire,
                             struct percuss_ensemble_reply *reply)
 {
@@ -176,19 +202,6 @@ static void convert_numbers(const percuss_v1_EnsembleReply *wire,
     reply->truncated = wire->truncated;
     reply->possible_low = wire->possible_low;
     reply->possible_high = wire->possible_high;
-    reply->beta.low = wire->beta.low;
-    reply->beta.high = wire->beta.high;
-    reply->beta.alpha = wire->beta.alpha;
-    reply->beta.beta = wire->beta.beta;
-    reply->beta.distance = wire->beta.distance;
-    reply->beta.p_value = wire->beta.p_value;
-    reply->check.count = wire->check.count;
-    reply->check.within = wire->check.within;
-    reply->check.largest = wire->check.largest;
-    reply->check.mean_shift = wire->check.mean_shift;
-    reply->check.mean_shift_half_width = wire->check.mean_shift_half_width;
-    reply->check.standard_deviation_shift = wire->check.standard_deviation_shift;
-    reply->check.quantile_shift = wire->check.quantile_shift;
     reply->cut = wire->cut;
     reply->step_accuracy = wire->step_accuracy;
     reply->pilots = wire->pilots;
@@ -203,6 +216,7 @@ enum percuss_result convert_ensemble_reply(const percuss_v1_EnsembleReply *wire,
     bool good = true;
     *reply = (struct percuss_ensemble_reply){0};
     convert_numbers(wire, reply);
+    convert_fit_and_check(wire, reply);
     reply->statistics = keep(reply, wire->statistics._length, sizeof *reply->statistics, &good);
     for (uint32_t i = 0; good && i < wire->statistics._length; ++i)
         convert_statistic(reply, &wire->statistics._buffer[i], &reply->statistics[i], &good);

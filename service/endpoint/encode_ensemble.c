@@ -40,6 +40,8 @@ static size_t all_room(const struct ensemble_report *report)
                   2 * answer_room(report->count_length, sizeof(uint64_t)) +
                   answer_room(report->input_count, sizeof(percuss_v1_Sensitivity)) +
                   answer_room(REPORT_INTERVALS, sizeof(percuss_v1_SigmaInterval)) +
+                  answer_room(1, sizeof(percuss_v1_BetaFit)) +
+                  answer_room(1, sizeof(percuss_v1_EnsembleCheck)) +
                   answer_room(report->warning_count, sizeof(char *)) +
                   report->warning_count * answer_room(1, sizeof report->warnings[0]);
     for (int q = 0; q < REPORT_QUANTITIES; q++)
@@ -123,7 +125,8 @@ static void fill_shape(struct answer *answer, const struct ensemble_report *repo
             .quantile_high = from->quantile_high,
         };
     }
-    reply->beta = (percuss_v1_BetaFit){
+    TAKE_LIST(answer, reply->beta, 1);
+    reply->beta._buffer[0] = (percuss_v1_BetaFit){
         .low = beta->low,
         .high = beta->high,
         .alpha = beta->alpha,
@@ -133,10 +136,12 @@ static void fill_shape(struct answer *answer, const struct ensemble_report *repo
     };
 }
 
-static void fill_model(percuss_v1_EnsembleReply *reply, const struct ensemble *ensemble,
+static void fill_model(struct answer *answer, const struct ensemble *ensemble,
                        const struct report_verification *check)
 {
-    reply->check = (percuss_v1_EnsembleCheck){
+    percuss_v1_EnsembleReply *reply = answer->report;
+    TAKE_LIST(answer, reply->check, 1);
+    reply->check._buffer[0] = (percuss_v1_EnsembleCheck){
         .count = check->count,
         .within = check->within,
         .largest = check->largest,
@@ -200,7 +205,7 @@ struct answer *encode_ensemble(const struct envelope *envelope, const struct ens
     reply->truncated = report->truncated;
     fill_lists(answer, ensemble, report);
     fill_shape(answer, report);
-    fill_model(reply, ensemble, &report->verification);
+    fill_model(answer, ensemble, &report->verification);
     return answer;
 }
 

@@ -35,9 +35,11 @@ def field_names(declarations: str) -> list[str]:
 
 
 def public_structs() -> dict[str, list[str]]:
-    """Every struct that the headers define, with its fields."""
+    """Every struct that the headers define, with its fields; ensembles are not offered to Python yet."""
     structs = {}
     for header in LIBRARY:
+        if header.name.startswith("ensemble"):
+            continue
         code = re.sub(r"/\*.*?\*/", "", header.read_text(), flags=re.DOTALL)
         for name, body in re.findall(r"^struct (\w+) { *\n(.*?)^};", code, flags=re.DOTALL | re.MULTILINE):
             structs[name] = field_names(body)
@@ -125,6 +127,7 @@ class Abi(unittest.TestCase):
             *(name for name in functions if name.endswith(("_name", "_default"))),
             *("request_init", "request_add_body", "request_add_contact", "body_find"),
             *("solve_traced", "trace_free"),
+            *("ensemble_request_init", "solve_ensemble", "ensemble_reply_free"),
         }
         declared = {name for name, _, _ in _abi._FUNCTIONS}
         self.assertEqual(declared | unused | {"version"}, functions)
