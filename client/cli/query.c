@@ -7,25 +7,30 @@
 #include <stdlib.h>
 
 #include "cli.h"
+#include "ensemble_output.h"
 #include "plot.h"
 #include "plot_impact.h"
 #include "reply_json.h"
 #include "reply_table.h"
 #include "request_json.h"
 #include "scene.h"
+#include "spread.h"
 
-enum { KEY_SPEED = OPTION_OWN, KEY_REQUEST, KEY_TRACE, KEY_PLOT };
+enum { KEY_SPEED = OPTION_OWN, KEY_SPEED_SIGMA, KEY_REQUEST, KEY_TRACE, KEY_PLOT };
 
 struct query {
     struct common *common;
     struct scene scene;
-    double speed; /* NAN: not given */
+    double speed;       /* NAN: not given */
+    double speed_sigma; /* its standard deviation; 0: not given */
     const char *file;
     const char *trace, *plot; /* files; NULL: not wanted */
 };
 
 static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "V", 0, "speed of A towards B, m/s", 10},
+    {"speed-sigma", KEY_SPEED_SIGMA, "S", 0,
+     "standard deviation of the speed: also tells how the restitution spreads", 10},
     {"request", KEY_REQUEST, "FILE", 0, "ask a whole request in JSON instead; - is standard input",
      30},
     {"trace", KEY_TRACE, "FILE", 0, "write the time histories as comma-separated values", 40},
@@ -38,7 +43,7 @@ static const struct argp_option options[] = {
 static void check(const struct query *query, struct argp_state *state)
 {
     const struct scene *scene = &query->scene;
-    if (query->file && (scene->given || !isnan(query->speed)))
+    if (query->file && (scene->given || !isnan(query->speed) || query->speed_sigma > 0.0))
         argp_error(state, "--request says everything; no other flag of the impact goes with it");
     scene_check_single(scene, state);
     if (!query->file && !(scene->a && scene->b && !isnan(query->speed)))
@@ -57,6 +62,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
         query->speed = parse_number("speed", text, state);
         if (!(query->speed > 0.0))
             argp_error(state, "--speed: '%s': a number of m/s > 0 is needed", text);
+        return 0;
+    case KEY_SPEED_SIGMA:
+        query->speed_sigma = parse_number("speed-sigma", text, state);
+        if (!(query->speed_sigma > 0.0))
+            argp_error(state, "--speed-sigma: '%s': a number of m/s > 0 is needed", text);
         return 0;
     case KEY_REQUEST:
         query->file = text;
@@ -98,10 +108,28 @@ static void explain_unknown(const struct query *query, const struct percuss_requ
     percuss_body_list_free(&list);
 }
 
+/* The answer, and how it spreads where that was asked for (NULL: not). */
+static void print_answer(const struct query *query, const struct percuss_request *request,
+                         const struct percuss_reply *reply,
+                         const struct percuss_ensemble_reply *spread)
+{
+    if (query->common->json) {
+        json_t *root = reply_to_json(reply);
+        if (spread)
+            json_object_set_new(root, "spread", ensemble_to_json(spread));
+        json_print(root);
+        return;
+    }
+    reply_table_print(request, reply);
+    if (spread)
+        spread_print(query->speed_sigma, spread);
+}
+
 static int ask(const struct query *query, const struct percuss_request *request,
                struct percuss_client *client)
 {
     struct percuss_reply reply;
+    struct percuss_ensemble_reply spread = {0};
     struct percuss_trace trace = {0};
     double timeout = common_timeout(query->common);
     bool traced = query->trace || query->plot;
@@ -110,13 +138,14 @@ static int ask(const struct query *query, const struct percuss_request *request,
                : percuss_solve(client, request, timeout, &reply);
     if (result != PERCUSS_RESULT_OK)
         return complain_result(result);
-    if (query->common->json)
-        json_print(reply_to_json(&reply));
-    else
-        reply_table_print(request, &reply);
+    bool spreads = query->speed_sigma > 0.0 && reply.contact_count > 0;
+    if (spreads)
+        result = spread_ask(client, request, query->speed, query->speed_sigma, timeout, &spread);
+    print_answer(query, request, &reply, spreads && !result ? &spread : NULL);
     if (reply.status == PERCUSS_UNKNOWN_BODY)
         explain_unknown(query, request, client);
-    int code = status_exit_code(reply.status);
+    int code =
+        result == PERCUSS_RESULT_OK ? status_exit_code(reply.status) : complain_result(result);
     int written = EXIT_ANSWERED;
     if (query->trace && trace.contact_count > 0)
         written = write_trace_csv(query->trace, &trace);
@@ -125,6 +154,7 @@ static int ask(const struct query *query, const struct percuss_request *request,
     if (written != EXIT_ANSWERED)
         code = written;
     percuss_trace_free(&trace);
+    percuss_ensemble_reply_free(&spread);
     percuss_reply_free(&reply);
     return code;
 }

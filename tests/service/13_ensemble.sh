@@ -61,6 +61,12 @@ for sampling in plain latin-hypercube sobol; do
         fail "$sampling: $(diff "$work/one-$sampling" "$work/two-$sampling" | head -n 6)"
 done
 
+say "one impact, with the speed known to a millimetre a second"
+expect 0 query --speed-sigma 0.001
+shows "with the speed known to -+ 0.001 m/s"
+expect 0 query --speed-sigma 0.001 --json
+grep -q '"spread": {' "$out" || fail "no spread"
+
 say "enough samples are enough"
 expect 0 ensemble --samples 100000 --half-width 0.02 --json
 samples=$(sed -n 's/^ *"samples": \([0-9]*\),$/\1/p' "$out")
