@@ -102,7 +102,8 @@ static void print_chaos(const struct percuss_sensitivity *input)
     }
     if (known == 0)
         return;
-    printf("    known to %.3g it leaves more than half of the spread in", input->resolution);
+    printf("\n  known to %.3g, %s leaves more than half of the spread in", input->resolution,
+           input->input);
     if (chaotic == 0)
         printf(" no part of its range");
     for (size_t i = 0; i < input->part_count; ++i) {
@@ -119,17 +120,22 @@ static void print_chaos(const struct percuss_sensitivity *input)
 
 static void print_sensitivities(const struct percuss_ensemble_reply *reply)
 {
-    printf("\n  share of the variance that an input explains by itself, and with all others "
-           "known\n");
+    const struct percuss_sensitivity *leading = NULL;
+    printf("\n  share of the variance that an input explains by itself, and that is left when all "
+           "others are known\n");
     for (size_t i = 0; i < reply->sensitivity_count; ++i) {
         const struct percuss_sensitivity *s = &reply->sensitivities[i];
+        if (!leading || s->first_order > leading->first_order)
+            leading = s;
         char name[160], total[32] = "";
         snprintf(name, sizeof name, "%s%s%s", s->input, s->body[0] ? "@" : "", s->body);
         if (!isnan(s->total))
             snprintf(total, sizeof total, "%8.3f", s->total);
         printf("  %-24s %8.3f (noise %.3f) %s\n", name, s->first_order, s->noise, total);
-        print_chaos(s);
     }
+    /* of the others it says only that this one is not known */
+    if (leading)
+        print_chaos(leading);
 }
 
 static void print_model(const struct percuss_ensemble_reply *reply)
