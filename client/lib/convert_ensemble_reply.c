@@ -163,7 +163,11 @@ static void convert_warnings(struct percuss_ensemble_reply *reply,
 static void convert_fit_and_check(const percuss_v1_EnsembleReply *wire,
                                   struct percuss_ensemble_reply *reply)
 {
-    reply->beta.alpha = reply->beta.beta = NAN;
+    reply->beta.low = reply->beta.high = reply->beta.alpha = reply->beta.beta = NAN;
+    reply->beta.distance = reply->beta.p_value = NAN;
+    reply->check.within = reply->check.largest = reply->check.mean_shift = NAN;
+    reply->check.mean_shift_half_width = reply->check.standard_deviation_shift = NAN;
+    reply->check.quantile_shift = NAN;
     if (wire->beta._length > 0) {
         const percuss_v1_BetaFit *beta = &wire->beta._buffer[0];
         reply->beta.low = beta->low;

@@ -29,23 +29,50 @@ struct ensemble_run {
     double *extras;
     uint64_t done;
     bool in_extras;
+    double told;       /* monotonic, s: when those who wait were */
     char message[160]; /* what cut it short; empty: nothing */
 };
+
+/* Writes a progress sample to the client of a task. */
+static void publish(struct service *service, const struct task *task, uint64_t done,
+                    uint64_t samples, const struct report_progress *progress)
+{
+    percuss_v1_EnsembleProgress sample = {
+        .sequence = task->sequence,
+        .done = done,
+        .samples = samples,
+        .mean = progress->mean,
+        .standard_deviation = progress->deviation,
+        .half_width = progress->half_width,
+    };
+    memcpy(sample.client, task->client, sizeof sample.client);
+    endpoint_publish(service->endpoint, task->client, CHANNEL_PROGRESS, &sample, 0);
+}
+
+static const struct report_progress no_progress = {NAN, NAN, NAN, NAN, false};
+
+/* Who waits for another ensemble to end hears that the server is there. */
+static void tell_waiting(void *context, const struct task *waiting)
+{
+    publish(context, waiting, 0, waiting->ensemble->samples, &no_progress);
+}
+
+/* Once a second. */
+static void keep_waiting(struct ensemble_run *run)
+{
+    double now = clock_now();
+    if (now < run->told + 1.0)
+        return;
+    run->told = now;
+    ensembles_tell_waiting(&run->service->ensembles, run->task, tell_waiting, run->service);
+}
 
 static void publish_progress(struct ensemble_run *run, uint64_t done)
 {
     struct report_progress progress = report_progress(&run->ensemble, run->samples, done, false);
-    percuss_v1_EnsembleProgress sample = {
-        .sequence = run->task->sequence,
-        .done = done,
-        .samples = run->ensemble.count,
-        .mean = progress.mean,
-        .standard_deviation = progress.deviation,
-        .half_width = progress.half_width,
-    };
-    memcpy(sample.client, run->task->client, sizeof sample.client);
-    endpoint_publish(run->service->endpoint, run->task->client, CHANNEL_PROGRESS, &sample, 0);
+    publish(run->service, run->task, done, run->ensemble.count, &progress);
     ensembles_note(&run->service->ensembles, done, run->ensemble.count);
+    keep_waiting(run);
 }
 
 /* Whether anybody still wants the rest. */
@@ -62,6 +89,16 @@ static bool is_wanted(struct ensemble_run *run)
         snprintf(run->message, sizeof run->message, "options.deadline: %g s: has passed",
                  task->requests[0].options.deadline);
     return !run->message[0];
+}
+
+/* While the model is chosen. */
+static bool lasts(void *context)
+{
+    struct ensemble_run *run = context;
+    if (clock_now() >= run->told + 1.0)
+        tell_waiting(run->service, run->task);
+    keep_waiting(run);
+    return is_wanted(run);
 }
 
 static bool watch(void *context, uint64_t done)
@@ -209,7 +246,8 @@ static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault
     run->decoded->spec.catalogue = task->edition->set;
     if (!is_wanted(run))
         return fault_set(fault, PERCUSS_TIMEOUT, "%s before the first sample", run->message);
-    return ensemble_create(&run->ensemble, &run->decoded->spec, fault);
+    struct ensemble_interest interest = {lasts, run};
+    return ensemble_create(&run->ensemble, &run->decoded->spec, &interest, fault);
 }
 
 static void release(struct ensemble_run *run)

@@ -44,6 +44,19 @@ void ensembles_cancel(struct ensembles *ensembles, const uint8_t client[16], uin
     pthread_mutex_unlock(&ensembles->lock);
 }
 
+void ensembles_tell_waiting(struct ensembles *ensembles, const struct task *running,
+                            void (*tell)(void *context, const struct task *waiting), void *context)
+{
+    struct task *task;
+    pthread_mutex_lock(&ensembles->lock);
+    LIST_FOREACH(task, &ensembles->all, ensembles)
+    {
+        if (task != running)
+            tell(context, task);
+    }
+    pthread_mutex_unlock(&ensembles->lock);
+}
+
 void ensembles_cancel_all(struct ensembles *ensembles)
 {
     struct task *task;

@@ -25,6 +25,10 @@ void ensembles_leave(struct ensembles *ensembles, struct task *task);
 /* The client does not want it any more; nothing happens if there is no such ensemble. */
 void ensembles_cancel(struct ensembles *ensembles, const uint8_t client[16], uint64_t sequence);
 
+/* Tells each that waits for `running` to end. */
+void ensembles_tell_waiting(struct ensembles *ensembles, const struct task *running,
+                            void (*tell)(void *context, const struct task *waiting), void *context);
+
 /* The server ends. */
 void ensembles_cancel_all(struct ensembles *ensembles);
 

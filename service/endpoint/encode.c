@@ -112,6 +112,8 @@ struct answer *encode_ensemble_refusal(const struct envelope *envelope, enum per
     FILL_ENVELOPE(answer->report, envelope);
     answer->report->status = status;
     COPY_TEXT(answer->report->message, message);
+    percuss_v1_EnsembleReply *report = answer->report;
+    report->possible_low = report->possible_high = report->cut = report->step_accuracy = NAN;
     return answer;
 }
 

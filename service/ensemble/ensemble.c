@@ -147,41 +147,54 @@ struct pilot {
     struct repeat_model model;
 };
 
-/* Solves the pilots; returns how many have an answer. A refusal of all is the ensemble's. */
-static unsigned solve_pilots(struct ensemble_worker *worker, struct pilot *pilots,
-                             enum percuss_status *status, struct fault *fault)
+/* What is needed while the model is chosen. */
+struct choice {
+    struct ensemble *ensemble;
+    struct ensemble_worker *worker;
+    const struct ensemble_interest *interest; /* NULL: lasts */
+    struct pilot *pilots;
+    unsigned count; /* pilots with an answer */
+};
+
+static bool is_wanted(const struct choice *choice)
 {
-    const struct ensemble *ensemble = worker->ensemble;
+    return !choice->interest || choice->interest->lasts(choice->interest->context);
+}
+
+/* Solves the pilots. A refusal of all is the ensemble's. */
+static enum percuss_status solve_pilots(struct choice *choice, struct fault *fault)
+{
+    const struct ensemble *ensemble = choice->ensemble;
     struct random_stream stream = {ensemble->spec.seed, STREAM_PILOTS};
-    unsigned solved = 0;
-    for (unsigned k = 0; k < PILOTS; k++) {
+    enum percuss_status status = PERCUSS_INTERNAL;
+    for (unsigned k = 0; k < PILOTS && is_wanted(choice); k++) {
         double point[SAMPLING_MAX_DIMENSIONS];
-        struct pilot *pilot = &pilots[solved];
+        struct pilot *pilot = &choice->pilots[choice->count];
         struct repeat_outcome outcome;
         for (size_t d = 0; d < ensemble->sampling.dimensions; d++)
             point[d] = random_uniform(&stream, k, d);
         copula_apply(&ensemble->copula, point);
         /* lists taken in order are looked at along all their length */
         fill_values(ensemble, point, k * ensemble->count / PILOTS, pilot->values);
-        *status = search_values(worker, pilot->values, &pilot->model, &outcome, fault);
+        status = search_values(choice->worker, pilot->values, &pilot->model, &outcome, fault);
         pilot->restitution = outcome.restitution;
-        solved += has_result(*status);
+        choice->count += has_result(status);
     }
-    return solved;
+    return choice->count > 0 ? PERCUSS_OK : status;
 }
 
-/* How many pilots agree with a model within the tolerance; it gives up when fewer than `wanted`
+/* How many pilots agree with the model within the tolerance; it gives up when fewer than `wanted`
  * can. */
-static unsigned count_agreeing(struct ensemble_worker *worker, struct ensemble *ensemble,
-                               const struct pilot *pilots, unsigned count, unsigned wanted)
+static unsigned count_agreeing(struct choice *choice, unsigned wanted)
 {
-    unsigned agreeing = 0;
-    for (unsigned k = 0; k < count && agreeing + count - k >= wanted; k++) {
+    struct ensemble *ensemble = choice->ensemble;
+    unsigned agreeing = 0, left = choice->count;
+    for (unsigned k = 0; left > 0 && agreeing + left >= wanted && is_wanted(choice); k++, left--) {
         struct repeat_outcome outcome;
         /* the first with another model must not keep the scene */
         ensemble->same_scene = k > 0 && !spec_changes_scene(&ensemble->spec);
-        solve_values(worker, pilots[k].values, &outcome, NULL);
-        double difference = fabs(outcome.restitution - pilots[k].restitution);
+        solve_values(choice->worker, choice->pilots[k].values, &outcome, NULL);
+        double difference = fabs(outcome.restitution - choice->pilots[k].restitution);
         agreeing += has_result(outcome.status) && difference <= ensemble->model.tolerance;
     }
     return agreeing;
@@ -189,34 +202,32 @@ static unsigned count_agreeing(struct ensemble_worker *worker, struct ensemble *
 
 /* As few modes as the pilots allow, from a small share of what the search takes for any of them up
  * to all of that, with steps as fine as the finest. */
-static void choose_modes(struct ensemble_worker *worker, struct ensemble *ensemble,
-                         const struct pilot *pilots, unsigned count)
+static void choose_modes(struct choice *choice)
 {
-    struct ensemble_model *chosen = &ensemble->model;
-    unsigned wanted = (count * AGREEING + PILOTS - 1) / PILOTS;
+    struct ensemble_model *chosen = &choice->ensemble->model;
+    unsigned wanted = (choice->count * AGREEING + PILOTS - 1) / PILOTS;
     double highest = 0.0, steps = INFINITY;
-    for (unsigned k = 0; k < count; k++) {
-        highest = fmax(highest, pilots[k].model.cut);
-        steps = fmin(steps, pilots[k].model.accuracy);
+    for (unsigned k = 0; k < choice->count; k++) {
+        highest = fmax(highest, choice->pilots[k].model.cut);
+        steps = fmin(steps, choice->pilots[k].model.accuracy);
     }
-    chosen->pilots = count;
+    chosen->pilots = choice->count;
     for (int below = MODEL_LEVELS; below >= 0; below--) {
         chosen->model = (struct repeat_model){highest * pow(MODEL_RATIO, -below), steps};
-        chosen->agreeing = count_agreeing(worker, ensemble, pilots, count, below > 0 ? wanted : 0);
+        chosen->agreeing = count_agreeing(choice, below > 0 ? wanted : 0);
         if (chosen->agreeing >= wanted || highest == 0.0)
             return;
     }
 }
 
 /* As long steps as do not lose a pilot. */
-static void choose_steps(struct ensemble_worker *worker, struct ensemble *ensemble,
-                         const struct pilot *pilots, unsigned count)
+static void choose_steps(struct choice *choice)
 {
-    struct ensemble_model *chosen = &ensemble->model;
+    struct ensemble_model *chosen = &choice->ensemble->model;
     double finest = chosen->model.accuracy;
     for (double accuracy = 10.0 * chosen->tolerance; accuracy > finest; accuracy /= 10.0) {
         chosen->model.accuracy = accuracy;
-        unsigned agreeing = count_agreeing(worker, ensemble, pilots, count, chosen->agreeing);
+        unsigned agreeing = count_agreeing(choice, chosen->agreeing);
         if (agreeing >= chosen->agreeing) {
             chosen->agreeing = agreeing;
             return;
@@ -225,26 +236,27 @@ static void choose_steps(struct ensemble_worker *worker, struct ensemble *ensemb
     chosen->model.accuracy = finest;
 }
 
-static enum percuss_status find_model(struct ensemble *ensemble, struct fault *fault)
+static enum percuss_status find_model(struct ensemble *ensemble,
+                                      const struct ensemble_interest *interest, struct fault *fault)
 {
     const struct solve_options *options = &ensemble->spec.request->options;
     ensemble->model.tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3;
-    struct pilot *pilots = calloc(PILOTS, sizeof *pilots);
-    if (!pilots)
-        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    struct ensemble_worker *worker;
-    enum percuss_status status = ensemble_worker_create(&worker, ensemble, fault);
+    struct choice choice = {.ensemble = ensemble, .interest = interest};
+    enum percuss_status status = ensemble_worker_create(&choice.worker, ensemble, fault);
+    if (status)
+        return status;
+    choice.pilots = calloc(PILOTS, sizeof *choice.pilots);
+    status = choice.pilots ? solve_pilots(&choice, fault)
+                           : fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     if (!status) {
-        unsigned count = solve_pilots(worker, pilots, &status, fault);
-        if (count > 0) {
-            choose_modes(worker, ensemble, pilots, count);
-            choose_steps(worker, ensemble, pilots, count);
-            status = PERCUSS_OK;
-        }
+        choose_modes(&choice);
+        choose_steps(&choice);
     }
+    if (!is_wanted(&choice))
+        status = fault_set(fault, PERCUSS_TIMEOUT, "stopped before the first sample");
     ensemble->same_scene = !spec_changes_scene(&ensemble->spec);
-    ensemble_worker_free(worker);
-    free(pilots);
+    ensemble_worker_free(choice.worker);
+    free(choice.pilots);
     return status;
 }
 
@@ -298,7 +310,7 @@ static enum percuss_status find_dimensions(struct ensemble *ensemble, struct fau
 }
 
 enum percuss_status ensemble_create(struct ensemble *ensemble, const struct ensemble_spec *spec,
-                                    struct fault *fault)
+                                    const struct ensemble_interest *interest, struct fault *fault)
 {
     memset(ensemble, 0, sizeof *ensemble);
     ensemble->spec = *spec;
@@ -308,7 +320,7 @@ enum percuss_status ensemble_create(struct ensemble *ensemble, const struct ense
     if (!status)
         status = find_dimensions(ensemble, fault);
     if (!status)
-        status = find_model(ensemble, fault);
+        status = find_model(ensemble, interest, fault);
     if (status)
         ensemble_release(ensemble);
     return status;

@@ -41,10 +41,17 @@ enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
                                            const struct ensemble *ensemble, struct fault *fault);
 void ensemble_worker_free(struct ensemble_worker *worker);
 
-/* Checks the request and chooses the model, which takes some ten milliseconds. PERCUSS_OK, or the
- * refusal: of the ensemble, or of the impact as it is stated. */
+/* Asked now and then whether to go on. */
+struct ensemble_interest {
+    bool (*lasts)(void *context);
+    void *context;
+};
+
+/* Checks the request and chooses the model, which takes some ten milliseconds, or seconds where
+ * single impacts take long. PERCUSS_OK, or the refusal: of the ensemble, or of the impact as it is
+ * stated; TIMEOUT when the interest (NULL: lasts) has ended. */
 enum percuss_status ensemble_create(struct ensemble *ensemble, const struct ensemble_spec *spec,
-                                    struct fault *fault);
+                                    const struct ensemble_interest *interest, struct fault *fault);
 void ensemble_release(struct ensemble *ensemble);
 
 /* The inputs of sample `index` < count: spec.input_count values. */

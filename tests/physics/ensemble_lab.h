@@ -61,7 +61,7 @@ static inline void ensemble_lab_open(struct ensemble_lab *e)
 static inline void ensemble_lab_run(struct ensemble_lab *e, bool extras)
 {
     struct fault fault = {""};
-    if (ensemble_create(&e->ensemble, &e->spec, &fault))
+    if (ensemble_create(&e->ensemble, &e->spec, NULL, &fault))
         fail_msg("%s", fault.text);
     struct ensemble_worker *worker;
     assert_int_equal(ensemble_worker_create(&worker, &e->ensemble, &fault), PERCUSS_OK);

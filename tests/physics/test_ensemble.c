@@ -280,10 +280,29 @@ static void stops_when_it_is_enough(void **state)
     ensemble_lab_close(&e);
 }
 
+static bool lasts_five_times(void *context)
+{
+    return ++*(int *)context <= 5;
+}
+
+/* Who waits no more is not kept waiting by the choice of the model. */
+static void interest_ends(void **state)
+{
+    (void)state;
+    struct ensemble_lab e;
+    struct fault fault = {""};
+    int asked = 0;
+    struct ensemble_interest interest = {lasts_five_times, &asked};
+    ensemble_lab_open(&e);
+    assert_int_equal(ensemble_create(&e.ensemble, &e.spec, &interest, &fault), PERCUSS_TIMEOUT);
+    assert_true(asked < 60);
+    lab_free(e.lab);
+}
+
 static void refused(struct ensemble_lab *e, const char *words)
 {
     struct fault fault = {""};
-    assert_int_equal(ensemble_create(&e->ensemble, &e->spec, &fault), PERCUSS_BAD_REQUEST);
+    assert_int_equal(ensemble_create(&e->ensemble, &e->spec, NULL, &fault), PERCUSS_BAD_REQUEST);
     if (!strstr(fault.text, words))
         fail_msg("'%s' does not say '%s'", fault.text, words);
 }
@@ -335,6 +354,7 @@ int main(void)
         cmocka_unit_test(total_indices),
         cmocka_unit_test(lists_in_order),
         cmocka_unit_test(stops_when_it_is_enough),
+        cmocka_unit_test(interest_ends),
         cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -80,9 +80,9 @@ cut -d, -f1 "$work/samples.csv" | tr '\n' ' ' | grep -q '^speed 0.29999.* 0.2000
     fail "not the list: $(cat "$work/samples.csv")"
 
 say "a deadline cuts it short, with what there is"
-expect 1 ensemble --samples 2000000 --deadline 1 --json
+expect 1 ensemble --samples 2000000 --deadline 3 --json
 [ "$(field status)" = TRUNCATED ] || fail "status $(field status)"
-grep -q '"message": "options.deadline: 1 s: has passed: [0-9]* of 2000000 samples were solved"' "$out" ||
+grep -q '"message": "options.deadline: 3 s: has passed: [0-9]* of 2000000 samples were solved"' "$out" ||
     fail "$(field message)"
 
 say "while one runs, impacts are answered"
@@ -92,6 +92,12 @@ others=$!
 wait_for 10 busy || fail "the status does not tell of it"
 expect 0 query
 
+say "a second one waits, and hears so"
+"$bin/percuss" ensemble --domain "$domain" --a steel-sphere --b al-beam --timeout 3 --progress \
+    --speed uniform:0.089:0.411 --samples 100 >"$work/second" 2>"$work/waiting" 9>&- &
+second=$!
+sleep 4
+
 say "interrupted, it says what was found so far"
 kill -INT "$others"
 code=0
@@ -100,6 +106,8 @@ others=
 [ "$code" -eq 1 ] || fail "exit code $code"
 grep -q '"message": "cancelled: [0-9]* of 2000000 samples were solved"' "$work/long" ||
     fail "$(cat "$work/long" "$err")"
+wait "$second" || fail "the one that waited: $(cat "$work/waiting")"
+grep -q '0/100' "$work/waiting" || fail "it heard nothing: $(cat "$work/waiting")"
 wait_for 5 idle || fail "it goes on"
 
 say "one whose client is gone is dropped"
