@@ -111,6 +111,7 @@ struct answer *encode_ensemble_refusal(const struct envelope *envelope, enum per
     answer->report = answer_take(answer, 1, sizeof *answer->report);
     FILL_ENVELOPE(answer->report, envelope);
     answer->report->status = status;
+    answer->passing = encode_status_is_passing(status);
     COPY_TEXT(answer->report->message, message);
     percuss_v1_EnsembleReply *report = answer->report;
     report->possible_low = report->possible_high = report->cut = report->step_accuracy = NAN;
