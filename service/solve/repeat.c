@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "solve/accuracy.h"
+#include "solve/contact_model.h"
 
 /* As much as one request may take, see accuracy.c. */
 static const double MAX_WORK = 4e7, MAX_WORK_CVODE = 4e9;
@@ -20,6 +21,7 @@ struct repeat {
     struct arena scene_memory, run_memory;
     struct geometry *geometry; /* in scene_memory as what follows; NULL: no scene is kept */
     struct scene scene;
+    bool elastic; /* neither body of any contact can yield: the laws do not depend on the blow */
 };
 
 struct repeat *repeat_create(void)
@@ -114,8 +116,13 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
         return outcome->status = no_memory(fault);
     outcome->status = geometry_find(geometry, catalogue, request, &repeat->run_memory, fault);
     if (!outcome->status)
+        outcome->status = contact_model_choose(geometry, request, NULL, &repeat->run_memory, fault);
+    bool revised = true;
+    while (!outcome->status && revised) {
         outcome->status =
             accuracy_solve(accuracy, geometry, request, repeat->cache, &repeat->run_memory, fault);
+        revised = !outcome->status && contact_model_revise(geometry, request, &accuracy->outcome);
+    }
     if (outcome->status)
         return outcome->status;
     judge(geometry, &accuracy->outcome, contact, outcome, fault);
@@ -126,28 +133,67 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
     return outcome->status;
 }
 
+/* The scene of the geometry as it is. */
+static bool assemble_scene(struct repeat *repeat, const struct geometry *geometry,
+                           const struct solve_request *request, const struct repeat_model *model)
+{
+    struct arena *memory = &repeat->scene_memory;
+    struct mode_choice choice = {.cut = model->cut, .allowed = 0.0, .most = MAX_MODES};
+    struct assembly *assembly = arena_take(memory, 1, sizeof *assembly);
+    return assembly && assemble(assembly, geometry, request, repeat->cache, &choice, memory) &&
+           assemble_remainder(assembly, geometry, repeat->cache, memory, &repeat->scene);
+}
+
 /* Makes the scene anew; its memory outlives the run. */
 static enum percuss_status make_scene(struct repeat *repeat, const struct body_set *catalogue,
                                       const struct solve_request *request,
                                       const struct repeat_model *model, struct fault *fault)
 {
     struct arena *memory = &repeat->scene_memory;
-    struct mode_choice choice = {.cut = model->cut, .allowed = 0.0, .most = MAX_MODES};
     repeat->geometry = NULL;
     prepared_cache_use(repeat->cache, catalogue->revision);
     arena_reset(memory);
     struct geometry *geometry = arena_take(memory, 1, sizeof *geometry);
-    struct assembly *assembly = arena_take(memory, 1, sizeof *assembly);
-    if (!geometry || !assembly)
+    if (!geometry)
         return no_memory(fault);
     enum percuss_status status = geometry_find(geometry, catalogue, request, memory, fault);
+    if (!status)
+        status = contact_model_choose(geometry, request, NULL, memory, fault);
     if (status)
         return status;
-    if (!assemble(assembly, geometry, request, repeat->cache, &choice, memory) ||
-        !assemble_remainder(assembly, geometry, repeat->cache, memory, &repeat->scene))
+    if (!assemble_scene(repeat, geometry, request, model))
         return no_memory(fault);
+    repeat->elastic = true;
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        repeat->elastic = repeat->elastic && geometry->contact_model->choices[c].side < 0;
     repeat->geometry = geometry;
     return PERCUSS_OK;
+}
+
+/* Solves the scene, with other laws too if the blow asks for them. */
+static enum percuss_status run_scene(struct repeat *repeat, const struct solve_request *request,
+                                     const struct repeat_model *model, struct attempt *attempt,
+                                     struct fault *fault)
+{
+    bool cvode = request->options.method == PERCUSS_METHOD_CVODE;
+    struct attempt_context context = {
+        .geometry = repeat->geometry,
+        .request = request,
+        .arena = &repeat->run_memory,
+        .work = cvode ? MAX_WORK_CVODE : MAX_WORK,
+    };
+    attempt->accuracy = model->accuracy;
+    for (;;) {
+        if (attempt_run(&context, attempt, &repeat->scene))
+            return no_memory(fault);
+        if (attempt->outcome.always_overlapped)
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "contacts[].gap: the bodies overlap and never touched before");
+        if (!contact_model_revise(repeat->geometry, request, &attempt->outcome))
+            return PERCUSS_OK;
+        if (!assemble_scene(repeat, repeat->geometry, request, model))
+            return no_memory(fault);
+    }
 }
 
 enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *catalogue,
@@ -155,27 +201,17 @@ enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *c
                                  const struct repeat_model *model, bool same_scene,
                                  struct repeat_outcome *outcome, struct fault *fault)
 {
-    bool cvode = request->options.method == PERCUSS_METHOD_CVODE;
-    struct attempt attempt = {.accuracy = model->accuracy};
+    struct attempt attempt = {0};
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
     arena_reset(&repeat->run_memory);
-    if (same_scene && repeat->geometry)
+    /* the laws of bodies that yield are chosen by the blow: another scene */
+    if (same_scene && repeat->geometry && repeat->elastic)
         outcome->status = geometry_find_rates(repeat->geometry, request, fault);
     else
         outcome->status = make_scene(repeat, catalogue, request, model, fault);
+    if (!outcome->status)
+        outcome->status = run_scene(repeat, request, model, &attempt, fault);
     if (outcome->status)
         return outcome->status;
-    struct attempt_context context = {
-        .geometry = repeat->geometry,
-        .request = request,
-        .arena = &repeat->run_memory,
-        .work = cvode ? MAX_WORK_CVODE : MAX_WORK,
-    };
-    if (attempt_run(&context, &attempt, &repeat->scene))
-        return outcome->status = no_memory(fault);
-    if (attempt.outcome.always_overlapped)
-        return outcome->status = fault_set(fault, PERCUSS_BAD_REQUEST,
-                                           "contacts[].gap: the bodies overlap and never touched "
-                                           "before");
     return judge(repeat->geometry, &attempt.outcome, contact, outcome, fault);
 }

@@ -201,6 +201,40 @@ static void inputs_change_bodies(void **state)
     lab_free(e.lab);
 }
 
+/* A yield stress as an input dents the beam as one of the catalogue does, and what one blow does to
+ * the laws does not reach the next sample. */
+static void yields(void **state)
+{
+    (void)state;
+    struct ensemble_lab e;
+    struct fault fault;
+    ensemble_lab_open(&e);
+    e.request.options.tolerance = 1e-4;
+    e.spec.input_count = 2;
+    e.inputs[1] = uncertain(INPUT_YIELD, 1, DISTRIBUTION_IS_UNIFORM, 200e6, 900e6);
+    e.spec.samples = 30;
+    ensemble_lab_run(&e, false);
+    struct ensemble_worker *late;
+    assert_int_equal(ensemble_worker_create(&late, &e.ensemble, &fault), PERCUSS_OK);
+    for (uint64_t i = 30; i-- > 0;) {
+        struct ensemble_sample sample;
+        ensemble_solve(late, i, &sample, &fault);
+        assert_memory_equal(&sample.restitution, &e.samples[i].restitution, sizeof(double));
+    }
+    double values[ENSEMBLE_MAX_INPUTS], varied = e.samples[0].restitution;
+    ensemble_inputs(&e.ensemble, 0, values);
+    ensemble_worker_free(late);
+    ensemble_lab_clear(&e);
+    struct material soft = ALUMINIUM;
+    soft.yield = values[1];
+    lab_add(e.lab, "beam", make_bar(SHAPE_BEAM, soft, 0.010, 1.0));
+    e.request.bodies[0].velocity[2] = -values[0];
+    static struct solve_result result;
+    assert_int_equal(solve(e.lab->workspace, &e.lab->set, &e.request, &result), PERCUSS_OK);
+    measured("a beam with a yield stress", varied, result.contacts[0].restitution, 3e-4);
+    lab_free(e.lab);
+}
+
 /* Askew by an angle the gap rate is the speed times its cosine: friction is not modelled. */
 static void direction_is_a_cosine(void **state)
 {
@@ -350,6 +384,7 @@ int main(void)
         cmocka_unit_test(intervals_are_honest),
         cmocka_unit_test(same_bits),
         cmocka_unit_test(inputs_change_bodies),
+        cmocka_unit_test(yields),
         cmocka_unit_test(direction_is_a_cosine),
         cmocka_unit_test(total_indices),
         cmocka_unit_test(lists_in_order),
