@@ -260,7 +260,7 @@ enum percuss_status variation_apply(struct variation *variation, const double *v
     return spec_changes_bodies(spec) ? complete_bodies(variation, fault) : PERCUSS_OK;
 }
 
-bool variation_changes_modes(const struct variation *variation, const struct body *body)
+bool variation_changes_body(const struct variation *variation, const struct body *body)
 {
     const struct ensemble_spec *spec = variation->spec;
     bool changes = false;
@@ -271,5 +271,5 @@ bool variation_changes_modes(const struct variation *variation, const struct bod
         changes =
             changes || (matters && strcmp(spec->request->bodies[input->body].id, body->id) == 0);
     }
-    return changes && body_is_flexible(body);
+    return changes;
 }

@@ -25,8 +25,8 @@ void variation_release(struct variation *variation);
 enum percuss_status variation_apply(struct variation *variation, const double *values,
                                     struct fault *fault);
 
-/* Whether the inputs change how a body of the set vibrates, so that nothing prepared of it holds
- * for other values. */
-bool variation_changes_modes(const struct variation *variation, const struct body *body);
+/* Whether the inputs change a body of the set, but for its yield stress, so that nothing prepared
+ * of it (modes, compliance) holds for other values. */
+bool variation_changes_body(const struct variation *variation, const struct body *body);
 
 #endif
