@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "solve/accuracy.h"
+#include "solve/compliance.h"
 #include "solve/contact_model.h"
 
 /* As much as one request may take, see accuracy.c. */
@@ -117,11 +118,16 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
     outcome->status = geometry_find(geometry, catalogue, request, &repeat->run_memory, fault);
     if (!outcome->status)
         outcome->status = contact_model_choose(geometry, request, NULL, &repeat->run_memory, fault);
+    if (!outcome->status)
+        outcome->status = compliance_choose(geometry, request, catalogue, repeat->cache,
+                                            &repeat->run_memory, fault);
     bool revised = true;
     while (!outcome->status && revised) {
         outcome->status =
             accuracy_solve(accuracy, geometry, request, repeat->cache, &repeat->run_memory, fault);
-        revised = !outcome->status && contact_model_revise(geometry, request, &accuracy->outcome);
+        revised = !outcome->status &&
+                  (contact_model_revise(geometry, request, &accuracy->outcome) ||
+                   compliance_revise(geometry, &accuracy->assembly->scene, &accuracy->outcome));
     }
     if (outcome->status)
         return outcome->status;
@@ -159,6 +165,8 @@ static enum percuss_status make_scene(struct repeat *repeat, const struct body_s
     enum percuss_status status = geometry_find(geometry, catalogue, request, memory, fault);
     if (!status)
         status = contact_model_choose(geometry, request, NULL, memory, fault);
+    if (!status)
+        status = compliance_choose(geometry, request, catalogue, repeat->cache, memory, fault);
     if (status)
         return status;
     if (!assemble_scene(repeat, geometry, request, model))
@@ -189,8 +197,11 @@ static enum percuss_status run_scene(struct repeat *repeat, const struct solve_r
         if (attempt->outcome.always_overlapped)
             return fault_set(fault, PERCUSS_BAD_REQUEST,
                              "contacts[].gap: the bodies overlap and never touched before");
-        if (!contact_model_revise(repeat->geometry, request, &attempt->outcome))
+        if (!contact_model_revise(repeat->geometry, request, &attempt->outcome) &&
+            !compliance_revise(repeat->geometry, &repeat->scene, &attempt->outcome))
             return PERCUSS_OK;
+        /* what this blow decided is not for the next one */
+        repeat->elastic = false;
         if (!assemble_scene(repeat, repeat->geometry, request, model))
             return no_memory(fault);
     }
