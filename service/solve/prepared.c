@@ -163,12 +163,17 @@ void prepared_cache_use(struct prepared_cache *cache, const char *revision)
     snprintf(cache->revision, sizeof cache->revision, "%s", revision);
 }
 
-static struct entry *find_entry(struct prepared_cache *cache, const struct body *body)
+static struct entry **find_bucket(struct prepared_cache *cache, const char *id)
 {
     unsigned hash = 2166136261u;
-    for (const char *c = body->id; *c; c++)
+    for (const char *c = id; *c; c++)
         hash = (hash ^ (unsigned char)*c) * 16777619u;
-    struct entry **bucket = &cache->buckets[hash % BUCKETS];
+    return &cache->buckets[hash % BUCKETS];
+}
+
+static struct entry *find_entry(struct prepared_cache *cache, const struct body *body)
+{
+    struct entry **bucket = find_bucket(cache, body->id);
     for (struct entry *entry = *bucket; entry; entry = entry->next)
         if (body_same_modes(&entry->body, body))
             return entry;
@@ -242,7 +247,15 @@ bool prepared_matched_get(struct prepared_cache *cache, const struct body *body,
 
 void prepared_cache_forget(struct prepared_cache *cache, const char *id)
 {
-    struct entry *entry = find_entry(cache, id);
-    if (entry)
+    for (struct entry **link = find_bucket(cache, id); *link;) {
+        struct entry *entry = *link;
+        if (strcmp(entry->body.id, id) != 0) {
+            link = &entry->next;
+            continue;
+        }
+        *link = entry->next;
+        cache->varied -= entry->body.varied;
         entry_clear(entry);
+        free(entry);
+    }
 }

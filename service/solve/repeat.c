@@ -134,8 +134,8 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
     judge(geometry, &accuracy->outcome, contact, outcome, fault);
     outcome->error = accuracy->steps.restitution + accuracy->modes.restitution;
     if (model) /* rounding must not lose the highest mode */
-        *model =
-            (struct repeat_model){accuracy->assembly->highest * (1.0 + 1e-12), accuracy->accuracy};
+        *model = (struct repeat_model){accuracy->assembly->highest * (1.0 + 1e-12),
+                                       accuracy->step_accuracy};
     return outcome->status;
 }
 
