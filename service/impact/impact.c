@@ -87,7 +87,7 @@ unsigned long impact_max_steps(const struct scene *scene, const struct impact_se
 
 double impact_work(const struct scene *scene, const struct impact_outcome *outcome)
 {
-    return (double)(outcome->steps + outcome->rejected + outcome->intervals) * step_cost(scene);
+    return (double)outcome->effort * step_cost(scene);
 }
 
 /* Inverse mass that a contact feels within `duration`: rigid, and every mode that is slower than

@@ -34,6 +34,7 @@ struct impact_outcome {
     unsigned long steps;  /* contact steps accepted */
     unsigned long rejected;
     unsigned long intervals; /* of flights */
+    unsigned long effort;    /* of all that, in steps; failures to converge count as several */
 };
 
 /* Memory for outcomes of a scene (and of scenes with fewer oscillators). */

@@ -329,8 +329,11 @@ static enum percuss_end_reason contact_phase(struct modal_run *run)
         if (run->motion->time + h == run->motion->time ||
             run->settings->horizon - run->motion->time < step_length(finest))
             return PERCUSS_END_IN_CONTACT;
+        unsigned long before = run->step.iterations;
         bool solved =
             contact_step_solve(&run->step, run->scene, run->motion, run->everyone, level, run->now);
+        /* a step takes two or three iterations; one that does not converge costs as much as ten */
+        run->used += (run->step.iterations - before) / 8;
         double roughness = solved ? step_roughness(run) : INFINITY;
         bool fine = level >= finest;
         if (!solved || (!fine && (roughness > 3.0 * allowed || has_event(run)))) {
@@ -451,6 +454,7 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
     outcome->end_reason = end;
     outcome->window = run.motion->time;
     outcome->intervals = run.flight.intervals;
+    outcome->effort = run.used;
     return energy_audit(scene, run.final, run.damping, arena, outcome) ? PERCUSS_OK
                                                                        : PERCUSS_INTERNAL;
 }

@@ -408,6 +408,7 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
     ode_effort(ode, &evaluations, &outcome->steps);
     outcome->rejected = 0;
     outcome->intervals = evaluations;
+    outcome->effort = outcome->steps + evaluations;
     ode_free(ode);
     return finish(&run, scene, t, arena, outcome) ? PERCUSS_OK : PERCUSS_INTERNAL;
 }
