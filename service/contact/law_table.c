@@ -4,7 +4,9 @@
 /* Every curve is interpolated in F^(2/3), which is a straight line for Hertz and nearly one beyond
  * yield, by monotone splines.
  * Between two branches of the family the values are mixed linearly in the largest indentation's
- * logarithm; what springs back, as a share, is a spline of that logarithm. */
+ * logarithm; what springs back, as a share, is a spline of that logarithm.
+ * The contact region is static and without a length of its own: for surfaces `scale` times as large
+ * lengths are scale times, forces scale^2 times and works scale^3 times the table's. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -22,6 +24,7 @@ struct contact_curves {
     struct spline *branch; /* [branches]: share^(2/3) of x */
     double *work;          /* [points]: of the loading curve up to each, J */
     double yield, error;
+    double surface_radius;         /* m; 0: not stated */
     double joints[MAX_JOINTS + 1]; /* ascending; INFINITY: no more */
     size_t branches;
     double memory[];
@@ -62,17 +65,22 @@ static const struct contact_curves *curves_of(const struct contact_law *law)
     return law->table;
 }
 
-static double loading_force(const struct contact_law *law, double d, double *slope)
+static double scale_of(const struct contact_law *law)
 {
-    double value = spline_at(&curves_of(law)->loading, d, slope);
-    double root = sqrt(value);
-    *slope *= 1.5 * root;
-    return value * root;
+    return law->parameters[0];
 }
 
-static double loading_work(const struct contact_law *law, double d)
+static double loading_force(const struct contact_law *law, double d, double *slope)
 {
-    const struct contact_curves *curves = curves_of(law);
+    double scale = scale_of(law);
+    double value = spline_at(&curves_of(law)->loading, d / scale, slope);
+    double root = sqrt(value);
+    *slope *= 1.5 * root * scale;
+    return value * root * scale * scale;
+}
+
+static double table_work(const struct contact_curves *curves, double d)
+{
     const struct spline *loading = &curves->loading;
     size_t last = loading->count - 1;
     if (d > loading->place[last]) {
@@ -86,34 +94,43 @@ static double loading_work(const struct contact_law *law, double d)
     return curves->work[i] + work_on(loading, loading, 0.0, i, (double[]){loading->place[i], d});
 }
 
+static double loading_work(const struct contact_law *law, double d)
+{
+    double scale = scale_of(law);
+    return table_work(curves_of(law), d / scale) * scale * scale * scale;
+}
+
 static double next_joint(const struct contact_law *law, double d)
 {
+    double scale = scale_of(law);
     const double *joint = curves_of(law)->joints;
-    while (!(*joint > d))
+    while (!(*joint * scale > d))
         joint++;
-    return *joint;
+    return *joint * scale;
 }
 
 static double yield_depth(const struct contact_law *law)
 {
-    return curves_of(law)->branches ? curves_of(law)->yield : INFINITY;
+    return curves_of(law)->branches ? curves_of(law)->yield * scale_of(law) : INFINITY;
 }
 
 static double residual_depth(const struct contact_law *law, double d)
 {
     const struct contact_curves *curves = curves_of(law);
-    if (!curves->branches || !(d > curves->yield))
+    double scale = scale_of(law);
+    if (!curves->branches || !(d > curves->yield * scale))
         return 0.0;
     double slope;
     double last = curves->spring.place[curves->spring.count - 1];
     /* beyond the family: what the last branch gives back */
-    return d * (1.0 - spline_at(&curves->spring, fmin(log(d), last), &slope));
+    return d * (1.0 - spline_at(&curves->spring, fmin(log(d / scale), last), &slope));
 }
 
 static double contact_radius(const struct contact_law *law, double d)
 {
     double slope;
-    return sqrt(spline_at(&curves_of(law)->radius, d, &slope));
+    double scale = scale_of(law);
+    return sqrt(spline_at(&curves_of(law)->radius, d / scale, &slope)) * scale;
 }
 
 /* The two branches around the law's largest indentation, and the second one's part. */
@@ -122,7 +139,7 @@ static double branches_of(const struct contact_law *law, const struct spline *pa
     const struct contact_curves *curves = curves_of(law);
     /* spring.place[0] is the yield, branch j belongs to place j + 1 */
     const double *place = curves->spring.place + 1;
-    double at = log(law->history.max_indentation);
+    double at = log(law->history.max_indentation / scale_of(law));
     size_t last = curves->branches - 1;
     size_t j = 0;
     while (j + 1 < last && place[j + 1] <= at)
@@ -179,7 +196,22 @@ static const struct contact_law_operations operations = {
 
 struct contact_law contact_law_table(const struct contact_curves *curves)
 {
-    return (struct contact_law){.operations = &operations, .table = curves};
+    return (struct contact_law){.operations = &operations, .parameters = {1.0}, .table = curves};
+}
+
+struct contact_law contact_law_table_at(const struct contact_curves *curves, double radius)
+{
+    struct contact_law law = contact_law_table(curves);
+    double scale = curves->surface_radius > 0.0 ? radius / curves->surface_radius : 1.0;
+    /* the same radius but for rounding: the table as it is */
+    if (fabs(scale - 1.0) > 1e-12)
+        law.parameters[0] = scale;
+    return law;
+}
+
+double contact_law_table_range(const struct contact_law *law)
+{
+    return contact_curves_range(law->table) * scale_of(law);
 }
 
 static bool rises(size_t count, const double *values)
@@ -330,6 +362,7 @@ struct contact_curves *contact_curves_create(const struct contact_table *table, 
     curves->work = block;
     curves->yield = table->yield;
     curves->error = table->error;
+    curves->surface_radius = table->surface_radius;
     curves->branches = branches;
     fill_loading(curves, table, scratch);
     find_joints(curves);

@@ -24,6 +24,8 @@ struct contact_table {
     size_t samples;         /* of each branch, at equal steps of x in 0..1 */
     const double *share;    /* [branches][samples]: F/F_largest at x = (d - residual) /
                                (largest - residual); 0 at x = 0, 1 at x = 1 */
+    double surface_radius;  /* m, 1 / (1/R_a + 1/R_b) of what was sampled; 0: not stated, the law
+                               is then taken for any as it is */
     double error;           /* relative, of the force, as its computation states it */
 };
 
@@ -43,6 +45,11 @@ double contact_curves_error(const struct contact_curves *curves);
 
 /* The law of a table, which must outlive it. */
 struct contact_law contact_law_table(const struct contact_curves *curves);
+/* The same for surfaces of another radius (m, 1 / (1/R_a + 1/R_b)), exact by dimensions: a static
+ * contact region of given materials has no length of its own. */
+struct contact_law contact_law_table_at(const struct contact_curves *curves, double radius);
+/* Last indentation of such a law's loading curve, m. */
+double contact_law_table_range(const struct contact_law *law);
 
 /* What a table is asked for. Curvatures as in struct hertz_contact. */
 struct contact_pair {

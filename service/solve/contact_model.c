@@ -78,7 +78,7 @@ static enum percuss_status find_law(struct geometry *geometry, const struct solv
         (asked == PERCUSS_CONTACT_TABLE || (asked == PERCUSS_CONTACT_AUTO && choice->side >= 0)))
         curves = tables->find(tables->context, &pair);
     if (curves) {
-        choice->plastic = contact_law_table(curves);
+        choice->plastic = contact_law_table_at(curves, 0.5 / hertz->curvature[0]);
         choice->tabulated = true;
     } else if (asked == PERCUSS_CONTACT_TABLE) {
         return fault_set(
@@ -161,7 +161,7 @@ double contact_model_beyond_table(const struct impact_outcome *outcome, size_t c
     const struct contact_law *law = &outcome->laws[contact];
     if (law->operations->model != PERCUSS_CONTACT_TABLE)
         return 0.0;
-    double range = contact_curves_range(law->table);
+    double range = contact_law_table_range(law);
     double depth = fmax(law->history.max_indentation, deepest(outcome, contact));
     return fmax(0.0, depth / range - 1.0);
 }
