@@ -20,9 +20,10 @@ allowed() {
     solve) echo "base numeric model fe contact impact solve" ;;
     ensemble) echo "base numeric model fe contact impact solve ensemble" ;;
     catalogue) echo "base numeric model catalogue" ;;
-    store) echo "base numeric model store" ;;
+    store) echo "base numeric model fe contact store" ;;
     endpoint) echo "base numeric model contact impact solve ensemble endpoint" ;;
-    daemon) echo "base numeric model contact impact solve ensemble catalogue store endpoint daemon" ;;
+    tables) echo "base model fe contact catalogue store tables" ;;
+    daemon) echo "base numeric model fe contact impact solve ensemble catalogue store endpoint daemon" ;;
     esac
 }
 
@@ -78,9 +79,9 @@ only 'cvode|arkode|sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol' 'service/n
 only 'lapacke|Random123' 'service/numeric'
 only 'cminpack' 'client/measured'
 only 'yaml' 'service/catalogue|service/daemon'
-only 'jansson' 'client/cli'
+only 'jansson' 'client/cli|service/store'
 only 'dds/' 'service/endpoint|service/daemon|client/lib'
-only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|client/lib|client/cli'
+only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|service/store|service/tables|client/lib|client/cli'
 
 # clients do not look into the service; the slow scale is built with its complementarity solver
 found=$(grep -nE '^ *# *include *"(base|numeric|model|contact|impact|solve|catalogue|endpoint|daemon)/' client/*/*.[ch] |

@@ -1,0 +1,16 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A computed table made ready for the contact law. */
+#ifndef PERCUSS_STORE_TABLE_CURVES_H
+#define PERCUSS_STORE_TABLE_CURVES_H
+
+#include "contact/table.h"
+#include "fe/indentation.h"
+
+/* NULL with BAD_REQUEST where the table's curves do not rise as they must, or INTERNAL without
+ * memory. Free with contact_curves_free. */
+struct contact_curves *table_curves_make(const struct indentation_table *table,
+                                         struct fault *fault);
+
+#endif

@@ -1,0 +1,87 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "tables/options.h"
+
+#include <argp.h>
+#include <stdlib.h>
+
+#include "store/table_key.h"
+
+enum { USAGE = 2, LEAST_RESOLUTION = 6, MOST_RESOLUTION = 60 };
+
+const char *argp_program_version = "percuss-tables " PERCUSS_VERSION;
+
+static const struct argp_option list[] = {
+    {"catalogue", 'C', "FILE", 0, "Bodies and materials, as percussd reads them", 0},
+    {"folder", 'f', "DIR", 0, "Where the tables go; `tables` in percussd's settings", 0},
+    {"a", 'a', "ID", 0, "Only for the materials of this body ...", 0},
+    {"b", 'b', "ID", 0, "... and this one", 0},
+    {"speed", 's', "V", 0, "Deep enough for compact bodies that meet at V m/s; default 1", 0},
+    {"resolution", 'r', "N", 0, "Elements along the mesh's core, 6 to 60; default 12", 0},
+    {0},
+};
+
+static double parse_number(struct argp_state *state, const char *name, const char *text,
+                           double least, double most)
+{
+    char *end;
+    double number = strtod(text, &end);
+    if (end == text || *end || !(number >= least && number <= most))
+        argp_error(state, "--%s: %s: must be a number, %g to %g", name, text, least, most);
+    return number;
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct options *options = state->input;
+    switch (key) {
+    case 'C':
+        options->catalogue = text;
+        return 0;
+    case 'f':
+        options->folder = text;
+        return 0;
+    case 'a':
+        options->a = text;
+        return 0;
+    case 'b':
+        options->b = text;
+        return 0;
+    case 's':
+        options->speed = parse_number(state, "speed", text, 1e-3, 1e3);
+        return 0;
+    case 'r':
+        options->resolution =
+            (size_t)parse_number(state, "resolution", text, LEAST_RESOLUTION, MOST_RESOLUTION);
+        return 0;
+    case ARGP_KEY_ARG:
+        argp_error(state, "%s: must be an option", text);
+        return 0;
+    case ARGP_KEY_END:
+        if (!options->catalogue || !options->folder)
+            argp_error(state, "--catalogue FILE and --folder DIR must be given");
+        if (!options->a != !options->b)
+            argp_error(state, "--a ID and --b ID must be given together");
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+struct options options_read(int argc, char **argv)
+{
+    static const struct argp argp = {
+        .options = list,
+        .parser = parse,
+        .doc = "Computes tables of elastic-plastic contacts ahead of time, for the contact model "
+               "`table`: finite elements of the contact region, some seconds to minutes each. "
+               "Without --a and --b: of every two materials in the catalogue whose bodies can meet "
+               "in a circular contact and of which one may yield."
+               "\vA table holds for bodies of any size. What is there already is left as it is.",
+    };
+    struct options options = {.speed = 1.0, .resolution = TABLE_RESOLUTION};
+    argp_err_exit_status = USAGE;
+    argp_parse(&argp, argc, argv, 0, NULL, &options);
+    return options;
+}

@@ -1,0 +1,20 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The command line of percuss-tables. */
+#ifndef PERCUSS_TABLES_OPTIONS_H
+#define PERCUSS_TABLES_OPTIONS_H
+
+#include <stddef.h>
+
+struct options {
+    const char *catalogue, *folder;
+    const char *a, *b; /* NULL: every pair that needs a table */
+    double speed;      /* m/s */
+    size_t resolution;
+};
+
+/* Ends the program for --help, --version and, with exit code 2, wrong usage. */
+struct options options_read(int argc, char **argv);
+
+#endif
