@@ -13,7 +13,7 @@
 #include "endpoint/encode.h"
 #include "endpoint/hash.h"
 
-struct seat *seat_create(void)
+struct seat *seat_create(const struct contact_table_source *tables)
 {
     struct seat *seat = calloc(1, sizeof *seat);
     if (!seat)
@@ -23,6 +23,7 @@ struct seat *seat_create(void)
         free(seat);
         return NULL;
     }
+    solve_workspace_set_tables(seat->workspace, tables);
     return seat;
 }
 

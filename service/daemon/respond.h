@@ -19,7 +19,8 @@ struct seat {
     char tokens[PERCUSS_MAX_BODIES][PERCUSS_ID_SIZE]; /* of the states afterwards */
 };
 
-struct seat *seat_create(void); /* NULL: out of memory */
+/* Contact tables come from `tables`, borrowed. NULL: out of memory. */
+struct seat *seat_create(const struct contact_table_source *tables);
 void seat_free(struct seat *seat);
 
 /* A request with where it came from. */

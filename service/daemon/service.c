@@ -37,13 +37,33 @@ static bool create_stores(struct service *service)
     };
     service->tokens = token_store_create(&tokens);
     service->replies = reply_store_create(&replies);
-    service->desk = seat_create();
+    service->tables = table_store_create();
+    service->desk = service->tables ? seat_create(table_store_source(service->tables)) : NULL;
     bool good = service->tokens && service->replies && service->desk;
     for (int lane = 0; lane < LANE_COUNT; lane++) {
         service->lanes[lane] = queue_create(settings->queue_capacity);
         good = good && service->lanes[lane];
     }
     return good;
+}
+
+static void complain(const struct fault *fault)
+{
+    log_line(LEVEL_WARNING, "table left out: %s", fault->text);
+}
+
+/* A folder that cannot be read is no reason not to serve. */
+static void load_tables(struct service *service)
+{
+    const char *folder = service->settings->tables;
+    size_t count;
+    struct fault fault;
+    if (!*folder)
+        return;
+    if (table_store_load(service->tables, folder, complain, &count, &fault))
+        log_line(LEVEL_WARNING, "tables: %s", fault.text);
+    else
+        log_line(LEVEL_INFO, "tables: %zu from %s", count, folder);
 }
 
 static void *read_requests(void *argument)
@@ -79,6 +99,7 @@ struct service *service_create(const struct settings *settings, struct fault *fa
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         goto failed;
     }
+    load_tables(service);
     service->endpoint = endpoint_create(settings->domain, fault);
     if (!service->endpoint || !start_threads(service, fault))
         goto failed;
@@ -109,6 +130,7 @@ void service_free(struct service *service)
     seat_free(service->desk);
     for (int lane = 0; lane < LANE_COUNT; lane++)
         queue_free(service->lanes[lane]);
+    table_store_free(service->tables);
     reply_store_free(service->replies);
     token_store_free(service->tokens);
     editions_release(&service->editions);
