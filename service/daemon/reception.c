@@ -91,22 +91,23 @@ static bool is_at_least(const percuss_v1_Options *options, double tolerance)
 static bool is_long(const percuss_v1_Options *options)
 {
     return options->method != PERCUSS_METHOD_MODAL ||
-           options->contact_model > PERCUSS_CONTACT_CLOSED_FORM ||
-           !is_at_least(options, short_tolerance);
+           options->contact_model > PERCUSS_CONTACT_TABLE || !is_at_least(options, short_tolerance);
 }
 
-/* A batch is as long as its longest member. */
-static enum lane lane_for(const percuss_v1_Request *requests, size_t count)
+/* A batch is as long as its longest member; ensembles are long. */
+static enum lane lane_for(const struct service *service, const struct task *task)
 {
-    size_t i = 0;
-    while (i < count && !is_long(&requests[i].options))
+    size_t i = 0, count = task->count;
+    const percuss_v1_Request *requests = task->requests;
+    while (i < count && !is_long(&requests[i].options) &&
+           !table_shelf_lacks(&service->tables, task->edition->set, &requests[i]))
         i++;
-    return i < count ? LANE_LONG : LANE_SHORT;
+    return i < count || task->ensemble ? LANE_LONG : LANE_SHORT;
 }
 
 /* Hands a task (NULL: it could not be made) to the workers, or refuses it at once. */
 static void enqueue(struct service *service, const struct request_name *name, struct task *task,
-                    enum lane lane, double arrival)
+                    double arrival)
 {
     if (!task) {
         turn_away(service, name);
@@ -118,7 +119,7 @@ static void enqueue(struct service *service, const struct request_name *name, st
     task->edition = editions_hold(&service->editions);
     if (task->ensemble)
         ensembles_enter(&service->ensembles, task);
-    if (!queue_put(service->lanes[lane], task)) {
+    if (!queue_put(service->lanes[lane_for(service, task)], task)) {
         if (task->ensemble)
             ensembles_leave(&service->ensembles, task);
         editions_let_go(&service->editions, task->edition);
@@ -131,8 +132,7 @@ static void enqueue_requests(struct service *service, const struct request_name 
                              const percuss_v1_Request *requests, size_t count, double arrival)
 {
     bool draining = atomic_load(&service->draining);
-    enqueue(service, name, draining ? NULL : task_create(name->exchange, requests, count),
-            lane_for(requests, count), arrival);
+    enqueue(service, name, draining ? NULL : task_create(name->exchange, requests, count), arrival);
 }
 
 static bool is_cheap(const percuss_v1_Request *request)
@@ -220,7 +220,7 @@ static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *re
     if (!admit(service, &name, question_digest_ensemble(request), arrival))
         return;
     bool draining = atomic_load(&service->draining);
-    enqueue(service, &name, draining ? NULL : task_create_ensemble(request), LANE_LONG, arrival);
+    enqueue(service, &name, draining ? NULL : task_create_ensemble(request), arrival);
 }
 
 static void note_presence(void *context, const uint8_t client[16], bool present)

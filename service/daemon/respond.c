@@ -13,7 +13,7 @@
 #include "endpoint/encode.h"
 #include "endpoint/hash.h"
 
-struct seat *seat_create(const struct contact_table_source *tables)
+struct seat *seat_create(struct table_shelf *shelf, bool makes)
 {
     struct seat *seat = calloc(1, sizeof *seat);
     if (!seat)
@@ -23,7 +23,7 @@ struct seat *seat_create(const struct contact_table_source *tables)
         free(seat);
         return NULL;
     }
-    solve_workspace_set_tables(seat->workspace, tables);
+    table_maker_init(&seat->maker, shelf, makes);
     return seat;
 }
 
@@ -130,6 +130,16 @@ static void name_states(struct seat *seat, struct token_store *tokens,
     }
 }
 
+/* Who leaves the choice takes the tables that are there. */
+static void use_tables(struct seat *seat, const struct question *question)
+{
+    bool insists = seat->request.options.contact_model == PERCUSS_CONTACT_TABLE;
+    table_maker_begin(&seat->maker, question->request, question->arrival);
+    solve_workspace_set_tables(seat->workspace,
+                               insists ? &seat->maker.source
+                                       : table_store_source(seat->maker.shelf->loaded));
+}
+
 /* Solves seat->request and makes the reply. */
 static struct answer *compute(struct seat *seat, struct token_store *tokens,
                               const struct question *question)
@@ -137,7 +147,10 @@ static struct answer *compute(struct seat *seat, struct token_store *tokens,
     const struct envelope *envelope = &question->envelope;
     struct solve_result *result = &seat->result;
     struct fault fault;
+    use_tables(seat, question);
     solve(seat->workspace, question->set, &seat->request, result);
+    if (seat->maker.status)
+        return encode_refusal(envelope, seat->maker.status, seat->maker.fault.text);
     if (result->status == PERCUSS_INTERNAL)
         log_line(LEVEL_ERROR, "request %llu: internal: %s", (unsigned long long)envelope->sequence,
                  result->fault.text);

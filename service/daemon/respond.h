@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 
+#include "daemon/table_shelf.h"
 #include "endpoint/answer.h"
 #include "endpoint/token_store.h"
 #include "solve/solve.h"
@@ -14,13 +15,15 @@
 /* What one thread needs to answer requests. */
 struct seat {
     struct solve_workspace *workspace;
+    struct table_maker maker; /* of contact tables that requests insist on */
     struct solve_request request;
     struct solve_result result;
     char tokens[PERCUSS_MAX_BODIES][PERCUSS_ID_SIZE]; /* of the states afterwards */
 };
 
-/* Contact tables come from `tables`, borrowed. NULL: out of memory. */
-struct seat *seat_create(const struct contact_table_source *tables);
+/* Contact tables come from `shelf`, borrowed; with `makes` missing ones are computed when asked
+ * for, which takes seconds to minutes. NULL: out of memory. */
+struct seat *seat_create(struct table_shelf *shelf, bool makes);
 void seat_free(struct seat *seat);
 
 /* A request with where it came from. */

@@ -37,33 +37,17 @@ static bool create_stores(struct service *service)
     };
     service->tokens = token_store_create(&tokens);
     service->replies = reply_store_create(&replies);
-    service->tables = table_store_create();
-    service->desk = service->tables ? seat_create(table_store_source(service->tables)) : NULL;
-    bool good = service->tokens && service->replies && service->desk;
+    service->tables.folder = settings->tables;
+    service->tables.replies = service->replies;
+    service->tables.draining = &service->draining;
+    bool good = table_shelf_fill(&service->tables);
+    service->desk = good ? seat_create(&service->tables, false) : NULL;
+    good = service->tokens && service->replies && service->desk;
     for (int lane = 0; lane < LANE_COUNT; lane++) {
         service->lanes[lane] = queue_create(settings->queue_capacity);
         good = good && service->lanes[lane];
     }
     return good;
-}
-
-static void complain(const struct fault *fault)
-{
-    log_line(LEVEL_WARNING, "table left out: %s", fault->text);
-}
-
-/* A folder that cannot be read is no reason not to serve. */
-static void load_tables(struct service *service)
-{
-    const char *folder = service->settings->tables;
-    size_t count;
-    struct fault fault;
-    if (!*folder)
-        return;
-    if (table_store_load(service->tables, folder, complain, &count, &fault))
-        log_line(LEVEL_WARNING, "tables: %s", fault.text);
-    else
-        log_line(LEVEL_INFO, "tables: %zu from %s", count, folder);
 }
 
 static void *read_requests(void *argument)
@@ -99,7 +83,6 @@ struct service *service_create(const struct settings *settings, struct fault *fa
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         goto failed;
     }
-    load_tables(service);
     service->endpoint = endpoint_create(settings->domain, fault);
     if (!service->endpoint || !start_threads(service, fault))
         goto failed;
@@ -130,7 +113,7 @@ void service_free(struct service *service)
     seat_free(service->desk);
     for (int lane = 0; lane < LANE_COUNT; lane++)
         queue_free(service->lanes[lane]);
-    table_store_free(service->tables);
+    table_shelf_empty(&service->tables);
     reply_store_free(service->replies);
     token_store_free(service->tokens);
     editions_release(&service->editions);
@@ -181,6 +164,11 @@ void service_announce(struct service *service)
     };
     ensembles_describe(&service->ensembles, status.activity, &status.progress);
     const char *state = atomic_load(&service->draining) ? "draining" : "ready";
+    double table = atomic_load(&service->tables.progress);
+    if (!isnan(table)) {
+        snprintf(status.activity, sizeof status.activity, "computing a contact table");
+        status.progress = table;
+    }
     snprintf(status.version, sizeof status.version, "%s", PERCUSS_VERSION);
     snprintf(status.state, sizeof status.state, "%s", state);
     snprintf(status.catalogue_revision, sizeof status.catalogue_revision, "%s",

@@ -10,9 +10,9 @@
 #include "daemon/queue.h"
 #include "daemon/respond.h"
 #include "daemon/settings.h"
+#include "daemon/table_shelf.h"
 #include "endpoint/endpoint.h"
 #include "endpoint/reply_store.h"
-#include "store/table_store.h"
 
 /* What is solved within milliseconds does not wait behind what takes seconds. The long lane has one
  * thread of low priority. */
@@ -24,7 +24,7 @@ struct service {
     struct endpoint *endpoint;
     struct token_store *tokens;
     struct reply_store *replies;
-    struct table_store *tables; /* of contacts; filled at start */
+    struct table_shelf tables;
     struct queue *lanes[LANE_COUNT];
     struct ensembles ensembles; /* in the long lane */
     struct seat *desk;          /* of the reading thread, which solves what is cheap itself */

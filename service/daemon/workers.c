@@ -102,7 +102,7 @@ static bool worker_start(struct worker *worker, struct service *service)
 {
     worker->service = service;
     worker->lane = service->worker_count < service->settings->workers ? LANE_SHORT : LANE_LONG;
-    worker->seat = seat_create(table_store_source(service->tables));
+    worker->seat = seat_create(&service->tables, worker->lane == LANE_LONG);
     if (worker->seat && pthread_create(&worker->thread, NULL, work, worker) == 0)
         return true;
     seat_free(worker->seat);

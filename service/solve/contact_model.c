@@ -80,12 +80,15 @@ static enum percuss_status find_law(struct geometry *geometry, const struct solv
     if (curves) {
         choice->plastic = contact_law_table_at(curves, 0.5 / hertz->curvature[0]);
         choice->tabulated = true;
-    } else if (asked == PERCUSS_CONTACT_TABLE) {
-        return fault_set(
-            fault, PERCUSS_BAD_REQUEST,
-            "options.contact_model: table: there is no table for %s on %s (contacts[%zu]"
-            "): auto or closed-form do without",
-            a->id, b->id, c);
+    } else if (asked == PERCUSS_CONTACT_TABLE && choice->side >= 0) {
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.contact_model: table: there is no table for %s on %s "
+                         "(contacts[%zu]): %s; auto "
+                         "or closed-form do without",
+                         a->id, b->id, c,
+                         hertz->axis_ratio < 0.999
+                             ? "the contact is elliptic, tables are of circular ones"
+                             : "percuss-tables computes them");
     }
     find_dents(geometry, request, c);
     return PERCUSS_OK;

@@ -65,3 +65,55 @@ logged 'nowhere: cannot be read' || fail "no warning"
 expect 0 ask
 [ "$(field contact_model)" = closed-form ] || fail "model $(field contact_model)"
 stop_daemon
+
+say "a table that is not there: computed in the long lane, with progress, others are served meanwhile"
+settings "tables: $work/tables"
+start_daemon
+strike() { # strike DEADLINE
+    cat >"$work/request.json" <<JSON
+{"bodies": [{"id": "glass-sphere", "position": [0.51, 0, 0], "velocity": [-0.3, 0, 0]},
+            {"id": "al-rod-2", "position": [0, 0, 0]}],
+ "contacts": [{"a": 0, "b": 1, "point": [0.5, 0, 0], "normal": [1, 0, 0]}],
+ "options": {"contact_model": "table", "deadline": $1}}
+JSON
+}
+strike 0.3
+expect 4 percuss query --request "$work/request.json" --timeout 60
+says 'of the contact table computed'
+strike 100
+percuss query --request "$work/request.json" --timeout 100 --json >"$work/slow" 2>>"$err" 9>&- &
+slow=$!
+others=$slow
+computes() {
+    percuss status 2>/dev/null | grep -q 'computing a contact table'
+}
+wait_for 30 computes || fail "the status does not tell of the computation"
+expect 0 ask
+kill -0 "$slow" || fail "the slow one did not wait"
+wait "$slow" || fail "the slow one ended with $?"
+others=
+[ "$(field contact_model "$work/slow")" = table ] || fail "model $(field contact_model "$work/slow")"
+[ "$(ls "$work/tables" | grep -c '^[0-9a-f]*\.json$')" -eq 3 ] || fail "not kept in the folder"
+
+say "from then on it is there for who asks for a table; auto stays as it was until the next start"
+expect 0 percuss query --request "$work/request.json" --json
+[ "$(field restitution)" = "$(field restitution "$work/slow")" ] || fail "e = $(field restitution)"
+auto() {
+    expect 0 percuss query --a glass-sphere --b al-rod-2 --speed 1.2 --json
+    [ "$(field contact_model)" = "$1" ] || fail "auto took $(field contact_model)"
+}
+auto closed-form
+stop_daemon
+start_daemon
+logged 'tables: 3 from' || fail "not three tables"
+auto table
+expect 0 percuss query --request "$work/request.json" --json
+[ "$(field restitution)" = "$(field restitution "$work/slow")" ] || fail "e = $(field restitution)"
+
+say "no table of an elliptic contact"
+sed -i 's/^  al-beam:.*material: aluminium/  al-beam: {shape: beam, material: al-205/' "$work/catalogue.yaml"
+kill -HUP "$daemon"
+wait_for 10 logged 'reload: ' || fail "no reload"
+expect 5 query --contact-model table
+says 'elliptic'
+stop_daemon

@@ -1,0 +1,162 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/table_shelf.h"
+
+#include <math.h>
+#include <time.h>
+
+#include "contact/law_closed_form.h"
+#include "daemon/log.h"
+#include "endpoint/clock.h"
+#include "store/table_file.h"
+#include "store/table_key.h"
+
+/* How deep tables made here go: fixed, so that the table does not depend on who asks first. */
+static const double covered_speed = 1.0;
+
+static void complain(const struct fault *fault)
+{
+    log_line(LEVEL_WARNING, "table left out: %s", fault->text);
+}
+
+bool table_shelf_fill(struct table_shelf *shelf)
+{
+    size_t count;
+    struct fault fault;
+    atomic_init(&shelf->progress, NAN);
+    shelf->loaded = table_store_create();
+    shelf->made = table_store_create();
+    if (!shelf->loaded || !shelf->made)
+        return false;
+    if (!*shelf->folder)
+        return true;
+    if (table_store_load(shelf->loaded, shelf->folder, complain, &count, &fault))
+        log_line(LEVEL_WARNING, "tables: %s", fault.text);
+    else
+        log_line(LEVEL_INFO, "tables: %zu from %s", count, shelf->folder);
+    return true;
+}
+
+void table_shelf_empty(struct table_shelf *shelf)
+{
+    table_store_free(shelf->loaded);
+    table_store_free(shelf->made);
+}
+
+const struct contact_curves *table_shelf_find(const struct table_shelf *shelf,
+                                              const struct material *a, const struct material *b)
+{
+    const struct contact_curves *curves = table_store_find(shelf->loaded, a, b);
+    return curves ? curves : table_store_find(shelf->made, a, b);
+}
+
+bool table_shelf_lacks(const struct table_shelf *shelf, const struct body_set *set,
+                       const percuss_v1_Request *request)
+{
+    size_t bodies = request->bodies._length;
+    if (request->options.contact_model != PERCUSS_CONTACT_TABLE)
+        return false;
+    for (size_t i = 0; i < request->contacts._length; i++) {
+        const percuss_v1_Contact *contact = &request->contacts._buffer[i];
+        if (contact->a >= bodies || contact->b >= bodies)
+            continue;
+        const struct body *a = body_set_find(set, request->bodies._buffer[contact->a].id);
+        const struct body *b = body_set_find(set, request->bodies._buffer[contact->b].id);
+        if (a && b && closed_form_softer(&a->material, &b->material) >= 0 &&
+            !table_shelf_find(shelf, &a->material, &b->material))
+            return true;
+    }
+    return false;
+}
+
+/* Told by the computation; false stops it. */
+static bool go_on(void *context, double done)
+{
+    struct table_maker *maker = context;
+    double deadline = maker->request->options.deadline;
+    atomic_store(&maker->shelf->progress, done);
+    if (atomic_load(maker->shelf->draining))
+        maker->status =
+            fault_set(&maker->fault, PERCUSS_BUSY, "the server is shutting down: ask another one");
+    else if (reply_store_is_gone(maker->shelf->replies, maker->request->client))
+        maker->status = fault_set(&maker->fault, PERCUSS_TIMEOUT, "the client is gone");
+    else if (deadline > 0.0 && clock_now() - maker->arrival > deadline)
+        maker->status = fault_set(
+            &maker->fault, PERCUSS_TIMEOUT,
+            "options.deadline: %g: had passed with %.0f %% of the contact table computed: "
+            "allow more time, or compute it ahead by percuss-tables",
+            deadline, 100.0 * done);
+    return maker->status == PERCUSS_OK;
+}
+
+static double thread_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void keep(const struct table_shelf *shelf, const struct indentation_table *table,
+                 double seconds)
+{
+    char path[TABLE_PATH_SIZE];
+    struct fault fault;
+    struct table_origin origin = {"percussd " PERCUSS_VERSION, seconds};
+    const char *a = table->input.materials[0].name, *b = table->input.materials[1].name;
+    log_line(LEVEL_INFO, "table of %s on %s: computed in %.1f s", a, b, seconds);
+    if (*shelf->folder && table_file_save(shelf->folder, table, &origin, path, &fault))
+        log_line(LEVEL_WARNING, "table of %s on %s: kept until the end only: %s", a, b, fault.text);
+}
+
+static const struct contact_curves *make(struct table_maker *maker, const struct material *a,
+                                         const struct material *b)
+{
+    struct table_shelf *shelf = maker->shelf;
+    struct region_input input = table_input(a, b, covered_speed);
+    struct indentation_progress progress = {go_on, maker};
+    struct indentation_table table;
+    struct fault fault;
+    double start = thread_seconds();
+    enum percuss_status status = indentation_table_make(&input, &progress, &table, &fault);
+    atomic_store(&shelf->progress, NAN);
+    if (!status) {
+        status = table_store_add(shelf->made, &table, &fault);
+        keep(shelf, &table, thread_seconds() - start);
+        indentation_table_free(&table);
+    }
+    if (status && !maker->status)
+        maker->status = fault_set(&maker->fault, PERCUSS_INTERNAL,
+                                  "the contact table of %s on %s could not be computed: %.300s",
+                                  a->name, b->name, fault.text);
+    return status ? NULL : table_store_find(shelf->made, a, b);
+}
+
+static const struct contact_curves *find_or_make(void *context, const struct contact_pair *pair)
+{
+    struct table_maker *maker = context;
+    const struct material *a = pair->a, *b = pair->b;
+    if (!table_store_is_circular(pair->curvature) || closed_form_softer(a, b) < 0)
+        return NULL;
+    const struct contact_curves *curves = table_shelf_find(maker->shelf, a, b);
+    if (curves || maker->status)
+        return curves;
+    if (maker->makes)
+        return make(maker, a, b);
+    /* the catalogue was reloaded while the request was on its way here */
+    maker->status =
+        fault_set(&maker->fault, PERCUSS_BUSY, "the contact table is not computed yet: ask again");
+    return NULL;
+}
+
+void table_maker_init(struct table_maker *maker, struct table_shelf *shelf, bool makes)
+{
+    *maker = (struct table_maker){.source = {maker, find_or_make}, .shelf = shelf, .makes = makes};
+}
+
+void table_maker_begin(struct table_maker *maker, const percuss_v1_Request *request, double arrival)
+{
+    maker->request = request;
+    maker->arrival = arrival;
+    maker->status = PERCUSS_OK;
+}

@@ -1,0 +1,51 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The daemon's contact tables. Those of the folder, loaded at start, serve `auto` and `table`.
+ * Those computed since, because a request insisted on one, serve `table` only, so that the answers
+ * to `auto` do not change while the daemon runs; the folder keeps them for the next start. */
+#ifndef PERCUSS_DAEMON_TABLE_SHELF_H
+#define PERCUSS_DAEMON_TABLE_SHELF_H
+
+#include <stdatomic.h>
+
+#include "endpoint/reply_store.h"
+#include "model/body.h"
+#include "store/table_store.h"
+
+struct table_shelf {
+    struct table_store *loaded, *made;
+    const char *folder;          /* empty: none */
+    struct reply_store *replies; /* knows who is gone */
+    const atomic_bool *draining;
+    _Atomic double progress; /* of the computation that runs, 0..1; NAN: none */
+};
+
+/* Loads the folder; a folder or file that does not do is logged. False: out of memory. */
+bool table_shelf_fill(struct table_shelf *shelf);
+void table_shelf_empty(struct table_shelf *shelf);
+
+/* The curves for `table`, or NULL. */
+const struct contact_curves *table_shelf_find(const struct table_shelf *shelf,
+                                              const struct material *a, const struct material *b);
+
+/* Whether `table` for a request would have to be computed first, as far as its bodies tell. */
+bool table_shelf_lacks(const struct table_shelf *shelf, const struct body_set *set,
+                       const percuss_v1_Request *request);
+
+/* What `table` is answered from for one request at a time. */
+struct table_maker {
+    struct contact_table_source source;
+    struct table_shelf *shelf;
+    bool makes;                        /* may take its time: the long lane */
+    const percuss_v1_Request *request; /* being answered, set by who answers it */
+    double arrival;                    /* of it, monotonic, s */
+    enum percuss_status status;        /* why a table could not be had */
+    struct fault fault;
+};
+
+void table_maker_init(struct table_maker *maker, struct table_shelf *shelf, bool makes);
+void table_maker_begin(struct table_maker *maker, const percuss_v1_Request *request,
+                       double arrival);
+
+#endif
