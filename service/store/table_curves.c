@@ -17,6 +17,14 @@ enum { SHARES = 2 * INDENTATION_SAMPLES - 1 };
  * from one to the next; the others are Hertz's. */
 enum { ELASTIC_POINTS = 8 };
 
+/* Branches put in between first yield and the first computed one, where a dent and what its branch
+ * differs by from Hertz's begin with the square of the way beyond yield: with the computed branch
+ * taken down to yield a blow there would give back more than it brought. The first of them is
+ * elastic and lies at yield but for rounding. In between laws mix branches linearly, so that what
+ * grows with the square is off by up to 1/(4 ONSET^2) of the computed branch's. */
+enum { ONSET = 8 };
+static const double just_beyond = 1.0 + 1e-6;
+
 static double rising(double value, double before)
 {
     return fmax(value, before * (1.0 + 1e-9));
@@ -44,15 +52,16 @@ static size_t fill_loading(const struct indentation_table *table, double *indent
     return count;
 }
 
-/* One branch at equal steps: F^(2/3) is nearly a straight line of the way back. */
-static void fill_branch(const double *recovery, double *share, double *memory)
+/* One branch at equal steps: F^(2/3) is nearly a straight line of the way back. `part` of the way
+ * from Hertz's branch (0) to the computed one (1). */
+static void fill_branch(const double *recovery, double part, double *share, double *memory)
 {
     struct spline spline = {INDENTATION_SAMPLES, memory, memory + INDENTATION_SAMPLES,
                             memory + 2 * INDENTATION_SAMPLES};
     for (size_t j = 0; j < INDENTATION_SAMPLES; j++) {
         double root = cbrt(indentation_fraction(j));
-        spline.place[j] = recovery[j];
         spline.value[j] = root * root;
+        spline.place[j] = spline.value[j] + part * (recovery[j] - spline.value[j]);
     }
     spline_set_slopes(&spline, memory + 3 * INDENTATION_SAMPLES);
     for (size_t i = 1; i + 1 < SHARES; i++) {
@@ -93,21 +102,30 @@ struct contact_curves *table_curves_make(const struct indentation_table *table, 
     if (check(table, fault))
         return NULL;
     size_t room = table->points + ELASTIC_POINTS;
-    size_t branches = table->branches - 1; /* without the elastic one */
+    size_t branches = table->branches > 1 ? table->branches - 1 + ONSET : 0;
     double *memory =
-        calloc(3 * room + branches * (SHARES + 1) + 5 * INDENTATION_SAMPLES, sizeof *memory);
+        calloc(3 * room + branches * (SHARES + 2) + 5 * INDENTATION_SAMPLES, sizeof *memory);
     if (!memory) {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         return NULL;
     }
     double *indentation = memory, *force = memory + room, *radius = memory + 2 * room;
-    double *residual = memory + 3 * room, *share = residual + branches;
+    double *largest = memory + 3 * room, *residual = largest + branches;
+    double *share = residual + branches;
     double *scratch = share + branches * SHARES;
     size_t points = fill_loading(table, indentation, force, radius);
     for (size_t b = 0; b < branches; b++) {
-        residual[b] = fmax(0.0, table->residual[b + 1]);
-        fill_branch(&table->recovery[(b + 1) * INDENTATION_SAMPLES], &share[b * SHARES], scratch);
+        size_t from = b < ONSET ? 1 : b - ONSET + 1;
+        double way = b < ONSET ? (double)b / ONSET : 1.0;
+        double ratio = table->largest[from] / table->indentation[0];
+        largest[b] = b < ONSET ? table->indentation[0] * pow(ratio, way) : table->largest[from];
+        residual[b] =
+            fmax(0.0, table->residual[from]) / table->largest[from] * largest[b] * (way * way);
+        fill_branch(&table->recovery[from * INDENTATION_SAMPLES], way * way, &share[b * SHARES],
+                    scratch);
     }
+    if (branches)
+        largest[0] *= just_beyond;
     struct contact_table samples = {
         .points = points,
         .indentation = indentation,
@@ -115,7 +133,7 @@ struct contact_curves *table_curves_make(const struct indentation_table *table, 
         .contact_radius = radius,
         .yield = table->indentation[0],
         .branches = branches,
-        .largest = table->largest + 1,
+        .largest = largest,
         .residual = residual,
         .samples = SHARES,
         .share = share,
