@@ -26,7 +26,6 @@ struct setting {
 
 static const struct setting table[] = {
     {"catalogue", KIND_PATH, AT(catalogue), 0, 0},
-    {"tables", KIND_PATH, AT(tables), 0, 0},
     {"domain", KIND_WHOLE, AT(domain), 0, SETTINGS_MAX_DOMAIN},
     {"workers", KIND_WHOLE, AT(workers), 1, 256},
     {"queue_capacity", KIND_WHOLE, AT(queue_capacity), 1, 65536},
@@ -38,6 +37,7 @@ static const struct setting table[] = {
     {"replies.megabytes", KIND_WHOLE, AT(reply_megabytes), 1, 1048576},
     {"session_minutes", KIND_NUMBER, AT(session_minutes), 0.001, 100000},
     {"drain_seconds", KIND_NUMBER, AT(drain_seconds), 0, 86400},
+    {"tables", KIND_PATH, AT(tables), 0, 0},
     {"log_level", KIND_LEVEL, AT(log_level), 0, 0},
 };
 enum { SETTING_COUNT = sizeof table / sizeof *table };

@@ -135,6 +135,18 @@ static void twice_the_size_is_the_same_impact(void **state)
     lab_free(lab);
 }
 
+/* Nothing to tabulate: the law that holds. */
+static void an_elastic_rod_has_hertz(void **state)
+{
+    (void)state;
+    struct lab *lab = rods();
+    double e = strike_rod(lab, "rod", 0.3, PERCUSS_CONTACT_HERTZ)->contacts[0].restitution;
+    struct solve_result *result = strike_rod(lab, "rod", 0.3, PERCUSS_CONTACT_TABLE);
+    assert_int_equal(result->contact_model, PERCUSS_CONTACT_HERTZ);
+    measured("e", result->contacts[0].restitution, e, 1e-5);
+    lab_free(lab);
+}
+
 /* A coarser computation, over another range: e within what its stated error of the force, 0.3 %,
  * can do: e changes by less than half of a relative change of the force. */
 static void another_computation_gives_the_same(void **state)
@@ -221,6 +233,7 @@ int main(void)
         cmocka_unit_test(rod_1_gives_back_more_than_by_the_closed_form),
         cmocka_unit_test(the_paper_s_rods),
         cmocka_unit_test(twice_the_size_is_the_same_impact),
+        cmocka_unit_test(an_elastic_rod_has_hertz),
         cmocka_unit_test(another_computation_gives_the_same),
         cmocka_unit_test(both_methods_agree),
         cmocka_unit_test(ten_blows_saturate),

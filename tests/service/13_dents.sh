@@ -32,10 +32,6 @@ expect 0 percuss query --a steel-sphere --b al-rod-1 --speed 0.3 --contact-model
 [ "$(field contact_model)" = hertz ] || fail "model $(field contact_model)"
 grep -q 'yield stress of al-rod-1' "$out" || fail "no warning"
 
-say "no table: refused, and by what"
-expect 5 percuss query --a steel-sphere --b al-rod-1 --speed 0.3 --contact-model table
-grep -q 'there is no table' "$err" || fail "no reason"
-
 say "the next blow into the dent gives more back"
 strike() { # strike STATE OPTIONS
     cat >"$work/request.json" <<JSON

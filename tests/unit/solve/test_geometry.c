@@ -194,16 +194,6 @@ static void refuses_matrices(void **state)
     lab_free(lab);
 }
 
-static void refuses_what_comes_later(void **state)
-{
-    (void)state;
-    struct lab *lab = shapes();
-    struct solve_request request = ball_on_beam();
-    request.options.contact_model = PERCUSS_CONTACT_TABLE;
-    refuse(lab, &request, PERCUSS_BAD_REQUEST, "options.contact_model: table");
-    lab_free(lab);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -213,7 +203,6 @@ int main(void)
         cmocka_unit_test(refuses_bodies_and_contacts),
         cmocka_unit_test(refuses_motions),
         cmocka_unit_test(refuses_matrices),
-        cmocka_unit_test(refuses_what_comes_later),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
