@@ -70,6 +70,14 @@ static struct token_subject subject_of(const struct question *question, size_t i
     return (struct token_subject){question->set->revision, name->text};
 }
 
+/* What a long solution is told and asked. */
+static bool is_in_time(void *context, double done)
+{
+    struct fault ignored;
+    (void)done;
+    return check_deadline(context, "", &ignored) == PERCUSS_OK;
+}
+
 static enum percuss_status hold_state(struct seat *seat, struct token_store *tokens,
                                       const struct question *question, size_t index,
                                       struct fault *fault)
@@ -148,6 +156,7 @@ static struct answer *compute(struct seat *seat, struct token_store *tokens,
     struct solve_result *result = &seat->result;
     struct fault fault;
     use_tables(seat, question);
+    solve_workspace_watch(seat->workspace, (struct solve_watch){is_in_time, (void *)question});
     solve(seat->workspace, question->set, &seat->request, result);
     if (seat->maker.status)
         return encode_refusal(envelope, seat->maker.status, seat->maker.fault.text);

@@ -104,7 +104,13 @@ static void look(struct progress *progress)
     progress->window_impulse = 0.0;
     result->peak_force = fmax(result->peak_force, sample.force);
     if (sample.force > 0.0) {
-        current(progress)->peak_force = fmax(current(progress)->peak_force, sample.force);
+        struct complete_sub_impact *here = current(progress);
+        here->peak_force = fmax(here->peak_force, sample.force);
+        if (sample.indentation > here->max_indentation) {
+            here->max_indentation = sample.indentation;
+            here->compression_end = time;
+            here->compression_impulse = here->impulse;
+        }
         result->contact_radius = fmax(result->contact_radius, sample.radius);
         result->max_indentation = fmax(result->max_indentation, sample.indentation);
     }
@@ -156,7 +162,8 @@ static void audit(struct progress *progress)
     total->rebound = 0.5 * reduced * rate * rate;
     total->contact = run->contact.loss;
     for (size_t b = 0; b < DYNAMICS_BODIES; b++) {
-        total->vibration += energy.vibration[b] + energy.strain[b];
+        total->vibration_of[b] = energy.vibration[b] + energy.strain[b];
+        total->vibration += total->vibration_of[b];
         total->plastic += energy.plastic[b];
     }
     total->closure =

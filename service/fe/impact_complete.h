@@ -47,15 +47,19 @@ enum { COMPLETE_SUB_IMPACTS = 64 };
 /* An interval of contact; openings shorter than sound needs across the patch do not divide it. */
 struct complete_sub_impact {
     double start, end, impulse, peak_force; /* s, s, N s, N */
+    double max_indentation;                 /* m, as below */
+    double compression_end;                 /* s, of the largest indentation */
+    double compression_impulse;             /* N s, until then */
 };
 
 struct complete_energy {
-    double available; /* of the relative motion before, J */
-    double rebound;   /* of the relative motion after */
-    double vibration; /* kinetic beyond the mean motions, and strain */
-    double plastic;   /* work of plastic flow */
-    double contact;   /* work of the impulses on nodes as they close */
-    double closure;   /* what is missing: available less all of the above */
+    double available;       /* of the relative motion before, J */
+    double rebound;         /* of the relative motion after */
+    double vibration;       /* kinetic beyond the mean motions, and strain */
+    double vibration_of[2]; /* the same of a and b */
+    double plastic;         /* work of plastic flow */
+    double contact;         /* work of the impulses on nodes as they close */
+    double closure;         /* what is missing: available less all of the above */
 };
 
 struct complete_result {

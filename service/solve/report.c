@@ -50,9 +50,8 @@ static void fill_contacts(const struct geometry *geometry, const struct solve_re
     }
 }
 
-/* Velocities after all impulses, by the bodies' own masses. */
-static void fill_velocities(const struct geometry *geometry, const struct solve_request *request,
-                            struct solve_result *result)
+void report_velocities(const struct geometry *geometry, const struct solve_request *request,
+                       struct solve_result *result)
 {
     for (size_t b = 0; b < geometry->body_count; b++) {
         double velocity[3] = {0.0, 0.0, 0.0};
@@ -73,6 +72,7 @@ static void fill_velocities(const struct geometry *geometry, const struct solve_
         add_scaled3(1.0, request->bodies[b].velocity, result->bodies[b].velocity);
         add_scaled3(1.0, request->bodies[b].angular_velocity, result->bodies[b].angular_velocity);
     }
+    result->velocities_known = true;
 }
 
 static const char *theory_name(const struct body *body)
@@ -103,9 +103,8 @@ static void fill_bodies(const struct geometry *geometry, const struct solve_requ
         };
         memcpy(out->id, body->id, sizeof out->id);
     }
-    result->velocities_known = !geometry->from_client;
-    if (result->velocities_known)
-        fill_velocities(geometry, request, result);
+    if (!geometry->from_client)
+        report_velocities(geometry, request, result);
 }
 
 static void warn_contact_model(const struct geometry *geometry, const struct accuracy *accuracy,

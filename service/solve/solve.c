@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "solve/accuracy.h"
+#include "solve/complete.h"
 #include "solve/compliance.h"
 #include "solve/contact_model.h"
 #include "solve/history.h"
@@ -16,6 +17,7 @@
 struct solve_workspace {
     struct prepared_cache *cache;
     const struct contact_table_source *tables;
+    struct solve_watch watch;
     struct arena arena;
 };
 
@@ -45,6 +47,11 @@ void solve_workspace_set_tables(struct solve_workspace *workspace,
                                 const struct contact_table_source *tables)
 {
     workspace->tables = tables;
+}
+
+void solve_workspace_watch(struct solve_workspace *workspace, struct solve_watch watch)
+{
+    workspace->watch = watch;
 }
 
 /* All but the lists, which are long and whose counts say what is filled. */
@@ -104,11 +111,10 @@ static enum percuss_status check_finite(const struct solve_request *request, str
 /* What later versions will answer is refused by name, never ignored. */
 static enum percuss_status check_supported(const struct solve_options *options, struct fault *fault)
 {
-    if (options->contact_model > PERCUSS_CONTACT_TABLE)
+    if (options->contact_model == PERCUSS_CONTACT_CONCURRENT_FE)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "options.contact_model: %s: not available in this version: auto, hertz, "
-                         "closed-form or table",
-                         contact_model_name(options->contact_model));
+                         "options.contact_model: concurrent-fe: not available in this version: "
+                         "auto, hertz, closed-form, table or complete-fe");
     return PERCUSS_OK;
 }
 
@@ -122,6 +128,8 @@ static enum percuss_status answer(struct solve_workspace *workspace,
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
     enum percuss_status status =
         geometry_find(geometry, catalogue, request, &workspace->arena, &result->fault);
+    if (!status && request->options.contact_model == PERCUSS_CONTACT_COMPLETE_FE)
+        return complete_answer(geometry, request, &workspace->watch, &workspace->arena, result);
     if (!status)
         status = contact_model_choose(geometry, request, workspace->tables, &workspace->arena,
                                       &result->fault);

@@ -116,6 +116,14 @@ struct contact_table_source;
 void solve_workspace_set_tables(struct solve_workspace *workspace,
                                 const struct contact_table_source *tables);
 
+/* Told the part done (0 ... 1) of a solution that takes seconds, now and then; false stops it with
+ * TIMEOUT. The answer does not depend on it otherwise. */
+struct solve_watch {
+    bool (*proceed)(void *context, double done);
+    void *context;
+};
+void solve_workspace_watch(struct solve_workspace *workspace, struct solve_watch watch);
+
 /* Answers one request. Always fills `result`; returns result->status. Refusals (BAD_REQUEST, ...)
  * are ordinary results with a message. The catalogue must outlive the call; prepared bodies are
  * cached by catalogue revision. */

@@ -1,0 +1,20 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Requests answered by complete finite elements (fe/impact_complete.h): one central impact of two
+ * bodies at rest but for their approach. */
+#ifndef PERCUSS_SOLVE_COMPLETE_H
+#define PERCUSS_SOLVE_COMPLETE_H
+
+#include "solve/geometry.h"
+
+/* Solves on meshes of 4, 8, 16 and 32 elements across the contact radius, until the estimated error
+ * of the restitution fits the tolerance; answers with the finest. `watch` (may be NULL) is told and
+ * asked as solve_workspace_watch says. Fills `result`, status and message too, and returns the
+ * status: BAD_REQUEST and UNSUPPORTED_GEOMETRY name what is not axisymmetric. */
+enum percuss_status complete_answer(const struct geometry *geometry,
+                                    const struct solve_request *request,
+                                    const struct solve_watch *watch, struct arena *arena,
+                                    struct solve_result *result);
+
+#endif
