@@ -147,6 +147,21 @@ static bool bears_force(const double force[NODES])
     return false;
 }
 
+double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,
+                         double force[1][NODES])
+{
+    const size_t contact = 0;
+    struct contact_step step = {.force = force};
+    double sum = 0.0;
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        if (group->set->damping > 0.0)
+            sum += group_loss(&step, group, motion, motion->q[g], motion->v[g], &contact, 1,
+                              group->set->tables[level]);
+    }
+    return sum;
+}
+
 static void advance(struct contact_step *step, const struct scene *scene,
                     const struct motion *motion, const size_t *list, size_t count, int level)
 {

@@ -44,6 +44,11 @@ bool contact_step_solve(struct contact_step *step, const struct scene *scene,
                         const struct motion *motion, const bool *active, int level,
                         const struct contact_start *start);
 
+/* Energy (J) that damping takes on a step from `motion`, at a level whose tables are ready, under
+ * the forces of a scene's only contact at the nodes. */
+double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,
+                         double force[1][NODES]);
+
 /* Local indentation of every contact for approaches d: F_i = law(d_i - sum_j residual_ij F_j) for
  * the active ones, d_i - sum_j residual_ij F_j for the others. `indentation` holds starting values.
  */

@@ -10,6 +10,7 @@
 #include "solve/accuracy.h"
 #include "solve/complete.h"
 #include "solve/compliance.h"
+#include "solve/concurrent.h"
 #include "solve/contact_model.h"
 #include "solve/history.h"
 #include "solve/report.h"
@@ -108,16 +109,6 @@ static enum percuss_status check_finite(const struct solve_request *request, str
     return PERCUSS_OK;
 }
 
-/* What later versions will answer is refused by name, never ignored. */
-static enum percuss_status check_supported(const struct solve_options *options, struct fault *fault)
-{
-    if (options->contact_model == PERCUSS_CONTACT_CONCURRENT_FE)
-        return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "options.contact_model: concurrent-fe: not available in this version: "
-                         "auto, hertz, closed-form, table or complete-fe");
-    return PERCUSS_OK;
-}
-
 static enum percuss_status answer(struct solve_workspace *workspace,
                                   const struct body_set *catalogue,
                                   const struct solve_request *request, struct solve_result *result)
@@ -144,8 +135,15 @@ static enum percuss_status answer(struct solve_workspace *workspace,
                   (contact_model_revise(geometry, request, &accuracy->outcome) ||
                    compliance_revise(geometry, &accuracy->assembly->scene, &accuracy->outcome));
     }
+    struct concurrent_effort effort;
+    bool concurrent = request->options.contact_model == PERCUSS_CONTACT_CONCURRENT_FE;
+    if (!status && concurrent)
+        status = concurrent_refine(accuracy, geometry, request, &workspace->watch,
+                                   &workspace->arena, &effort, &result->fault);
     if (!status) {
         report_fill(geometry, request, accuracy, &workspace->arena, result);
+        if (concurrent)
+            concurrent_report(&effort, accuracy, result);
         status = result->status;
     }
     if (request->options.trace && (status == PERCUSS_OK || status == PERCUSS_TRUNCATED))
@@ -162,8 +160,6 @@ enum percuss_status solve(struct solve_workspace *workspace, const struct body_s
     result->status = check_counts(request, &result->fault);
     if (!result->status)
         result->status = check_finite(request, &result->fault);
-    if (!result->status)
-        result->status = check_supported(&request->options, &result->fault);
     if (!result->status)
         result->status = answer(workspace, catalogue, request, result);
     return result->status;

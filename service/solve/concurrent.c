@@ -1,0 +1,179 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/concurrent.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "impact/concurrent.h"
+#include "solve/contact_model.h"
+
+/* Elements along the core of the region's mesh, and the fewest steps of a contact over them: both
+ * errors halve together from one to the next. */
+static const size_t resolutions[] = {6, 12, 24};
+enum { RESOLUTIONS = sizeof resolutions / sizeof *resolutions, STEPS = 8 };
+
+/* Largest indentation of a region over its radius, see region.h. */
+static const double INDENTATION_LIMIT = 0.0199;
+
+struct progress {
+    const struct solve_watch *watch;
+    double done;
+};
+
+static bool proceed(void *context)
+{
+    const struct progress *progress = context;
+    return !progress->watch->proceed ||
+           progress->watch->proceed(progress->watch->context, progress->done);
+}
+
+static enum percuss_status check(const struct geometry *geometry,
+                                 const struct solve_request *request, struct fault *fault)
+{
+    const struct solve_options *options = &request->options;
+    if (geometry->contact_count != 1)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.contact_model: concurrent-fe: %zu contacts: it answers one",
+                         geometry->contact_count);
+    if (!(geometry->hertz[0].axis_ratio >= 0.999))
+        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+                         "contacts[0]: concurrent-fe: an elliptic contact (axis ratio %.3g): its "
+                         "region is axisymmetric",
+                         geometry->hertz[0].axis_ratio);
+    if (geometry->contact_model->choices[0].dented || geometry->contact_model->depth[0] > 0.0)
+        return fault_set(
+            fault, PERCUSS_BAD_REQUEST,
+            "bodies[].state: concurrent-fe: there is a dent at contacts[0]: its region "
+            "starts without: options.dents must be ignore");
+    if (options->method != PERCUSS_METHOD_MODAL)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.method: %s: concurrent-fe is modal: leave it out",
+                         method_name(options->method));
+    if (options->conditioning)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.conditioning: must be false for concurrent-fe");
+    return PERCUSS_OK;
+}
+
+/* What all meshes share. */
+struct refinement {
+    const struct geometry *geometry;
+    const struct scene *scene;
+    struct concurrent_settings settings;
+    double expected; /* m, largest indentation */
+    struct arena *arena;
+    struct concurrent_effort *effort;
+    struct fault *fault;
+};
+
+static enum percuss_status solve_on(const struct refinement *refinement, size_t resolution,
+                                    struct impact_outcome *outcome)
+{
+    const struct geometry *geometry = refinement->geometry;
+    struct concurrent_settings settings = refinement->settings;
+    struct region_input input = {
+        .materials = {geometry->bodies[geometry->sides[0][0].body]->material,
+                      geometry->bodies[geometry->sides[0][1].body]->material},
+        .radius = 0.5 / geometry->hertz[0].curvature[0],
+        .resolution = resolution,
+    };
+    /* the mesh costs little more for an indentation twice as large as expected */
+    input.indentation = fmax(refinement->expected,
+                             fmin(2.0 * refinement->expected, INDENTATION_LIMIT * input.radius));
+    settings.steps = STEPS * (unsigned)resolution;
+    struct region *region;
+    enum percuss_status status = region_create(&input, &region, refinement->fault);
+    if (status != PERCUSS_OK)
+        return status;
+    status = impact_create(outcome, refinement->scene, refinement->arena)
+                 ? impact_concurrent(refinement->scene, region, &settings, refinement->arena,
+                                     outcome, refinement->fault)
+                 : fault_set(refinement->fault, PERCUSS_INTERNAL, "out of memory");
+    *refinement->effort = (struct concurrent_effort){resolution, region_effort(region).newton_steps,
+                                                     outcome->steps, NAN};
+    region_destroy(region);
+    return status;
+}
+
+/* Errors of the finer one of two solutions: of first order where material flows (backward Euler
+ * steps, nodes that touch one by one), so that as much is left as has just changed. */
+static void estimate(struct accuracy *accuracy, const struct geometry *geometry,
+                     const struct impact_outcome *coarse, double tolerance)
+{
+    const struct impact_outcome *fine = &accuracy->outcome;
+    double difference =
+        fabs(attempt_restitution(geometry, fine, 0) - attempt_restitution(geometry, coarse, 0));
+    accuracy->steps = (struct step_error){
+        .restitution = difference,
+        .impulse = difference * geometry->impulse_compression[0],
+        .energy_defect = fabs(fine->energy.closure) / fine->energy.available,
+    };
+    accuracy->steps.energy_closes = accuracy->steps.energy_defect <= 10.0 * tolerance;
+    accuracy->tolerance_met =
+        accuracy->steps.energy_closes &&
+        accuracy->steps.restitution + accuracy->modes.restitution <= tolerance;
+}
+
+enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct geometry *geometry,
+                                      const struct solve_request *request,
+                                      const struct solve_watch *watch, struct arena *arena,
+                                      struct concurrent_effort *effort, struct fault *fault)
+{
+    enum percuss_status status = check(geometry, request, fault);
+    if (status != PERCUSS_OK)
+        return status;
+    const struct scene *scene = &accuracy->assembly->scene;
+    const struct solve_options *options = &request->options;
+    double tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3;
+    struct progress progress = {.watch = watch};
+    struct refinement refinement = {
+        .geometry = geometry,
+        .scene = scene,
+        .settings = {.horizon = options->horizon > 0.0
+                                    ? options->horizon
+                                    : fmax(0.020, 2.0 * scene_longest_period(scene)),
+                     .context = &progress,
+                     .proceed = proceed},
+        .arena = arena,
+        .effort = effort,
+        .fault = fault,
+    };
+    const struct track *track = &accuracy->outcome.tracks[0];
+    *effort = (struct concurrent_effort){.extrapolated = NAN};
+    if (track->count == 0)
+        return PERCUSS_OK;
+    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
+        refinement.expected = fmax(refinement.expected, track->list[i].max_indentation);
+    accuracy->tolerance_met = false;
+    for (size_t i = 0; i < RESOLUTIONS && !accuracy->tolerance_met; i++) {
+        struct impact_outcome coarse = accuracy->outcome;
+        /* every mesh costs some nine times the one before */
+        progress.done = i ? pow(9.0, (double)i - RESOLUTIONS) : 0.0;
+        status = solve_on(&refinement, resolutions[i], &accuracy->outcome);
+        if (status != PERCUSS_OK)
+            return status;
+        if (i == 0)
+            continue;
+        estimate(accuracy, geometry, &coarse, tolerance);
+        effort->extrapolated = 2.0 * attempt_restitution(geometry, &accuracy->outcome, 0) -
+                               attempt_restitution(geometry, &coarse, 0);
+    }
+    return PERCUSS_OK;
+}
+
+void concurrent_report(const struct concurrent_effort *effort, const struct accuracy *accuracy,
+                       struct solve_result *result)
+{
+    const struct contact_history *history = &accuracy->outcome.laws[0].history;
+    result->contact_model = PERCUSS_CONTACT_CONCURRENT_FE;
+    snprintf(result->reason, sizeof result->reason,
+             "contact region of finite elements, solved at each of %lu steps: %zu elements along "
+             "its core, %zu Newton steps, dent %.3g um, extrapolated restitution %.5f; %zu modes "
+             "up to %.4g Hz, residual "
+             "flexibility for the others",
+             effort->steps, effort->resolution, effort->newton_steps, 1e6 * history->residual,
+             effort->extrapolated, accuracy->assembly->all_modes,
+             accuracy->assembly->highest / (2.0 * M_PI));
+}

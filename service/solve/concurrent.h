@@ -1,0 +1,30 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Requests whose contact force comes from finite elements solved in every time step
+ * (impact/concurrent.h). */
+#ifndef PERCUSS_SOLVE_CONCURRENT_H
+#define PERCUSS_SOLVE_CONCURRENT_H
+
+#include "solve/accuracy.h"
+
+/* What a reply says of it. */
+struct concurrent_effort {
+    size_t resolution, newton_steps; /* of the finest mesh */
+    unsigned long steps;
+    double extrapolated; /* restitution, from the two finest meshes */
+};
+
+/* Takes a solution with the closed form, its modes and its error in them, and solves it anew with
+ * contact regions of growing resolution until two of them differ by less than the tolerance.
+ * UNSUPPORTED_GEOMETRY, BAD_REQUEST: what the region cannot answer; TIMEOUT as `watch` wants. */
+enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct geometry *geometry,
+                                      const struct solve_request *request,
+                                      const struct solve_watch *watch, struct arena *arena,
+                                      struct concurrent_effort *effort, struct fault *fault);
+
+/* Says so in the result. */
+void concurrent_report(const struct concurrent_effort *effort, const struct accuracy *accuracy,
+                       struct solve_result *result);
+
+#endif
