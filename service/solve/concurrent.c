@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "contact/law_closed_form.h"
 #include "impact/concurrent.h"
 #include "solve/contact_model.h"
 
@@ -37,11 +38,6 @@ static enum percuss_status check(const struct geometry *geometry,
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.contact_model: concurrent-fe: %zu contacts: it answers one",
                          geometry->contact_count);
-    if (!(geometry->hertz[0].axis_ratio >= 0.999))
-        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
-                         "contacts[0]: concurrent-fe: an elliptic contact (axis ratio %.3g): its "
-                         "region is axisymmetric",
-                         geometry->hertz[0].axis_ratio);
     if (geometry->contact_model->choices[0].dented || geometry->contact_model->depth[0] > 0.0)
         return fault_set(
             fault, PERCUSS_BAD_REQUEST,
@@ -76,7 +72,7 @@ static enum percuss_status solve_on(const struct refinement *refinement, size_t 
     struct region_input input = {
         .materials = {geometry->bodies[geometry->sides[0][0].body]->material,
                       geometry->bodies[geometry->sides[0][1].body]->material},
-        .radius = 0.5 / geometry->hertz[0].curvature[0],
+        .radius = closed_form_radius(&geometry->hertz[0]),
         .resolution = resolution,
     };
     /* the mesh costs little more for an indentation twice as large as expected */
@@ -163,8 +159,8 @@ enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct ge
     return PERCUSS_OK;
 }
 
-void concurrent_report(const struct concurrent_effort *effort, const struct accuracy *accuracy,
-                       struct solve_result *result)
+void concurrent_report(const struct concurrent_effort *effort, const struct geometry *geometry,
+                       const struct accuracy *accuracy, struct solve_result *result)
 {
     const struct contact_history *history = &accuracy->outcome.laws[0].history;
     result->contact_model = PERCUSS_CONTACT_CONCURRENT_FE;
@@ -172,8 +168,11 @@ void concurrent_report(const struct concurrent_effort *effort, const struct accu
              "contact region of finite elements, solved at each of %lu steps: %zu elements along "
              "its core, %zu Newton steps, dent %.3g um, extrapolated restitution %.5f; %zu modes "
              "up to %.4g Hz, residual "
-             "flexibility for the others",
+             "flexibility for the others%s",
              effort->steps, effort->resolution, effort->newton_steps, 1e6 * history->residual,
              effort->extrapolated, accuracy->assembly->all_modes,
-             accuracy->assembly->highest / (2.0 * M_PI));
+             accuracy->assembly->highest / (2.0 * M_PI),
+             geometry->hertz[0].axis_ratio < 0.999
+                 ? "; elliptic: by the sphere of equal stiffness, an approximation"
+                 : "");
 }

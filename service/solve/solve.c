@@ -143,7 +143,7 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     if (!status) {
         report_fill(geometry, request, accuracy, &workspace->arena, result);
         if (concurrent)
-            concurrent_report(&effort, accuracy, result);
+            concurrent_report(&effort, geometry, accuracy, result);
         status = result->status;
     }
     if (request->options.trace && (status == PERCUSS_OK || status == PERCUSS_TRUNCATED))
