@@ -271,7 +271,7 @@ static bool audit(struct concurrent *run, struct arena *arena)
     bool closed = outcome->end_reason == PERCUSS_END_IN_CONTACT;
     region_ledger(run->region, &ledger);
     outcome->plastic = ledger.plastic[0] + ledger.plastic[1];
-    if (!closed)
+    if (!closed && outcome->plastic > 0.0)
         outcome->plastic += ledger.elastic[0] + ledger.elastic[1];
     if (!energy_audit(run->scene, &none, run->damping, arena, outcome))
         return false;
