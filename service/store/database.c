@@ -1,0 +1,155 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "store/database.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* "prcs" marks a file as a store of percuss. */
+enum { APPLICATION = 0x70726373, SCHEMA_VERSION = 1 };
+
+static const int busy_milliseconds = 2000; /* a killed daemon's lock goes with its process */
+
+static enum percuss_status refuse(struct database *database, const char *problem,
+                                  struct fault *fault)
+{
+    return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s", database->path, problem);
+}
+
+enum percuss_status database_fault(struct database *database, const char *what, struct fault *fault)
+{
+    return fault_set(fault, PERCUSS_INTERNAL, "%s: %s: %s", database->path, what,
+                     sqlite3_errmsg(database->connection));
+}
+
+/* What SQLite says about a file that cannot be used. */
+static enum percuss_status refuse_file(struct database *database, struct fault *fault)
+{
+    char problem[320];
+    if (sqlite3_errcode(database->connection) == SQLITE_BUSY)
+        return refuse(database, "is in use by another process", fault);
+    snprintf(problem, sizeof problem, "cannot be used as a store of specimens: %s",
+             sqlite3_errmsg(database->connection));
+    return refuse(database, problem, fault);
+}
+
+static bool execute(struct database *database, const char *text)
+{
+    return sqlite3_exec(database->connection, text, NULL, NULL, NULL) == SQLITE_OK;
+}
+
+/* The whole number that a query gives; false: none. */
+static bool query_number(struct database *database, const char *text, int *number)
+{
+    sqlite3_stmt *statement = NULL;
+    bool good = sqlite3_prepare_v2(database->connection, text, -1, &statement, NULL) == SQLITE_OK &&
+                sqlite3_step(statement) == SQLITE_ROW;
+    if (good)
+        *number = sqlite3_column_int(statement, 0);
+    return sqlite3_finalize(statement) == SQLITE_OK && good;
+}
+
+static bool is_whole(struct database *database, bool *whole)
+{
+    sqlite3_stmt *statement = NULL;
+    bool good = sqlite3_prepare_v2(database->connection, "PRAGMA quick_check(1)", -1, &statement,
+                                   NULL) == SQLITE_OK &&
+                sqlite3_step(statement) == SQLITE_ROW;
+    const char *says = good ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+    *whole = says && strcmp(says, "ok") == 0;
+    return sqlite3_finalize(statement) == SQLITE_OK && good;
+}
+
+static enum percuss_status check_schema(struct database *database, const char *schema,
+                                        struct fault *fault)
+{
+    int application, version, tables;
+    bool whole;
+    char problem[160];
+    if (!query_number(database, "PRAGMA application_id", &application) ||
+        !query_number(database, "PRAGMA user_version", &version) ||
+        !query_number(database, "SELECT count(*) FROM sqlite_master", &tables) ||
+        !is_whole(database, &whole))
+        return refuse_file(database, fault);
+    if (!whole)
+        return refuse(database, "is damaged: restore it from a copy or move it away", fault);
+    if (application == APPLICATION && version == SCHEMA_VERSION)
+        return PERCUSS_OK;
+    if (application == APPLICATION) {
+        snprintf(problem, sizeof problem, "is of version %d: must be of version %d", version,
+                 SCHEMA_VERSION);
+        return refuse(database, problem, fault);
+    }
+    if (application != 0 || tables != 0)
+        return refuse(database, "is a database of another program", fault);
+    snprintf(problem, sizeof problem, "PRAGMA application_id = %d; PRAGMA user_version = %d",
+             APPLICATION, SCHEMA_VERSION);
+    return execute(database, schema) && execute(database, problem) ? PERCUSS_OK
+                                                                   : refuse_file(database, fault);
+}
+
+/* The schema is looked at and made in one transaction. */
+static enum percuss_status set_up(struct database *database, const char *schema,
+                                  struct fault *fault)
+{
+    if (!execute(database, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL;"
+                           "PRAGMA foreign_keys = ON; BEGIN EXCLUSIVE"))
+        return refuse_file(database, fault);
+    enum percuss_status status = check_schema(database, schema, fault);
+    /* it is written into the file: not into that of another program */
+    if (!status && !execute(database, "COMMIT; PRAGMA journal_mode = WAL"))
+        status = refuse_file(database, fault);
+    return status;
+}
+
+enum percuss_status database_open(struct database *database, const char *path, const char *schema,
+                                  const char *const *texts, struct fault *fault)
+{
+    size_t length = strlen(path), most = sizeof database->path - 1;
+    snprintf(database->path, sizeof database->path, "%s",
+             length > most ? path + length - most : path);
+    int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+    if (sqlite3_open_v2(path, &database->connection, flags, NULL) != SQLITE_OK)
+        return refuse_file(database, fault);
+    sqlite3_busy_timeout(database->connection, busy_milliseconds);
+    enum percuss_status status = set_up(database, schema, fault);
+    for (int i = 0; !status && i < STATEMENT_COUNT; i++) {
+        if (sqlite3_prepare_v3(database->connection, texts[i], -1, SQLITE_PREPARE_PERSISTENT,
+                               &database->statements[i], NULL) != SQLITE_OK)
+            status = refuse_file(database, fault);
+    }
+    return status;
+}
+
+void database_close(struct database *database)
+{
+    for (int i = 0; i < STATEMENT_COUNT; i++)
+        sqlite3_finalize(database->statements[i]);
+    sqlite3_close(database->connection);
+}
+
+sqlite3_stmt *database_statement(struct database *database, enum statement statement)
+{
+    sqlite3_stmt *prepared = database->statements[statement];
+    sqlite3_reset(prepared);
+    sqlite3_clear_bindings(prepared);
+    return prepared;
+}
+
+bool database_run(sqlite3_stmt *statement)
+{
+    bool done = sqlite3_step(statement) == SQLITE_DONE;
+    /* a statement left open would keep its lock; the message of a failure stays */
+    if (done)
+        sqlite3_reset(statement);
+    return done;
+}
+
+void database_roll_back(struct database *database)
+{
+    for (int i = 0; i < STATEMENT_COUNT; i++)
+        sqlite3_reset(database->statements[i]);
+    if (!sqlite3_get_autocommit(database->connection))
+        database_run(database->statements[STATEMENT_ROLLBACK]);
+}

@@ -1,0 +1,60 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* An SQLite file of our own schema with its prepared statements. */
+#ifndef PERCUSS_STORE_DATABASE_H
+#define PERCUSS_STORE_DATABASE_H
+
+#include <sqlite3.h>
+#include <stdbool.h>
+
+#include "base/fault.h"
+
+enum statement {
+    STATEMENT_BEGIN,
+    STATEMENT_COMMIT,
+    STATEMENT_ROLLBACK,
+    STATEMENT_SPECIMEN,
+    STATEMENT_DENTS,
+    STATEMENT_DENT_COUNT,
+    STATEMENT_HIT,
+    STATEMENT_SMOOTH,
+    STATEMENT_DENT,
+    STATEMENT_KEEP,
+    STATEMENT_OLDEST,
+    STATEMENT_DROP,
+    STATEMENT_MARK,
+    STATEMENT_MARKED,
+    STATEMENT_REPLY,
+    STATEMENT_LIST,
+    STATEMENT_CLEAR,
+    STATEMENT_COUNTS,
+    STATEMENT_COUNT
+};
+
+struct database {
+    sqlite3 *connection;
+    sqlite3_stmt *statements[STATEMENT_COUNT];
+    char path[256]; /* its end, for messages */
+};
+
+/* Opens the file, or creates it with that schema, keeps other processes out, checks that it is ours
+ * and whole, and prepares the statements. database_close is due whatever came of it. */
+enum percuss_status database_open(struct database *database, const char *path, const char *schema,
+                                  const char *const *texts, struct fault *fault);
+void database_close(struct database *database);
+
+/* The statement, rewound, with nothing bound. */
+sqlite3_stmt *database_statement(struct database *database, enum statement statement);
+
+/* Runs a statement that returns no rows. */
+bool database_run(sqlite3_stmt *statement);
+
+/* Undoes the transaction, if one is open. */
+void database_roll_back(struct database *database);
+
+/* PERCUSS_INTERNAL with "FILE: what: what SQLite says". */
+enum percuss_status database_fault(struct database *database, const char *what,
+                                   struct fault *fault);
+
+#endif
