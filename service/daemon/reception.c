@@ -94,11 +94,19 @@ static bool is_long(const percuss_v1_Options *options)
            options->contact_model > PERCUSS_CONTACT_TABLE || !is_at_least(options, short_tolerance);
 }
 
-/* A batch is as long as its longest member; ensembles are long. */
+static bool is_durable(const struct service *service, const percuss_v1_Request *request)
+{
+    return service->rig && rig_concerns(request);
+}
+
+/* A batch is as long as its longest member, its specimens are refused by any worker; ensembles are
+ * long. */
 static enum lane lane_for(const struct service *service, const struct task *task)
 {
     size_t i = 0, count = task->count;
     const percuss_v1_Request *requests = task->requests;
+    if (task->exchange == EXCHANGE_SINGLE && !task->ensemble && is_durable(service, requests))
+        return LANE_SPECIMENS;
     while (i < count && !is_long(&requests[i].options) &&
            !table_shelf_lacks(&service->tables, task->edition->set, &requests[i]))
         i++;
@@ -182,7 +190,8 @@ static void receive_single(void *context, const percuss_v1_Request *request, boo
         return;
     bool sole = is_sole(service, request->client, arrival);
     bool here = alone && sole && service->settings->inline_solves && is_cheap(request) &&
-                !atomic_load(&service->draining) && queue_length(service->lanes[LANE_SHORT]) == 0;
+                !is_durable(service, request) && !atomic_load(&service->draining) &&
+                queue_length(service->lanes[LANE_SHORT]) == 0;
     if (here)
         answer_here(service, &name, request, arrival);
     else
@@ -223,6 +232,24 @@ static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *re
     enqueue(service, &name, draining ? NULL : task_create_ensemble(request), arrival);
 }
 
+/* In its turn among the requests; a client that sees no effect asks again. */
+static void receive_clear(void *context, const char *specimen)
+{
+    static const percuss_v1_Request nothing;
+    struct service *service = context;
+    if (!specimen[0] || atomic_load(&service->draining))
+        return;
+    struct task *task = task_create(EXCHANGE_SINGLE, &nothing, 1);
+    if (!task)
+        return;
+    snprintf(task->clears, sizeof task->clears, "%s", specimen);
+    task->edition = editions_hold(&service->editions);
+    if (!queue_put(service->lanes[LANE_SPECIMENS], task)) {
+        editions_let_go(&service->editions, task->edition);
+        task_free(task);
+    }
+}
+
 static void note_presence(void *context, const uint8_t client[16], bool present)
 {
     struct service *service = context;
@@ -239,6 +266,7 @@ struct endpoint_handler reception_handler(struct service *service)
         .single = receive_single,
         .batch = receive_batch,
         .ensemble = receive_ensemble,
+        .clear = receive_clear,
         .presence = note_presence,
     };
 }

@@ -78,12 +78,29 @@ static bool is_in_time(void *context, double done)
     return check_deadline(context, "", &ignored) == PERCUSS_OK;
 }
 
+/* What keeps a specimen outlives the solve. */
+static enum percuss_status hold_specimen(const struct question *question, size_t index,
+                                         struct solve_body *body, struct fault *fault)
+{
+    if (!question->specimens)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "bodies[%zu].specimen: %s: must be empty%s",
+                         index, question->request->bodies._buffer[index].specimen,
+                         question->in_batch
+                             ? " in a batch: specimens are asked about one request at a time"
+                             : ": this server keeps no specimens, its settings name no store");
+    body->state = question->specimens[index];
+    return PERCUSS_OK;
+}
+
 static enum percuss_status hold_state(struct seat *seat, struct token_store *tokens,
                                       const struct question *question, size_t index,
                                       struct fault *fault)
 {
-    const char *token = question->request->bodies._buffer[index].state;
+    const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[index];
+    const char *token = wire->state;
     struct solve_body *body = &seat->request.bodies[index];
+    if (wire->specimen[0])
+        return hold_specimen(question, index, body, fault);
     /* an unknown body is the solver's to refuse */
     if (!*token || !body_set_find(question->set, body->id))
         return PERCUSS_OK;
@@ -96,10 +113,12 @@ static enum percuss_status hold_state(struct seat *seat, struct token_store *tok
     return fault_set(fault, PERCUSS_UNKNOWN_STATE, "bodies[%zu].state: %.500s", index, reason.text);
 }
 
-static void release_states(struct seat *seat, struct token_store *tokens)
+static void release_states(struct seat *seat, struct token_store *tokens,
+                           const struct question *question)
 {
     for (size_t i = 0; i < seat->request.body_count; i++) {
-        if (seat->request.bodies[i].state)
+        bool is_token = question->request->bodies._buffer[i].state[0] != '\0';
+        if (is_token && seat->request.bodies[i].state)
             token_store_release(tokens, seat->request.bodies[i].state);
         seat->request.bodies[i].state = NULL;
     }
@@ -120,7 +139,7 @@ static enum percuss_status prepare(struct seat *seat, struct token_store *tokens
     for (size_t i = 0; !status && i < seat->request.body_count; i++)
         status = hold_state(seat, tokens, question, i, fault);
     if (status)
-        release_states(seat, tokens);
+        release_states(seat, tokens, question);
     return status;
 }
 
@@ -183,7 +202,7 @@ struct answer *respond(struct seat *seat, struct token_store *tokens,
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
     struct answer *answer = compute(seat, tokens, question);
-    release_states(seat, tokens);
+    release_states(seat, tokens, question);
     if (answer) {
         answer->reply->timing.queue = start - question->arrival;
         answer->reply->timing.solve = clock_now() - start;

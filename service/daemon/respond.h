@@ -33,6 +33,7 @@ struct question {
     struct envelope envelope;   /* of the reply */
     double arrival;             /* monotonic, s */
     bool in_batch;
+    const struct body_state *const *specimens; /* by body; NULL: specimens are refused */
 };
 
 /* The reply, whatever it says; it differs with the thread, the load and the time in its timing

@@ -67,6 +67,17 @@ static bool start_threads(struct service *service, struct fault *fault)
     return service->reader_runs;
 }
 
+/* Announced before anybody can hit them. */
+static bool open_dents(struct service *service, struct fault *fault)
+{
+    if (!service->rig)
+        return true;
+    if (!endpoint_open_dents(service->endpoint, fault))
+        return false;
+    rig_announce(service->rig, service->endpoint);
+    return true;
+}
+
 struct service *service_create(const struct settings *settings, struct fault *fault)
 {
     struct service *service = calloc(1, sizeof *service);
@@ -83,8 +94,11 @@ struct service *service_create(const struct settings *settings, struct fault *fa
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         goto failed;
     }
+    if (settings->store[0] &&
+        rig_open(settings->store, settings->stored_replies, &service->rig, fault))
+        goto failed;
     service->endpoint = endpoint_create(settings->domain, fault);
-    if (!service->endpoint || !start_threads(service, fault))
+    if (!service->endpoint || !open_dents(service, fault) || !start_threads(service, fault))
         goto failed;
     /* bodies before the status: whoever sees a server finds its catalogue */
     if (!endpoint_announce_bodies(service->endpoint, service->editions.current->set, NULL))
@@ -110,6 +124,7 @@ void service_free(struct service *service)
     if (service->endpoint)
         endpoint_flush(service->endpoint, flush_seconds);
     endpoint_free(service->endpoint);
+    rig_close(service->rig);
     seat_free(service->desk);
     for (int lane = 0; lane < LANE_COUNT; lane++)
         queue_free(service->lanes[lane]);
@@ -161,6 +176,7 @@ void service_announce(struct service *service)
         .answered = atomic_load(&service->answered),
         .refused = atomic_load(&service->refused),
         .uptime = clock_now() - service->started,
+        .specimens = service->rig ? (uint32_t)rig_count(service->rig) : 0,
     };
     ensembles_describe(&service->ensembles, status.activity, &status.progress);
     const char *state = atomic_load(&service->draining) ? "draining" : "ready";

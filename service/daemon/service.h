@@ -9,14 +9,15 @@
 #include "daemon/ensembles.h"
 #include "daemon/queue.h"
 #include "daemon/respond.h"
+#include "daemon/rig.h"
 #include "daemon/settings.h"
 #include "daemon/table_shelf.h"
 #include "endpoint/endpoint.h"
 #include "endpoint/reply_store.h"
 
 /* What is solved within milliseconds does not wait behind what takes seconds. The long lane has one
- * thread of low priority. */
-enum lane { LANE_SHORT, LANE_LONG, LANE_COUNT };
+ * thread of low priority; that of specimens has one so that they see one impact after the other. */
+enum lane { LANE_SHORT, LANE_LONG, LANE_SPECIMENS, LANE_COUNT };
 
 struct service {
     const struct settings *settings;
@@ -25,6 +26,7 @@ struct service {
     struct token_store *tokens;
     struct reply_store *replies;
     struct table_shelf tables;
+    struct rig *rig; /* of the specimens; NULL: no store */
     struct queue *lanes[LANE_COUNT];
     struct ensembles ensembles; /* in the long lane */
     struct seat *desk;          /* of the reading thread, which solves what is cheap itself */
@@ -37,7 +39,7 @@ struct service {
     unsigned long long reported;     /* of those, in the log */
     pthread_t reader;
     bool reader_runs;
-    struct worker *workers; /* see workers.c; the last one works on the long lane */
+    struct worker *workers; /* see workers.c; the last ones work on the other lanes */
     size_t worker_count;    /* that run */
 };
 

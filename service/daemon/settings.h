@@ -22,6 +22,8 @@ struct settings {
     unsigned token_count, token_megabytes;
     double token_minutes;
     unsigned replies_per_client, reply_megabytes;
+    char store[SETTINGS_PATH_SIZE]; /* empty: no specimens */
+    unsigned stored_replies;
     double session_minutes;
     double drain_seconds;
     enum log_level log_level;

@@ -27,6 +27,7 @@ struct task {
     percuss_v1_EnsembleRequest *ensemble; /* a copy whose scene is requests[0]; NULL: none */
     atomic_bool cancelled;                /* its client wants no more samples */
     LIST_ENTRY(task) ensembles;
+    char clears[PERCUSS_ID_SIZE];         /* no request: a specimen to be forgotten; empty: a request */
 };
 
 /* A task for copies of `count` >= 1 requests; client, sequence, arrival and edition are the

@@ -61,6 +61,28 @@ static void finish(struct service *service, struct task *task)
     task_free(task);
 }
 
+/* The reply to one request. */
+static struct answer *answer_one(struct worker *worker, const struct question *question)
+{
+    struct service *service = worker->service;
+    if (worker->lane != LANE_SPECIMENS)
+        return respond(worker->seat, service->tokens, question);
+    size_t before = rig_count(service->rig);
+    struct answer *answer = rig_respond(service->rig, worker->seat, service->tokens, question);
+    /* who has seen the reply finds its specimen announced */
+    if (rig_count(service->rig) != before)
+        service_announce(service);
+    return answer;
+}
+
+static void clear_specimen(struct service *service, struct task *task)
+{
+    rig_clear(service->rig, task->clears);
+    service_announce(service);
+    editions_let_go(&service->editions, task->edition);
+    task_free(task);
+}
+
 static void work_on(struct worker *worker, struct task *task, size_t index)
 {
     struct service *service = worker->service;
@@ -78,7 +100,7 @@ static void work_on(struct worker *worker, struct task *task, size_t index)
     else if (task->ensemble)
         task->answers[index] = ensemble_respond(service, task);
     else
-        task->answers[index] = respond(worker->seat, service->tokens, &question);
+        task->answers[index] = answer_one(worker, &question);
     if (atomic_fetch_sub(&task->left, 1) == 1)
         finish(service, task);
 }
@@ -92,16 +114,25 @@ static void *work(void *argument)
     if (worker->lane == LANE_LONG)
         setpriority(PRIO_PROCESS, (id_t)gettid(), long_lane_nice);
     while ((task = queue_take(queue, &index))) {
-        work_on(worker, task, index);
+        if (task->clears[0])
+            clear_specimen(worker->service, task);
+        else
+            work_on(worker, task, index);
         queue_done(queue);
     }
     return NULL;
 }
 
+static enum lane lane_of(const struct service *service, size_t worker)
+{
+    size_t workers = service->settings->workers;
+    return worker < workers ? LANE_SHORT : worker == workers ? LANE_LONG : LANE_SPECIMENS;
+}
+
 static bool worker_start(struct worker *worker, struct service *service)
 {
     worker->service = service;
-    worker->lane = service->worker_count < service->settings->workers ? LANE_SHORT : LANE_LONG;
+    worker->lane = lane_of(service, service->worker_count);
     worker->seat = seat_create(&service->tables, worker->lane == LANE_LONG);
     if (worker->seat && pthread_create(&worker->thread, NULL, work, worker) == 0)
         return true;
@@ -111,7 +142,7 @@ static bool worker_start(struct worker *worker, struct service *service)
 
 bool workers_start(struct service *service)
 {
-    size_t count = service->settings->workers + 1;
+    size_t count = service->settings->workers + 1 + (service->rig ? 1 : 0);
     service->workers = calloc(count, sizeof *service->workers);
     while (service->workers && service->worker_count < count &&
            worker_start(&service->workers[service->worker_count], service))

@@ -7,8 +7,9 @@
 
 #include "daemon/service.h"
 
-/* Starts settings->workers threads for the short lane and one for the long one. False: not all of
- * them could be started; workers_join ends those that run. */
+/* Starts settings->workers threads for the short lane, one for the long one, and one for specimens
+ * if there is a store. False: not all of them could be started; workers_join ends those that run.
+ */
 bool workers_start(struct service *service);
 
 /* Waits for their end, which comes when the queues are closed and empty. */

@@ -44,6 +44,8 @@ void answer_release(struct answer *answer)
         return;
     for (size_t i = 0; i < answer->member_count; i++)
         answer_release(answer->members[i]);
+    if (answer->decoded)
+        dds_sample_free(answer->decoded, &percuss_v1_Reply_desc, DDS_FREE_ALL);
     free(answer);
 }
 

@@ -29,6 +29,7 @@ struct answer {
     bool passing;            /* BUSY and the like: tells of the moment, asked again it may differ */
     size_t bytes;            /* of memory, with all that it keeps alive */
     percuss_v1_Reply *reply; /* EXCHANGE_SINGLE; EXCHANGE_BATCH: all, side by side */
+    percuss_v1_Reply *decoded;        /* that reply if DDS made it of bytes, see reply_bytes.h */
     percuss_v1_BatchReply *parts;     /* EXCHANGE_BATCH */
     percuss_v1_EnsembleReply *report; /* EXCHANGE_ENSEMBLE */
     struct answer **members;          /* of a batch: it points into them */

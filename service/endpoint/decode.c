@@ -48,9 +48,8 @@ static void decode_body(struct check *check, const percuss_v1_BodyMotion *wire,
     check_text(check, "state", wire->state);
     check_range(check, "elapsed", wire->elapsed, 0.0, max_time);
     check_text(check, "specimen", wire->specimen);
-    check_that(check, wire->specimen[0] == '\0',
-               "specimen: %s: must be empty: durable specimens are not available from this server "
-               "version",
+    check_that(check, !wire->specimen[0] || !wire->state[0],
+               "specimen: %s: must be empty where a state is given: a specimen is at rest",
                wire->specimen);
     COPY_TEXT(body->id, wire->id);
     memcpy(body->position, wire->position, sizeof body->position);
@@ -141,6 +140,18 @@ static void check_delassus(struct check *check, const dds_sequence_double *matri
     }
 }
 
+/* An object is in one place at a time. */
+static void check_specimens(struct check *check, const percuss_v1_BodyMotion *bodies, size_t count)
+{
+    for (size_t i = 0; !check->status && i < count; i++) {
+        check_enter(check, "bodies", i);
+        for (size_t j = 0; bodies[i].specimen[0] && j < i; j++)
+            check_that(check, strcmp(bodies[i].specimen, bodies[j].specimen) != 0,
+                       "specimen: %s: must be another one than that of bodies[%zu]",
+                       bodies[i].specimen, j);
+    }
+}
+
 static void check_count(struct check *check, const char *list, size_t count, size_t most)
 {
     check_that(check, count >= 1 && count <= most, "%s: %zu given: must be 1 to %zu", list, count,
@@ -158,6 +169,7 @@ enum percuss_status decode_request(const percuss_v1_Request *wire, struct solve_
         check_enter(&check, "bodies", i);
         decode_body(&check, &wire->bodies._buffer[i], &request->bodies[i]);
     }
+    check_specimens(&check, wire->bodies._buffer, check.status ? 0 : body_count);
     for (size_t i = 0; !check.status && i < contact_count; i++) {
         check_enter(&check, "contacts", i);
         decode_contact(&check, &wire->contacts._buffer[i], body_count, &request->contacts[i]);

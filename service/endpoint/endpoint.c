@@ -16,7 +16,7 @@
 enum { TAKEN_AT_ONCE = 32, WRITE_ATTEMPTS = 20 };
 
 /* What wakes the reading thread: the kinds of requests, and these. */
-enum { SOURCE_SUBSCRIPTIONS = EXCHANGE_COUNT, SOURCE_STOP, SOURCE_COUNT };
+enum { SOURCE_SUBSCRIPTIONS = EXCHANGE_COUNT, SOURCE_STOP, SOURCE_DENTS, SOURCE_COUNT };
 
 struct endpoint {
     dds_entity_t participant, waitset, stop;
@@ -24,6 +24,7 @@ struct endpoint {
     void *samples[EXCHANGE_COUNT]; /* the one at hand; its memory serves the next one */
     dds_entity_t status_writer, body_writer;
     struct reply_writers *writers;
+    struct dents_topic dents;
     atomic_bool stopped;
     uint8_t server[16];
 };
@@ -200,7 +201,9 @@ void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *hand
         /* readers of replies first, so that there is a writer for the replies to come */
         if (ready[SOURCE_SUBSCRIPTIONS])
             reply_writers_follow(endpoint->writers, handler->presence, handler->context);
-        ready[SOURCE_SUBSCRIPTIONS] = left = false;
+        if (ready[SOURCE_DENTS])
+            dents_topic_take(&endpoint->dents, handler->clear, handler->context);
+        ready[SOURCE_SUBSCRIPTIONS] = ready[SOURCE_DENTS] = left = false;
         for (int i = 0; i < EXCHANGE_COUNT; i++) {
             ready[i] = ready[i] && take(endpoint, handler, i);
             left = left || ready[i];
@@ -263,6 +266,27 @@ bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *
         good = write_patiently(endpoint->body_writer, &body) && good;
     }
     return good;
+}
+
+bool endpoint_open_dents(struct endpoint *endpoint, struct fault *fault)
+{
+    if (!dents_topic_open(&endpoint->dents, endpoint->participant, endpoint->server, fault))
+        return false;
+    dds_return_t attached =
+        dds_waitset_attach(endpoint->waitset, endpoint->dents.reader, SOURCE_DENTS);
+    if (attached != DDS_RETCODE_OK)
+        fault_set(fault, PERCUSS_INTERNAL, "DDS: waitset: %s", dds_strretcode(attached));
+    return attached == DDS_RETCODE_OK;
+}
+
+void endpoint_announce_dents(struct endpoint *endpoint, const struct dents_notice *notice)
+{
+    dents_topic_announce(&endpoint->dents, notice);
+}
+
+void endpoint_withdraw_dents(struct endpoint *endpoint, const char *specimen)
+{
+    dents_topic_withdraw(&endpoint->dents, specimen);
 }
 
 void endpoint_announce_status(struct endpoint *endpoint, percuss_v1_ServerStatus *status)

@@ -6,6 +6,7 @@
 #ifndef PERCUSS_ENDPOINT_ENDPOINT_H
 #define PERCUSS_ENDPOINT_ENDPOINT_H
 
+#include "endpoint/dents_topic.h"
 #include "endpoint/reply_writers.h"
 #include "model/body.h"
 
@@ -27,6 +28,8 @@ struct endpoint_handler {
     void (*single)(void *context, const percuss_v1_Request *request, bool alone);
     void (*batch)(void *context, const percuss_v1_BatchRequest *batch);
     void (*ensemble)(void *context, const percuss_v1_EnsembleRequest *request);
+    void (*clear)(void *context,
+                  const char *specimen); /* of this server; see endpoint_open_dents */
     presence_function *presence;
 };
 
@@ -52,6 +55,13 @@ size_t endpoint_clients(struct endpoint *endpoint);
  * not all were announced. */
 bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *set,
                               const struct body_set *before);
+
+/* Opens the topic of specimens; before endpoint_run. False with a fault. */
+bool endpoint_open_dents(struct endpoint *endpoint, struct fault *fault);
+
+/* Announces a specimen, or that it is no more. Thread-safe. */
+void endpoint_announce_dents(struct endpoint *endpoint, const struct dents_notice *notice);
+void endpoint_withdraw_dents(struct endpoint *endpoint, const char *specimen);
 
 /* Announces the state of the server; fills status->server. */
 void endpoint_announce_status(struct endpoint *endpoint, percuss_v1_ServerStatus *status);

@@ -25,10 +25,10 @@ sed -e 's/, "state": "[0-9a-f]*"//' -e 's/"normal": \[0, 0, 1\]/"normal": [0, 0,
 expect 5 percuss query --request "$work/normal.json"
 says "must be a unit vector"
 
-say "what this version cannot do yet"
+say "a specimen where there is no store"
 sed -e 's/"state": "[0-9a-f]*"/"specimen": "bar-1"/' "$work/request.json" >"$work/specimen.json"
 expect 5 percuss query --request "$work/specimen.json"
-says "not available from this server version"
+says "bodies[1].specimen: bar-1: must be empty: this server keeps no specimens"
 
 say "bad requests of every kind, straight on the wire"
 expect 0 "$peers/wire_refusals" "$domain"

@@ -142,9 +142,26 @@ static void refuses_bad_bodies(void **state)
             "within 0.0001 of 1)");
     REFUSED(bodies[1].elapsed, -1.0, "bodies[1].elapsed: -1: must be in [0, 1e+09]");
     REFUSED(bodies[1].elapsed, NAN, "bodies[1].elapsed: nan: must be in [0, 1e+09]");
-    REFUSED(bodies[1].specimen[0], 'x',
-            "bodies[1].specimen: x: must be empty: durable specimens are not available from this "
-            "server version");
+}
+
+static void refuses_bad_specimens(void **state)
+{
+    (void)state;
+    struct fault fault;
+    REFUSED(bodies[1].specimen[0], '\t',
+            "bodies[1].specimen: byte 0x09 at 0: must be UTF-8 without control characters");
+    sample_fill(&sample);
+    strcpy(sample.bodies[1].specimen, "bar");
+    assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_OK);
+    strcpy(sample.bodies[0].specimen, "bar");
+    assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_BAD_REQUEST);
+    assert_string_equal(fault.text,
+                        "bodies[1].specimen: bar: must be another one than that of bodies[0]");
+    strcpy(sample.bodies[0].specimen, "rod");
+    strcpy(sample.bodies[0].state, "0123");
+    assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_BAD_REQUEST);
+    assert_string_equal(fault.text, "bodies[0].specimen: rod: must be empty where a state is "
+                                    "given: a specimen is at rest");
 }
 
 static void refuses_bad_contacts(void **state)
@@ -250,6 +267,7 @@ int main(void)
         cmocka_unit_test(normalises_what_is_nearly_unit),
         cmocka_unit_test(refuses_bad_counts),
         cmocka_unit_test(refuses_bad_bodies),
+        cmocka_unit_test(refuses_bad_specimens),
         cmocka_unit_test(refuses_bad_contacts),
         cmocka_unit_test(refuses_bad_options),
         cmocka_unit_test(refuses_a_bad_delassus),

@@ -1,0 +1,225 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/rig.h"
+
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "daemon/log.h"
+#include "endpoint/encode.h"
+#include "endpoint/question.h"
+#include "endpoint/reply_bytes.h"
+#include "store/specimens.h"
+
+struct rig {
+    struct specimen_store *store;
+    struct endpoint *endpoint;
+    atomic_size_t count;
+    struct body_state *states[PERCUSS_MAX_BODIES]; /* of the request at hand */
+};
+
+enum percuss_status rig_open(const char *path, unsigned replies, struct rig **rig,
+                             struct fault *fault)
+{
+    struct rig *created = calloc(1, sizeof *created);
+    *rig = NULL;
+    if (!created)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    enum percuss_status status = specimen_store_open(path, replies, &created->store, fault);
+    if (status) {
+        rig_close(created);
+        return status;
+    }
+    atomic_init(&created->count, specimen_store_count(created->store));
+    *rig = created;
+    return PERCUSS_OK;
+}
+
+void rig_close(struct rig *rig)
+{
+    if (!rig)
+        return;
+    specimen_store_close(rig->store);
+    free(rig);
+}
+
+static void announce(void *context, const struct specimen *specimen)
+{
+    struct rig *rig = context;
+    struct dents_notice notice = {specimen->name, specimen->body, specimen->impacts,
+                                  specimen->state};
+    endpoint_announce_dents(rig->endpoint, &notice);
+}
+
+/* All specimens, or one. */
+static void announce_again(struct rig *rig, const char *specimen)
+{
+    struct fault fault;
+    if (specimen_store_visit(rig->store, specimen, announce, rig, &fault))
+        log_line(LEVEL_ERROR, "%s", fault.text);
+}
+
+void rig_announce(struct rig *rig, struct endpoint *endpoint)
+{
+    rig->endpoint = endpoint;
+    announce_again(rig, NULL);
+}
+
+size_t rig_count(struct rig *rig)
+{
+    return atomic_load(&rig->count);
+}
+
+bool rig_concerns(const percuss_v1_Request *request)
+{
+    for (uint32_t i = 0; i < request->bodies._length; i++) {
+        if (request->bodies._buffer[i].specimen[0])
+            return true;
+    }
+    return false;
+}
+
+static void release(struct rig *rig)
+{
+    for (size_t i = 0; i < PERCUSS_MAX_BODIES; i++) {
+        free(rig->states[i]);
+        rig->states[i] = NULL;
+    }
+}
+
+/* Fills rig->states. */
+static enum percuss_status load(struct rig *rig, const struct question *question,
+                                struct fault *fault)
+{
+    for (uint32_t i = 0; i < question->request->bodies._length; i++) {
+        const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[i];
+        const struct body *body = body_set_find(question->set, wire->id);
+        struct fault reason;
+        /* an unknown body is the solver's to refuse */
+        if (!wire->specimen[0] || !body)
+            continue;
+        enum percuss_status status =
+            specimen_store_load(rig->store, wire->specimen, body, &rig->states[i], &reason);
+        if (status)
+            return fault_set(fault, status, "bodies[%u].specimen: %.560s", i, reason.text);
+    }
+    return PERCUSS_OK;
+}
+
+/* What the impact did to the specimens; their number. A request that ignores dents leaves none. */
+static size_t find_changes(const struct question *question, const struct seat *seat,
+                           struct specimen_change *changes)
+{
+    size_t count = 0;
+    if (question->request->options.dents != PERCUSS_DENTS_KEEP)
+        return 0;
+    for (uint32_t i = 0; i < question->request->bodies._length; i++) {
+        const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[i];
+        if (wire->specimen[0])
+            changes[count++] =
+                (struct specimen_change){wire->specimen, body_set_find(question->set, wire->id),
+                                         seat->result.bodies[i].state_after};
+    }
+    return count;
+}
+
+/* Makes an answer durable with what the impact did. */
+static enum percuss_status store(struct rig *rig, const struct question *question,
+                                 const struct seat *seat, const struct answer *answer,
+                                 struct stored_reply *reply)
+{
+    struct specimen_change changes[PERCUSS_MAX_BODIES];
+    struct fault fault;
+    size_t count = find_changes(question, seat, changes);
+    reply->bytes = reply_bytes_write(answer, &reply->size);
+    if (!reply->bytes)
+        return PERCUSS_INTERNAL;
+    enum percuss_status status = specimen_store_commit(rig->store, changes, count, reply, &fault);
+    free(reply->bytes);
+    if (status) {
+        log_line(LEVEL_ERROR, "%s", fault.text);
+        return status;
+    }
+    atomic_store(&rig->count, specimen_store_count(rig->store));
+    for (size_t i = 0; i < count; i++)
+        announce_again(rig, changes[i].name);
+    return PERCUSS_OK;
+}
+
+static struct answer *compute(struct rig *rig, struct seat *seat, struct token_store *tokens,
+                              const struct question *question, struct stored_reply *reply)
+{
+    struct fault fault;
+    enum percuss_status status = load(rig, question, &fault);
+    if (status)
+        return encode_refusal(&question->envelope, status, fault.text);
+    struct question posed = *question;
+    posed.specimens = (const struct body_state *const *)rig->states;
+    struct answer *answer = respond(seat, tokens, &posed);
+    if (!answer || !encode_status_has_result(answer->reply->status) ||
+        store(rig, question, seat, answer, reply) == PERCUSS_OK)
+        return answer;
+    answer_release(answer);
+    return encode_refusal(&question->envelope, PERCUSS_INTERNAL,
+                          "the store of specimens failed: nothing has changed, ask again");
+}
+
+/* Kept nowhere, so that the request whose number it is still finds its own reply. */
+static struct answer *refuse_number(const struct question *question)
+{
+    char message[160];
+    snprintf(message, sizeof message,
+             "sequence: %llu: was used for another request: must be a new number",
+             (unsigned long long)question->envelope.sequence);
+    struct answer *answer = encode_refusal(&question->envelope, PERCUSS_BAD_REQUEST, message);
+    if (answer)
+        answer->passing = true;
+    return answer;
+}
+
+/* The stored reply, if it is one to this request. */
+static struct answer *recall(const struct question *question, const struct stored_reply *reply,
+                             struct digest content)
+{
+    if (reply->content[0] != content.first || reply->content[1] != content.second)
+        return refuse_number(question);
+    struct answer *answer = reply_bytes_read(reply->bytes, reply->size);
+    return answer ? answer
+                  : encode_refusal(&question->envelope, PERCUSS_INTERNAL,
+                                   "the stored reply cannot be read");
+}
+
+struct answer *rig_respond(struct rig *rig, struct seat *seat, struct token_store *tokens,
+                           const struct question *question)
+{
+    struct digest content = question_digest_single(question->request);
+    struct stored_reply reply = {.sequence = question->envelope.sequence,
+                                 .content = {content.first, content.second}};
+    struct stored_reply kept = reply;
+    struct fault fault;
+    memcpy(reply.client, question->envelope.client, sizeof reply.client);
+    memcpy(kept.client, reply.client, sizeof kept.client);
+    enum percuss_status status = specimen_store_find(rig->store, &kept, &fault);
+    if (status)
+        return encode_refusal(&question->envelope, status, fault.text);
+    struct answer *answer = kept.bytes ? recall(question, &kept, content)
+                                       : compute(rig, seat, tokens, question, &reply);
+    free(kept.bytes);
+    release(rig);
+    return answer;
+}
+
+void rig_clear(struct rig *rig, const char *specimen)
+{
+    struct fault fault;
+    if (specimen_store_clear(rig->store, specimen, &fault)) {
+        log_line(LEVEL_ERROR, "%s", fault.text);
+        return;
+    }
+    log_line(LEVEL_INFO, "specimen %s: cleared", specimen);
+    atomic_store(&rig->count, specimen_store_count(rig->store));
+    endpoint_withdraw_dents(rig->endpoint, specimen);
+}
