@@ -19,6 +19,7 @@ static const struct {
     {"query", command_query},     {"sweep", command_sweep},         {"ensemble", command_ensemble},
     {"bodies", command_bodies},   {"status", command_status},       {"ping", command_ping},
     {"compare", command_compare}, {"calibrate", command_calibrate},
+    {"dents", command_dents},
 };
 
 struct invocation {
@@ -57,6 +58,7 @@ static const struct argp main_argp = {
            "  sweep     the same impact at many speeds\n"
            "  bodies    the bodies that the server knows\n"
            "  status    what the server is doing\n"
+           "  dents     the specimens that the server keeps, with their dents\n"
            "  ping      round-trip time to the server\n"
            "  compare   measured impacts beside their simulated twins\n"
            "  calibrate parameters of the bodies from measured impacts\n"

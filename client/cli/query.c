@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli.h"
 #include "ensemble_output.h"
@@ -16,7 +17,15 @@
 #include "scene.h"
 #include "spread.h"
 
-enum { KEY_SPEED = OPTION_OWN, KEY_SPEED_SIGMA, KEY_REQUEST, KEY_TRACE, KEY_PLOT };
+enum {
+    KEY_SPEED = OPTION_OWN,
+    KEY_SPEED_SIGMA,
+    KEY_REQUEST,
+    KEY_SPECIMEN_A,
+    KEY_SPECIMEN_B,
+    KEY_TRACE,
+    KEY_PLOT
+};
 
 struct query {
     struct common *common;
@@ -25,12 +34,16 @@ struct query {
     double speed_sigma; /* its standard deviation; 0: not given */
     const char *file;
     const char *trace, *plot; /* files; NULL: not wanted */
+    const char *specimens[2]; /* of A, B; NULL: not given */
 };
 
 static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "V", 0, "speed of A towards B, m/s", 10},
     {"speed-sigma", KEY_SPEED_SIGMA, "S", 0,
      "standard deviation of the speed: also tells how the restitution spreads", 10},
+    {"specimen-a", KEY_SPECIMEN_A, "NAME", 0,
+     "A is this specimen: its dents are kept by the server; percuss dents lists them", 20},
+    {"specimen-b", KEY_SPECIMEN_B, "NAME", 0, "the same for B", 20},
     {"request", KEY_REQUEST, "FILE", 0, "ask a whole request in JSON instead; - is standard input",
      30},
     {"trace", KEY_TRACE, "FILE", 0, "write the time histories as comma-separated values", 40},
@@ -43,7 +56,9 @@ static const struct argp_option options[] = {
 static void check(const struct query *query, struct argp_state *state)
 {
     const struct scene *scene = &query->scene;
-    if (query->file && (scene->given || !isnan(query->speed) || query->speed_sigma > 0.0))
+    bool specimen = query->specimens[0] || query->specimens[1];
+    if (query->file &&
+        (scene->given || specimen || !isnan(query->speed) || query->speed_sigma > 0.0))
         argp_error(state, "--request says everything; no other flag of the impact goes with it");
     scene_check_single(scene, state);
     if (!query->file && !(scene->a && scene->b && !isnan(query->speed)))
@@ -67,6 +82,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
         query->speed_sigma = parse_number("speed-sigma", text, state);
         if (!(query->speed_sigma > 0.0))
             argp_error(state, "--speed-sigma: '%s': a number of m/s > 0 is needed", text);
+        return 0;
+    case KEY_SPECIMEN_A:
+    case KEY_SPECIMEN_B:
+        if (strlen(text) >= PERCUSS_ID_SIZE)
+            argp_error(state, "--specimen: '%s': a name of at most %d bytes is needed", text,
+                       PERCUSS_ID_SIZE - 1);
+        query->specimens[key - KEY_SPECIMEN_A] = text;
         return 0;
     case KEY_REQUEST:
         query->file = text;
@@ -170,6 +192,9 @@ static int ask_scene(const struct query *query)
     code = scene_find_bodies(&query->scene, query->common, client, &bodies);
     if (code == EXIT_ANSWERED)
         code = scene_request(&query->scene, &bodies, query->speed, &request);
+    for (int i = 0; code == EXIT_ANSWERED && i < 2; ++i)
+        if (query->specimens[i])
+            strcpy(request.bodies[i].specimen, query->specimens[i]); // it fits: it was parsed
     if (code == EXIT_ANSWERED)
         code = ask(query, &request, client);
     percuss_body_list_free(&bodies.list);

@@ -27,6 +27,7 @@ static json_t *server_to_json(const struct percuss_server *server)
     json_object_set_new(object, "queue_capacity", json_integer(server->queue_capacity));
     json_object_set_new(object, "answered", json_integer((json_int_t)server->answered));
     json_object_set_new(object, "refused", json_integer((json_int_t)server->refused));
+    json_object_set_new(object, "specimens", json_integer(server->specimens));
     json_object_set_new(object, "uptime", json_number(server->uptime));
     json_object_set_new(object, "activity", json_string(server->activity));
     json_object_set_new(object, "progress", json_number(server->progress));

@@ -30,4 +30,8 @@ void announcements_release(struct announcements *all);
 /* The id of the connected server; false when there is none. */
 bool announcements_server(struct percuss_client *client, uint8_t server[16]);
 
+/* What the connected server announces of itself. */
+enum percuss_result announcements_connected(struct percuss_client *client, double timeout,
+                                            struct percuss_server *server);
+
 #endif

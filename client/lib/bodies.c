@@ -58,22 +58,6 @@ static enum percuss_result look_at_bodies(struct percuss_client *client, dds_ent
     return PERCUSS_RESULT_OK;
 }
 
-/* The connected server among those listed. */
-static enum percuss_result find_connected(struct percuss_client *client, double timeout,
-                                          struct percuss_server *server)
-{
-    struct percuss_server_list servers;
-    uint8_t id[16];
-    if (!announcements_server(client, id))
-        return error_set(PERCUSS_RESULT_NO_SERVER, "not connected");
-    enum percuss_result result = percuss_servers(client, timeout, &servers);
-    for (size_t i = 0; i < servers.count; ++i)
-        if (memcmp(servers.servers[i].server, id, sizeof id) == 0)
-            *server = servers.servers[i];
-    percuss_server_list_free(&servers);
-    return result;
-}
-
 enum percuss_result percuss_bodies(struct percuss_client *client, double timeout,
                                    struct percuss_body_list *list)
 {
@@ -86,7 +70,7 @@ enum percuss_result percuss_bodies(struct percuss_client *client, double timeout
         result = announcements_open(client, &client->body_reader, &percuss_v1_Body_desc,
                                     WIRE_TOPIC_BODY);
     if (result == PERCUSS_RESULT_OK)
-        result = find_connected(client, timeout, &server);
+        result = announcements_connected(client, timeout, &server);
     if (result != PERCUSS_RESULT_OK)
         return result;
     while ((result = look_at_bodies(client, client->body_reader, &server, list)) ==

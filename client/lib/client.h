@@ -37,7 +37,8 @@ struct percuss_client {
     dds_entity_t progress_reader, samples_reader;
     dds_entity_t trace_reader;               /* 0 until the first trace */
     dds_entity_t server_reader, body_reader; /* 0 until asked for */
-    int announcement_room;                   /* of the largest read so far, see announcements.c */
+    dds_entity_t dents_reader, dents_writer;
+    int announcement_room; /* of the largest read so far, see announcements.c */
 };
 
 /* A reader or writer with its topic in the client's participant. `qos` is released. A negative

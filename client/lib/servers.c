@@ -20,6 +20,7 @@ static void convert_server(const percuss_v1_ServerStatus *wire, struct percuss_s
         .refused = wire->refused,
         .uptime = wire->uptime,
         .progress = wire->progress,
+        .specimens = wire->specimens,
     };
     memcpy(server->server, wire->server, sizeof server->server);
     memcpy(server->version, wire->version, sizeof server->version);
@@ -76,6 +77,21 @@ enum percuss_result percuss_servers(struct percuss_client *client, double timeou
                              "no percussd has announced itself in DDS domain %u", client->domain);
         dds_sleepfor(ANNOUNCEMENTS_INTERVAL);
     }
+    return result;
+}
+
+enum percuss_result announcements_connected(struct percuss_client *client, double timeout,
+                                            struct percuss_server *server)
+{
+    struct percuss_server_list servers;
+    uint8_t id[16];
+    if (!announcements_server(client, id))
+        return error_set(PERCUSS_RESULT_NO_SERVER, "not connected");
+    enum percuss_result result = percuss_servers(client, timeout, &servers);
+    for (size_t i = 0; i < servers.count; ++i)
+        if (memcmp(servers.servers[i].server, id, sizeof id) == 0)
+            *server = servers.servers[i];
+    percuss_server_list_free(&servers);
     return result;
 }
 

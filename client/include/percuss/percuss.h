@@ -20,6 +20,7 @@
 #include <percuss/request.h>
 #include <percuss/result.h>
 #include <percuss/server.h>
+#include <percuss/specimen.h>
 #include <percuss/trace.h>
 
 #ifdef __cplusplus

@@ -42,6 +42,7 @@ struct percuss_server {
     double uptime;      /* s */
     char activity[256]; /* what a long computation is doing */
     double progress;    /* 0..1; NAN: nothing is running */
+    uint32_t specimens; /* that it keeps */
 };
 
 struct percuss_server_list {

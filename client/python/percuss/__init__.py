@@ -43,7 +43,7 @@ from .reply import (
     Timing,
 )
 from .request import BodyMotion, Contact, Options, Request
-from .server import Body, Server, contact_pair
+from .server import Body, Dent, Server, Specimen, contact_pair
 from .vocabulary import (
     MAX_BATCH,
     MAX_BODIES,
@@ -81,6 +81,7 @@ __all__ = [
     "ContactModel",
     "ContactResult",
     "DelassusSource",
+    "Dent",
     "Dents",
     "EndReason",
     "Energy",
@@ -98,6 +99,7 @@ __all__ = [
     "Request",
     "Result",
     "Server",
+    "Specimen",
     "Status",
     "Support",
     "Timing",

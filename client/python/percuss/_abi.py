@@ -252,7 +252,33 @@ class Server(ctypes.Structure):
         ("uptime", c_double),
         ("activity", c_char * 256),
         ("progress", c_double),
+        ("specimens", c_uint32),
     ]
+
+
+class Dent(ctypes.Structure):
+    _fields_ = [
+        ("point", c_double * 3),
+        ("size", c_double),
+        ("max_indentation", c_double),
+        ("max_force", c_double),
+        ("residual_indentation", c_double),
+        ("contact_radius", c_double),
+    ]
+
+
+class Specimen(ctypes.Structure):
+    _fields_ = [
+        ("name", _Id),
+        ("body", _Id),
+        ("impacts", c_uint64),
+        ("dent_count", c_size_t),
+        ("dents", POINTER(Dent)),
+    ]
+
+
+class SpecimenList(ctypes.Structure):
+    _fields_ = [("count", c_size_t), ("specimens", POINTER(Specimen))]
 
 
 class ServerList(ctypes.Structure):
@@ -294,6 +320,9 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "percuss_override": Override,
     "percuss_contact_trace": ContactTrace,
     "percuss_trace": Trace,
+    "percuss_dent": Dent,
+    "percuss_specimen": Specimen,
+    "percuss_specimen_list": SpecimenList,
 }
 
 library = load()
@@ -313,6 +342,9 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("ping", c_int, [_Client, c_double, POINTER(c_double)]),
     ("servers", c_int, [_Client, c_double, POINTER(ServerList)]),
     ("bodies", c_int, [_Client, c_double, POINTER(BodyList)]),
+    ("specimens", c_int, [_Client, c_double, POINTER(SpecimenList)]),
+    ("clear_specimen", c_int, [_Client, c_char_p, c_double]),
+    ("specimen_list_free", None, [POINTER(SpecimenList)]),
     ("reply_free", None, [POINTER(Reply)]),
     ("body_list_free", None, [POINTER(BodyList)]),
     ("server_list_free", None, [POINTER(ServerList)]),

@@ -10,7 +10,7 @@ from . import _abi, reply, request, server
 from .errors import Incompatible, NoServer, check
 from .reply import Reply
 from .request import Request
-from .server import Body, Server
+from .server import Body, Server, Specimen
 from .vocabulary import Result
 
 _library = _abi.library
@@ -172,6 +172,21 @@ class Client:
         finally:
             _library.percuss_body_list_free(ctypes.byref(found))
         return {body.id: body for body in bodies}
+
+    def specimens(self, timeout: float = 3.0) -> dict[str, Specimen]:
+        """The specimens that the connected server keeps, by name, sorted."""
+        found = _abi.SpecimenList()
+        check(_library.percuss_specimens(self._open, timeout, ctypes.byref(found)))
+        try:
+            specimens = [server.read_specimen(one) for one in found.specimens[: found.count]]
+        finally:
+            _library.percuss_specimen_list_free(ctypes.byref(found))
+        return {specimen.name: specimen for specimen in specimens}
+
+    def clear_specimen(self, name: str, timeout: float = 3.0) -> None:
+        """Has the server forget a specimen, its dents and which body it is. InvalidArgument: it keeps
+        none of that name."""
+        check(_library.percuss_clear_specimen(self._open, name.encode(), timeout))
 
 
 def _take(answer: _abi.Reply) -> Reply:

@@ -65,6 +65,34 @@ class Server:
     """What a long computation is doing."""
     progress: float
     """0..1; nan: nothing is running."""
+    specimens: int
+    """That it keeps."""
+
+
+@dataclass(frozen=True)
+class Dent:
+    """A patch of a surface that yielded; point in the body frame, m, N."""
+
+    point: FloatArray
+    size: float
+    """Radius of the patch."""
+    max_indentation: float
+    max_force: float
+    residual_indentation: float
+    """Depth that stays."""
+    contact_radius: float
+    """At the largest force."""
+
+
+@dataclass(frozen=True)
+class Specimen:
+    """A body whose dents the server keeps on disk."""
+
+    name: str
+    body: str
+    impacts: int
+    """Counted on it."""
+    dents: tuple[Dent, ...]
 
 
 def read_body(source: Any) -> Body:
@@ -103,7 +131,24 @@ def read_server(source: Any) -> Server:
         source.uptime,
         text(source.activity),
         source.progress,
+        source.specimens,
     )
+
+
+def read_specimen(source: Any) -> Specimen:
+    """Copies a C specimen."""
+    dents = (
+        Dent(
+            np.array(dent.point),
+            dent.size,
+            dent.max_indentation,
+            dent.max_force,
+            dent.residual_indentation,
+            dent.contact_radius,
+        )
+        for dent in source.dents[: source.dent_count]
+    )
+    return Specimen(text(source.name), text(source.body), source.impacts, tuple(dents))
 
 
 def _write_body(body: Body) -> _abi.Body:
