@@ -81,6 +81,11 @@ static bool is_matched(const struct peer *peer)
 void peer_open(struct peer *peer, uint32_t domain)
 {
     REQUIRE(getrandom(peer->client, sizeof peer->client, 0) > 0, "no random numbers");
+    peer_open_as(peer, domain);
+}
+
+void peer_open_as(struct peer *peer, uint32_t domain)
+{
     peer->participant = checked(wire_participant_create(domain));
     create_entities(peer);
     double end = peer_now() + patience;

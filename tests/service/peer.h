@@ -23,6 +23,8 @@ struct peer {
 
 /* Joins the domain and pings until it is answered; ends the program if that takes 20 s. */
 void peer_open(struct peer *peer, uint32_t domain);
+/* The same with the client id that stands in `peer`. */
+void peer_open_as(struct peer *peer, uint32_t domain);
 void peer_close(struct peer *peer);
 
 /* Sends; fills in the client. */
