@@ -98,8 +98,8 @@ static void bad_delassus(struct peer *peer)
 /* A batch of none is refused; bad members are refused one by one, the good ones answered. */
 static void bad_batches(struct peer *peer)
 {
-    static struct scene scenes[3];
-    percuss_v1_Request requests[3];
+    static struct scene scenes[4];
+    percuss_v1_Request requests[4];
     percuss_v1_BatchRequest batch = {.sequence = 1, .requests = {._buffer = requests}};
     peer_send_batch(peer, &batch);
     const percuss_v1_BatchReply *reply = peer_receive(peer, PEER_BATCH, 5.0);
@@ -107,23 +107,26 @@ static void bad_batches(struct peer *peer)
                 reply->part == 0 && reply->parts == 1 && reply->replies._length == 0,
             "an empty batch: status %u: %s", reply->status, reply->message);
     peer_return(peer, PEER_BATCH, reply);
-    for (uint64_t i = 0; i < 3; i++) {
+    for (uint64_t i = 0; i < 4; i++) {
         scene_fill(&scenes[i], 100 + i, 0.3);
         requests[i] = scenes[i].request;
     }
     requests[1].options.tolerance = NAN;
+    strcpy(scenes[3].bodies[0].specimen, "ball");
     batch.sequence = 2;
-    batch.requests._length = batch.requests._maximum = 3;
+    batch.requests._length = batch.requests._maximum = 4;
     peer_send_batch(peer, &batch);
     reply = peer_receive(peer, PEER_BATCH, 5.0);
-    REQUIRE(reply->status == percuss_v1_STATUS_OK && reply->replies._length == 3,
+    REQUIRE(reply->status == percuss_v1_STATUS_OK && reply->replies._length == 4,
             "status %u, %u replies", reply->status, reply->replies._length);
     const unsigned expected[] = {percuss_v1_STATUS_OK, percuss_v1_STATUS_BAD_REQUEST,
-                                 percuss_v1_STATUS_OK};
-    for (uint64_t i = 0; i < 3; i++)
+                                 percuss_v1_STATUS_OK, percuss_v1_STATUS_BAD_REQUEST};
+    for (uint64_t i = 0; i < 4; i++)
         REQUIRE(reply->replies._buffer[i].status == expected[i] &&
                     reply->replies._buffer[i].sequence == 100 + i,
                 "member %u: status %u", (unsigned)i, reply->replies._buffer[i].status);
+    REQUIRE(strstr(reply->replies._buffer[3].message, "bodies[0].specimen: ball: must be empty in"),
+            "%s", reply->replies._buffer[3].message);
     peer_return(peer, PEER_BATCH, reply);
 }
 

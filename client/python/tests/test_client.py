@@ -181,6 +181,11 @@ class Announced(Beside):
         self.assertEqual((server.server, server.state), (reply.server, "ready"))
         self.assertEqual((server.bodies, server.catalogue_revision), (len(self.bodies), reply.catalogue_revision))
 
+    def test_no_specimens(self) -> None:
+        self.assertEqual(self.client.specimens(), {})
+        with self.assertRaisesRegex(percuss.InvalidArgument, "bar-1"):
+            self.client.clear_specimen("bar-1")
+
 
 class Mistakes(Beside):
     def test_refusal(self) -> None:
