@@ -8,10 +8,8 @@
 set -eu
 
 build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-serial-dev
-liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom123-dev"
+liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom123-dev libsqlite3-dev"
 test="libcmocka-dev python3-venv libmujoco-dev valgrind"
-liblapacke-dev libyaml-dev libjansson-dev libsqlite3-dev"
-test="libcmocka-dev python3-venv"
 
 packages=$build
 [ "${1:-build}" = build ] || packages="$build $test"
