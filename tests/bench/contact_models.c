@@ -5,7 +5,7 @@
  * and of what is computed once beforehand: the table, and the first solve's preparation of the
  * bodies. The tolerance is the default, 1e-3, but for concurrent-fe 3e-3: its time steps and meshes
  * are of first order where material flows.
- * usage: contact_models [--csv] [--quick] [--speed V]... [--model NAME] */
+ * usage: contact_models [--csv] [--quick] [--speed V]... [--model NAME] [--case NAME] */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -41,7 +41,7 @@ struct settings {
     bool csv, quick;
     double speeds[MAX_SPEEDS];
     size_t speed_count;
-    const char *model;
+    const char *model, *scene; /* only these; NULL: all */
 };
 
 /* One case and one model: what is solved again and again. */
@@ -203,6 +203,8 @@ static bool parse(int argc, char **argv, struct settings *settings)
             settings->quick = true;
         else if (strcmp(argv[i], "--model") == 0 && i + 1 < argc)
             settings->model = argv[++i];
+        else if (strcmp(argv[i], "--case") == 0 && i + 1 < argc)
+            settings->scene = argv[++i];
         else if (strcmp(argv[i], "--speed") == 0 && i + 1 < argc &&
                  settings->speed_count < MAX_SPEEDS)
             settings->speeds[settings->speed_count++] = strtod(argv[++i], NULL);
@@ -221,17 +223,21 @@ int main(int argc, char **argv)
     static struct question question = {.rods = &rods};
     bool ok = true;
     if (!parse(argc, argv, &settings)) {
-        fprintf(stderr, "usage: contact_models [--csv] [--quick] [--speed V]... [--model NAME]\n");
+        fprintf(stderr, "usage: contact_models [--csv] [--quick] [--speed V]... [--model NAME] "
+                        "[--case NAME]\n");
         return 2;
     }
     if (!make_rods(&rods))
         return 1;
     printf(settings.csv ? "%s,%s,%s,%s,%s\n" : "%-16s %-14s %9s %11s %11s\n", "case", "model",
            "restitution", "seconds", "precompute_seconds");
-    for (size_t c = 0; c < COUNT(cases) - settings.quick; c++)
+    for (size_t c = 0; c < COUNT(cases) - settings.quick; c++) {
+        if (settings.scene && strcmp(settings.scene, cases[c].name) != 0)
+            continue;
         for (size_t s = 0; s < settings.speed_count; s++)
             for (size_t m = 0; m < COUNT(models); m++)
                 if (!settings.model || strcmp(settings.model, contact_model_name(models[m])) == 0)
                     ok = compare(&settings, &question, c, models[m], settings.speeds[s]) && ok;
+    }
     return ok ? 0 : 1;
 }
