@@ -13,6 +13,7 @@
 #include "cli.h"
 #include "ensemble_output.h"
 #include "input_text.h"
+#include "plot.h"
 #include "reply_json.h"
 #include "scene.h"
 
@@ -28,6 +29,7 @@ enum {
     KEY_QUANTILES,
     KEY_BINS,
     KEY_CSV,
+    KEY_PLOT,
     KEY_DEADLINE,
     KEY_PROGRESS
 };
@@ -37,7 +39,7 @@ struct ensemble {
     struct scene scene;
     struct percuss_ensemble_request *request;
     bool has_speed, has_samples, progress;
-    const char *csv;
+    const char *csv, *plot; /* files; NULL: not wanted */
 };
 
 static const struct argp_option options[] = {
@@ -58,6 +60,10 @@ static const struct argp_option options[] = {
     {"quantiles", KEY_QUANTILES, "P,P,...", 0, "probabilities of the quantiles", 14},
     {"bins", KEY_BINS, "N", 0, "of the histogram", 14},
     {"csv", KEY_CSV, "FILE", 0, "write every sample", 15},
+    {"plot", KEY_PLOT, "FILE", 0,
+     "draw restitution over speed, histogram, distribution and sensitivities with gnuplot: "
+     "FILE.png or FILE.svg",
+     15},
     {"deadline", KEY_DEADLINE, "S", 0, "seconds after which the server answers with what it has",
      15},
     {"progress", KEY_PROGRESS, NULL, 0, "show progress even if stderr is no terminal", 15},
@@ -147,7 +153,7 @@ static void settle(struct ensemble *ensemble, struct argp_state *state)
     for (size_t i = 0; !ensemble->has_samples && i < request->input_count; ++i)
         if (request->inputs[i].distribution == PERCUSS_DISTRIBUTION_LIST)
             request->samples = 0;
-    request->list_samples = ensemble->csv != NULL;
+    request->list_samples = ensemble->csv || ensemble->plot;
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -195,6 +201,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_CSV:
         ensemble->csv = text;
+        return 0;
+    case KEY_PLOT:
+        plot_check_name(text, state);
+        ensemble->plot = text;
         return 0;
     case KEY_DEADLINE:
         ensemble->scene.options.deadline = parse_width("deadline", text, state);
@@ -271,6 +281,9 @@ static int ask(struct ensemble *ensemble, struct percuss_client *client,
         ensemble_print_table(request, &reply);
     if (reply.status == PERCUSS_UNKNOWN_BODY)
         scene_explain_unknown(&request->scene, bodies);
+    if (ensemble->plot && reply.statistic_count > 0 &&
+        ensemble_plot(ensemble->plot, request, &reply) != EXIT_ANSWERED)
+        code = EXIT_FAILURE;
     percuss_ensemble_reply_free(&reply);
     return code;
 }

@@ -19,4 +19,9 @@ json_t *ensemble_to_json(const struct percuss_ensemble_reply *reply);
 bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request *request,
                         const struct percuss_ensemble_reply *reply);
 
+/* Draws what the reply says, the restitution over the speed from its listed samples. Exit code;
+ * complains. */
+int ensemble_plot(const char *file, const struct percuss_ensemble_request *request,
+                  const struct percuss_ensemble_reply *reply);
+
 #endif

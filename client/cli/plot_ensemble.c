@@ -10,8 +10,11 @@
 #include "cli.h"
 #include "plot.h"
 
-/* Intervals of the speed in which the samples' mean and deviation are shown. */
-enum { SPEED_BINS = 16 };
+/* SPEED_BINS: intervals of the speed in which the samples' mean and deviation are shown;
+ * MOST_DOTS: samples drawn, as more hide each other and make an SVG large; COLOURS: numbers of
+ * sub-impacts that are told apart, the last also stands for more. */
+enum { SPEED_BINS = 16, MOST_DOTS = 5000, COLOURS = 4 };
+static const char *const colours[COLOURS] = {"#7fa8d8", "#e0a060", "#70b878", "#b080c8"};
 
 static void write_histogram(const struct plot *plot, const struct ensemble_picture *picture)
 {
@@ -40,12 +43,17 @@ static void write_distribution(const struct plot *plot, const struct ensemble_pi
     for (size_t i = 0; i < picture->quantile_count; ++i)
         fprintf(plot->script, "%.9g %.9g %.9g %.9g\n", picture->quantiles[i],
                 picture->probabilities[i], picture->quantiles_low[i], picture->quantiles_high[i]);
+    fputs("EOD\n$curve << EOD\n", plot->script);
+    for (size_t i = 0; i < picture->curve_count; ++i)
+        fprintf(plot->script, "%.9g %.9g\n", picture->curve_values[i], picture->curve_shares[i]);
     fputs("EOD\nset xlabel 'restitution e'\nset ylabel 'share of samples below'\n"
-          "set yrange [0:1]\nset key bottom right\n"
+          "set yrange [0:1]\nset key top left\n"
           "plot $distribution using 1:2:3:4 with xerrorbars lt 1 ps 0.4 "
-          "title 'quantiles, 95 % intervals', '' using 1:2 with lines lt 1 notitle\n"
-          "set yrange [*:*]\nset key top right\n",
+          "title 'quantiles, 95 % intervals'",
           plot->script);
+    if (picture->curve_count > 0)
+        fputs(", $curve using 1:2 with lines lt 1 lw 1 title 'all samples'", plot->script);
+    fputs("\nset yrange [*:*]\nset key top right\n", plot->script);
 }
 
 /* Mean and deviation of the samples within equal intervals of the speed. */
@@ -76,18 +84,74 @@ static void write_bands(const struct plot *plot, const struct ensemble_picture *
     fputs("EOD\n", plot->script);
 }
 
+/* Each with the same chance (Knuth's selection sampling), as every so manieth would follow the
+ * pattern of a Sobol sequence. */
+static void write_dots(const struct plot *plot, const struct ensemble_picture *picture)
+{
+    uint64_t random = 1;
+    size_t wanted = picture->sample_count < MOST_DOTS ? picture->sample_count : MOST_DOTS;
+    fputs("$samples << EOD\n", plot->script);
+    for (size_t i = 0; i < picture->sample_count; ++i) {
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        double chance = (double)(random >> 11) * 0x1p-53;
+        if (chance * (double)(picture->sample_count - i) >= (double)wanted)
+            continue;
+        --wanted;
+        fprintf(plot->script, "%.9g %.9g %.0f\n", picture->speeds[i], picture->restitutions[i],
+                picture->sub_impacts ? picture->sub_impacts[i] : 0.0);
+    }
+    fputs("EOD\n", plot->script);
+}
+
+/* Grey behind the samples, darker towards the mean; leaves the height of the panel alone. */
+static void write_intervals(const struct plot *plot, const struct ensemble_picture *picture)
+{
+    for (size_t i = picture->interval_count; i-- > 0;)
+        fprintf(plot->script,
+                "set object %zu rectangle from graph 0, first %.9g to graph 1, first %.9g behind "
+                "fillcolor rgb '#000000' fillstyle transparent solid 0.07 noborder\n",
+                picture->interval_count - i, picture->intervals_low[i], picture->intervals_high[i]);
+}
+
+/* The samples with k sub-impacts, or k and more; nothing if there are none. */
+static void write_colour(const struct plot *plot, const struct ensemble_picture *picture, int k)
+{
+    size_t i = 0;
+    bool last = k == COLOURS;
+    while (i < picture->sample_count &&
+           !(picture->sub_impacts[i] == k || (last && picture->sub_impacts[i] > k)))
+        ++i;
+    if (i == picture->sample_count)
+        return;
+    fprintf(plot->script,
+            "$samples using 1:($3 %s %d ? $2 : NaN) with points pt 7 ps 0.2 lc rgb '%s' notitle, "
+            "NaN with points pt 7 ps 0.8 lc rgb '%s' title '%d%s sub-impact%s', ",
+            last ? ">=" : "==", k, colours[k - 1], colours[k - 1], k, last ? " or more" : "",
+            k == 1 ? "" : "s");
+}
+
 static void write_samples(const struct plot *plot, const struct ensemble_picture *picture)
 {
-    fputs("$samples << EOD\n", plot->script);
-    for (size_t i = 0; i < picture->sample_count; ++i)
-        fprintf(plot->script, "%.9g %.9g\n", picture->speeds[i], picture->restitutions[i]);
-    fputs("EOD\n", plot->script);
+    write_dots(plot, picture);
     write_bands(plot, picture);
-    fputs("set xlabel 'speed / (m/s)'\nset ylabel 'restitution e'\nset offsets 0,0,graph 0.2,0\n"
-          "plot $samples using 1:2 with dots lc rgb '#808080' title 'samples', "
-          "$bands using 1:2:3 with yerrorbars lt 1 ps 0.6 "
-          "title 'mean and standard deviation about a speed'\nset offsets 0,0,0,0\n",
+    write_intervals(plot, picture);
+    fputs("set xlabel 'speed / (m/s)'\nset ylabel 'restitution e'\nset key below horizontal\n"
+          "plot ",
           plot->script);
+    if (!picture->sub_impacts)
+        fputs("$samples using 1:2 with points pt 7 ps 0.2 lc rgb '#808080' title 'samples', ",
+              plot->script);
+    for (int k = 1; picture->sub_impacts && k <= COLOURS; ++k)
+        write_colour(plot, picture, k);
+    if (picture->interval_count > 0)
+        fputs("NaN with boxes fillstyle solid 0.18 noborder lc rgb '#000000' "
+              "title 'mean -+ deviations', ",
+              plot->script);
+    fputs("$bands using 1:2:3 with yerrorbars lt 6 lw 1.5 ps 0.6 "
+          "title 'mean -+ deviation about a speed'\nset key default\n",
+          plot->script);
+    for (size_t i = 1; i <= picture->interval_count; ++i)
+        fprintf(plot->script, "unset object %zu\n", i);
 }
 
 /* A name as a string among the data, where only double quotes count. */
@@ -106,7 +170,7 @@ static void write_sensitivities(const struct plot *plot, const struct ensemble_p
         write_name(plot, picture->inputs[i]);
         fprintf(plot->script, " %.9g %.9g\n", picture->first_order[i], picture->total[i]);
     }
-    fputs("EOD\nset datafile separator whitespace\nset xlabel 'input'\n"
+    fputs("EOD\nset datafile separator whitespace\nunset xlabel\nset rmargin 8\n"
           "set ylabel 'share of the variance'\nset yrange [0:1.3]\nset style data histograms\n"
           "set style histogram clustered gap 1\nset xtics rotate by -20\n"
           "plot $sensitivities using 2:xtic(1) lt 1 title 'alone', "
@@ -119,8 +183,8 @@ int plot_ensemble(const char *file, const struct ensemble_picture *picture)
     struct plot plot;
     size_t panels = (picture->bins > 0) + (picture->quantile_count > 0) +
                     (picture->sample_count > 0) + (picture->input_count > 0);
-    unsigned columns = panels > 1 ? 2 : 1, rows = panels > 2 ? 2 : 1;
-    int code = plot_begin(&plot, file, 600 * columns, 420 * rows);
+    unsigned rows = panels > 3 ? 2 : 1, columns = (unsigned)(panels + rows - 1) / rows;
+    int code = plot_begin(&plot, file, columns > 2 ? 1440 : 600 * columns, 440 * rows);
     if (code != EXIT_ANSWERED)
         return code;
     char title[256];

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* An ensemble as a picture: the histogram and the distribution of the restitution, the restitution
- * against the speed with its intervals, and what the spread comes from. */
+/* An ensemble as a picture: the restitution against the speed with its intervals, its histogram and
+ * distribution, and what the spread comes from. */
 #ifndef PERCUSS_CLI_PLOT_ENSEMBLE_H
 #define PERCUSS_CLI_PLOT_ENSEMBLE_H
 
@@ -17,9 +17,14 @@ struct ensemble_picture {
     const double *edges; /* [bins + 1] */
     const uint64_t *counts;
     size_t quantile_count;
-    const double *probabilities, *quantiles, *quantiles_low, *quantiles_high;
-    size_t sample_count; /* a thousand or two suffice */
+    const double *probabilities, *quantiles, *quantiles_low, *quantiles_high; /* NAN: no bound */
+    size_t curve_count; /* the distribution function, beside the quantiles */
+    const double *curve_values, *curve_shares;
+    size_t sample_count; /* of many only some are drawn, all count for mean and deviation */
     const double *speeds, *restitutions;
+    const double *sub_impacts; /* how many; NULL: not told */
+    size_t interval_count;     /* mean -+ so many deviations, behind the samples, widest last */
+    const double *intervals_low, *intervals_high;
     size_t input_count;
     const char *const *inputs;
     const double *first_order, *total; /* Sobol indices */

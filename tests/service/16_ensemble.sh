@@ -32,6 +32,21 @@ shows "sub-impacts"
 [ "$(wc -l <"$work/samples.csv")" -eq 1001 ] || fail "not 1000 samples in the file"
 head -n 1 "$work/samples.csv" | grep -q '^speed,restitution,' || fail "no head line"
 
+say "a picture changes no number"
+expect 0 ensemble --samples 1000 --json
+numbers "$out" >"$work/plain"
+expect 0 ensemble --samples 1000 --json --plot "$work/ensemble.png"
+numbers "$out" >"$work/drawn"
+cmp -s "$work/plain" "$work/drawn" || fail "asking for a picture changes the reply"
+[ "$(od -An -tx1 -N8 "$work/ensemble.png" | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "no PNG"
+[ "$(wc -c <"$work/ensemble.png")" -ge 30000 ] || fail "hardly anything is drawn"
+expect 0 ensemble --samples 1 --plot "$work/one.svg"
+grep -q '</svg>' "$work/one.svg" || fail "no SVG"
+expect 2 ensemble --plot "$work/ensemble.jpg"
+says ".png or .svg"
+expect 1 ensemble --samples 100 --plot "$work/none/ensemble.png"
+says "gnuplot could not draw $work/none/ensemble.png"
+
 say "wrong inputs are explained"
 expect 2 ensemble --input young=normal:1
 says "normal:MEAN:DEVIATION"

@@ -16,14 +16,15 @@
 
 #include "plot_ensemble.h"
 
-enum { SAMPLES = 500, BINS = 10, QUANTILES = 5 };
+enum { SAMPLES = 12000, BINS = 10, QUANTILES = 5 };
 
-static double edges[BINS + 1], speeds[SAMPLES], restitutions[SAMPLES];
+static double edges[BINS + 1], speeds[SAMPLES], restitutions[SAMPLES], sub_impacts[SAMPLES];
 static uint64_t counts[BINS];
 static const double probabilities[QUANTILES] = {0.05, 0.25, 0.5, 0.75, 0.95};
 static const double quantiles[QUANTILES] = {0.1, 0.25, 0.4, 0.6, 0.72};
-static const double low[QUANTILES] = {0.08, 0.22, 0.37, 0.58, 0.7};
+static const double low[QUANTILES] = {NAN, 0.22, 0.37, 0.58, 0.7};
 static const double high[QUANTILES] = {0.12, 0.28, 0.43, 0.62, 0.74};
+static const double below[] = {0.34, 0.24}, above[] = {0.54, 0.64};
 static const char *const inputs[] = {"speed", "young of 'al-beam'"};
 static const double first[] = {0.3, 0.05}, total[] = {0.9, 0.6};
 
@@ -36,25 +37,33 @@ static struct ensemble_picture whole(void)
     for (int i = 0; i < SAMPLES; ++i) {
         speeds[i] = 0.1 + 0.3 * i / SAMPLES;
         restitutions[i] = 0.4 + 0.3 * sin(60.0 * speeds[i]);
+        sub_impacts[i] = 1 + i % 5;
     }
-    return (struct ensemble_picture){"steel-sphere on al-beam",
-                                     0.44,
-                                     0.21,
-                                     BINS,
-                                     edges,
-                                     counts,
-                                     QUANTILES,
-                                     probabilities,
-                                     quantiles,
-                                     low,
-                                     high,
-                                     SAMPLES,
-                                     speeds,
-                                     restitutions,
-                                     2,
-                                     inputs,
-                                     first,
-                                     total};
+    return (struct ensemble_picture){.title = "steel-sphere on al-beam",
+                                     .mean = 0.44,
+                                     .deviation = 0.21,
+                                     .bins = BINS,
+                                     .edges = edges,
+                                     .counts = counts,
+                                     .quantile_count = QUANTILES,
+                                     .probabilities = probabilities,
+                                     .quantiles = quantiles,
+                                     .quantiles_low = low,
+                                     .quantiles_high = high,
+                                     .curve_count = QUANTILES,
+                                     .curve_values = quantiles,
+                                     .curve_shares = probabilities,
+                                     .sample_count = SAMPLES,
+                                     .speeds = speeds,
+                                     .restitutions = restitutions,
+                                     .sub_impacts = sub_impacts,
+                                     .interval_count = 2,
+                                     .intervals_low = below,
+                                     .intervals_high = above,
+                                     .input_count = 2,
+                                     .inputs = inputs,
+                                     .first_order = first,
+                                     .total = total};
 }
 
 static long drawn(const struct ensemble_picture *picture)
