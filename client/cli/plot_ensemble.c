@@ -125,9 +125,8 @@ static void write_colour(const struct plot *plot, const struct ensemble_picture 
         return;
     fprintf(plot->script,
             "$samples using 1:($3 %s %d ? $2 : NaN) with points pt 7 ps 0.2 lc rgb '%s' notitle, "
-            "NaN with points pt 7 ps 0.8 lc rgb '%s' title '%d%s sub-impact%s', ",
-            last ? ">=" : "==", k, colours[k - 1], colours[k - 1], k, last ? " or more" : "",
-            k == 1 ? "" : "s");
+            "NaN with points pt 7 ps 0.8 lc rgb '%s' title '%s%d', ",
+            last ? ">=" : "==", k, colours[k - 1], colours[k - 1], last ? "≥ " : "", k);
 }
 
 static void write_samples(const struct plot *plot, const struct ensemble_picture *picture)
@@ -135,9 +134,12 @@ static void write_samples(const struct plot *plot, const struct ensemble_picture
     write_dots(plot, picture);
     write_bands(plot, picture);
     write_intervals(plot, picture);
-    fputs("set xlabel 'speed / (m/s)'\nset ylabel 'restitution e'\nset key below horizontal\n"
-          "plot ",
-          plot->script);
+    fprintf(plot->script,
+            "set xlabel 'speed / (m/s)' offset 0,0.4\nset ylabel 'restitution e'\nset key bmargin "
+            "center "
+            "horizontal samplen 1.5 "
+            "title '%s'\nplot ",
+            picture->sub_impacts ? "sub-impacts" : "");
     if (!picture->sub_impacts)
         fputs("$samples using 1:2 with points pt 7 ps 0.2 lc rgb '#808080' title 'samples', ",
               plot->script);
@@ -145,10 +147,10 @@ static void write_samples(const struct plot *plot, const struct ensemble_picture
         write_colour(plot, picture, k);
     if (picture->interval_count > 0)
         fputs("NaN with boxes fillstyle solid 0.18 noborder lc rgb '#000000' "
-              "title 'mean -+ deviations', ",
+              "title 'all ± kσ', ",
               plot->script);
     fputs("$bands using 1:2:3 with yerrorbars lt 6 lw 1.5 ps 0.6 "
-          "title 'mean -+ deviation about a speed'\nset key default\n",
+          "title 'local ± σ'\nset key default notitle samplen 4\nunset xlabel\n",
           plot->script);
     for (size_t i = 1; i <= picture->interval_count; ++i)
         fprintf(plot->script, "unset object %zu\n", i);
