@@ -75,6 +75,9 @@ static void add_input(struct ensemble *ensemble, const char *text, bool speed,
 {
     struct percuss_ensemble_request *request = ensemble->request;
     struct input_fault fault;
+    if (speed && ensemble->has_speed)
+        argp_error(state, "--speed: given twice");
+    ensemble->has_speed = ensemble->has_speed || speed;
     if (request->input_count == PERCUSS_MAX_INPUTS)
         argp_error(state, "--input: more than %d inputs", PERCUSS_MAX_INPUTS);
     struct percuss_input *input = &request->inputs[request->input_count++];
@@ -166,10 +169,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[1] = ensemble->common;
         return 0;
     case KEY_SPEED:
-        if (ensemble->has_speed)
-            argp_error(state, "--speed: given twice");
         add_input(ensemble, text, true, state);
-        ensemble->has_speed = true;
         return 0;
     case KEY_INPUT:
         add_input(ensemble, text, false, state);
