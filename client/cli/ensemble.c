@@ -275,15 +275,15 @@ static int ask(struct ensemble *ensemble, struct percuss_client *client,
     if (ensemble->csv && reply.statistic_count > 0 &&
         !ensemble_write_csv(ensemble->csv, request, &reply))
         code = EXIT_FAILURE;
+    if (ensemble->plot && reply.statistic_count > 0 &&
+        ensemble_plot(ensemble->plot, request, &reply) != EXIT_ANSWERED)
+        code = EXIT_FAILURE;
     if (ensemble->common->json)
         json_print(ensemble_to_json(&reply));
     else
         ensemble_print_table(request, &reply);
     if (reply.status == PERCUSS_UNKNOWN_BODY)
         scene_explain_unknown(&request->scene, bodies);
-    if (ensemble->plot && reply.statistic_count > 0 &&
-        ensemble_plot(ensemble->plot, request, &reply) != EXIT_ANSWERED)
-        code = EXIT_FAILURE;
     percuss_ensemble_reply_free(&reply);
     return code;
 }
