@@ -232,13 +232,14 @@ static int print(const struct sweep *sweep, const struct run *runs, size_t count
             runs[k].scene.b, percuss_contact_model_name(runs[k].scene.options.contact_model),
             runs[k].replies};
     struct sweep_points points = {sweep->scene.a, sweep->count, speeds, count, curves};
+    /* first, or a reader that closes the output early would leave no picture */
+    int code = sweep->plot ? sweep_plot(sweep->plot, &points) : EXIT_ANSWERED;
     if (sweep->common->json)
         sweep_print_json(&points);
     else if (sweep->csv)
         sweep_print_csv(&points);
     else
         sweep_print_table(&points);
-    int code = sweep->plot ? sweep_plot(sweep->plot, &points) : EXIT_ANSWERED;
     free(speeds);
     return code;
 }

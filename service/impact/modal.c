@@ -9,34 +9,8 @@
 #include "impact/energy.h"
 #include "impact/flight.h"
 #include "impact/impact.h"
+#include "impact/step_limits.h"
 #include "impact/yielding.h"
-
-/* See longest_stable_step. */
-static const double RESOLVED = 4.0;
-
-/* What the accuracy asked for means to the steps. */
-struct step_limits {
-    /* A force's cubic is accurate enough when its highest Legendre coefficient is this share of the
-     * contact's force. The impulse converges with the eighth power of the step, the coefficient
-     * with the third, hence the exponent; the factor is measured (docs/accuracy.md). */
-    double roughness;
-    /* The step in which a contact opens or closes may be this part of the contact's duration: the
-     * impulse within it is about its 5/2 power. */
-    double event_share;
-    /* See longest_stable_step. 0.5 still closes the audit to 1e-5 over 20 wave passages, 2 does
-     * not; 0.02 closes it to 1e-11. */
-    double coupling;
-};
-
-static struct step_limits make_limits(double accuracy)
-{
-    double power = pow(accuracy, 0.2);
-    return (struct step_limits){
-        .roughness = fmin(0.02, 0.6 * power * power),
-        .event_share = fmin(0.05, 0.5 * power * power),
-        .coupling = fmin(0.25, 3.2 * power),
-    };
-}
 
 /* A run of the modal method. */
 struct modal_run {
@@ -67,31 +41,6 @@ static bool any_active(const struct modal_run *run)
     return false;
 }
 
-/* A mode that the step does not resolve sees the law at four instants only and can be pumped by it.
- * Its coupling to the contact within a step, phi^2 (dF/dd) h / omega, must then stay small; the
- * strongest unresolved mode is the slowest one, omega h = RESOLVED. Long contacts on light bodies
- * need this (hundreds of steps); an ordinary impact takes such steps anyway. */
-static double longest_stable_step(const struct scene *scene, size_t contact,
-                                  const struct impact_scale *scale, double coupling)
-{
-    double stiffness;
-    double longest = INFINITY;
-    contact_law_force(&scene->laws[contact], scale->indentation, &stiffness);
-    for (size_t g = 0; g < scene->groups; g++) {
-        const struct scene_group *group = &scene->group[g];
-        const double *phi = group->participation[contact];
-        if (!phi || !group->count)
-            continue;
-        double largest = 0.0;
-        for (size_t k = 0; k < group->count; k++)
-            largest = fmax(largest, phi[k] * phi[k]);
-        double coupled = sqrt(RESOLVED * coupling / (largest * stiffness));
-        double resolved = RESOLVED / group->set->omega[group->count - 1];
-        longest = fmin(longest, fmax(coupled, resolved));
-    }
-    return longest;
-}
-
 /* Laws have yielded: what follows has the scale of their branches, which are shorter, stiffest at
  * the top and hold less energy: the speed goes with its root. */
 static void rescale(struct modal_run *run)
@@ -106,7 +55,7 @@ static void rescale(struct modal_run *run)
         scale->duration *= span / (scale->indentation * slower);
         scale->indentation = span;
         scale->force = force;
-        run->longest[c] = longest_stable_step(run->scene, c, scale, run->limits.coupling);
+        run->longest[c] = step_limits_stable(run->scene, c, scale, run->limits.coupling);
     }
 }
 
@@ -116,7 +65,7 @@ static void activate(struct modal_run *run, size_t contact, double time, double 
     run->active[contact] = true;
     run->scales[contact] = impact_scale_of(run->scene, contact, rate);
     run->longest[contact] =
-        longest_stable_step(run->scene, contact, &run->scales[contact], run->limits.coupling);
+        step_limits_stable(run->scene, contact, &run->scales[contact], run->limits.coupling);
     track_open(&run->outcome->tracks[contact], time, run->motion->gap_rate[contact]);
 }
 
@@ -422,7 +371,7 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
     own.laws = outcome->laws;
     run.motion = &outcome->motion;
     impact_begin(outcome, scene);
-    run.limits = make_limits(settings->accuracy);
+    run.limits = step_limits_make(settings->accuracy);
     if (!run_create(&run, &own, arena))
         return PERCUSS_INTERNAL;
     run.step.accuracy = settings->accuracy;

@@ -1,0 +1,33 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What the accuracy asked for means to the steps of the modal method. */
+#ifndef PERCUSS_IMPACT_STEP_LIMITS_H
+#define PERCUSS_IMPACT_STEP_LIMITS_H
+
+#include "impact/impact.h"
+
+struct step_limits {
+    /* A force's cubic is accurate enough when its highest Legendre coefficient is this share of the
+     * contact's force. The impulse converges with the eighth power of the step, the coefficient
+     * with the third, hence the exponent; the factor is measured (docs/accuracy.md). */
+    double roughness;
+    /* The step in which a contact opens or closes may be this part of the contact's duration: the
+     * impulse within it is about its 5/2 power. */
+    double event_share;
+    /* See step_limits_stable. 0.5 still closes the audit to 1e-5 over 20 wave passages, 2 does
+     * not; 0.02 closes it to 1e-11. */
+    double coupling;
+};
+
+struct step_limits step_limits_make(double accuracy);
+
+/* The longest step of a contact of that scale, s, that pumps no mode. A mode that the step does not
+ * resolve sees the law at four instants only and can be pumped by it. Its coupling to the contact
+ * within a step, phi^2 (dF/dd) h / omega, must then stay small; the strongest unresolved mode is
+ * the slowest one. Long contacts on light bodies need this (hundreds of steps); an ordinary impact
+ * takes such steps anyway. */
+double step_limits_stable(const struct scene *scene, size_t contact,
+                          const struct impact_scale *scale, double coupling);
+
+#endif
