@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "fe/matched.h"
 #include "model/vector.h"
 
 /* A hit counts as central up to this share of the radius: the correction is of second order in it.
@@ -43,17 +42,11 @@ static bool side_compliance(const struct geometry *geometry, struct prepared_cac
 {
     const struct contact_side *side = &geometry->sides[c][which];
     const struct body *body = geometry->bodies[side->body];
-    switch (body->shape) {
-    case SHAPE_ROD:
-    case SHAPE_CYLINDER:
-        if (!is_central(body, side->site.point))
-            return false;
-        return prepared_matched_get(cache, body, compliance);
-    case SHAPE_SPHERE:
-        return matched_compliance(body, patch_radius(geometry, c), compliance);
-    default:
-        return matched_compliance(body, 0.0, compliance);
-    }
+    bool ends = body->shape == SHAPE_ROD || body->shape == SHAPE_CYLINDER;
+    if (ends && !is_central(body, side->site.point))
+        return false;
+    double patch = body->shape == SHAPE_SPHERE ? patch_radius(geometry, c) : 0.0;
+    return prepared_matched_get(cache, body, patch, compliance);
 }
 
 static void use_half_space(struct geometry *geometry, const char *why)

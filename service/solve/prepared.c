@@ -3,12 +3,15 @@
 
 #include "solve/prepared.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "fe/matched.h"
 
+/* Patches from a half of a sphere's radius down to 1/1024; smaller ones are extrapolated. */
+enum { OCTAVES = 11 };
 enum { BUCKETS = 256, ROUNDING = 8 };
 /* Bodies with parameters of a request's own that are kept: a calibration comes back to a few. */
 enum { MOST_VARIED = 32 };
@@ -25,8 +28,8 @@ struct entry {
     struct body body; /* a copy: its key, see body_same_modes */
     struct prepared_family *families[FAMILY_COUNT];
     struct remainder *remainders[FAMILY_COUNT];
-    enum { UNASKED, KNOWN, NONE } matched_is;
-    double matched;
+    enum { UNASKED, KNOWN, NONE } matched_is[OCTAVES];
+    double matched[OCTAVES]; /* [k]: with the patch radius/2^k; [0] where it does not matter */
 };
 
 struct prepared_cache {
@@ -113,7 +116,7 @@ static void entry_clear(struct entry *entry)
         entry->families[f] = NULL;
         entry->remainders[f] = NULL;
     }
-    entry->matched_is = UNASKED;
+    memset(entry->matched_is, 0, sizeof entry->matched_is);
 }
 
 /* Forgets all bodies, or only the varied ones. */
@@ -234,15 +237,32 @@ struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const s
     return made->set;
 }
 
-bool prepared_matched_get(struct prepared_cache *cache, const struct body *body, double *compliance)
+/* The compliance at an octave; NAN: none is known. */
+static double matched_at(struct entry *entry, const struct body *body, int octave)
+{
+    double patch = ldexp(body->radius, -octave);
+    if (entry->matched_is[octave] == UNASKED)
+        entry->matched_is[octave] =
+            matched_compliance(body, patch, &entry->matched[octave]) ? KNOWN : NONE;
+    return entry->matched_is[octave] == KNOWN ? entry->matched[octave] : NAN;
+}
+
+bool prepared_matched_get(struct prepared_cache *cache, const struct body *body, double patch,
+                          double *compliance)
 {
     struct entry *entry = find_entry(cache, body);
     if (!entry)
         return false;
-    if (entry->matched_is == UNASKED)
-        entry->matched_is = matched_compliance(body, 0.0, &entry->matched) ? KNOWN : NONE;
-    *compliance = entry->matched;
-    return entry->matched_is == KNOWN;
+    if (body->shape != SHAPE_SPHERE) {
+        *compliance = matched_at(entry, body, 0);
+        return isfinite(*compliance);
+    }
+    double octave = fmax(1.0, -log2(patch / body->radius));
+    int below = (int)fmin(octave, OCTAVES - 2);
+    double low = matched_at(entry, body, below);
+    double high = matched_at(entry, body, below + 1);
+    *compliance = low + (octave - below) * (high - low);
+    return isfinite(*compliance);
 }
 
 void prepared_cache_forget(struct prepared_cache *cache, const char *id)

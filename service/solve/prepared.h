@@ -45,9 +45,11 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
 struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
                                            enum mode_family family, size_t first);
 
-/* matched_compliance of a rod's or cylinder's end, which takes milliseconds when first asked for.
- * False: none is known, or out of memory. */
-bool prepared_matched_get(struct prepared_cache *cache, const struct body *body,
+/* matched_compliance of a sphere, or of a rod's or cylinder's end, with the contact radius `patch`
+ * (m). It takes milliseconds when first asked for. A sphere's is linear in the logarithm of the
+ * patch but for terms of the order of (patch/radius)^2: taken from octaves. False: none is known,
+ * or out of memory. */
+bool prepared_matched_get(struct prepared_cache *cache, const struct body *body, double patch,
                           double *compliance);
 
 #endif

@@ -122,6 +122,26 @@ static void too_stiff_contacts_do_without(void **state)
     lab_free(lab);
 }
 
+/* The sphere's compliance goes with the logarithm of the patch: also the slowest touch is answered
+ * at once, and e stays smooth in the speed. */
+static void the_slowest_touch(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = matched_lab();
+    double last = 1.0;
+    for (double speed = 1e-9; speed < 1e-3; speed *= 10.0) {
+        struct solve_request request =
+            strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), speed);
+        request.options.tolerance = 1e-4;
+        lab_solve(lab, &request, &result);
+        assert_int_equal(result.compliance, PERCUSS_COMPLIANCE_MATCHED);
+        assert_true(result.contacts[0].restitution <= last + 1e-4);
+        last = result.contacts[0].restitution;
+    }
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -130,6 +150,7 @@ int main(void)
         cmocka_unit_test(rigid_bodies_stay_hertz_s),
         cmocka_unit_test(only_central_hits),
         cmocka_unit_test(too_stiff_contacts_do_without),
+        cmocka_unit_test(the_slowest_touch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
