@@ -244,6 +244,7 @@ static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault
     if (status)
         return status;
     run->decoded->spec.catalogue = task->edition->set;
+    run->decoded->spec.tables = table_store_source(run->service->tables.loaded);
     if (!is_wanted(run))
         return fault_set(fault, PERCUSS_TIMEOUT, "%s before the first sample", run->message);
     struct ensemble_interest interest = {lasts, run};

@@ -38,6 +38,8 @@ enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
     (*worker)->repeat = status ? NULL : repeat_create();
     if (!status && !(*worker)->repeat)
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    if (!status)
+        repeat_set_tables((*worker)->repeat, ensemble->spec.tables);
     if (status) {
         ensemble_worker_free(*worker);
         *worker = NULL;
@@ -263,10 +265,17 @@ static enum percuss_status find_model(struct ensemble *ensemble,
 /* The impact as it is stated must be one that solve() answers. */
 static enum percuss_status try_request(const struct ensemble_spec *spec, struct fault *fault)
 {
+    enum percuss_contact_model asked = spec->request->options.contact_model;
+    if (asked > PERCUSS_CONTACT_TABLE)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "options.contact_model: %s: takes seconds an impact: an ensemble takes "
+                         "auto, hertz, closed-form or table",
+                         contact_model_name(asked));
     struct solve_workspace *workspace = solve_workspace_create();
     struct solve_result *result = calloc(1, sizeof *result);
     enum percuss_status status = PERCUSS_INTERNAL;
     if (workspace && result) {
+        solve_workspace_set_tables(workspace, spec->tables);
         status = solve(workspace, spec->catalogue, spec->request, result);
         *fault = result->fault;
     } else {

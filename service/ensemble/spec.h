@@ -21,8 +21,9 @@ enum {
 /* Everything it points to is borrowed. */
 struct ensemble_spec {
     const struct body_set *catalogue;
-    const struct solve_request *request; /* the impact; the inputs replace numbers of it */
-    size_t contact;                      /* index of the one that is looked at */
+    const struct contact_table_source *tables; /* NULL: none */
+    const struct solve_request *request;       /* the impact; the inputs replace numbers of it */
+    size_t contact;                            /* index of the one that is looked at */
     size_t input_count;
     const struct ensemble_input *inputs;
     size_t correlation_count;

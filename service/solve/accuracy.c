@@ -6,12 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Work (impact.h) of all solutions of a request: about a second by the modal
- * method, whose steps cost some 20 ns of that each; CVODE's right-hand sides are many more and
- * cheaper. */
-static const double MAX_WORK = 4e7;
-static const double MAX_WORK_CVODE = 4e9;
-
 /* No touch lies behind an overlap: the request contradicts itself. */
 static enum percuss_status refuse_overlap(const struct attempt_context *context,
                                           struct fault *fault)
@@ -78,7 +72,7 @@ enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geome
         .cache = cache,
         .arena = memory,
         .tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3,
-        .work = options->method == PERCUSS_METHOD_CVODE ? MAX_WORK_CVODE : MAX_WORK,
+        .work = attempt_work_allowed(request),
     };
     bool sequence = mode_search_expects_sequence(geometry);
     struct attempt best = {.accuracy = step_search_first_accuracy(context.tolerance, sequence)};

@@ -5,6 +5,18 @@
 
 #include <math.h>
 
+/* About a second by the modal method, whose steps cost some 20 ns of that each; CVODE's right-hand
+ * sides are many more and cheaper. */
+static const double MAX_WORK = 4e7;
+static const double MAX_WORK_CVODE = 4e9;
+/* More of its energy no solution may gain or lose. */
+static const double WORST_DEFECT = 0.01;
+
+double attempt_work_allowed(const struct solve_request *request)
+{
+    return request->options.method == PERCUSS_METHOD_CVODE ? MAX_WORK_CVODE : MAX_WORK;
+}
+
 double attempt_horizon(const struct solve_request *request, const struct scene *scene)
 {
     double asked = request->options.horizon;
@@ -86,4 +98,19 @@ bool attempt_is_sequence(const struct attempt *attempt)
         if (attempt->outcome.tracks[c].count > 1)
             return true;
     return contacts > 1;
+}
+
+double attempt_energy_defect(const struct geometry *geometry, const struct impact_outcome *outcome)
+{
+    double approach = 0.0;
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        approach += 0.5 * geometry->impulse_compression[c] * fabs(geometry->gap_rate[c]);
+    double lost = fabs(outcome->energy.closure);
+    // the slowest approach of all has no energy that doubles can hold
+    return lost == 0.0 ? 0.0 : lost / fmax(outcome->energy.available, approach);
+}
+
+bool attempt_keeps_energy(double defect)
+{
+    return defect <= WORST_DEFECT;
 }

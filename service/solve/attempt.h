@@ -50,6 +50,16 @@ struct attempt_difference {
 struct attempt_difference attempt_compare(const struct attempt_context *context,
                                           const struct attempt *a, const struct attempt *b);
 
+/* Work (impact.h) that all solutions of a request with one contact model may take. */
+double attempt_work_allowed(const struct solve_request *request);
+
+/* Share of the energy that a solution gains or loses. What acceleration takes may leave next to
+ * nothing available: the approach counts too. */
+double attempt_energy_defect(const struct geometry *geometry, const struct impact_outcome *outcome);
+
+/* Whether a solution with that defect is one at all: to 1 %. */
+bool attempt_keeps_energy(double defect);
+
 /* Whether a contact closes more than once, or there are several: later sub-impacts amplify what the
  * first ones miss. */
 bool attempt_is_sequence(const struct attempt *attempt);

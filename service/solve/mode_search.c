@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-enum { MAX_RAISES = 6, MAX_MODES = 1200 /* of a family of a body */ };
+enum { MAX_RAISES = 6 };
 /* Predicted effect of the omitted modes that the first attempt may have, in tolerances: a single
  * contact, and a beam, whose later sub-impacts amplify it five- to twentyfold as a rule. */
 static const double FIRST_SINGLE = 0.25;
@@ -98,7 +98,7 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
     bool sequence = mode_search_expects_sequence(context->geometry);
     double first = sequence ? FIRST_SEQUENCE : FIRST_SINGLE;
     best->choice = (struct mode_choice){
-        .cut = INFINITY, .allowed = first * context->tolerance, .most = MAX_MODES};
+        .cut = INFINITY, .allowed = first * context->tolerance, .most = MODE_SEARCH_MOST};
     *error = (struct mode_error){.amplification = 1.0};
     for (int raise = 0;; raise++) {
         enum percuss_status status = attempt_solve(context, best);

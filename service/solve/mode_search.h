@@ -7,6 +7,9 @@
 
 #include "solve/attempt.h"
 
+/* Most modes of a family of a body that are tried. */
+enum { MODE_SEARCH_MOST = 1200 };
+
 /* What the omitted modes do to the answer. */
 struct mode_error {
     double restitution, impulse;

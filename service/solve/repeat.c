@@ -6,19 +6,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "solve/accuracy.h"
-#include "solve/compliance.h"
-#include "solve/contact_model.h"
-
-/* As much as one request may take, see accuracy.c. */
-static const double MAX_WORK = 4e7, MAX_WORK_CVODE = 4e9;
-/* As many modes of a family of a body, see mode_search.c. */
-enum { MAX_MODES = 1200 };
-/* A run that gains or loses more of its energy is not to be used (as in report.c). */
-static const double MAX_DEFECT = 0.01;
+#include "solve/models.h"
 
 struct repeat {
     struct prepared_cache *cache;
+    const struct contact_table_source *tables; /* borrowed */
     struct arena scene_memory, run_memory;
     struct geometry *geometry; /* in scene_memory as what follows; NULL: no scene is kept */
     struct scene scene;
@@ -48,6 +40,11 @@ void repeat_free(struct repeat *repeat)
     free(repeat);
 }
 
+void repeat_set_tables(struct repeat *repeat, const struct contact_table_source *tables)
+{
+    repeat->tables = tables;
+}
+
 void repeat_forget(struct repeat *repeat, const char *id)
 {
     repeat->geometry = NULL;
@@ -57,16 +54,6 @@ void repeat_forget(struct repeat *repeat, const char *id)
 static enum percuss_status no_memory(struct fault *fault)
 {
     return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-}
-
-/* Share of the energy gained or lost; what acceleration takes may leave next to nothing available,
- * so that the approach counts too. */
-static double energy_defect(const struct geometry *geometry, const struct impact_outcome *solved)
-{
-    double approach = 0.0;
-    for (size_t c = 0; c < geometry->contact_count; c++)
-        approach += 0.5 * geometry->impulse_compression[c] * fabs(geometry->gap_rate[c]);
-    return fabs(solved->energy.closure) / fmax(solved->energy.available, approach);
 }
 
 static void read_track(const struct geometry *geometry, const struct impact_outcome *solved,
@@ -95,8 +82,8 @@ static enum percuss_status judge(const struct geometry *geometry,
                                  struct repeat_outcome *outcome, struct fault *fault)
 {
     read_track(geometry, solved, contact, outcome);
-    double defect = energy_defect(geometry, solved);
-    if (!(defect <= MAX_DEFECT) || !isfinite(outcome->impulse))
+    double defect = attempt_energy_defect(geometry, solved);
+    if (!attempt_keeps_energy(defect) || !isfinite(outcome->impulse))
         outcome->status = fault_set(fault, PERCUSS_INTERNAL,
                                     "energy: a solution gains or loses %.3g of it", defect);
     return outcome->status;
@@ -116,19 +103,10 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
     if (!geometry || !accuracy)
         return outcome->status = no_memory(fault);
     outcome->status = geometry_find(geometry, catalogue, request, &repeat->run_memory, fault);
+    const struct models_source source = {catalogue, repeat->tables, repeat->cache,
+                                         &repeat->run_memory};
     if (!outcome->status)
-        outcome->status = contact_model_choose(geometry, request, NULL, &repeat->run_memory, fault);
-    if (!outcome->status)
-        outcome->status = compliance_choose(geometry, request, catalogue, repeat->cache,
-                                            &repeat->run_memory, fault);
-    bool revised = true;
-    while (!outcome->status && revised) {
-        outcome->status =
-            accuracy_solve(accuracy, geometry, request, repeat->cache, &repeat->run_memory, fault);
-        revised = !outcome->status &&
-                  (contact_model_revise(geometry, request, &accuracy->outcome) ||
-                   compliance_revise(geometry, &accuracy->assembly->scene, &accuracy->outcome));
-    }
+        outcome->status = models_solve(accuracy, geometry, request, &source, fault);
     if (outcome->status)
         return outcome->status;
     judge(geometry, &accuracy->outcome, contact, outcome, fault);
@@ -144,7 +122,7 @@ static bool assemble_scene(struct repeat *repeat, const struct geometry *geometr
                            const struct solve_request *request, const struct repeat_model *model)
 {
     struct arena *memory = &repeat->scene_memory;
-    struct mode_choice choice = {.cut = model->cut, .allowed = 0.0, .most = MAX_MODES};
+    struct mode_choice choice = {.cut = model->cut, .allowed = 0.0, .most = MODE_SEARCH_MOST};
     struct assembly *assembly = arena_take(memory, 1, sizeof *assembly);
     return assembly && assemble(assembly, geometry, request, repeat->cache, &choice, memory) &&
            assemble_remainder(assembly, geometry, repeat->cache, memory, &repeat->scene);
@@ -163,10 +141,9 @@ static enum percuss_status make_scene(struct repeat *repeat, const struct body_s
     if (!geometry)
         return no_memory(fault);
     enum percuss_status status = geometry_find(geometry, catalogue, request, memory, fault);
+    const struct models_source source = {catalogue, repeat->tables, repeat->cache, memory};
     if (!status)
-        status = contact_model_choose(geometry, request, NULL, memory, fault);
-    if (!status)
-        status = compliance_choose(geometry, request, catalogue, repeat->cache, memory, fault);
+        status = models_choose(geometry, request, &source, fault);
     if (status)
         return status;
     if (!assemble_scene(repeat, geometry, request, model))
@@ -183,12 +160,11 @@ static enum percuss_status run_scene(struct repeat *repeat, const struct solve_r
                                      const struct repeat_model *model, struct attempt *attempt,
                                      struct fault *fault)
 {
-    bool cvode = request->options.method == PERCUSS_METHOD_CVODE;
     struct attempt_context context = {
         .geometry = repeat->geometry,
         .request = request,
         .arena = &repeat->run_memory,
-        .work = cvode ? MAX_WORK_CVODE : MAX_WORK,
+        .work = attempt_work_allowed(request),
     };
     attempt->accuracy = model->accuracy;
     for (;;) {
@@ -197,8 +173,7 @@ static enum percuss_status run_scene(struct repeat *repeat, const struct solve_r
         if (attempt->outcome.always_overlapped)
             return fault_set(fault, PERCUSS_BAD_REQUEST,
                              "contacts[].gap: the bodies overlap and never touched before");
-        if (!contact_model_revise(repeat->geometry, request, &attempt->outcome) &&
-            !compliance_revise(repeat->geometry, &repeat->scene, &attempt->outcome))
+        if (!models_revise(repeat->geometry, request, &repeat->scene, &attempt->outcome))
             return PERCUSS_OK;
         /* what this blow decided is not for the next one */
         repeat->elastic = false;

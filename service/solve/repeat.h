@@ -31,6 +31,9 @@ struct repeat;
 struct repeat *repeat_create(void); /* NULL: out of memory */
 void repeat_free(struct repeat *repeat);
 
+/* Where it finds tabulated contact laws; borrowed, NULL (as created): nowhere. */
+void repeat_set_tables(struct repeat *repeat, const struct contact_table_source *tables);
+
 /* The body of that id is another one from now on. */
 void repeat_forget(struct repeat *repeat, const char *id);
 

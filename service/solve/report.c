@@ -236,7 +236,7 @@ void report_fill(const struct geometry *geometry, const struct solve_request *re
     warn_contact_model(geometry, accuracy, result);
     fill_end(accuracy, result);
     validity_warn(geometry, request, result);
-    if (accuracy->steps.energy_defect > 0.01)
+    if (!attempt_keeps_energy(accuracy->steps.energy_defect))
         result->status =
             fault_set(&result->fault, PERCUSS_INTERNAL,
                       "energy.closure: %.3g J of %.3g J available: the solution does not "

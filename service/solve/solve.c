@@ -7,12 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solve/accuracy.h"
 #include "solve/complete.h"
-#include "solve/compliance.h"
 #include "solve/concurrent.h"
-#include "solve/contact_model.h"
 #include "solve/history.h"
+#include "solve/models.h"
 #include "solve/report.h"
 
 struct solve_workspace {
@@ -121,20 +119,10 @@ static enum percuss_status answer(struct solve_workspace *workspace,
         geometry_find(geometry, catalogue, request, &workspace->arena, &result->fault);
     if (!status && request->options.contact_model == PERCUSS_CONTACT_COMPLETE_FE)
         return complete_answer(geometry, request, &workspace->watch, &workspace->arena, result);
+    const struct models_source source = {catalogue, workspace->tables, workspace->cache,
+                                         &workspace->arena};
     if (!status)
-        status = contact_model_choose(geometry, request, workspace->tables, &workspace->arena,
-                                      &result->fault);
-    if (!status)
-        status = compliance_choose(geometry, request, catalogue, workspace->cache,
-                                   &workspace->arena, &result->fault);
-    bool revised = true;
-    while (!status && revised) {
-        status = accuracy_solve(accuracy, geometry, request, workspace->cache, &workspace->arena,
-                                &result->fault);
-        revised = !status &&
-                  (contact_model_revise(geometry, request, &accuracy->outcome) ||
-                   compliance_revise(geometry, &accuracy->assembly->scene, &accuracy->outcome));
-    }
+        status = models_solve(accuracy, geometry, request, &source, &result->fault);
     struct concurrent_effort effort;
     bool concurrent = request->options.contact_model == PERCUSS_CONTACT_CONCURRENT_FE;
     if (!status && concurrent)

@@ -18,23 +18,6 @@ double step_search_first_accuracy(double tolerance, bool sequence)
     return fmax(share * tolerance, FINEST);
 }
 
-/* Energy that stops the approach, J. */
-static double approach_energy(const struct geometry *geometry)
-{
-    double sum = 0.0;
-    for (size_t c = 0; c < geometry->contact_count; c++)
-        sum += 0.5 * geometry->impulse_compression[c] * fabs(geometry->gap_rate[c]);
-    return sum;
-}
-
-/* Share of the energy that the solution gains or loses. What acceleration takes may leave next to
- * nothing available: the approach counts too. */
-static double energy_defect(const struct attempt_context *context, const struct attempt *attempt)
-{
-    const struct impact_energy *energy = &attempt->outcome.energy;
-    return fabs(energy->closure) / fmax(energy->available, approach_energy(context->geometry));
-}
-
 /* Effect of the time steps on the restitution without a second solution: the energy that the phases
  * gain or lose, as if all of it were the rebound's (e^2 is its share of what is available), and not
  * less than what the accuracy asked for has been seen to leave (docs/accuracy.md). */
@@ -47,7 +30,7 @@ static double error_of_steps(const struct attempt_context *context, const struct
         if (isfinite(e))
             rebound = fmax(rebound, 2.0 * fabs(e));
     }
-    double defect = energy_defect(context, best);
+    double defect = attempt_energy_defect(context->geometry, &best->outcome);
     return amplification * fmax(4.0 * defect / rebound, 0.1 * pow(best->accuracy, 0.8));
 }
 
@@ -82,7 +65,7 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         enum percuss_status status = estimate(context, best, amplification, error);
         if (status)
             return status;
-        error->energy_defect = energy_defect(context, best);
+        error->energy_defect = attempt_energy_defect(context->geometry, &best->outcome);
         error->energy_closes = error->energy_defect <= closure_allowed;
         bool enough = error->restitution <= 0.3 * context->tolerance && error->energy_closes;
         if (enough || i >= MAX_TIGHTENINGS || best->accuracy < 1.01 * FINEST ||
