@@ -26,7 +26,7 @@ struct percuss_client {
     pthread_cond_t changed;
     bool leading; /* a thread is in the waitset, see receive.h */
     /* Replies as they came, the leader's: kept, so that their lists need no memory each time. */
-    percuss_v1_Reply taken[CLIENT_TAKE_AT_ONCE];
+    percuss_v2_Reply taken[CLIENT_TAKE_AT_ONCE];
     bool connected;
     uint8_t server[16]; /* who answered the ping of percuss_client_connect */
     uint64_t next_sequence;

@@ -115,7 +115,7 @@ static bool ping_is_answered(const struct percuss_client *client, const void *su
 static enum percuss_result ping_until_answered(struct percuss_client *client, double interval,
                                                double deadline)
 {
-    percuss_v1_Request ping = {0};
+    percuss_v2_Request ping = {0};
     memcpy(ping.client, client->id, sizeof ping.client);
     uint64_t before = client->pings_answered;
     enum percuss_result result = PERCUSS_RESULT_TIMEOUT;

@@ -50,7 +50,7 @@ static void file_reply(struct percuss_client *client, struct percuss_reply *repl
     percuss_reply_free(reply);
 }
 
-static void take_reply(struct percuss_client *client, const percuss_v1_Reply *wire)
+static void take_reply(struct percuss_client *client, const percuss_v2_Reply *wire)
 {
     struct percuss_reply reply;
     enum percuss_result result = convert_reply(wire, &reply);
@@ -60,7 +60,7 @@ static void take_reply(struct percuss_client *client, const percuss_v1_Reply *wi
 
 static void take_batch_reply(struct percuss_client *client, const void *sample)
 {
-    const percuss_v1_BatchReply *wire = sample;
+    const percuss_v2_BatchReply *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = pending_find(&client->pending, wire->sequence);
     if (pending && !pending->ready && pending->batch) {
@@ -80,7 +80,7 @@ static struct pending *find_ensemble(struct percuss_client *client, uint64_t seq
 
 static void take_ensemble_reply(struct percuss_client *client, const void *sample)
 {
-    const percuss_v1_EnsembleReply *wire = sample;
+    const percuss_v2_EnsembleReply *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = find_ensemble(client, wire->sequence);
     if (pending && !pending->ready)
@@ -91,7 +91,7 @@ static void take_ensemble_reply(struct percuss_client *client, const void *sampl
 
 static void take_progress(struct percuss_client *client, const void *sample)
 {
-    const percuss_v1_EnsembleProgress *wire = sample;
+    const percuss_v2_EnsembleProgress *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = find_ensemble(client, wire->sequence);
     if (pending)
@@ -101,7 +101,7 @@ static void take_progress(struct percuss_client *client, const void *sample)
 
 static void take_samples(struct percuss_client *client, const void *sample)
 {
-    const percuss_v1_EnsembleSamples *wire = sample;
+    const percuss_v2_EnsembleSamples *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = find_ensemble(client, wire->sequence);
     if (pending)
@@ -139,7 +139,7 @@ static bool take_one(struct percuss_client *client, dds_entity_t reader, dds_ret
 /* Files one part of a trace. */
 static void take_trace(struct percuss_client *client, const void *sample)
 {
-    const percuss_v1_Trace *wire = sample;
+    const percuss_v2_Trace *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = pending_find(&client->pending, wire->sequence);
     if (pending && pending->gather)

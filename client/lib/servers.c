@@ -8,7 +8,7 @@
 #include "error.h"
 #include "receive.h"
 
-static void convert_server(const percuss_v1_ServerStatus *wire, struct percuss_server *server)
+static void convert_server(const percuss_v2_ServerStatus *wire, struct percuss_server *server)
 {
     *server = (struct percuss_server){
         .process = wire->process,
@@ -65,7 +65,7 @@ enum percuss_result percuss_servers(struct percuss_client *client, double timeou
     *list = (struct percuss_server_list){0};
     enum percuss_result result = receive_deadline(timeout, &deadline);
     if (result == PERCUSS_RESULT_OK)
-        result = announcements_open(client, &client->server_reader, &percuss_v1_ServerStatus_desc,
+        result = announcements_open(client, &client->server_reader, &percuss_v2_ServerStatus_desc,
                                     WIRE_TOPIC_SERVER_STATUS);
     if (result != PERCUSS_RESULT_OK)
         return result;

@@ -37,7 +37,7 @@ struct ensemble_run {
 static void publish(struct service *service, const struct task *task, uint64_t done,
                     uint64_t samples, const struct report_progress *progress)
 {
-    percuss_v1_EnsembleProgress sample = {
+    percuss_v2_EnsembleProgress sample = {
         .sequence = task->sequence,
         .done = done,
         .samples = samples,
@@ -164,7 +164,7 @@ static void publish_samples(struct ensemble_run *run)
         for (uint64_t i = 0; i < count; i++)
             encode_sample(&run->ensemble, first + i, &run->samples[first + i],
                           values + i * columns);
-        percuss_v1_EnsembleSamples sample = {
+        percuss_v2_EnsembleSamples sample = {
             .sequence = run->task->sequence,
             .part = (uint32_t)part,
             .parts = (uint32_t)parts,

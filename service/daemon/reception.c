@@ -83,18 +83,18 @@ static bool admit(struct service *service, const struct request_name *name, stru
     return true;
 }
 
-static bool is_at_least(const percuss_v1_Options *options, double tolerance)
+static bool is_at_least(const percuss_v2_Options *options, double tolerance)
 {
     return options->tolerance == 0.0 || options->tolerance >= tolerance;
 }
 
-static bool is_long(const percuss_v1_Options *options)
+static bool is_long(const percuss_v2_Options *options)
 {
     return options->method != PERCUSS_METHOD_MODAL ||
            options->contact_model > PERCUSS_CONTACT_TABLE || !is_at_least(options, short_tolerance);
 }
 
-static bool is_durable(const struct service *service, const percuss_v1_Request *request)
+static bool is_durable(const struct service *service, const percuss_v2_Request *request)
 {
     return service->rig && rig_concerns(request);
 }
@@ -104,7 +104,7 @@ static bool is_durable(const struct service *service, const percuss_v1_Request *
 static enum lane lane_for(const struct service *service, const struct task *task)
 {
     size_t i = 0, count = task->count;
-    const percuss_v1_Request *requests = task->requests;
+    const percuss_v2_Request *requests = task->requests;
     if (task->exchange == EXCHANGE_SINGLE && !task->ensemble && is_durable(service, requests))
         return LANE_SPECIMENS;
     while (i < count && !is_long(&requests[i].options) &&
@@ -137,15 +137,15 @@ static void enqueue(struct service *service, const struct request_name *name, st
 }
 
 static void enqueue_requests(struct service *service, const struct request_name *name,
-                             const percuss_v1_Request *requests, size_t count, double arrival)
+                             const percuss_v2_Request *requests, size_t count, double arrival)
 {
     bool draining = atomic_load(&service->draining);
     enqueue(service, name, draining ? NULL : task_create(name->exchange, requests, count), arrival);
 }
 
-static bool is_cheap(const percuss_v1_Request *request)
+static bool is_cheap(const percuss_v2_Request *request)
 {
-    const percuss_v1_Options *options = &request->options;
+    const percuss_v2_Options *options = &request->options;
     return request->contacts._length <= 1 && options->method == PERCUSS_METHOD_MODAL &&
            options->contact_model <= PERCUSS_CONTACT_CLOSED_FORM && !options->conditioning &&
            !options->trace && is_at_least(options, cheap_tolerance);
@@ -162,7 +162,7 @@ static bool is_sole(struct service *service, const uint8_t client[16], double no
 }
 
 static void answer_here(struct service *service, const struct request_name *name,
-                        const percuss_v1_Request *request, double arrival)
+                        const percuss_v2_Request *request, double arrival)
 {
     struct edition *edition = editions_hold(&service->editions);
     struct question question = {
@@ -177,7 +177,7 @@ static void answer_here(struct service *service, const struct request_name *name
     editions_let_go(&service->editions, edition);
 }
 
-static void receive_single(void *context, const percuss_v1_Request *request, bool alone)
+static void receive_single(void *context, const percuss_v2_Request *request, bool alone)
 {
     struct service *service = context;
     double arrival = clock_now();
@@ -198,7 +198,7 @@ static void receive_single(void *context, const percuss_v1_Request *request, boo
         enqueue_requests(service, &name, request, 1, arrival);
 }
 
-static void receive_batch(void *context, const percuss_v1_BatchRequest *batch)
+static void receive_batch(void *context, const percuss_v2_BatchRequest *batch)
 {
     struct service *service = context;
     double arrival = clock_now();
@@ -212,7 +212,7 @@ static void receive_batch(void *context, const percuss_v1_BatchRequest *batch)
         enqueue_requests(service, &name, batch->requests._buffer, batch->requests._length, arrival);
 }
 
-static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *request)
+static void receive_ensemble(void *context, const percuss_v2_EnsembleRequest *request)
 {
     struct service *service = context;
     double arrival = clock_now();
@@ -235,7 +235,7 @@ static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *re
 /* In its turn among the requests; a client that sees no effect asks again. */
 static void receive_clear(void *context, const char *specimen)
 {
-    static const percuss_v1_Request nothing;
+    static const percuss_v2_Request nothing;
     struct service *service = context;
     if (!specimen[0] || atomic_load(&service->draining))
         return;

@@ -55,7 +55,7 @@ struct subject_name {
 static struct token_subject subject_of(const struct question *question, size_t index,
                                        struct subject_name *name)
 {
-    const percuss_v1_BodyMotion *body = &question->request->bodies._buffer[index];
+    const percuss_v2_BodyMotion *body = &question->request->bodies._buffer[index];
     struct hasher hasher = {0};
     for (uint32_t i = 0; i < body->overrides._length; i++) {
         hash_number(&hasher, body->overrides._buffer[i].parameter);
@@ -96,7 +96,7 @@ static enum percuss_status hold_state(struct seat *seat, struct token_store *tok
                                       const struct question *question, size_t index,
                                       struct fault *fault)
 {
-    const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[index];
+    const percuss_v2_BodyMotion *wire = &question->request->bodies._buffer[index];
     const char *token = wire->state;
     struct solve_body *body = &seat->request.bodies[index];
     if (wire->specimen[0])

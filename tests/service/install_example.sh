@@ -32,7 +32,7 @@ ${CC:-cc} -std=c17 -Wall -Wextra -Werror $(pkg-config --cflags percuss) "$exampl
 # nothing but percuss_ leaves the libraries, and their headers do not need those of DDS
 for library in libpercuss libpercuss-slowscale; do
     if nm -D --defined-only "$libraries/$library.so" | awk '{print $3}' | grep -v '^percuss_' ||
-        nm -D --defined-only "$libraries/$library.so" | grep ' percuss_v1_'; then
+        nm -D --defined-only "$libraries/$library.so" | grep ' percuss_v2_'; then
         echo "$library exports symbols of its inside" >&2
         exit 1
     fi
