@@ -124,6 +124,9 @@ static void move_of_side(const struct tracer *tracer, size_t c, int s, const dou
 static void sample(struct tracer *tracer, const double *force, const double *indentation)
 {
     struct trace *trace = tracer->trace;
+    /* steps shorter than the time's rounding show nothing new */
+    if (trace->count > 0 && !(tracer->now.time > trace->time[trace->count - 1]))
+        return;
     if (tracer->skip > 0) {
         tracer->skip--;
         return;
@@ -230,7 +233,10 @@ static bool show_flight(struct tracer *tracer, double end, double phase)
     double part = phase > 0.0 ? PHASE_SHARE * phase : length;
     part = fmax(length / MOST_FLIGHT, fmin(part, length / LEAST_FLIGHT));
     int level = step_level(part);
-    while (end - tracer->now.time > 1.5 * step_length(level)) {
+    double h = step_length(level);
+    /* a flight as short as the time's rounding has no instants within it: its steps would not move
+     * the time, and never come to the end */
+    while (end - tracer->now.time > 1.5 * h && tracer->now.time + h > tracer->now.time) {
         if (!step(tracer, level, tracer->silent))
             return false;
         sample(tracer, tracer->none, tracer->none);
