@@ -53,7 +53,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         compare->csv = true;
         return 0;
     case KEY_PLOT:
-        plot_check_name(text, state);
+        plot_check(text, state);
         compare->plot = text;
         return 0;
     case KEY_PERMUTATIONS:

@@ -13,6 +13,7 @@
 #include "cli.h"
 #include "ensemble_output.h"
 #include "input_text.h"
+#include "output_file.h"
 #include "plot.h"
 #include "reply_json.h"
 #include "scene.h"
@@ -200,10 +201,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
         request->bins = parse_count("bins", text, 1000, state);
         return 0;
     case KEY_CSV:
+        output_file_check("csv", text, state);
         ensemble->csv = text;
         return 0;
     case KEY_PLOT:
-        plot_check_name(text, state);
+        plot_check(text, state);
         ensemble->plot = text;
         return 0;
     case KEY_DEADLINE:

@@ -8,8 +8,9 @@
 #include <argp.h>
 #include <stdio.h>
 
-/* Ends the process through argp_error unless the file's name ends in .png or .svg. */
-void plot_check_name(const char *file, struct argp_state *state);
+/* Ends the process with exit code 2 unless the file's name ends in .png or .svg and it can be
+ * written. */
+void plot_check(const char *file, struct argp_state *state);
 
 /* A picture under way: write gnuplot commands and data to `script`. */
 struct plot {
@@ -23,7 +24,8 @@ int plot_begin(struct plot *plot, const char *file, unsigned width, unsigned hei
 /* Writes a text as a gnuplot string. */
 void plot_text(const struct plot *plot, const char *text);
 
-/* Lets gnuplot draw. Exit code; complains if there is no gnuplot or it fails. */
+/* Lets gnuplot draw, and writes the file if it could. Exit code; complains if there is no gnuplot
+ * or something fails. */
 int plot_end(struct plot *plot);
 
 #endif

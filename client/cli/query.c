@@ -9,6 +9,7 @@
 
 #include "cli.h"
 #include "ensemble_output.h"
+#include "output_file.h"
 #include "plot.h"
 #include "plot_impact.h"
 #include "reply_json.h"
@@ -94,10 +95,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
         query->file = text;
         return 0;
     case KEY_TRACE:
+        if (strcmp(text, "-") != 0)
+            output_file_check("trace", text, state);
         query->trace = text;
         return 0;
     case KEY_PLOT:
-        plot_check_name(text, state);
+        plot_check(text, state);
         query->plot = text;
         return 0;
     case ARGP_KEY_END:

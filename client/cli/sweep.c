@@ -71,7 +71,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         sweep->csv = true;
         return 0;
     case KEY_PLOT:
-        plot_check_name(text, state);
+        plot_check(text, state);
         sweep->plot = text;
         return 0;
     case ARGP_KEY_END:

@@ -1,0 +1,18 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Files that a command is told to write. */
+#ifndef PERCUSS_CLI_OUTPUT_FILE_H
+#define PERCUSS_CLI_OUTPUT_FILE_H
+
+#include <argp.h>
+#include <stddef.h>
+
+/* Ends the process (exit code 2, the option, the file and why) unless the file can be written:
+ * asked before there is an answer that could be lost. What is in the file stays there. */
+void output_file_check(const char *option, const char *file, struct argp_state *state);
+
+/* Writes it all. Exit code; complains in the option's name. */
+int output_file_write(const char *option, const char *file, const void *bytes, size_t size);
+
+#endif
