@@ -150,6 +150,20 @@ const uint8_t *endpoint_server(const struct endpoint *endpoint)
     return endpoint->server;
 }
 
+/* Whether the sample at hand names this server, or none. */
+static bool is_ours(const struct endpoint *endpoint, enum exchange exchange)
+{
+    static const uint8_t anybody[16];
+    const void *sample = endpoint->samples[exchange];
+    const uint8_t *server = ((const percuss_v2_Request *)sample)->server;
+    if (exchange == EXCHANGE_BATCH)
+        server = ((const percuss_v2_BatchRequest *)sample)->server;
+    else if (exchange == EXCHANGE_ENSEMBLE)
+        server = ((const percuss_v2_EnsembleRequest *)sample)->server;
+    return memcmp(server, anybody, sizeof anybody) == 0 ||
+           memcmp(server, endpoint->server, sizeof endpoint->server) == 0;
+}
+
 static void handle(const struct endpoint_handler *handler, enum exchange exchange,
                    const void *sample, bool alone)
 {
@@ -181,7 +195,8 @@ static bool take(struct endpoint *endpoint, const struct endpoint_handler *handl
         dds_takecdr(endpoint->readers[exchange], taken, TAKEN_AT_ONCE, infos, DDS_ANY_STATE);
     /* samples without data only tell that a client's writer has gone */
     for (dds_return_t i = 0; i < count; i++) {
-        if (infos[i].valid_data && decode(endpoint, exchange, taken[i]))
+        if (infos[i].valid_data && decode(endpoint, exchange, taken[i]) &&
+            is_ours(endpoint, exchange))
             handle(handler, exchange, endpoint->samples[exchange], count == 1);
         ddsi_serdata_unref(taken[i]);
     }
