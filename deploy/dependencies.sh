@@ -4,15 +4,23 @@
 #
 # Installs what percuss is built with and tested with, from Debian 12; nothing where it is there
 # already. Needs root (or sudo) only when something is missing.
-# usage: dependencies.sh [build|test]
+# usage: dependencies.sh [build|test|ci]    (ci: also a second compiler and what makes an empty machine)
 set -eu
 
 build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-serial-dev
 liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom123-dev libsqlite3-dev"
 test="libcmocka-dev python3-venv libmujoco-dev valgrind"
+ci="clang mmdebstrap"
 
-packages=$build
-[ "${1:-build}" = build ] || packages="$build $test"
+case ${1:-build} in
+build) packages=$build ;;
+test) packages="$build $test" ;;
+ci) packages="$build $test $ci" ;;
+*)
+    echo "usage: dependencies.sh [build|test|ci]" >&2
+    exit 2
+    ;;
+esac
 
 missing=""
 for package in $packages; do

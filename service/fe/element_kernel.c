@@ -5,20 +5,13 @@
  * velocities. */
 #include <math.h>
 
+#include "base/vector_clones.h"
 #include "fe/element_blocks.h"
 
 typedef double lanes __attribute__((vector_size(FE_LANES * sizeof(double)), may_alias));
 typedef double pair __attribute__((vector_size(2 * sizeof(double)), may_alias));
 typedef long long mask __attribute__((vector_size(FE_LANES * sizeof(double))));
 
-/* The same code for the baseline and for AVX2, chosen when the program starts; contraction is off,
- * so both give the same bits. Sanitizers cannot run the resolver. */
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&      \
-    !defined(PERCUSS_ONE_KERNEL)
-#define KERNEL __attribute__((target_clones("avx2", "default")))
-#else
-#define KERNEL
-#endif
 #define INLINE static inline __attribute__((always_inline))
 
 /* x in the lanes of the mask, 0 elsewhere */
@@ -60,8 +53,8 @@ INLINE void scatter(const uint32_t node[QUAD_NODES][FE_LANES], const lanes f[QUA
     }
 }
 
-KERNEL void elastic_blocks_kick(const struct elastic_block *blocks, size_t count, const double *y,
-                                double *v, double step)
+VECTOR_CLONES void elastic_blocks_kick(const struct elastic_block *blocks, size_t count,
+                                       const double *y, double *v, double step)
 {
     for (const struct elastic_block *block = blocks; block < blocks + count; block++) {
         lanes u[QUAD_FREEDOMS];
@@ -125,8 +118,8 @@ INLINE void trial(const struct plastic_block *block, int p, const lanes u[QUAD_F
     s[3] = g * (rz - AT(block->strain[p][2]));
 }
 
-KERNEL void plastic_blocks_kick(struct plastic_block *blocks, size_t count, const double *y,
-                                double *v, double step)
+VECTOR_CLONES void plastic_blocks_kick(struct plastic_block *blocks, size_t count, const double *y,
+                                       double *v, double step)
 {
     for (struct plastic_block *block = blocks; block < blocks + count; block++) {
         lanes u[QUAD_FREEDOMS];

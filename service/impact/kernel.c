@@ -3,22 +3,15 @@
 
 #include "impact/kernel.h"
 
-typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
+#include "base/vector_clones.h"
 
-/* The same code for the baseline and for AVX2, chosen when the program starts; contraction is off,
- * so both give the same bits. Sanitizers cannot run the resolver. */
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) &&      \
-    !defined(PERCUSS_ONE_KERNEL)
-#define KERNEL __attribute__((target_clones("avx2", "default")))
-#else
-#define KERNEL
-#endif
+typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 
 #define AT(array, k) (*(const lanes *)((array) + (k)))
 #define TOTAL(x)     (((x)[0] + (x)[1]) + ((x)[2] + (x)[3]))
 
-KERNEL void kernel_nodes(const struct step_table *table, size_t length, const double *phi,
-                         const double *q, const double *v, double sums[NODES])
+VECTOR_CLONES void kernel_nodes(const struct step_table *table, size_t length, const double *phi,
+                                const double *q, const double *v, double sums[NODES])
 {
     lanes s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
     for (size_t k = 0; k < length; k += LANES) {
@@ -35,8 +28,8 @@ KERNEL void kernel_nodes(const struct step_table *table, size_t length, const do
     sums[3] += TOTAL(s3);
 }
 
-KERNEL void kernel_advance(const struct step_table *table, size_t length, const double *q,
-                           const double *v, double *q_end, double *v_end)
+VECTOR_CLONES void kernel_advance(const struct step_table *table, size_t length, const double *q,
+                                  const double *v, double *q_end, double *v_end)
 {
     for (size_t k = 0; k < length; k += LANES) {
         lanes qk = AT(q, k);
@@ -46,8 +39,8 @@ KERNEL void kernel_advance(const struct step_table *table, size_t length, const 
     }
 }
 
-KERNEL void kernel_push(const struct step_table *table, size_t length, const double *phi,
-                        const double force[NODES], double *q_end, double *v_end)
+VECTOR_CLONES void kernel_push(const struct step_table *table, size_t length, const double *phi,
+                               const double force[NODES], double *q_end, double *v_end)
 {
     for (size_t k = 0; k < length; k += LANES) {
         lanes p = AT(phi, k);
@@ -60,8 +53,8 @@ KERNEL void kernel_push(const struct step_table *table, size_t length, const dou
     }
 }
 
-KERNEL void kernel_dot2(size_t length, const double *a, const double *x, const double *y,
-                        double *ax, double *ay)
+VECTOR_CLONES void kernel_dot2(size_t length, const double *a, const double *x, const double *y,
+                               double *ax, double *ay)
 {
     lanes sx = {0}, sy = {0};
     for (size_t k = 0; k < length; k += LANES) {
@@ -72,9 +65,9 @@ KERNEL void kernel_dot2(size_t length, const double *a, const double *x, const d
     *ay = TOTAL(sy);
 }
 
-KERNEL void kernel_derivatives(size_t length, const double *omega, double damping,
-                               const double *phi, const double *q, const double *v,
-                               double sums[DERIVATIVES])
+VECTOR_CLONES void kernel_derivatives(size_t length, const double *omega, double damping,
+                                      const double *phi, const double *q, const double *v,
+                                      double sums[DERIVATIVES])
 {
     lanes total[DERIVATIVES] = {{0}};
     for (size_t k = 0; k < length; k += LANES) {
@@ -94,8 +87,9 @@ KERNEL void kernel_derivatives(size_t length, const double *omega, double dampin
         sums[n] += TOTAL(total[n]);
 }
 
-KERNEL void kernel_response(const struct step_table *table, size_t length, const double *phi_a,
-                            const double *phi_b, double sums[NODES][NODES])
+VECTOR_CLONES void kernel_response(const struct step_table *table, size_t length,
+                                   const double *phi_a, const double *phi_b,
+                                   double sums[NODES][NODES])
 {
     for (int i = 0; i < NODES; i++) {
         lanes s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};

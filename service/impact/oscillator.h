@@ -9,6 +9,11 @@
 
 #include "impact/collocation.h"
 
+/* glibc 2.36 has it for gcc only */
+#ifndef CMPLX
+#define CMPLX(x, y) __builtin_complex((double)(x), (double)(y))
+#endif
+
 /* Characteristic value lambda = -zeta omega + i omega sqrt(1 - zeta^2). */
 double complex oscillator_lambda(double omega, double damping);
 

@@ -6,16 +6,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector_clones.h"
 #include "impact/impact.h"
 #include "impact/kernel.h"
 
 /* Four numbers at any address; compiled twice like the library's own kernels. */
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double)), aligned(8)));
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define KERNEL __attribute__((target_clones("avx2", "default")))
-#else
-#define KERNEL
-#endif
 #define AT(array, k)  (*(const lanes *)((array) + (k)))
 #define PUT(array, k) (*(lanes *)((array) + (k)))
 
@@ -74,7 +70,7 @@ double contact_ode_force(struct contact_ode *ode, double approach)
     return ode->stiffness * s * s * s;
 }
 
-KERNEL static double sum(size_t stride, const double *z)
+VECTOR_CLONES static double sum(size_t stride, const double *z)
 {
     lanes even = {0}, odd = {0};
     size_t k = 0;
@@ -88,8 +84,8 @@ KERNEL static double sum(size_t stride, const double *z)
     return (even[0] + even[1]) + (even[2] + even[3]);
 }
 
-KERNEL static void accelerate(const struct contact_ode *ode, double force, const double *z,
-                              double *rate)
+VECTOR_CLONES static void accelerate(const struct contact_ode *ode, double force, const double *z,
+                                     double *rate)
 {
     const double *square = ode->square;
     const double *push = ode->push;
