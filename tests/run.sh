@@ -2,12 +2,24 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Installs what is missing, builds everything into build/ and runs every test.
+# Installs what is missing, builds everything into build/ and runs every test. With CI=true a skipped test
+# is a failure, clang builds everything too, and README is followed on an empty machine.
+# PERCUSS_NO_SKIPS=true: skipped tests are failures, and that is all.
 set -eu
 cd "$(dirname "$0")/.."
+ci=${CI:-false}
+[ "$ci" = true ] && no_skips=true || no_skips=${PERCUSS_NO_SKIPS:-false}
 
 sh deploy/dependencies.sh test
-cmake -S . -B build -DCMAKE_BUILD_TYPE=Release
+# deploy/quickstart.sh builds without tests
+cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON
 cmake --build build --parallel "$(nproc)"
 # server tests take random domains; two at a time, as the machine has two cores
-ctest --test-dir build --output-on-failure --parallel 2 --timeout 300
+report=$PWD/build/tests.xml
+rm -f "$report"
+ctest --test-dir build --output-on-failure --parallel 2 --timeout 300 --output-junit "$report" \
+    --test-output-size-passed 1000000
+sh tests/skipped.sh "$report" || [ "$no_skips" != true ]
+
+[ "$ci" = true ] || exit 0
+sh tests/clang.sh

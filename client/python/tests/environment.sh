@@ -16,6 +16,17 @@ skip() {
     exit 77
 }
 
+# try SECONDS COMMAND...: three times, since a package index may be away for a moment
+try() {
+    seconds=$1
+    shift
+    for pause in 5 15 0; do
+        timeout "$seconds" "$@" >"$log" 2>&1 && return
+        sleep "$pause"
+    done
+    return 1
+}
+
 # a changed list of dependencies or another Python starts anew
 wanted=$( (python3 --version && cat "$package/pyproject.toml") | cksum)
 if [ "$(cat "$venv/wanted" 2>/dev/null)" != "$wanted" ]; then
@@ -23,9 +34,9 @@ if [ "$(cat "$venv/wanted" 2>/dev/null)" != "$wanted" ]; then
     command -v python3 >/dev/null || skip "no python3"
     python3 -m venv "$venv" >"$log" 2>&1 || skip "python3 -m venv does not work (Debian: python3-venv): $(tail -n 1 "$log")"
     # a small package tells a machine without a package index from dependencies that do not install
-    timeout 60 "$venv/bin/pip" install --retries 1 "flit_core >=3.4,<4" >"$log" 2>&1 ||
+    try 60 "$venv/bin/pip" install --retries 1 "flit_core >=3.4,<4" ||
         skip "pip reaches no package index: $(grep -i error "$log" | tail -n 1)"
-    timeout 240 "$venv/bin/pip" install --no-compile "$package[$extras]" >"$log" 2>&1 || {
+    try 240 "$venv/bin/pip" install --no-compile "$package[$extras]" || {
         cat "$log" >&2
         exit 1
     }
