@@ -12,8 +12,6 @@
 
 static const double shortest_horizon = 1e-9; /* s, that the service allows */
 static const double margin = 1e-9; /* s before a sub-impact, for its touch not to be cut in two */
-static const double instant =
-    1e-12; /* s: an engine's clock rarely ends on the very bit asked for */
 
 static void episode_free(struct episode *episode)
 {
@@ -59,14 +57,14 @@ static double centre_of(const struct percuss_sub_impact *sub)
 
 /* The sub-impacts of a contact; their sum is its impulse to the last bit that matters. */
 static void list_contact(struct episode *episode, const struct percuss_contact_result *result,
-                         size_t contact, double now)
+                         size_t contact)
 {
     double sum = 0.0;
     struct entry *first = &episode->entries[episode->entry_count];
     for (uint32_t i = 0; i < result->sub_impacts_listed; i++) {
         const struct percuss_sub_impact *sub = &result->sub_impacts[i];
         struct entry *entry = &episode->entries[episode->entry_count++];
-        *entry = (struct entry){.time = now + centre_of(sub),
+        *entry = (struct entry){.time = episode->time + centre_of(sub),
                                 .start = sub->start,
                                 .end = sub->end,
                                 .contact = contact,
@@ -74,7 +72,7 @@ static void list_contact(struct episode *episode, const struct percuss_contact_r
         sum += sub->impulse;
     }
     /* rounding, or more sub-impacts than are listed */
-    struct entry rest = {.time = now + result->end_time,
+    struct entry rest = {.time = episode->time + result->end_time,
                          .start = result->end_time,
                          .end = result->end_time,
                          .contact = contact,
@@ -85,11 +83,11 @@ static void list_contact(struct episode *episode, const struct percuss_contact_r
         first[result->sub_impacts_listed - 1].impulse += rest.impulse;
 }
 
-static void list_total(struct episode *episode, double impulse, size_t contact, double now)
+static void list_total(struct episode *episode, double impulse, size_t contact)
 {
     if (impulse != 0.0)
         episode->entries[episode->entry_count++] =
-            (struct entry){.time = now, .contact = contact, .impulse = impulse};
+            (struct entry){.time = episode->time, .contact = contact, .impulse = impulse};
 }
 
 /* Room for a group's contacts, their matrix and the entries of its reply; NULL: no memory. */
@@ -119,29 +117,34 @@ static struct episode *episode_create(const struct group *group)
     return episode;
 }
 
-static void latch(struct percuss_slow *slow, const struct group *group, size_t contact, double now)
+/* From the episode's entries: in a list, the pair plays up to its last one. */
+static void latch(struct percuss_slow *slow, const struct group *group,
+                  const struct episode *episode, size_t contact, double now)
 {
     struct pair *pair = pairs_find(slow, &group->contacts[contact]);
-    bool due = pairs_is_due(slow, &group->contacts[contact], group->gap_rate[contact]);
+    bool due = pairs_is_due(slow, &group->contacts[contact], group->gap_rate[contact], now);
     if (!pair || (group->impulse[contact] == 0.0 && !due)) /* nothing happens to it */
         return;
     const struct percuss_reply *reply = group->reply;
     pair->latch = LATCH_PLAYING;
-    pair->until = now + (reply ? reply->contacts[contact].end_time : 0.0);
-    pair->continues = reply && !reply->complete;
-    if (pair->continues)
-        pair->until = now + reply->window;
+    pair->until = pair->over = episode->time + episode->window;
+    if (!reply || !reply->complete)
+        return;
+    pair->until = episode->time + reply->contacts[contact].end_time;
+    for (size_t i = 0; episode->revocable && i < episode->entry_count; i++)
+        if (episode->entries[i].contact == contact)
+            pair->until = episode->entries[i].time;
 }
 
 enum percuss_result episode_begin(struct percuss_slow *slow, const struct group *group,
-                                  const struct percuss_request *request, double now)
+                                  const struct percuss_request *request)
 {
     struct episode *episode = episode_create(group);
     if (!episode)
         return slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for an answer");
     const struct percuss_reply *reply = group->reply;
     bool listed = reply && slow->config.application == PERCUSS_SLOW_LIST;
-    episode->time = now;
+    episode->time = group->start;
     episode->window = reply ? reply->window : 0.0;
     episode->revocable = listed;
     if (reply) {
@@ -151,12 +154,13 @@ enum percuss_result episode_begin(struct percuss_slow *slow, const struct group 
     }
     for (size_t i = 0; i < group->count; i++) {
         if (listed)
-            list_contact(episode, &reply->contacts[i], i, now);
+            list_contact(episode, &reply->contacts[i], i);
         else
-            list_total(episode, group->impulse[i], i, now);
-        latch(slow, group, i, now);
+            list_total(episode, group->impulse[i], i);
     }
     qsort(episode->entries, episode->entry_count, sizeof *episode->entries, by_time);
+    for (size_t i = 0; i < group->count; i++)
+        latch(slow, group, episode, i, group->start);
     episode->next = slow->episodes;
     slow->episodes = episode;
     return PERCUSS_RESULT_OK;
@@ -181,7 +185,7 @@ enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t 
     for (struct episode *episode = slow->episodes; !result && episode; episode = next) {
         next = episode->next;
         while (!result && episode->played < episode->entry_count &&
-               episode->entries[episode->played].time <= now + instant) {
+               slow_has_come(episode->entries[episode->played].time, now)) {
             result = apply(slow, episode, &episode->entries[episode->played++]);
             ++*applied;
         }
@@ -198,7 +202,7 @@ struct episode *episode_of(const struct percuss_slow *slow,
         for (size_t i = 0; i < episode->request.contact_count; i++) {
             const struct percuss_slow_contact *own = &episode->contacts[i];
             if (episode->revocable && now < episode->time + episode->window &&
-                own->a == contact->a && own->b == contact->b && own->feature == contact->feature)
+                pairs_is_same(own, contact))
                 return episode;
         }
     return NULL;
@@ -248,12 +252,9 @@ static enum percuss_result take_back(const struct percuss_slow *slow, const stru
     const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
     struct entry back = *entry;
     back.impulse = -entry->impulse;
-    for (size_t i = 0; i < group->count; i++) {
-        const struct percuss_slow_contact *member = &group->contacts[i];
-        if (member->a == contact->a && member->b == contact->b &&
-            member->feature == contact->feature)
+    for (size_t i = 0; i < group->count; i++)
+        if (pairs_is_same(&group->contacts[i], contact))
             group->moved[i] += entry->impulse * (now - entry->time);
-    }
     return apply(slow, episode, &back);
 }
 

@@ -7,10 +7,10 @@
 
 #include "group.h"
 
-/* Latches the group's pairs and enters what is to be applied: by the group's reply to `request`, or
- * without one the group's impulses now. */
+/* Latches the group's pairs and enters what is to be applied from its start on: by the group's
+ * reply to `request`, or without one the group's impulses at once. */
 enum percuss_result episode_begin(struct percuss_slow *slow, const struct group *group,
-                                  const struct percuss_request *request, double now);
+                                  const struct percuss_request *request);
 
 /* Applies all entries up to now and forgets episodes that are over; *applied counts them. */
 enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t *applied);

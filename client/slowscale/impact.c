@@ -155,7 +155,7 @@ static enum percuss_result settle(struct percuss_slow *slow, struct group *group
                            "engine's matrix",
                            group->count);
     if (!result)
-        result = episode_begin(slow, group, request, group->start);
+        result = episode_begin(slow, group, request);
     if (!result)
         result = report(slow, group);
     if (!result)

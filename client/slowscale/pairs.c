@@ -1,19 +1,26 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "pairs.h"
 
-static bool is_same(const struct percuss_slow_contact *x, const struct percuss_slow_contact *y)
+static const double slowest = 1e-3;  /* m/s: rounding and the engine's own contact stay below */
+static const double gravity = 9.81;  /* m/s^2: what presses a pair of unknown acceleration */
+static const double allowance = 1.5; /* of what one step can bring, for accelerations that change */
+
+bool pairs_is_same(const struct percuss_slow_contact *x, const struct percuss_slow_contact *y)
 {
-    return x->a == y->a && x->b == y->b && x->feature == y->feature;
+    bool straight = x->a == y->a && x->b == y->b;
+    bool flipped = x->a == y->b && x->b == y->a;
+    return (straight || flipped) && x->feature == y->feature;
 }
 
 struct pair *pairs_find(const struct percuss_slow *slow, const struct percuss_slow_contact *contact)
 {
     for (size_t i = 0; i < slow->pair_count; i++)
-        if (is_same(&slow->pairs[i].contact, contact))
+        if (pairs_is_same(&slow->pairs[i].contact, contact))
             return &slow->pairs[i];
     return NULL;
 }
@@ -59,26 +66,67 @@ void pairs_update(struct percuss_slow *slow, double now)
 {
     for (size_t i = 0; i < slow->pair_count; i++) {
         struct pair *pair = &slow->pairs[i];
-        if (pair->latch == LATCH_PLAYING && now >= pair->until)
-            pair->latch = pair->continues ? LATCH_ARMED : LATCH_WAITING;
+        if (pair->latch == LATCH_PLAYING && slow_has_come(pair->until, now))
+            pair->latch = LATCH_WAITING;
         bool apart = !pair->seen || pair->contact.gap > 0.0 || pair->gap_rate >= 0.0;
-        if (pair->latch == LATCH_WAITING && apart)
+        if (pair->latch == LATCH_WAITING && (apart || slow_has_come(pair->over, now)))
             pair->latch = LATCH_ARMED;
     }
 }
 
+/* What presses a pair together, m/s^2. */
+static double pressing(const struct percuss_slow_contact *contact)
+{
+    return contact->gap_acceleration != 0.0 ? fmax(0.0, -contact->gap_acceleration) : gravity;
+}
+
+/* A pair that lay together without approach at the last call can approach only by what presses it
+ * since then, for one step: that is a permanent contact. What comes from further away, or faster,
+ * is an impact, however slow. */
+double pairs_rest_speed(const struct percuss_slow *slow, const struct percuss_slow_contact *contact,
+                        double now)
+{
+    if (slow->config.rest_speed > 0.0)
+        return slow->config.rest_speed;
+    const struct pair *pair = pairs_find(slow, contact);
+    if (!pair || !pair->lies)
+        return slowest;
+    return fmax(slowest, pair->had + allowance * pressing(contact) * (now - slow->time));
+}
+
 bool pairs_is_due(const struct percuss_slow *slow, const struct percuss_slow_contact *contact,
-                  double gap_rate)
+                  double gap_rate, double now)
 {
     const struct pair *pair = pairs_find(slow, contact);
-    return contact->gap <= 0.0 && gap_rate < -slow->config.rest_speed &&
-           (!pair || pair->latch == LATCH_ARMED);
+    return contact->gap <= 0.0 && (!pair || pair->latch == LATCH_ARMED) &&
+           gap_rate < -pairs_rest_speed(slow, contact, now);
+}
+
+/* How far apart bodies still lie together: a flight that one step of the engine cannot resolve is
+ * none, where its acceleration is known. */
+static double lying_gap(const struct percuss_slow *slow, const struct pair *pair, double step)
+{
+    bool known = slow->config.rest_speed == 0.0 && pair->contact.gap_acceleration != 0.0;
+    return fmax(slow->config.group_gap, known ? pressing(&pair->contact) * step * step : 0.0);
+}
+
+void pairs_settle(struct percuss_slow *slow, double now)
+{
+    for (size_t i = 0; i < slow->pair_count; i++) {
+        struct pair *pair = &slow->pairs[i];
+        double slow_enough = pairs_rest_speed(slow, &pair->contact, now);
+        bool touches = pair->seen && pair->contact.gap <= lying_gap(slow, pair, now - slow->time);
+        pair->lies = touches && pair->latch == LATCH_ARMED && pair->gap_rate >= -slow_enough;
+        /* above the touch the engine's own contact could not act yet */
+        pair->had = pair->contact.gap > 0.0 ? fmax(0.0, -pair->gap_rate) : 0.0;
+        pair->rests =
+            touches && pair->latch != LATCH_PLAYING && fabs(pair->gap_rate) <= slow_enough;
+    }
 }
 
 bool percuss_slow_rests(const struct percuss_slow *slow, uint32_t a, uint32_t b, uint32_t feature)
 {
     struct percuss_slow_contact key = {.a = a, .b = b, .feature = feature};
     const struct pair *pair = pairs_find(slow, &key);
-    return pair && pair->latch != LATCH_PLAYING && pair->contact.gap <= slow->config.group_gap &&
-           pair->gap_rate >= -slow->config.rest_speed && pair->gap_rate <= slow->config.rest_speed;
+    return pair && pair->rests;
 }

@@ -7,6 +7,11 @@
 
 #include "slow.h"
 
+/* Whether two contacts are of the same bodies and feature, whichever body is called a: engines may
+ * flip the order at any step. Impulse, rate and matrix are the same both ways, as the normal flips.
+ */
+bool pairs_is_same(const struct percuss_slow_contact *x, const struct percuss_slow_contact *y);
+
 /* The pair of a contact, or NULL. */
 struct pair *pairs_find(const struct percuss_slow *slow,
                         const struct percuss_slow_contact *contact);
@@ -19,8 +24,15 @@ bool pairs_take(struct percuss_slow *slow, size_t count,
 /* Moves the latches on, with the gap rates known. */
 void pairs_update(struct percuss_slow *slow, double now);
 
+/* Sees which pairs lie together, at the end of a call. */
+void pairs_settle(struct percuss_slow *slow, double now);
+
+/* Approaches up to this speed are no impacts. */
+double pairs_rest_speed(const struct percuss_slow *slow, const struct percuss_slow_contact *contact,
+                        double now);
+
 /* Whether a contact in this state is due. */
 bool pairs_is_due(const struct percuss_slow *slow, const struct percuss_slow_contact *contact,
-                  double gap_rate);
+                  double gap_rate, double now);
 
 #endif

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "pairs.h"
 #include "question.h"
 
 static const double longest_horizon = 10.0; /* s, that the service allows */
@@ -59,7 +60,7 @@ bool question_make(const struct percuss_slow *slow, const struct group *group, d
         memcpy(to->normal, from->normal, sizeof to->normal);
         to->gap = from->gap;
         /* what lies together is carried by what presses it */
-        bool rests = fabs(group->gap_rate[i]) <= slow->config.rest_speed;
+        bool rests = fabs(group->gap_rate[i]) <= pairs_rest_speed(slow, from, now);
         to->gap_acceleration = rests ? 0.0 : from->gap_acceleration;
         if (!enter_body(slow, group, from->a, now, request, map, &to->a) ||
             !enter_body(slow, group, from->b, now, request, map, &to->b))

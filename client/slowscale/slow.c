@@ -35,7 +35,6 @@ struct percuss_slow_config percuss_slow_config_default(void)
     return (struct percuss_slow_config){
         .application = PERCUSS_SLOW_LIST,
         .restitution = 0.5,
-        .rest_speed = 1e-3,
         .group_gap = 1e-5,
     };
 }
@@ -146,10 +145,10 @@ static struct group *look(const struct percuss_slow *slow, size_t count,
     return NULL;
 }
 
-static size_t first_due(const struct percuss_slow *slow, const struct group *group)
+static size_t first_due(const struct percuss_slow *slow, const struct group *group, double now)
 {
     size_t i = 0;
-    while (i < group->count && !pairs_is_due(slow, &group->contacts[i], group->gap_rate[i]))
+    while (i < group->count && !pairs_is_due(slow, &group->contacts[i], group->gap_rate[i], now))
         i++;
     return i;
 }
@@ -163,15 +162,22 @@ bool percuss_slow_due(const struct percuss_slow *slow, size_t count,
         touches = touches || contacts[i].gap <= 0.0;
     enum percuss_result result = PERCUSS_RESULT_OK;
     struct group *group = touches ? look(slow, count, contacts, &result) : NULL;
-    bool due = group && first_due(slow, group) < count;
+    double now = slow->config.engine.now(slow->config.engine.context);
+    bool due = group && first_due(slow, group, now) < count;
     free(group);
     return due;
 }
 
-static void remember_rates(struct percuss_slow *slow, const struct group *group)
+/* Velocities have changed, or time has gone on: the latches see the rates of now. */
+static enum percuss_result see_rates(struct percuss_slow *slow, struct group *group, bool changed,
+                                     double now)
 {
-    for (size_t i = 0; i < group->count; i++)
+    enum percuss_result result = changed ? group_probe(slow, group, false) : PERCUSS_RESULT_OK;
+    for (size_t i = 0; !result && i < group->count; i++)
         pairs_find(slow, &group->contacts[i])->gap_rate = group->gap_rate[i];
+    if (!result)
+        pairs_update(slow, now);
+    return result;
 }
 
 /* Impacts of one call are bounded: those that follow one another at an instant have other bodies.
@@ -180,12 +186,12 @@ static enum percuss_result solve_all(struct percuss_slow *slow, struct group *gr
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
     for (size_t i = 0; !result && i <= group->count; i++) {
-        size_t first = first_due(slow, group);
+        size_t first = first_due(slow, group, now);
         if (first == group->count)
             break;
         result = impact_solve(slow, group, first, now);
         if (!result)
-            result = group_probe(slow, group, false);
+            result = see_rates(slow, group, true, now);
     }
     return result;
 }
@@ -203,15 +209,14 @@ enum percuss_result percuss_slow_advance(struct percuss_slow *slow, size_t count
         result = slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for %zu pairs", count);
     if (!result)
         result = episodes_play(slow, now, &applied);
-    if (!result && applied)
-        result = group_probe(slow, group, false);
-    if (!result) {
-        remember_rates(slow, group);
-        pairs_update(slow, now);
-        result = solve_all(slow, group, now);
-    }
     if (!result)
-        remember_rates(slow, group);
+        result = see_rates(slow, group, applied > 0, now);
+    if (!result)
+        result = solve_all(slow, group, now);
+    if (!result) {
+        pairs_settle(slow, now);
+        slow->time = now;
+    }
     free(group);
     return result;
 }

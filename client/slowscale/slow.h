@@ -10,16 +10,19 @@
 enum latch {
     LATCH_ARMED,
     LATCH_PLAYING, /* until the last sub-impact */
-    LATCH_WAITING  /* for an open gap, or for a moment without approach */
+    LATCH_WAITING  /* for an open gap, a moment without approach, or the end of the answer */
 };
 
 struct pair {
     struct percuss_slow_contact contact; /* as last seen */
     double gap_rate;
     enum latch latch;
-    double until;   /* s: end of PLAYING */
-    bool continues; /* the answer was cut off: armed at its end whatever was seen */
-    bool seen;      /* in the present call */
+    double until; /* s: end of PLAYING */
+    double over;  /* s: end of WAITING: what the answer says ends here */
+    bool seen;    /* in the present call */
+    bool lies;    /* touched and did not approach as an impact at the end of the last call */
+    double had;   /* m/s: approach then, if it lay above the touch */
+    bool rests;   /* was slow then as well */
 };
 
 /* An impulse of an episode that is to be applied. */
@@ -56,8 +59,15 @@ struct percuss_slow {
     size_t pair_count, pair_capacity;
     struct pair *pairs;
     struct episode *episodes;
+    double time; /* s: of the last call that ended well */
     struct percuss_slow_counts counts;
 };
+
+/* Whether a time has come: an engine's clock rarely ends on the very bit asked for. */
+static inline bool slow_has_come(double time, double now)
+{
+    return time <= now + 1e-12;
+}
 
 enum percuss_result slow_fail(enum percuss_result result, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

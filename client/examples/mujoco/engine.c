@@ -188,7 +188,8 @@ size_t engine_contacts(struct engine *engine, bool accelerations,
         mju_copy3(to->point, from->pos);
         mju_copy3(to->normal, from->frame);
         for (size_t j = 0; j < count; j++)
-            to->feature += contacts[j].a == to->a && contacts[j].b == to->b;
+            to->feature += (contacts[j].a == to->a && contacts[j].b == to->b) ||
+                           (contacts[j].a == to->b && contacts[j].b == to->a);
         count++;
     }
     if (accelerations && count)

@@ -8,8 +8,9 @@
  * After every accepted step the engine hands over all pairs that are near each other. A pair that
  * overlaps and approaches is due; with everything it is coupled to it becomes one question. While
  * the answer's sub-impacts are played, bodies may overlap by some tenths of a millimetre: the pair
- * is latched until its last one and armed again once its gap was open or it did not approach. No
- * globals; one thread at a time for each object. */
+ * is latched until its last one and armed again, at that very moment or later, once its gap is open
+ * or it does not approach; and at the end of the answer's window in any case. Which body of a pair
+ * is called a may differ from call to call. No globals; one thread at a time for each object. */
 #ifndef PERCUSS_SLOWSCALE_H
 #define PERCUSS_SLOWSCALE_H
 
@@ -43,9 +44,10 @@ struct percuss_slow_config {
     struct percuss_options options;
     enum percuss_slow_application application;
     double restitution; /* declared, 0..1: used when there is no answer */
-    double
-        rest_speed; /* m/s; slower approaches are no impacts: the engine's own contact holds them */
-    double group_gap; /* m; a coupled pair this near joins an impact */
+    double rest_speed;  /* m/s; slower approaches are no impacts: the engine's own contact holds
+                           them. 0: what presses a pair that lay together (its gap acceleration;
+                           earth's gravity if that is 0) can bring about in one step of the engine */
+    double group_gap;   /* m; a coupled pair this near joins an impact */
     void (*report)(void *context, const struct percuss_slow_report *report); /* may be NULL */
     void *report_context;
 };
@@ -54,7 +56,7 @@ struct percuss_slow_config {
 extern "C" {
 #endif
 
-/* LIST, declared restitution 0.5, rest_speed 1 mm/s, group_gap 10 um, the rest empty. */
+/* LIST, declared restitution 0.5, rest_speed derived (0), group_gap 10 um, the rest empty. */
 PERCUSS_API struct percuss_slow_config percuss_slow_config_default(void);
 
 struct percuss_slow;

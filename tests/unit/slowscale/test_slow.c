@@ -66,31 +66,50 @@ static void total_and_list_end_with_the_same_velocities(void **state)
     near(end[0], end[1], 1e-15);
 }
 
-/* After the list the pair is armed only by an open gap or a moment without approach. */
-static void a_pair_is_armed_again_after_it_was_open(void **state)
+/* After the list the bodies still overlap and approach: while the answer lasts nothing else can
+ * happen, then it is a new impact. */
+static void a_pair_that_goes_on_approaching_is_asked_about_again(void **state)
 {
     (void)state;
     struct percuss_slow_config wishes = toy_wishes();
     struct toy *toy = toy_create(2, &wishes);
     struct toy_answer weak = two_hits;
-    weak.subs[0][1].impulse = 0.001; /* they go on approaching after the list: e = -0.1 */
+    weak.subs[0][1].impulse = 0.001; /* e = -0.1 */
     toy->answers = 2;
     toy->answer[0] = weak;
     toy->answer[1] = two_hits;
     toy_step(toy, 0.0);
-    toy_run(toy, 0.02, 1e-3);
+    toy_run(toy, 5.9e-3, 1e-4);
     near(toy->restitution[0], -0.1, 1e-14);
-    assert_int_equal(toy->asked, 1); /* overlap and approach, but no new impact */
-    /* something pulls them apart for a moment, and together again */
-    toy->bodies[1].velocity[0] += 0.1;
-    toy_step(toy, 1e-4);
-    toy->bodies[1].velocity[0] -= 0.2;
-    toy_step(toy, 1e-4);
+    assert_int_equal(toy->asked, 1);
+    toy_run(toy, 7e-3, 1e-3);
     assert_int_equal(toy->asked, 2);
-    /* the second question carries the vibration and its age: window 6 ms, now 20.2 ms */
+    /* the second question carries the vibration and its age: window 6 ms, now 6.9 ms */
     assert_string_equal(toy->question[1].bodies[0].state, "token-0-0");
-    near(toy->question[1].bodies[0].elapsed, toy->time - 6e-3, 1e-15);
+    near(toy->question[1].bodies[0].elapsed, 0.9e-3, 1e-15);
     assert_string_equal(toy->question[0].bodies[0].state, "");
+    toy_free(toy);
+}
+
+/* Collision detection may name the bodies of a pair in another order at every step. */
+static void the_order_of_a_pair_does_not_matter(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(2, &wishes);
+    toy->flips = true;
+    toy->answers = 1;
+    toy->answer[0] = two_hits;
+    toy_step(toy, 0.0);
+    toy_run(toy, 0.1, 1e-4);
+    assert_int_equal(toy->asked, 1);
+    near(toy->bodies[0].velocity[0], 0.06, 1e-15);
+    near(toy->bodies[1].velocity[0], 0.14, 1e-15);
+    /* lying together again, asked for in either order */
+    toy->bodies[1].position[0] = toy->bodies[0].position[0] + 0.02;
+    toy->bodies[1].velocity[0] = toy->bodies[0].velocity[0];
+    toy_step(toy, 0.0);
+    assert_true(percuss_slow_rests(toy->slow, 0, 1, 0) && percuss_slow_rests(toy->slow, 1, 0, 0));
     toy_free(toy);
 }
 
@@ -155,8 +174,9 @@ static void a_second_hit_revokes_the_list(void **state)
     toy->answer[1] = (struct toy_answer){.truncated = true, .window = 2.3e-3, .count = {1}};
     toy->answer[2] = (struct toy_answer){
         .window = 1e-3,
-        .count = {0, 1},
-        .subs = {{{0}}, {{.end = 2e-4, .compression_end = 1e-4, .impulse = 0.03}}}};
+        .count = {1, 1},
+        .subs = {{{.start = 5e-4, .end = 7e-4, .compression_end = 6e-4, .impulse = 0.02}},
+                 {{.end = 2e-4, .compression_end = 1e-4, .impulse = 0.03}}}};
     toy_step(toy, 0.0);
     while (toy->asked == 1 && toy->time < 5e-3)
         toy_step(toy, 1e-4);
@@ -168,7 +188,7 @@ static void a_second_hit_revokes_the_list(void **state)
     near(toy->question[2].bodies[0].elapsed, 0.0, 1e-12);
     assert_non_null(strstr(toy->message, "1 sub-impacts of the impact at 0 s revoked"));
     toy_run(toy, 0.02, 1e-4);
-    near(toy->applied[0], 0.008, 1e-17); /* the second hit of the first list never came */
+    near(toy->applied[0], 0.028, 1e-17); /* the second hit of the first list never came */
     near(toy->applied[1], 0.03, 1e-17);
     assert_true(percuss_slow_counts(toy->slow).preempted == 1);
     toy_free(toy);
@@ -190,16 +210,16 @@ static void a_sub_impact_under_way_is_asked_about_again(void **state)
         toy->answer[1] = (struct toy_answer){
             .window = 6e-3,
             .count = {1, 1},
-            .subs = {{{.compression_end = 1e-4, .end = 2e-4, .impulse = 0.009}},
-                     {{.start = 5e-5, .compression_end = 1.5e-4, .end = 2.5e-4, .impulse = 0.01}}}};
+            .subs = {{{.compression_end = 1e-4, .end = 2e-4, .impulse = 0.03}},
+                     {{.start = 5e-5, .compression_end = 1.5e-4, .end = 2.5e-4, .impulse = 0.03}}}};
         toy_step(toy, 0.0);
         toy_run(toy, 2e-2, 1e-5);
         assert_int_equal(toy->asked, 2);
         near(toy->question[1].contacts[0].gap, 0.0, 1e-15);
         near(toy->question[1].contacts[1].gap, gap, 1e-15);
         near(toy->question[1].bodies[1].velocity[0], 0.2, 1e-15); /* a of the first contact is s1 */
-        near(toy->applied[0], 0.009, 1e-17);
-        near(toy->applied[1], 0.01, 1e-17);
+        near(toy->applied[0], 0.03, 1e-17);
+        near(toy->applied[1], 0.03, 1e-17);
         assert_true(percuss_slow_counts(toy->slow).preempted == 0);
         toy_free(toy);
     }
@@ -374,7 +394,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(asks_once_while_bodies_overlap),
         cmocka_unit_test(total_and_list_end_with_the_same_velocities),
-        cmocka_unit_test(a_pair_is_armed_again_after_it_was_open),
+        cmocka_unit_test(a_pair_that_goes_on_approaching_is_asked_about_again),
+        cmocka_unit_test(the_order_of_a_pair_does_not_matter),
         cmocka_unit_test(trials_ask_nobody),
         cmocka_unit_test(coupled_contacts_are_one_question),
         cmocka_unit_test(a_second_hit_revokes_the_list),

@@ -84,6 +84,8 @@ struct toy_answer {
 struct toy {
     double time;
     double radius;
+    bool flips; /* at every look, the contacts have their bodies the other way round */
+    size_t looks;
     size_t count;
     struct percuss_body_motion bodies[TOY_BODIES];
     struct percuss_slow_inertia inertias[TOY_BODIES];
@@ -101,8 +103,9 @@ struct toy {
     char message[512];
 };
 
-static inline size_t toy_contacts(const struct toy *toy, struct percuss_slow_contact *contacts)
+static inline size_t toy_contacts(struct toy *toy, struct percuss_slow_contact *contacts)
 {
+    bool flipped = toy->flips && toy->looks++ % 2;
     size_t n = 0;
     for (uint32_t i = 0; i + 1 < toy->count; i++) {
         double apart = toy->bodies[i + 1].position[0] - toy->bodies[i].position[0];
@@ -111,7 +114,13 @@ static inline size_t toy_contacts(const struct toy *toy, struct percuss_slow_con
                                           .b = i,
                                           .point = {toy->bodies[i].position[0] + 0.5 * apart},
                                           .normal = {1.0},
+                                          .feature = i,
                                           .gap = apart - 2.0 * toy->radius};
+        if (flipped) {
+            contacts[n - 1].a = i;
+            contacts[n - 1].b = i + 1;
+            contacts[n - 1].normal[0] = -1.0;
+        }
     }
     return n;
 }
@@ -135,7 +144,7 @@ static inline bool toy_apply(void *context, const struct percuss_slow_contact *c
 {
     struct toy *toy = context;
     percuss_slow_free_apply(toy->bodies, toy->inertias, contact, impulse);
-    toy->applied[contact->b] += impulse;
+    toy->applied[contact->feature] += impulse;
     return true;
 }
 
@@ -204,8 +213,8 @@ static inline void toy_report(void *context, const struct percuss_slow_report *r
     toy->reports++;
     toy->service_used = report->reply != NULL;
     for (size_t i = 0; i < report->count; i++) {
-        toy->impulse[report->contacts[i].b] = report->impulse[i];
-        toy->restitution[report->contacts[i].b] = report->restitution[i];
+        toy->impulse[report->contacts[i].feature] = report->impulse[i];
+        toy->restitution[report->contacts[i].feature] = report->restitution[i];
     }
     snprintf(toy->message, sizeof toy->message, "%s", report->message);
 }
