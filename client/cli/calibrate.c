@@ -151,9 +151,9 @@ static double value_at(const struct calibrate_parameter *parameter, double x)
     return parameter->start * fmax(x, LEAST_SHARE);
 }
 
-static bool simulate(void *context, const double *x, double faster, struct measured_impact *twins)
+/* Asks for the twins at the fit's numbers `x`. */
+static int ask_twins(struct run *run, const double *x, double faster)
 {
-    struct run *run = context;
     const struct calibrate *calibrate = run->calibrate;
     struct twin_override overrides[2 * FIT_PARAMETERS];
     size_t count = 0;
@@ -165,7 +165,13 @@ static bool simulate(void *context, const double *x, double faster, struct measu
                 overrides[count++] =
                     (struct twin_override){body, {parameter->parameter, value_at(parameter, x[i])}};
     }
-    run->code = twins_ask(&run->twins, &run->set, overrides, count, faster, run->list);
+    return twins_ask(&run->twins, &run->set, overrides, count, faster, run->list);
+}
+
+static bool simulate(void *context, const double *x, double faster, struct measured_impact *twins)
+{
+    struct run *run = context;
+    run->code = ask_twins(run, x, faster);
     for (size_t i = 0; run->code == EXIT_ANSWERED && i < run->set.count; ++i)
         twins[i] = run->list[i].impact;
     return run->code == EXIT_ANSWERED;
@@ -236,8 +242,12 @@ static int run_calibration(struct run *run)
         calibration.fit.x[i] = 1.0;
     if (!calibration_solve(&problem, &calibration))
         return explain(run, &calibration);
+    /* what is to be said of the twins is said of those that came out best */
+    int code = ask_twins(run, calibration.fit.x, 1.0);
+    if (code != EXIT_ANSWERED)
+        return code;
     struct calibrate_report report = {calibrate->parameters, calibrate->count, &calibration,
-                                      run->set.count};
+                                      run->set.count, &run->twins.warnings};
     for (size_t i = 0; i < calibrate->count; ++i) {
         struct calibrate_parameter *parameter = &calibrate->parameters[i];
         parameter->value = value_at(parameter, calibration.fit.x[i]);
@@ -247,6 +257,8 @@ static int run_calibration(struct run *run)
         calibrate_print_json(&report);
     else
         calibrate_print_table(&report);
+    if (!calibrate->common->json)
+        tally_complain(&run->twins.warnings);
     return calibrate_warn(&report) ? EXIT_ANSWERED_WITH_WARNING : EXIT_ANSWERED;
 }
 

@@ -8,6 +8,7 @@
 #include <percuss/percuss.h>
 
 #include "calibration.h"
+#include "tally.h"
 
 struct calibrate_parameter {
     enum percuss_parameter parameter;
@@ -22,6 +23,7 @@ struct calibrate_report {
     size_t count;
     const struct calibration *calibration;
     size_t impacts;
+    const struct tally *warnings; /* of the twins with the calibrated values */
 };
 
 void calibrate_print_table(const struct calibrate_report *report);

@@ -89,6 +89,7 @@ void calibrate_print_json(const struct calibrate_report *report)
     json_object_set_new(root, "quantities", quantities_to_json(report->calibration));
     json_object_set_new(root, "impacts", json_integer((json_int_t)report->impacts));
     json_object_set_new(root, "freedom", json_number(fit->freedom));
+    json_object_set_new(root, "warnings", tally_to_json(report->warnings));
     json_print(root);
 }
 

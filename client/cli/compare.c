@@ -136,13 +136,16 @@ static int report(const struct compare *compare, const struct comparison *compar
         compare_print_csv(comparison);
     else
         compare_print_table(comparison);
+    if (!compare->common->json)
+        tally_complain(comparison->warnings);
     return compare->plot ? compare_plot(compare->plot, comparison) : EXIT_ANSWERED;
 }
 
 static int run(const struct compare *compare, struct twins *twins, struct measured_set *set)
 {
     struct twin *list = calloc(set->count, sizeof *list);
-    struct comparison comparison = {.scene = &compare->scene, .set = set, .twins = list};
+    struct comparison comparison = {
+        .scene = &compare->scene, .set = set, .twins = list, .warnings = &twins->warnings};
     int code = list ? twins_ask(twins, set, NULL, 0, 1.0, list) : EXIT_FAILURE;
     if (code == EXIT_ANSWERED)
         code = twins_complete(twins, set, list);

@@ -17,6 +17,7 @@ struct comparison {
     double residual_mean, residual_half_width, residual_rms; /* simulated less measured */
     struct distance kolmogorov, energy;
     size_t counted, counts_equal; /* impacts with a measured number of sub-impacts */
+    const struct tally *warnings; /* of the twins */
 };
 
 void compare_print_table(const struct comparison *comparison);

@@ -130,6 +130,7 @@ void compare_print_json(const struct comparison *comparison)
     json_object_set_new(root, "sub_impacts_equal",
                         json_integer((json_int_t)comparison->counts_equal));
     json_object_set_new(root, "impacts", array);
+    json_object_set_new(root, "warnings", tally_to_json(comparison->warnings));
     json_print(root);
 }
 

@@ -18,8 +18,7 @@ static const struct {
 } commands[] = {
     {"query", command_query},     {"sweep", command_sweep},         {"ensemble", command_ensemble},
     {"bodies", command_bodies},   {"status", command_status},       {"ping", command_ping},
-    {"compare", command_compare}, {"calibrate", command_calibrate},
-    {"dents", command_dents},
+    {"compare", command_compare}, {"calibrate", command_calibrate}, {"dents", command_dents},
 };
 
 struct invocation {
@@ -52,21 +51,24 @@ static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
 static const struct argp main_argp = {
     .parser = parse_main,
     .args_doc = "COMMAND [OPTION...]",
-    .doc = "Asks a percussd what an impact does.\v"
-           "Commands:\n"
-           "  query     one impact: impulse, restitution and the sub-impacts\n"
-           "  sweep     the same impact at many speeds\n"
-           "  bodies    the bodies that the server knows\n"
-           "  status    what the server is doing\n"
-           "  dents     the specimens that the server keeps, with their dents\n"
-           "  ping      round-trip time to the server\n"
-           "  compare   measured impacts beside their simulated twins\n"
-           "  calibrate parameters of the bodies from measured impacts\n"
-           "  ensemble  many impacts with uncertain inputs: the restitution as a distribution\n\n"
-           "percuss COMMAND --help explains a command. Try: "
-           "percuss query --a steel-sphere --b al-beam --speed 0.3\n\n"
-           "Exit status: 0 answered, 1 answered with a warning status, 2 usage, 3 no server, "
-           "4 timeout, 5 rejected.",
+    .doc =
+        "Asks a percussd what an impact does.\v"
+        "Commands:\n"
+        "  query     one impact: impulse, restitution and the sub-impacts\n"
+        "  sweep     the same impact at many speeds\n"
+        "  bodies    the bodies that the server knows\n"
+        "  status    what the server is doing\n"
+        "  dents     the specimens that the server keeps, with their dents\n"
+        "  ping      round-trip time to the server\n"
+        "  compare   measured impacts beside their simulated twins\n"
+        "  calibrate parameters of the bodies from measured impacts\n"
+        "  ensemble  many impacts with uncertain inputs: the restitution as a distribution\n\n"
+        "percuss COMMAND --help explains a command. Try: "
+        "percuss query --a steel-sphere --b al-beam --speed 0.3\n\n"
+        "Where an answer leaves the range of its models, warnings say so on standard error (with "
+        "--json in the list warnings); of many impacts each kind once, with its count.\n\n"
+        "Exit status: 0 answered, 1 answered with a warning status, 2 usage, 3 no server, "
+        "4 timeout, 5 rejected.",
     .children = children,
 };
 

@@ -177,7 +177,7 @@ static int ask_all(struct run *run)
     return code;
 }
 
-/* The worst exit code of the replies; explains an unknown body once. */
+/* The worst exit code of the replies; says a refusal and explains an unknown body once. */
 static int judge(const struct run *run)
 {
     int worst = EXIT_ANSWERED;
@@ -189,7 +189,7 @@ static int judge(const struct run *run)
             refused = &run->replies[i];
         }
     }
-    if (refused)
+    if (worst > EXIT_ANSWERED_WITH_WARNING)
         complain("%s: %s", percuss_status_name(refused->status), refused->message);
     struct percuss_request request;
     if (refused && refused->status == PERCUSS_UNKNOWN_BODY &&
@@ -219,19 +219,38 @@ static void free_run(struct run *run)
     percuss_body_list_free(&run->bodies.list);
 }
 
+/* The warnings of all points. False: out of memory. */
+static bool take_warnings(const struct run *runs, size_t count, struct tally *tally)
+{
+    bool good = true;
+    for (size_t k = 0; k < count; ++k)
+        for (unsigned i = 0; good && i < runs[k].sweep->count; ++i) {
+            char place[128], curve[96] = "";
+            if (count > 1)
+                snprintf(curve, sizeof curve, "of %s, %s, ", runs[k].scene.b,
+                         percuss_contact_model_name(runs[k].scene.options.contact_model));
+            snprintf(place, sizeof place, "%sat %g m/s", curve, speed_at(runs[k].sweep, i));
+            good = tally_take(tally, &runs[k].replies[i], place);
+        }
+    return good;
+}
+
 static int print(const struct sweep *sweep, const struct run *runs, size_t count)
 {
+    struct tally tally = {.unit = "points"};
     struct sweep_curve curves[MOST_CURVES];
     double *speeds = calloc(sweep->count, sizeof *speeds);
-    if (!speeds)
+    if (!speeds || !take_warnings(runs, count, &tally)) {
+        complain("out of memory");
         return EXIT_FAILURE;
+    }
     for (unsigned i = 0; i < sweep->count; ++i)
         speeds[i] = speed_at(sweep, i);
     for (size_t k = 0; k < count; ++k)
         curves[k] = (struct sweep_curve){
             runs[k].scene.b, percuss_contact_model_name(runs[k].scene.options.contact_model),
             runs[k].replies};
-    struct sweep_points points = {sweep->scene.a, sweep->count, speeds, count, curves};
+    struct sweep_points points = {sweep->scene.a, sweep->count, speeds, count, curves, &tally};
     /* first, or a reader that closes the output early would leave no picture */
     int code = sweep->plot ? sweep_plot(sweep->plot, &points) : EXIT_ANSWERED;
     if (sweep->common->json)
@@ -240,6 +259,9 @@ static int print(const struct sweep *sweep, const struct run *runs, size_t count
         sweep_print_csv(&points);
     else
         sweep_print_table(&points);
+    if (!sweep->common->json)
+        tally_complain(&tally);
+    tally_clear(&tally);
     free(speeds);
     return code;
 }

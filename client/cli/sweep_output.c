@@ -118,6 +118,7 @@ void sweep_print_json(const struct sweep_points *points)
     } else {
         json_object_set_new(root, "curves", curves);
     }
+    json_object_set_new(root, "warnings", tally_to_json(points->warnings));
     json_print(root);
 }
 

@@ -9,6 +9,8 @@
 
 #include <percuss/reply.h>
 
+#include "tally.h"
+
 struct sweep_curve {
     const char *b;
     const char *contact_model;     /* asked for */
@@ -21,6 +23,7 @@ struct sweep_points {
     const double *speeds;
     size_t curve_count;
     const struct sweep_curve *curves;
+    const struct tally *warnings; /* of all points */
 };
 
 /* On standard output. */
@@ -29,8 +32,8 @@ void sweep_print_table(const struct sweep_points *points);
 /* 17 significant digits, nan where undefined. */
 void sweep_print_csv(const struct sweep_points *points);
 
-/* {"points": [{the columns, "reply": the whole reply}]}; of several curves {"curves": [{"b",
- * "contact_model", "points"}]} */
+/* {"points": [{the columns, "reply": the whole reply}], "warnings": [...]}; of several curves
+ * {"curves": [{"b", "contact_model", "points"}], "warnings": [...]} */
 void sweep_print_json(const struct sweep_points *points);
 
 /* The restitution against the speed with its estimated error, the number of sub-impacts below.

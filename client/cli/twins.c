@@ -15,7 +15,7 @@ static const double SIGNIFICANT = 0.01; /* share of the impulse */
 
 int twins_open(struct twins *twins, const struct common *common, const struct scene *scene)
 {
-    *twins = (struct twins){.common = common, .scene = scene};
+    *twins = (struct twins){.common = common, .scene = scene, .warnings.unit = "twins"};
     int code = open_client(common, NULL, &twins->client);
     if (code == EXIT_ANSWERED)
         code = scene_find_bodies(scene, common, twins->client, &twins->bodies);
@@ -29,6 +29,7 @@ void twins_close(struct twins *twins)
     percuss_body_list_free(&twins->bodies.list);
     if (twins->client)
         percuss_client_free(twins->client);
+    tally_clear(&twins->warnings);
     *twins = (struct twins){0};
 }
 
@@ -84,6 +85,16 @@ static int judge(const struct twins *twins, const struct percuss_request *reques
     return code;
 }
 
+static int take_warnings(struct twins *twins, const struct percuss_reply *reply, size_t index)
+{
+    char place[32];
+    snprintf(place, sizeof place, "impact %zu", index + 1);
+    if (tally_take(&twins->warnings, reply, place))
+        return EXIT_ANSWERED;
+    complain("out of memory");
+    return EXIT_FAILURE;
+}
+
 /* Solves a batch; a busy server is asked again. */
 static int solve(struct twins *twins, const struct percuss_request *requests, size_t count,
                  struct percuss_reply *replies)
@@ -110,6 +121,7 @@ int twins_ask(struct twins *twins, const struct measured_set *set,
     struct percuss_request *requests = calloc(PORTION, sizeof *requests);
     struct percuss_reply replies[PORTION] = {0};
     int code = requests ? EXIT_ANSWERED : EXIT_FAILURE;
+    tally_clear(&twins->warnings);
     for (size_t first = 0; code == EXIT_ANSWERED && first < set->count; first += PORTION) {
         size_t count = set->count - first < PORTION ? set->count - first : PORTION;
         for (size_t i = 0; code == EXIT_ANSWERED && i < count; ++i) {
@@ -122,6 +134,8 @@ int twins_ask(struct twins *twins, const struct measured_set *set,
         for (size_t i = 0; i < count; ++i) {
             if (code == EXIT_ANSWERED)
                 code = judge(twins, &requests[i], &replies[i]);
+            if (code == EXIT_ANSWERED)
+                code = take_warnings(twins, &replies[i], first + i);
             if (code == EXIT_ANSWERED)
                 twin_list[first + i] = twin_of(&replies[i], set->impacts[first + i].speed);
             percuss_reply_free(&replies[i]);

@@ -7,6 +7,7 @@
 
 #include "impact.h"
 #include "scene.h"
+#include "tally.h"
 
 /* What the server says of an impact, in the terms of struct measured_impact. */
 struct twin {
@@ -28,6 +29,7 @@ struct twins {
     const struct common *common;
     const struct scene *scene;
     struct scene_bodies bodies;
+    struct tally warnings; /* of the twins asked for last */
 };
 
 /* Connects and finds the bodies. Exit code; complains. */

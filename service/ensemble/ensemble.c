@@ -138,8 +138,15 @@ void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensem
         .sub_impacts =
             (uint16_t)(outcome.sub_impacts < UINT16_MAX ? outcome.sub_impacts : UINT16_MAX),
         .significant = (uint16_t)outcome.significant,
+        .warnings = good ? outcome.warnings : 0,
         .status = (uint8_t)status,
+        .contact_model = (uint8_t)outcome.contact_model,
     };
+}
+
+const struct warnings *ensemble_warnings(const struct ensemble_worker *worker)
+{
+    return repeat_warnings(worker->repeat);
 }
 
 /* A pilot's inputs, its solution by the full search, and the model of that. */
@@ -263,8 +270,9 @@ static enum percuss_status find_model(struct ensemble *ensemble,
 }
 
 /* The impact as it is stated must be one that solve() answers. */
-static enum percuss_status try_request(const struct ensemble_spec *spec, struct fault *fault)
+static enum percuss_status try_request(struct ensemble *ensemble, struct fault *fault)
 {
+    const struct ensemble_spec *spec = &ensemble->spec;
     enum percuss_contact_model asked = spec->request->options.contact_model;
     if (asked > PERCUSS_CONTACT_TABLE)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
@@ -278,6 +286,7 @@ static enum percuss_status try_request(const struct ensemble_spec *spec, struct 
         solve_workspace_set_tables(workspace, spec->tables);
         status = solve(workspace, spec->catalogue, spec->request, result);
         *fault = result->fault;
+        ensemble->stated_model = result->contact_model;
     } else {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     }
@@ -323,7 +332,7 @@ enum percuss_status ensemble_create(struct ensemble *ensemble, const struct ense
 {
     memset(ensemble, 0, sizeof *ensemble);
     ensemble->spec = *spec;
-    enum percuss_status status = try_request(spec, fault);
+    enum percuss_status status = try_request(ensemble, fault);
     if (!status)
         status = spec_check(spec, fault);
     if (!status)

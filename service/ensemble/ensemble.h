@@ -14,8 +14,15 @@
 struct ensemble_sample {
     double restitution, impulse, end_time, peak_force; /* NAN where it was refused */
     uint16_t sub_impacts, significant;
-    uint8_t status; /* enum percuss_status */
+    uint16_t warnings;     /* 1 << enum warning_kind of each */
+    uint8_t status;        /* enum percuss_status */
+    uint8_t contact_model; /* enum percuss_contact_model */
 };
+
+static inline bool ensemble_sample_has_result(const struct ensemble_sample *sample)
+{
+    return sample->status == PERCUSS_OK || sample->status == PERCUSS_TRUNCATED;
+}
 
 /* How the one model for all samples was chosen: some pilot samples are solved by the full accuracy
  * search, and it is the coarsest model with which most of them agree within the tolerance. */
@@ -32,7 +39,8 @@ struct ensemble {
     size_t drawn[ENSEMBLE_MAX_INPUTS]; /* inputs that the dimensions belong to */
     uint64_t count;                    /* of samples, at most */
     struct ensemble_model model;
-    bool same_scene; /* inputs change velocities only */
+    bool same_scene;                         /* inputs change velocities only */
+    enum percuss_contact_model stated_model; /* that solve() used for the impact as it is stated */
 };
 
 struct ensemble_worker;
@@ -60,6 +68,9 @@ void ensemble_inputs(const struct ensemble *ensemble, uint64_t index, double *va
 /* Solves sample `index`. The message of a refusal goes to `fault` (NULL: nobody reads it). */
 void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensemble_sample *sample,
                     struct fault *fault);
+
+/* The warnings of the sample that the worker solved last. */
+const struct warnings *ensemble_warnings(const struct ensemble_worker *worker);
 
 /* After `done` samples (their places in order, none missing) some more solutions tell how good they
  * are and what each input does; `ensemble_extras` is their number. */

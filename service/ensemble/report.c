@@ -4,15 +4,13 @@
 #include "ensemble/report.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "ensemble/remarks.h"
+
 static const double LEVEL = 0.95;
 static const double default_quantiles[] = {0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975};
-/* More of a distribution than this outside its truncation is worth a word. */
-static const double TRUNCATED_SHARE = 0.01;
 
 static double value_of(const struct ensemble_sample *sample, int quantity)
 {
@@ -27,17 +25,6 @@ static void quantiles_of(const struct ensemble_spec *spec, const double **probab
     bool given = spec->quantile_count > 0;
     *probabilities = given ? spec->quantiles : default_quantiles;
     *count = given ? spec->quantile_count : sizeof default_quantiles / sizeof *default_quantiles;
-}
-
-__attribute__((format(printf, 2, 3))) static void warn(struct ensemble_report *report,
-                                                       const char *format, ...)
-{
-    if (report->warning_count == REPORT_WARNINGS)
-        return;
-    va_list args;
-    va_start(args, format);
-    vsnprintf(report->warnings[report->warning_count++], sizeof *report->warnings, format, args);
-    va_end(args);
 }
 
 static bool take_quantity(struct report_quantity *quantity, struct arena *arena)
@@ -138,16 +125,11 @@ static bool fill_quantities(struct ensemble_report *report, const struct ensembl
     return good;
 }
 
-static bool has_result(const struct ensemble_sample *sample)
-{
-    return sample->status == PERCUSS_OK || sample->status == PERCUSS_TRUNCATED;
-}
-
 static bool fill_counts(struct ensemble_report *report, const struct ensemble_sample *samples)
 {
     size_t most = 0;
     for (uint64_t i = 0; i < report->done; i++)
-        if (has_result(&samples[i]) && samples[i].sub_impacts > most)
+        if (ensemble_sample_has_result(&samples[i]) && samples[i].sub_impacts > most)
             most = samples[i].sub_impacts;
     report->count_length = most + 1;
     report->sub_impact_counts = arena_take(&report->memory, most + 1, sizeof(uint64_t));
@@ -155,9 +137,9 @@ static bool fill_counts(struct ensemble_report *report, const struct ensemble_sa
     if (!report->sub_impact_counts || !report->significant_counts)
         return false;
     for (uint64_t i = 0; i < report->done; i++) {
-        report->refused += !has_result(&samples[i]);
+        report->refused += !ensemble_sample_has_result(&samples[i]);
         report->truncated += samples[i].status == PERCUSS_TRUNCATED;
-        if (!has_result(&samples[i]))
+        if (!ensemble_sample_has_result(&samples[i]))
             continue;
         report->sub_impact_counts[samples[i].sub_impacts]++;
         report->significant_counts[samples[i].significant]++;
@@ -290,33 +272,6 @@ static bool fill_verification(struct ensemble_report *report, const struct ensem
     return true;
 }
 
-static void fill_warnings(struct ensemble_report *report, const struct ensemble *ensemble)
-{
-    const struct ensemble_spec *spec = &ensemble->spec;
-    const struct report_verification *verification = &report->verification;
-    if (report->refused)
-        warn(report, "samples: %llu of %llu were refused and are left out",
-             (unsigned long long)report->refused, (unsigned long long)report->done);
-    if (report->truncated)
-        warn(report,
-             "samples: %llu of %llu reached the horizon or the effort allowed before they "
-             "were over",
-             (unsigned long long)report->truncated, (unsigned long long)report->done);
-    for (size_t i = 0; i < spec->input_count; i++) {
-        double share = input_truncated(&spec->inputs[i]);
-        if (share > TRUNCATED_SHARE)
-            warn(report,
-                 "inputs[%zu]: %s: %.2g of its distribution lies outside what is possible or "
-                 "allowed and is cut off",
-                 i, input_quantity_name(spec->inputs[i].quantity), share);
-    }
-    if (verification->count && fabs(verification->mean_shift) > ensemble->model.tolerance)
-        warn(report,
-             "verification: the mean is off by %.2g: more than the tolerance: ask for a "
-             "finer one",
-             verification->mean_shift);
-}
-
 bool report_create(struct ensemble_report *report, const struct ensemble *ensemble,
                    const struct ensemble_sample *samples, uint64_t done, const double *extras)
 {
@@ -325,9 +280,7 @@ bool report_create(struct ensemble_report *report, const struct ensemble *ensemb
     bool good = fill_counts(report, samples) && fill_quantities(report, ensemble, samples) &&
                 fill_inputs(report, ensemble, samples, extras) &&
                 (!extras || fill_verification(report, ensemble, samples, extras));
-    if (good)
-        fill_warnings(report, ensemble);
-    return good;
+    return good && remarks_fill(report, ensemble, samples);
 }
 
 void report_release(struct ensemble_report *report)

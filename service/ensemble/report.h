@@ -16,7 +16,8 @@ enum {
     REPORT_INTERVALS = 4,
     REPORT_PARTS = 32,
     REPORT_CURVE = 512, /* intervals of the distribution function, at most */
-    REPORT_WARNINGS = 8
+    REPORT_WARNINGS = 32,
+    REPORT_WARNING_SIZE = 384
 };
 
 /* One quantity of the impacts. */
@@ -71,7 +72,7 @@ struct ensemble_report {
     struct report_input *inputs;
     struct report_verification verification;
     size_t warning_count;
-    char warnings[REPORT_WARNINGS][256];
+    char warnings[REPORT_WARNINGS][REPORT_WARNING_SIZE];
 };
 
 /* The report on samples 0 .. done - 1 and the extras that belong to them (NULL: none were solved).

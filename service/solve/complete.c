@@ -10,6 +10,7 @@
 #include "fe/complete_body.h"
 #include "model/vector.h"
 #include "solve/report.h"
+#include "solve/validity.h"
 
 enum { COARSEST = 4, MESHES = 4 };
 
@@ -304,5 +305,8 @@ enum percuss_status complete_answer(const struct geometry *geometry,
     fill_bodies(geometry, request, &results[count - 1], result);
     fill_model(convergence, geometry, problem.cells, result);
     fill_end(&results[count - 1], error, tolerance, result);
+    struct warnings warnings = {0};
+    validity_find_speed(geometry, &warnings);
+    report_warnings(&warnings, result);
     return result->status;
 }

@@ -123,8 +123,7 @@ static enum percuss_status place_contact(struct geometry *geometry,
     return PERCUSS_OK;
 }
 
-static void find_gap_rate(struct geometry *geometry, const struct solve_request *request,
-                          size_t index)
+static void find_rates(struct geometry *geometry, const struct solve_request *request, size_t index)
 {
     const struct solve_contact *contact = &request->contacts[index];
     double a[3];
@@ -133,6 +132,8 @@ static void find_gap_rate(struct geometry *geometry, const struct solve_request 
     point_velocity(&request->bodies[contact->b], contact->point, b);
     sub3(a, b, a);
     geometry->gap_rate[index] = dot3(contact->normal, a);
+    add_scaled3(-geometry->gap_rate[index], contact->normal, a);
+    memcpy(geometry->sliding[index], a, sizeof a);
 }
 
 /* w_i^T M^-1 w_j from the bodies that both contacts share. */
@@ -244,18 +245,19 @@ static bool allocate(struct geometry *geometry, struct arena *arena)
     geometry->sides = arena_take(arena, n, sizeof *geometry->sides);
     geometry->hertz = arena_take(arena, n, sizeof *geometry->hertz);
     geometry->gap_rate = arena_take(arena, n, sizeof(double));
+    geometry->sliding = arena_take(arena, n, sizeof *geometry->sliding);
     geometry->service_w = arena_take(arena, n * n, sizeof(double));
     geometry->w = arena_take(arena, n * n, sizeof(double));
     geometry->impulse_compression = arena_take(arena, n, sizeof(double));
-    return geometry->sides && geometry->hertz && geometry->gap_rate && geometry->service_w &&
-           geometry->w && geometry->impulse_compression;
+    return geometry->sides && geometry->hertz && geometry->gap_rate && geometry->sliding &&
+           geometry->service_w && geometry->w && geometry->impulse_compression;
 }
 
 enum percuss_status geometry_find_rates(struct geometry *geometry,
                                         const struct solve_request *request, struct fault *fault)
 {
     for (size_t i = 0; i < request->contact_count; i++)
-        find_gap_rate(geometry, request, i);
+        find_rates(geometry, request, i);
     enum percuss_status status = check_approach(geometry, fault);
     return status ? status : find_compression(geometry, fault);
 }

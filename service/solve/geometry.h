@@ -29,6 +29,8 @@ struct geometry {
     struct contact_side (*sides)[2]; /* [contact]: a, b */
     struct hertz_contact *hertz;     /* [contact] */
     double *gap_rate;                /* [contact], rigid, m/s */
+    double (*sliding)[3];            /* [contact]: velocity of a's point against b's along the
+                                        surface, world, m/s; nothing but a warning follows from it */
     double *service_w;               /* contacts^2, from the bodies */
     double *w;                       /* the one in use */
     double *impulse_compression;     /* [contact], Eq. (4) or its complementarity problem, N s */

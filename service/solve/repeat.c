@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "solve/models.h"
+#include "solve/validity.h"
 
 struct repeat {
     struct prepared_cache *cache;
@@ -15,6 +16,7 @@ struct repeat {
     struct geometry *geometry; /* in scene_memory as what follows; NULL: no scene is kept */
     struct scene scene;
     bool elastic; /* neither body of any contact can yield: the laws do not depend on the blow */
+    struct warnings warnings; /* of the last solution */
 };
 
 struct repeat *repeat_create(void)
@@ -77,11 +79,15 @@ static void read_track(const struct geometry *geometry, const struct impact_outc
 }
 
 /* What the run says, unless it does not keep the energy. */
-static enum percuss_status judge(const struct geometry *geometry,
+static enum percuss_status judge(struct repeat *repeat, const struct geometry *geometry,
+                                 const struct solve_request *request,
                                  const struct impact_outcome *solved, size_t contact,
                                  struct repeat_outcome *outcome, struct fault *fault)
 {
     read_track(geometry, solved, contact, outcome);
+    validity_find(geometry, request, solved, &repeat->warnings);
+    outcome->warnings = repeat->warnings.kinds;
+    outcome->contact_model = contact_model_used(geometry);
     double defect = attempt_energy_defect(geometry, solved);
     if (!attempt_keeps_energy(defect) || !isfinite(outcome->impulse))
         outcome->status = fault_set(fault, PERCUSS_INTERNAL,
@@ -109,7 +115,7 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
         outcome->status = models_solve(accuracy, geometry, request, &source, fault);
     if (outcome->status)
         return outcome->status;
-    judge(geometry, &accuracy->outcome, contact, outcome, fault);
+    judge(repeat, geometry, request, &accuracy->outcome, contact, outcome, fault);
     outcome->error = accuracy->steps.restitution + accuracy->modes.restitution;
     if (model) /* rounding must not lose the highest mode */
         *model = (struct repeat_model){accuracy->assembly->highest * (1.0 + 1e-12),
@@ -199,5 +205,10 @@ enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *c
         outcome->status = run_scene(repeat, request, model, &attempt, fault);
     if (outcome->status)
         return outcome->status;
-    return judge(repeat->geometry, &attempt.outcome, contact, outcome, fault);
+    return judge(repeat, repeat->geometry, request, &attempt.outcome, contact, outcome, fault);
+}
+
+const struct warnings *repeat_warnings(const struct repeat *repeat)
+{
+    return &repeat->warnings;
 }

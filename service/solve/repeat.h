@@ -8,6 +8,7 @@
 #define PERCUSS_SOLVE_REPEAT_H
 
 #include "solve/solve.h"
+#include "solve/warnings.h"
 
 /* What an accuracy search settles on. */
 struct repeat_model {
@@ -20,10 +21,12 @@ struct repeat_outcome {
     enum percuss_status status; /* OK, TRUNCATED, or a refusal */
     double restitution;         /* NAN where the contact does not approach */
     double impulse;
-    double end_time;                   /* of the last sub-impact; 0 without any */
-    double peak_force;                 /* largest of all sub-impacts */
-    unsigned sub_impacts, significant; /* all; those of at least 1 % of the impulse */
-    double error;                      /* estimated; repeat_search only, else NAN */
+    double end_time;                          /* of the last sub-impact; 0 without any */
+    double peak_force;                        /* largest of all sub-impacts */
+    unsigned sub_impacts, significant;        /* all; those of at least 1 % of the impulse */
+    double error;                             /* estimated; repeat_search only, else NAN */
+    enum percuss_contact_model contact_model; /* HERTZ, CLOSED_FORM or TABLE */
+    uint16_t warnings;                        /* 1 << enum warning_kind of each */
 };
 
 /* Memory of one worker. */
@@ -51,5 +54,8 @@ enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *c
                                  const struct solve_request *request, size_t contact,
                                  const struct repeat_model *model, bool same_scene,
                                  struct repeat_outcome *outcome, struct fault *fault);
+
+/* What is to be said of the last solution that had a result. */
+const struct warnings *repeat_warnings(const struct repeat *repeat);
 
 #endif

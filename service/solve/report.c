@@ -26,6 +26,12 @@ void report_warn(struct solve_result *result, const char *format, ...)
     va_end(args);
 }
 
+void report_warnings(const struct warnings *warnings, struct solve_result *result)
+{
+    for (size_t i = 0; i < warnings->count; i++)
+        report_warn(result, "%s", warnings->text[i]);
+}
+
 static void fill_contacts(const struct geometry *geometry, const struct solve_request *request,
                           const struct accuracy *accuracy, struct solve_result *result)
 {
@@ -107,29 +113,9 @@ static void fill_bodies(const struct geometry *geometry, const struct solve_requ
         report_velocities(geometry, request, result);
 }
 
-static void warn_contact_model(const struct geometry *geometry, const struct accuracy *accuracy,
-                               struct solve_result *result)
+static void warn_dents(struct solve_result *result)
 {
-    for (size_t c = 0; c < geometry->contact_count; c++) {
-        double beyond = contact_model_beyond_table(&accuracy->outcome, c);
-        if (beyond > 0.0)
-            report_warn(result,
-                        "contacts[%zu]: the table ends before the largest indentation, by %.2g of "
-                        "its range: it was continued",
-                        c, beyond);
-        double radius = contact_model_yielded(geometry, &accuracy->outcome, c)
-                            ? accuracy->outcome.laws[c].history.contact_radius
-                            : 0.0;
-        for (int which = 0; which < 2; which++) {
-            const struct body *body = geometry->bodies[geometry->sides[c][which].body];
-            if (radius > 0.3 * body_smallest_radius(body))
-                report_warn(result,
-                            "contacts[%zu]: the dent's radius of %.3g m is more than 30 %% of the "
-                            "smallest radius of %s (%.3g m): the contact laws end there",
-                            c, radius, body->id, body_smallest_radius(body));
-        }
-    }
-    for (size_t b = 0; b < geometry->body_count; b++) {
+    for (size_t b = 0; b < result->body_count; b++) {
         const struct body_state *after = result->bodies[b].state_after;
         if (after && after->dents == BODY_STATE_MAX_DENTS)
             report_warn(result,
@@ -189,14 +175,6 @@ static void fill_errors(const struct accuracy *accuracy, struct solve_result *re
             accuracy->steps.restitution + accuracy->modes.restitution);
 }
 
-static bool ever_touches(const struct solve_result *result)
-{
-    for (size_t c = 0; c < result->contact_count; c++)
-        if (result->contacts[c].sub_impact_count)
-            return true;
-    return false;
-}
-
 static void fill_end(const struct accuracy *accuracy, struct solve_result *result)
 {
     static const char *const why[] = {
@@ -211,9 +189,6 @@ static void fill_end(const struct accuracy *accuracy, struct solve_result *resul
     result->complete = result->end_reason == PERCUSS_END_SEPARATED ||
                        result->end_reason == PERCUSS_END_HANDED_BACK;
     result->status = result->complete ? PERCUSS_OK : PERCUSS_TRUNCATED;
-    if (!ever_touches(result))
-        report_warn(result,
-                    "contacts: the bodies do not touch: gap and acceleration keep them apart");
     if (!result->complete)
         fault_set(&result->fault, result->status, "%s", why[result->end_reason]);
 }
@@ -233,9 +208,11 @@ void report_fill(const struct geometry *geometry, const struct solve_request *re
     fill_bodies(geometry, request, accuracy, arena, result);
     fill_errors(accuracy, result);
     fill_model(geometry, request, accuracy, result);
-    warn_contact_model(geometry, accuracy, result);
+    warn_dents(result);
     fill_end(accuracy, result);
-    validity_warn(geometry, request, result);
+    struct warnings warnings;
+    validity_find(geometry, request, &accuracy->outcome, &warnings);
+    report_warnings(&warnings, result);
     if (!attempt_keeps_energy(accuracy->steps.energy_defect))
         result->status =
             fault_set(&result->fault, PERCUSS_INTERNAL,

@@ -6,6 +6,7 @@
 #define PERCUSS_SOLVE_REPORT_H
 
 #include "solve/accuracy.h"
+#include "solve/warnings.h"
 
 /* Fills everything of `result` that the solution decides; status and message too. */
 void report_fill(const struct geometry *geometry, const struct solve_request *request,
@@ -19,5 +20,6 @@ void report_velocities(const struct geometry *geometry, const struct solve_reque
 /* Adds a warning while there is room. */
 void report_warn(struct solve_result *result, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+void report_warnings(const struct warnings *warnings, struct solve_result *result);
 
 #endif

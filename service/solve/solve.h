@@ -102,7 +102,7 @@ struct solve_result {
     double time_shift;
     const struct trace *trace; /* in the workspace, until its next solve; NULL: not asked for */
     size_t warning_count;
-    char warnings[8][256];
+    char warnings[40][256]; /* more than validity.h finds */
 };
 
 /* Memory of one worker: prepared bodies (frequencies, step tables) and everything a solve writes.

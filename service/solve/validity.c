@@ -4,9 +4,21 @@
 #include "solve/validity.h"
 
 #include <math.h>
+#include <stdio.h>
 
+#include "model/rigid.h"
+#include "model/vector.h"
 #include "solve/compliance.h"
-#include "solve/report.h"
+#include "solve/contact_model.h"
+
+/* Contact or dent against the smallest radius: surfaces are no longer parabolas there. */
+static const double LARGEST_CONTACT = 0.3;
+/* Speed along the surface against that of approach: some 3 degrees. What sliding less than that can
+ * take is 1.4 % of the normal impulse whatever the coefficient: a sphere has stopped sliding after
+ * sliding / (3.5 (1 + e) approach) of it. */
+static const double SLIDING = 0.05;
+/* A coefficient of friction as of dry metals, to say how much it may be about. */
+static const double FRICTION = 0.3;
 
 static double wave_speed(const struct body *body)
 {
@@ -39,65 +51,143 @@ double validity_wave_loss(const struct geometry *geometry, const struct solve_re
     return worst;
 }
 
-static double largest_force(const struct solve_contact_result *contact)
+static double largest_force(const struct track *track)
 {
     double largest = 0.0;
-    for (size_t i = 0; i < contact->sub_impacts_listed; i++)
-        largest = fmax(largest, contact->sub_impacts[i].peak_force);
+    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
+        largest = fmax(largest, track->list[i].peak_force);
     return largest;
 }
 
-static void warn_yield(const struct geometry *geometry, size_t c, double pressure,
-                       struct solve_result *result)
+static const struct body *body_of(const struct geometry *geometry, size_t c, unsigned which)
 {
-    for (int which = 0; which < 2; which++) {
-        const struct body *body = geometry->bodies[geometry->sides[c][which].body];
+    return geometry->bodies[geometry->sides[c][which].body];
+}
+
+static void find_yield(const struct geometry *geometry, size_t c, double pressure,
+                       struct warnings *warnings)
+{
+    for (unsigned which = 0; which < 2; which++) {
+        const struct body *body = body_of(geometry, c, which);
         /* first yield below the surface at 1.6 times the yield stress (Johnson, section 6.1) */
         if (pressure > 1.6 * body->material.yield)
-            report_warn(
-                result,
-                "contacts[%zu]: the elastic peak pressure of %.3g MPa exceeds 1.6 times the "
-                "yield stress of %s (%.3g MPa): Hertz's law leaves no dent, the true "
-                "restitution is lower (contact_model auto or closed-form)",
-                c, pressure / 1e6, body->id, body->material.yield / 1e6);
+            warnings_add(warnings, WARNING_YIELD + which,
+                         "contacts[%zu]: the elastic peak pressure of %.3g MPa exceeds 1.6 times "
+                         "the yield stress of %s (%.3g MPa): Hertz's law leaves no dent, the true "
+                         "restitution is lower (contact_model auto or closed-form)",
+                         c, pressure / 1e6, body->id, body->material.yield / 1e6);
     }
 }
 
-static void warn_contact(const struct geometry *geometry, size_t c, struct solve_result *result)
+/* Contacts and dents as large as what they are on. */
+static void find_size(const struct geometry *geometry, const struct impact_outcome *outcome,
+                      size_t c, double half_axis, struct warnings *warnings)
+{
+    double dent =
+        contact_model_yielded(geometry, outcome, c) ? outcome->laws[c].history.contact_radius : 0.0;
+    for (unsigned which = 0; which < 2; which++) {
+        const struct body *body = body_of(geometry, c, which);
+        double size = body_smallest_radius(body);
+        if (half_axis > LARGEST_CONTACT * size)
+            warnings_add(warnings, WARNING_PATCH + which,
+                         "contacts[%zu]: the contact's half-axis of %.3g m is more than 30 %% of "
+                         "the smallest radius of %s (%.3g m): Hertz's law ends there",
+                         c, half_axis, body->id, size);
+        if (dent > LARGEST_CONTACT * size)
+            warnings_add(warnings, WARNING_DENT + which,
+                         "contacts[%zu]: the dent's radius of %.3g m is more than 30 %% of the "
+                         "smallest radius of %s (%.3g m): the contact laws end there",
+                         c, dent, body->id, size);
+    }
+}
+
+static void find_place(const struct geometry *geometry, const struct impact_outcome *outcome,
+                       size_t c, struct warnings *warnings)
+{
+    for (unsigned which = 0; which < 2; which++)
+        if (geometry->sides[c][which].site.at_edge)
+            warnings_add(warnings, WARNING_EDGE + which,
+                         "contacts[%zu]: within 10 %% of the radius of an edge of %s: the contact "
+                         "law assumes material on all sides",
+                         c, body_of(geometry, c, which)->id);
+    double beyond = contact_model_beyond_table(outcome, c);
+    if (beyond > 0.0)
+        warnings_add(warnings, WARNING_TABLE_END,
+                     "contacts[%zu]: the table ends before the largest indentation, by %.2g of "
+                     "its range: it was continued",
+                     c, beyond);
+}
+
+void validity_find_speed(const struct geometry *geometry, struct warnings *warnings)
+{
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        for (unsigned which = 0; which < 2; which++) {
+            const struct body *body = body_of(geometry, c, which);
+            double speed = fabs(geometry->gap_rate[c]);
+            if (speed > 0.01 * wave_speed(body))
+                warnings_add(warnings, WARNING_SPEED + which,
+                             "contacts[%zu]: the approach at %.3g m/s is more than 1 %% of the "
+                             "wave speed in %s (%.4g m/s): small strains end there",
+                             c, speed, body->id, wave_speed(body));
+        }
+}
+
+/* Speed along `direction` (unit, world) of the bodies' points against each other after a unit of
+ * impulse along it, 1/kg, by the bodies' own masses. */
+static double inverse_mass_along(const struct geometry *geometry, size_t c,
+                                 const double direction[3])
+{
+    double sum = 0.0;
+    for (unsigned which = 0; which < 2; which++) {
+        const struct contact_side *side = &geometry->sides[c][which];
+        double local[3];
+        rotate_back3(geometry->poses[side->body].rotation, direction, local);
+        sum += rigid_inverse_mass(geometry->bodies[side->body], side->site.point, local,
+                                  side->site.point, local);
+    }
+    return sum;
+}
+
+/* Coulomb's friction transmits at most its coefficient times the normal impulse, and no more than
+ * stops the sliding. What an articulated body's mass is along the surface is not known. */
+static void find_sliding(const struct geometry *geometry, const struct impact_outcome *outcome,
+                         size_t c, double approach, struct warnings *warnings)
+{
+    double impulse = FRICTION * outcome->tracks[c].impulse;
+    double speed = norm3(geometry->sliding[c]);
+    char change[64] = "";
+    if (!(impulse > 0.0 && speed > SLIDING * approach))
+        return;
+    if (!geometry->from_client) {
+        double direction[3];
+        scale3(1.0 / speed, geometry->sliding[c], direction);
+        double w = inverse_mass_along(geometry, c, direction);
+        if (w * impulse > speed)
+            impulse = speed / w;
+        snprintf(change, sizeof change, " and change that speed by up to %.3g m/s", w * impulse);
+    }
+    warnings_add(warnings, WARNING_SLIDING,
+                 "contacts[%zu]: the bodies slide there at %.3g m/s, %.3g times the approach: "
+                 "friction is not modelled; with a coefficient of %.1f it could transmit up to "
+                 "%.3g N s along the surface%s",
+                 c, speed, speed / approach, FRICTION, impulse, change);
+}
+
+static void find_contact(const struct geometry *geometry, const struct impact_outcome *outcome,
+                         size_t c, double approach, struct warnings *warnings)
 {
     const struct hertz_contact *hertz = &geometry->hertz[c];
-    double force = largest_force(&result->contacts[c]);
+    double force = largest_force(&outcome->tracks[c]);
     double axes[2];
     hertz_ellipse(hertz, force, axes);
-    if (result->contact_model == PERCUSS_CONTACT_HERTZ)
-        warn_yield(geometry, c, hertz_peak_pressure(hertz, force), result);
-    for (int which = 0; which < 2; which++) {
-        const struct contact_side *side = &geometry->sides[c][which];
-        const struct body *body = geometry->bodies[side->body];
-        double size = body_smallest_radius(body);
-        if (axes[0] > 0.3 * size)
-            report_warn(
-                result,
-                "contacts[%zu]: the contact's half-axis of %.3g m is more than 30 %% of the "
-                "smallest radius of %s (%.3g m): Hertz's law ends there",
-                c, axes[0], body->id, size);
-        if (side->site.at_edge)
-            report_warn(
-                result,
-                "contacts[%zu]: within 10 %% of the radius of an edge of %s: the contact law "
-                "assumes material on all sides",
-                c, body->id);
-        double ratio = fabs(geometry->gap_rate[c]) / wave_speed(body);
-        if (ratio > 0.01)
-            report_warn(
-                result,
-                "contacts[%zu]: the approach at %.3g m/s is more than 1 %% of the wave speed "
-                "in %s (%.4g m/s): small strains end there",
-                c, fabs(geometry->gap_rate[c]), body->id, wave_speed(body));
-    }
+    if (contact_model_used(geometry) == PERCUSS_CONTACT_HERTZ)
+        find_yield(geometry, c, hertz_peak_pressure(hertz, force), warnings);
+    find_size(geometry, outcome, c, axes[0], warnings);
+    find_place(geometry, outcome, c, warnings);
+    find_sliding(geometry, outcome, c, approach, warnings);
 }
 
-static void warn_delassus(const struct geometry *geometry, struct solve_result *result)
+static void find_delassus(const struct geometry *geometry, struct warnings *warnings)
 {
     size_t n = geometry->contact_count;
     double worst = 0.0;
@@ -106,21 +196,36 @@ static void warn_delassus(const struct geometry *geometry, struct solve_result *
         worst = fmax(worst, fabs(geometry->w[i] - geometry->service_w[i]) / scale);
     }
     if (worst > 0.01)
-        report_warn(result,
-                    "delassus: differs from that of the catalogue's bodies by up to %.3g %%: the "
-                    "client's is used",
-                    100.0 * worst);
+        warnings_add(warnings, WARNING_DELASSUS,
+                     "delassus: differs from that of the catalogue's bodies by up to %.3g %%: the "
+                     "client's is used",
+                     100.0 * worst);
 }
 
-void validity_warn(const struct geometry *geometry, const struct solve_request *request,
-                   struct solve_result *result)
+void validity_find(const struct geometry *geometry, const struct solve_request *request,
+                   const struct impact_outcome *outcome, struct warnings *warnings)
 {
+    /* a contact that was cut off is not listed */
+    bool touches =
+        outcome->end_reason == PERCUSS_END_LIMIT || outcome->end_reason == PERCUSS_END_IN_CONTACT;
+    double approach = 0.0;
+    warnings->count = 0;
+    warnings->kinds = 0;
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        approach = fmax(approach, -geometry->gap_rate[c]);
+        touches = touches || outcome->tracks[c].count > 0;
+    }
+    if (!touches)
+        warnings_add(warnings, WARNING_NO_TOUCH,
+                     "contacts: the bodies do not touch: gap and acceleration keep them apart");
     for (size_t c = 0; c < geometry->contact_count; c++)
-        warn_contact(geometry, c, result);
+        find_contact(geometry, outcome, c, approach, warnings);
+    validity_find_speed(geometry, warnings);
     if (geometry->from_client)
-        warn_delassus(geometry, result);
+        find_delassus(geometry, warnings);
     if (request->options.compliance == PERCUSS_COMPLIANCE_MATCHED &&
         geometry->compliance->used != PERCUSS_COMPLIANCE_MATCHED)
-        report_warn(result, "options.compliance: matched: %s: half-space is used",
-                    geometry->compliance->reason);
+        warnings_add(warnings, WARNING_COMPLIANCE,
+                     "options.compliance: matched: %s: half-space is used",
+                     geometry->compliance->reason);
 }

@@ -5,15 +5,22 @@
 #ifndef PERCUSS_SOLVE_VALIDITY_H
 #define PERCUSS_SOLVE_VALIDITY_H
 
+#include "impact/impact.h"
 #include "solve/geometry.h"
+#include "solve/warnings.h"
 
 /* Estimated effect on the restitution of waves in bodies that are rigid by their shape (the
  * half-space: Hunter 1957; spheres and compact bodies: Rayleigh 1906). */
 double validity_wave_loss(const struct geometry *geometry, const struct solve_request *request,
                           const struct solve_result *result);
 
-/* Adds the warnings: yield, size of the contact, speed, edges, differing delassus, compliance. */
-void validity_warn(const struct geometry *geometry, const struct solve_request *request,
-                   struct solve_result *result);
+/* Looks where a solution leaves the models' range: yield, size of contact and dent, edges, speed,
+ * the end of a table, sliding without friction, a differing delassus, compliance, no touch. Written
+ * into `warnings` from its beginning. */
+void validity_find(const struct geometry *geometry, const struct solve_request *request,
+                   const struct impact_outcome *outcome, struct warnings *warnings);
+
+/* Of that, what needs no solution: adds the speeds of approach. */
+void validity_find_speed(const struct geometry *geometry, struct warnings *warnings);
 
 #endif

@@ -116,6 +116,96 @@ static void warns_where_models_end(void **state)
     lab_free(lab);
 }
 
+/* 0.3 m/s down, `along` along the surface and `spin` about y, on the wall. */
+static struct solve_request oblique(double along, double spin)
+{
+    struct solve_request request = strike(sphere_spot("ball", 0.015), wall_spot("wall"), 0.3);
+    request.bodies[0].velocity[0] = along;
+    request.bodies[0].angular_velocity[1] = spin;
+    return request;
+}
+
+/* What counts is the velocity of the point of contact. */
+static void warns_of_sliding(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    const double mass = STEEL.density * 4.0 / 3.0 * M_PI * 0.015 * 0.015 * 0.015;
+    struct solve_request request = oblique(0.3, 0.0);
+    char expected[64];
+    lab_solve(lab, &request, &result);
+    assert_true(warns("slide there at 0.3 m/s, 1 times the approach: friction is not modelled"));
+    /* sliding ends before Coulomb's bound, 0.3 of the impulse, is reached: m v / 3.5 */
+    snprintf(expected, sizeof expected, "%.3g N s", mass * 0.3 / 3.5);
+    assert_true(warns(expected) && warns("change that speed by up to 0.3 m/s"));
+    request = oblique(3.0, 0.0);
+    lab_solve(lab, &request, &result);
+    snprintf(expected, sizeof expected, "%.3g N s", 0.3 * result.contacts[0].impulse);
+    assert_true(warns(expected));
+    snprintf(expected, sizeof expected, "up to %.3g m/s",
+             3.5 / mass * 0.3 * result.contacts[0].impulse);
+    assert_true(warns(expected));
+    request = oblique(0.0, 20.0); /* spins in place */
+    lab_solve(lab, &request, &result);
+    assert_true(warns("slide there at 0.3 m/s"));
+    request = oblique(0.3, 20.0); /* rolls */
+    lab_solve(lab, &request, &result);
+    assert_int_equal(result.warning_count, 0);
+    request = oblique(0.3, -20.0);
+    lab_solve(lab, &request, &result);
+    assert_true(warns("slide there at 0.6 m/s, 2 times"));
+    request = oblique(0.0149, 0.0); /* just below 5 % */
+    lab_solve(lab, &request, &result);
+    assert_int_equal(result.warning_count, 0);
+    lab_free(lab);
+}
+
+/* Of the simulator's own bodies it is not known how they move along the surface. */
+static void sliding_of_the_simulators_bodies(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    struct solve_request request = oblique(3.0, 0.0);
+    const double mass = STEEL.density * 4.0 / 3.0 * M_PI * 0.015 * 0.015 * 0.015;
+    double w = 1.0 / mass;
+    request.delassus = &w;
+    lab_solve(lab, &request, &result);
+    assert_true(warns("slide there at 3 m/s") && !warns("change that speed"));
+    lab_free(lab);
+}
+
+/* Forty balls that slide leave room for what is said of the last one only. */
+static void every_kind_has_its_place(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    enum { BALLS = 40 };
+    struct solve_request request = {.body_count = BALLS + 1, .contact_count = BALLS};
+    strcpy(request.bodies[BALLS].id, "wall");
+    request.bodies[BALLS].orientation[0] = 1.0;
+    for (unsigned i = 0; i < BALLS; i++) {
+        struct solve_body *ball = &request.bodies[i];
+        strcpy(ball->id, "ball");
+        ball->orientation[0] = 1.0;
+        ball->position[0] = 0.1 * i;
+        ball->position[2] = 0.015;
+        ball->velocity[0] = 1.0;
+        ball->velocity[2] = i + 1 < BALLS ? -0.3 : -60.0; /* only the last is fast */
+        request.contacts[i] = (struct solve_contact){
+            .a = i, .b = BALLS, .point = {0.1 * i, 0.0, 0.0}, .normal = {0.0, 0.0, 1.0}};
+    }
+    solve(lab->workspace, &lab->set, &request, &result);
+    assert_true(result.status == PERCUSS_OK);
+    assert_true(warns("contacts[39]: the approach at 60 m/s"));
+    assert_false(warns("slide")); /* against the fastest approach of all it is nothing */
+    for (unsigned i = 0; i < BALLS; i++)
+        request.bodies[i].velocity[0] = 6.0;
+    solve(lab->workspace, &lab->set, &request, &result);
+    assert_true(warns("contacts[0]: the bodies slide"));
+    assert_true(warns("contacts[39]: the approach at 60 m/s is more than 1 % of the wave speed"));
+    lab_free(lab);
+}
+
 /* Waves into the half-space: Hunter's 1.04 (v/c)^(3/5) of the energy, half of it in e. */
 static void states_what_it_leaves_out(void **state)
 {
@@ -176,6 +266,9 @@ int main(void)
         cmocka_unit_test(names_theories_and_models),
         cmocka_unit_test(a_compact_rod_is_rigid),
         cmocka_unit_test(warns_where_models_end),
+        cmocka_unit_test(warns_of_sliding),
+        cmocka_unit_test(sliding_of_the_simulators_bodies),
+        cmocka_unit_test(every_kind_has_its_place),
         cmocka_unit_test(states_what_it_leaves_out),
         cmocka_unit_test(conditioning_is_a_derivative),
         cmocka_unit_test(refusals_leave_a_clean_answer),

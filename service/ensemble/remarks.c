@@ -1,0 +1,125 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "ensemble/remarks.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+/* More of a distribution than this outside its truncation is worth a word. */
+static const double TRUNCATED_SHARE = 0.01;
+
+__attribute__((format(printf, 2, 3))) static void warn(struct ensemble_report *report,
+                                                       const char *format, ...)
+{
+    if (report->warning_count == REPORT_WARNINGS)
+        return;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(report->warnings[report->warning_count++], sizeof *report->warnings, format, args);
+    va_end(args);
+}
+
+/* Samples of which something is to be said. */
+struct occurrence {
+    uint64_t count, first;
+};
+
+static void note(struct occurrence *occurrence, uint64_t index)
+{
+    if (occurrence->count++ == 0)
+        occurrence->first = index;
+}
+
+/* In the words of the first of them, which is solved again for that. */
+static void quote(struct ensemble_report *report, struct ensemble_worker *worker,
+                  const struct occurrence *occurrence, enum warning_kind kind)
+{
+    struct ensemble_sample sample;
+    struct fault fault = {""};
+    bool refusal = kind == WARNING_KINDS;
+    ensemble_solve(worker, occurrence->first, &sample, &fault);
+    const char *text = refusal ? fault.text : warnings_text(ensemble_warnings(worker), kind);
+    warn(report, "samples: %llu of %llu%s, first %llu: %.256s",
+         (unsigned long long)occurrence->count, (unsigned long long)report->done,
+         refusal ? " were refused and are left out" : "", (unsigned long long)occurrence->first,
+         text ? text : "");
+}
+
+/* Every kind of warning once, and the refusals. False: out of memory. */
+static bool warn_samples(struct ensemble_report *report, const struct ensemble *ensemble,
+                         const struct ensemble_sample *samples)
+{
+    struct occurrence found[WARNING_KINDS + 1] = {0};
+    for (uint64_t i = 0; i < report->done; i++) {
+        if (!ensemble_sample_has_result(&samples[i]))
+            note(&found[WARNING_KINDS], i);
+        for (unsigned kinds = samples[i].warnings; kinds; kinds &= kinds - 1)
+            note(&found[__builtin_ctz(kinds)], i);
+    }
+    struct ensemble_worker *worker = NULL;
+    for (int kind = 0; kind <= WARNING_KINDS; kind++) {
+        if (found[kind].count == 0)
+            continue;
+        if (!worker && ensemble_worker_create(&worker, ensemble, NULL))
+            return false;
+        quote(report, worker, &found[kind], (enum warning_kind)kind);
+    }
+    ensemble_worker_free(worker);
+    return true;
+}
+
+/* A table and the closed form differ by some 0.01: not to be taken for a spread of the inputs. */
+static void warn_models(struct ensemble_report *report, const struct ensemble *ensemble,
+                        const struct ensemble_sample *samples)
+{
+    uint64_t closed = 0;
+    bool tables = ensemble->stated_model == PERCUSS_CONTACT_TABLE;
+    for (uint64_t i = 0; i < report->done; i++) {
+        closed += ensemble_sample_has_result(&samples[i]) &&
+                  samples[i].contact_model == PERCUSS_CONTACT_CLOSED_FORM;
+        tables = tables || (ensemble_sample_has_result(&samples[i]) &&
+                            samples[i].contact_model == PERCUSS_CONTACT_TABLE);
+    }
+    if (tables && closed)
+        warn(report,
+             "samples: %llu of %llu follow the closed form, for want of a table for their "
+             "materials or so deep, others (or the impact as it is stated) a table: the two differ "
+             "by some 0.01 in the restitution (contact_model closed-form takes one for all)",
+             (unsigned long long)closed, (unsigned long long)report->done);
+}
+
+static void warn_numbers(struct ensemble_report *report, const struct ensemble *ensemble)
+{
+    const struct ensemble_spec *spec = &ensemble->spec;
+    const struct report_verification *verification = &report->verification;
+    if (report->truncated)
+        warn(report,
+             "samples: %llu of %llu reached the horizon or the effort allowed before they "
+             "were over",
+             (unsigned long long)report->truncated, (unsigned long long)report->done);
+    for (size_t i = 0; i < spec->input_count; i++) {
+        double share = input_truncated(&spec->inputs[i]);
+        if (share > TRUNCATED_SHARE)
+            warn(report,
+                 "inputs[%zu]: %s: %.2g of its distribution lies outside what is possible or "
+                 "allowed and is cut off",
+                 i, input_quantity_name(spec->inputs[i].quantity), share);
+    }
+    if (verification->count && fabs(verification->mean_shift) > ensemble->model.tolerance)
+        warn(report,
+             "verification: the mean is off by %.2g: more than the tolerance: ask for a "
+             "finer one",
+             verification->mean_shift);
+}
+
+bool remarks_fill(struct ensemble_report *report, const struct ensemble *ensemble,
+                  const struct ensemble_sample *samples)
+{
+    if (!warn_samples(report, ensemble, samples))
+        return false;
+    warn_models(report, ensemble, samples);
+    warn_numbers(report, ensemble);
+    return true;
+}

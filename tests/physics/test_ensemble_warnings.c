@@ -1,0 +1,128 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What single impacts would be warned of reaches the report of an ensemble, counted, whoever solved
+ * the samples in whatever order. */
+#include "physics/ensemble_lab.h"
+
+static bool warns(const struct ensemble_report *report, const char *words)
+{
+    for (size_t i = 0; i < report->warning_count; i++)
+        if (strstr(report->warnings[i], words))
+            return true;
+    return false;
+}
+
+static void is_same(const struct ensemble_report *a, const struct ensemble_report *b)
+{
+    assert_int_equal(a->warning_count, b->warning_count);
+    for (size_t i = 0; i < a->warning_count; i++)
+        assert_string_equal(a->warnings[i], b->warnings[i]);
+}
+
+/* The samples that solve() itself would warn of with `words`, and the first of them. */
+static uint64_t count_by_solve(struct ensemble_lab *e, const char *words, uint64_t *first)
+{
+    uint64_t count = 0;
+    static struct solve_result result;
+    for (uint64_t i = 0; i < e->ensemble.count; i++) {
+        double speed;
+        struct solve_request request = e->request;
+        bool warned = false;
+        ensemble_inputs(&e->ensemble, i, &speed);
+        request.bodies[0].velocity[2] = -speed;
+        lab_solve(e->lab, &request, &result);
+        for (size_t w = 0; w < result.warning_count; w++)
+            warned = warned || strstr(result.warnings[w], words);
+        if (warned && count++ == 0)
+            *first = i;
+    }
+    return count;
+}
+
+static void fast_samples_are_counted(void **state)
+{
+    (void)state;
+    static const char *const words[] = {"wave speed in sphere", "wave speed in beam",
+                                        "smallest radius of beam"};
+    struct ensemble_lab e;
+    ensemble_lab_open(&e);
+    e.inputs[0] = uncertain(INPUT_SPEED, 0, DISTRIBUTION_IS_UNIFORM, 1.0, 100.0);
+    e.spec.samples = 60;
+    e.request.options.tolerance = 1e-2;
+    ensemble_lab_run(&e, false);
+    for (size_t i = 0; i < COUNT(words); i++) {
+        char expected[64];
+        uint64_t first = 0, count = count_by_solve(&e, words[i], &first);
+        assert_true(count > 5 && count < 55);
+        snprintf(expected, sizeof expected,
+                 "samples: %llu of 60, first %llu: ", (unsigned long long)count,
+                 (unsigned long long)first);
+        bool found = false;
+        for (size_t w = 0; w < e.report.warning_count; w++)
+            found = found || (strstr(e.report.warnings[w], words[i]) &&
+                              strncmp(e.report.warnings[w], expected, strlen(expected)) == 0);
+        if (!found)
+            fail_msg("no '%s...%s'", expected, words[i]);
+    }
+    ensemble_lab_close(&e);
+}
+
+/* Two workers that take turns from the end. */
+static void order_and_workers_do_not_matter(void **state)
+{
+    (void)state;
+    struct ensemble_lab e;
+    struct ensemble_worker *workers[2];
+    struct ensemble_report other;
+    struct fault fault;
+    ensemble_lab_open(&e);
+    e.inputs[0] = uncertain(INPUT_SPEED, 0, DISTRIBUTION_IS_UNIFORM, 1.0, 100.0);
+    e.inputs[1] = uncertain(INPUT_DIRECTION, 0, DISTRIBUTION_IS_NORMAL, 0.0, 0.05);
+    e.spec.input_count = 2;
+    e.spec.samples = 60;
+    e.request.options.tolerance = 1e-2;
+    ensemble_lab_run(&e, false);
+    assert_true(warns(&e.report, "slide") && warns(&e.report, "wave speed"));
+    struct ensemble_sample *samples = calloc(60, sizeof *samples);
+    for (int w = 0; w < 2; w++)
+        assert_int_equal(ensemble_worker_create(&workers[w], &e.ensemble, &fault), PERCUSS_OK);
+    for (unsigned i = 60; i-- > 0;)
+        ensemble_solve(workers[i % 3 == 0], i, &samples[i], NULL);
+    assert_true(report_create(&other, &e.ensemble, samples, 60, NULL));
+    is_same(&e.report, &other);
+    report_release(&other);
+    for (int w = 0; w < 2; w++)
+        ensemble_worker_free(workers[w]);
+    free(samples);
+    ensemble_lab_close(&e);
+}
+
+/* Where nothing is to be said nothing is; a refusal is quoted. */
+static void quiet_and_refused(void **state)
+{
+    (void)state;
+    struct ensemble_lab e;
+    ensemble_lab_open(&e);
+    ensemble_lab_run(&e, true);
+    assert_int_equal(e.report.warning_count, 0);
+    ensemble_lab_clear(&e);
+    /* overlapping by 10 um while pressed: below 0.14 m/s they cannot have touched before */
+    e.request.contacts[0].gap = -1e-5;
+    e.request.contacts[0].gap_acceleration = -1000.0;
+    ensemble_lab_run(&e, false);
+    assert_true(e.report.refused > 5 && e.report.refused < 40);
+    assert_true(warns(&e.report, "were refused and are left out, first ") &&
+                warns(&e.report, "the bodies overlap and never touched before"));
+    ensemble_lab_close(&e);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fast_samples_are_counted),
+        cmocka_unit_test(order_and_workers_do_not_matter),
+        cmocka_unit_test(quiet_and_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
