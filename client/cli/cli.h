@@ -59,6 +59,9 @@ void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Prints the library's error of a call and returns its exit code. */
 int complain_result(enum percuss_result result);
 
+/* That there is no server, for the reason `what`, and how to start one in that domain. */
+void complain_no_server(const char *what, unsigned domain);
+
 /* A connected client; `id` NULL: random. EXIT_ANSWERED, or complains. */
 int open_client(const struct common *common, const uint8_t *id, struct percuss_client **client);
 

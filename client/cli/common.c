@@ -128,8 +128,7 @@ int open_client(const struct common *common, const uint8_t *id, struct percuss_c
         return EXIT_ANSWERED;
     int code = EXIT_NO_SERVER;
     if (result == PERCUSS_RESULT_NO_SERVER)
-        complain("%s; start one with: build/bin/percussd --config config/percussd.yaml --domain %u",
-                 percuss_error_text(), common->domain);
+        complain_no_server(percuss_error_text(), common->domain);
     else
         code = complain_result(result);
     percuss_client_free(*client);

@@ -13,7 +13,7 @@ enum { KEY_CHECK = 0x100, USAGE = 2 };
 const char *argp_program_version = "percussd " PERCUSS_VERSION;
 
 static const struct argp_option options[] = {
-    {"config", 'c', "FILE", 0, "Settings, as in config/percussd.yaml", 0},
+    {"config", 'c', "FILE", 0, "Settings; the shipped percussd.yaml explains each key", 0},
     {"catalogue", 'C', "FILE", 0, "Bodies and materials; goes before the one in the settings", 0},
     {"domain", 'd', "N", 0, "DDS domain, 0 to 230; goes before the one in the settings", 0},
     {"check-config", KEY_CHECK, NULL, 0, "Read settings and catalogue, say ok or what is wrong", 0},

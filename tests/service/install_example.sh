@@ -1,65 +1,107 @@
 #!/bin/sh
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
-
-# Installs a build into an empty prefix and builds the example against it, once through the CMake
-# package and once through pkg-config, as a stranger would. Usage: install_example.sh BUILD [DOMAIN];
-# with a domain in which a percussd runs, both programs are run as well.
-set -eu
-build=${1:?"usage: install_example.sh BUILD [DOMAIN]"}
-domain=${2:-}
-source=$(cd "$(dirname "$0")/../.." && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# A stranger has the installed tree and nothing else: its documents are followed to the letter, its
+# settings answer as those of the source, and nothing points to where it was built.
+. "$(dirname "$0")/lib.sh"
+. "$source_dir/tests/documents.sh"
 prefix=$work/prefix
-example=$work/example
+documents=$prefix/share/doc/percuss
+# found by nobody who does not look into the prefix
+unset PKG_CONFIG_PATH LD_LIBRARY_PATH PERCUSS_LIBRARY
 
+# in_tree FILE TEXT: the installed document's commands with that text, in this domain, where we are
+in_tree() {
+    commands "$documents/$1" "$2" | sed "s|PREFIX|$prefix|g" | in_domain "$domain" >"$work/commands"
+    [ -s "$work/commands" ] || fail "$1 has no commands with $2"
+    expect 0 follow <"$work/commands"
+}
+
+say "installing"
 cmake --install "$build" --prefix "$prefix" >"$work/install.log"
-# a copy outside the source tree, so that nothing is found there by chance
-cp -r "$source/client/examples" "$example"
+for file in bin/percuss share/man/man1/percuss.1 share/man/man8/percussd.8 share/man/man8/percuss-tables.8 \
+    include/percuss/percuss.h include/percuss/vocabulary.h include/percuss/slowscale.h \
+    include/percuss/slow_equations.h share/percuss/percuss_wire.idl share/percuss/catalogue.yaml \
+    share/percuss/percussd.yaml share/percuss/examples/query.c share/percuss/python/pyproject.toml \
+    share/percuss/python/percuss/__init__.py share/percuss/python/examples/speed_sweep.py \
+    share/doc/percuss/README.md share/doc/percuss/integrating.md share/doc/percuss/LICENSE; do
+    [ -f "$prefix/$file" ] || fail "$file is not installed"
+done
+for name in percussd.yaml catalogue.yaml; do
+    [ "$(find "$prefix" -path "$prefix/share/percuss/examples" -prune -o -name $name -print | wc -l)" -eq 1 ] ||
+        fail "$name is there more than once"
+done
+"$prefix/bin/percuss" --version
+expect 0 "$prefix"/sbin/percussd --config "$prefix/share/percuss/percussd.yaml" --check-config
 
-cmake -S "$example" -B "$work/by-cmake" -DCMAKE_PREFIX_PATH="$prefix" >"$work/cmake.log"
-cmake --build "$work/by-cmake" >>"$work/cmake.log"
+say "the documents' links and files are there"
+dead_links "$prefix" >"$out"
+[ ! -s "$out" ] || fail "dead links"
+if grep -rlF -e "$source_dir" -e "$build" -e build/bin "$documents" "$prefix/bin" "$prefix/sbin" \
+    "$prefix/lib" >"$out"; then
+    fail "the tree points to where it was built"
+fi
 
-PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name percuss.pc)")
-export PKG_CONFIG_PATH
-libraries=$(pkg-config --variable=libdir percuss)
-# words of the flags are to be split
-# shellcheck disable=SC2046
-${CC:-cc} -std=c17 -Wall -Wextra -Werror $(pkg-config --cflags percuss) "$example/query.c" \
-    -o "$work/by-pkg-config" $(pkg-config --libs percuss) -Wl,-rpath,"$libraries"
-
-# nothing but percuss_ leaves the libraries, and their headers do not need those of DDS
+say "nothing but percuss_ leaves the libraries, and their headers do not need those of DDS"
+libraries=$prefix/lib
 for library in libpercuss libpercuss-slowscale; do
     if nm -D --defined-only "$libraries/$library.so" | awk '{print $3}' | grep -v '^percuss_' ||
         nm -D --defined-only "$libraries/$library.so" | grep ' percuss_v2_'; then
-        echo "$library exports symbols of its inside" >&2
-        exit 1
+        fail "$library exports symbols of its inside"
     fi
 done
-# the slow scale stands alone
 if ldd "$libraries/libpercuss-slowscale.so" | grep -E 'dds|lapack|blas|sundials'; then
-    echo "libpercuss-slowscale needs more than the C library" >&2
-    exit 1
+    fail "libpercuss-slowscale needs more than the C library"
 fi
-pkg-config --exists percuss-slowscale
-if grep -rl 'dds/' "$prefix/include/percuss"; then
-    echo "a public header includes DDS" >&2
-    exit 1
-fi
+! grep -rl 'dds/' "$prefix/include/percuss" || fail "a public header includes DDS"
 
-for file in bin/percuss share/percuss/percuss_wire.idl share/man/man1/percuss.1 \
-    share/man/man8/percussd.8 include/percuss/percuss.h include/percuss/vocabulary.h \
-    include/percuss/slowscale.h include/percuss/slow_equations.h share/percuss/catalogue.yaml \
-    share/percuss/percussd.yaml share/doc/percuss/integrating.md; do
-    test -f "$prefix/$file" || { echo "$file is not installed" >&2; exit 1; }
-done
-"$prefix/bin/percuss" --version
-"$prefix"/*bin/percussd --config "$prefix/share/percuss/percussd.yaml" --check-config >/dev/null
+say "README: a program, compiled and run"
+mkdir "$work/program" && cd "$work/program"
+in_tree README.md 'cc query.c'
+grep '^e = ' "$out" >"$work/by-pkg-config"
+cmake -S "$prefix/share/percuss/examples" -B "$work/by-cmake" -DCMAKE_PREFIX_PATH="$prefix" >"$work/log.cmake"
+cmake --build "$work/by-cmake" >>"$work/log.cmake"
 
-if [ -n "$domain" ]; then
-    "$work/by-cmake/query" "$domain" | grep '^e = ' >"$work/one"
-    "$work/by-pkg-config" "$domain" | grep '^e = ' >"$work/other"
-    cmp "$work/one" "$work/other"
-fi
-echo "install_example: passed"
+say "integrating: an engine, compiled; the MuJoCo example, run"
+cp "$source_dir/tests/service/slow_client.c" engine.c
+PKG_CONFIG_PATH=$libraries/pkgconfig sh -euc \
+    "$(sed -n 's|.*\(cc engine.c .*\) \*/.*|\1|p' "$documents/integrating.md") -o engine"
+[ -x engine ] || fail "integrating.md has no command that makes an engine"
+ldd ./engine | grep -F "$prefix" | grep -q slowscale || fail "the engine does not find libpercuss-slowscale"
+run=$(sed -n 's|.*`\(sh share/percuss/examples/mujoco/run.sh\)`.*|\1|p' "$documents/integrating.md")
+cd "$prefix"
+# the words of a command
+# shellcheck disable=SC2086
+expect 0 ${run:-false}
+shows "MuJoCo alone, default contact: e = 0.13"
+
+say "without a server: the command that is advised starts one"
+expect 3 "$prefix/bin/percuss" ping --domain "$domain" --timeout 0.5
+sed -n 's/.*start one with: //p' "$err" >"$work/advised"
+[ -s "$work/advised" ] || fail "no advice"
+sh -c "exec $(cat "$work/advised")" 2>"$log" 9>&- &
+daemon=$!
+wait_for 20 is_up_or_dead || fail "the daemon is not ready after 20 s"
+logged 'ready: domain' || fail "the daemon did not start"
+! logged warning || fail "it starts with a warning"
+
+say "its settings have their tables: the answer is that of the source's settings"
+rod() {
+    expect 0 "$1" query --a steel-sphere --b al-rod-1 --speed 0.276 --domain "$domain" --json
+    field restitution
+}
+installed=$(rod "$prefix/bin/percuss")
+"$work/by-cmake/query" "$domain" | grep '^e = ' | cmp - "$work/by-pkg-config" || fail "by-cmake/query"
+stop_daemon
+settings "tables: $source_dir/config/tables"
+start_daemon
+[ "$installed" = "$(rod "$bin/percuss")" ] || fail "$installed is not the source's $(field restitution)"
+# the paper's rod 1 by its table; without one it is 0.48486
+echo "$installed" | awk '{ exit !($1 > 0.4982 && $1 < 0.4992) }' || fail "$installed is not 0.4987"
+stop_daemon
+
+say "README: the commands of the first minute"
+PATH=$prefix/bin:$prefix/sbin:$PATH
+in_tree README.md --plot
+file=$prefix/impact.png
+[ "$(head -c 4 "$file" | tail -c 3)" = PNG ] || fail "no picture"

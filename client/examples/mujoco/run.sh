@@ -4,17 +4,28 @@
 #
 # The paper's beam impacts inside a MuJoCo simulation: starts percussd on loopback with the scenes'
 # bodies, runs the scenes, plots them, stops what it started.
-# usage: run.sh [BUILD [OUTPUT]]    (default: build/ of this source tree, and BUILD/mujoco)
+# usage: run.sh [BUILD [OUTPUT]]    (default: build/ of this source tree, and BUILD/mujoco; of an
+# installed tree, build-mujoco/ where you are)
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../../.." && pwd)
-build=${1:-$source/build}
+if [ -e "$source/CMakeLists.txt" ]; then
+    build=${1:-$source/build}
+    program=$build/client/examples/mujoco/percuss_mujoco
+    percussd=$build/bin/percussd
+    prefix=
+    [ -x "$program" ] || sh "$source/deploy/dependencies.sh" test
+else # share/percuss/examples/mujoco of an installed tree
+    prefix=$(cd "$here/../../../.." && pwd)
+    source=$(dirname "$here")
+    build=${1:-build-mujoco}
+    program=$build/mujoco/percuss_mujoco
+    percussd=$prefix/sbin/percussd
+fi
 output=${2:-$build/mujoco}
-program=$build/client/examples/mujoco/percuss_mujoco
 
 if [ ! -x "$program" ]; then
-    sh "$source/deploy/dependencies.sh" test
-    cmake -S "$source" -B "$build" -DCMAKE_BUILD_TYPE=Release >&2
+    cmake -S "$source" -B "$build" -DCMAKE_BUILD_TYPE=Release ${prefix:+-DCMAKE_PREFIX_PATH="$prefix"} >&2
     cmake --build "$build" --parallel "$(nproc)" >&2
 fi
 [ -x "$program" ] || {
@@ -27,7 +38,7 @@ mkdir -p "$output"
 domain=$((100 + $$ % 100))
 log=$output/percussd.log
 printf 'catalogue: %s\n' "$here/catalogue.yaml" >"$output/percussd.yaml"
-"$build/bin/percussd" --config "$output/percussd.yaml" --domain "$domain" 2>"$log" &
+"$percussd" --config "$output/percussd.yaml" --domain "$domain" 2>"$log" &
 daemon=$!
 trap 'kill "$daemon" 2>/dev/null || true; wait "$daemon" 2>/dev/null || true' EXIT
 waited=0

@@ -13,13 +13,16 @@ _NAME = "libpercuss.so.0"
 
 
 def _candidates() -> list[str]:
-    """PERCUSS_LIBRARY alone if it is set; else what the system's loader finds, else a build tree."""
+    """PERCUSS_LIBRARY alone if it is set; else that of the tree this file is in, or the system's."""
     chosen = os.environ.get("PERCUSS_LIBRARY")
     if chosen:
         return [chosen]
-    # this file is client/python/percuss/_library.py in a source tree
-    builds = Path(__file__).resolve().parents[3].glob(f"build*/client/{_NAME}")
-    return [_NAME, *sorted(str(path) for path in builds)]
+    above = Path(__file__).resolve().parents
+    # this file is share/percuss/python/percuss/_library.py in an installed tree, and
+    # client/python/percuss/_library.py in a source tree
+    installed = [path for tree in above[4:5] for path in (*tree.glob(f"lib*/{_NAME}"), *tree.glob(f"lib/*/{_NAME}"))]
+    built = [path for tree in above[3:4] for path in tree.glob(f"build*/client/{_NAME}")]
+    return [*sorted(map(str, installed)), _NAME, *sorted(map(str, built))]
 
 
 def _check_version(library: ctypes.CDLL) -> None:

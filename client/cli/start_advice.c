@@ -1,0 +1,59 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* How to start a server: with what lies beside this program, built or installed. */
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli.h"
+
+/* From the folder of this program; in a build tree, build/bin of the source. */
+static const struct {
+    const char *daemon, *settings;
+} places[] = {{"percussd", "../../config/percussd.yaml"}, {INSTALLED_DAEMON, INSTALLED_SETTINGS}};
+
+/* The folder of this program in `folder`; false: unknown. */
+static bool own_folder(char folder[PATH_MAX])
+{
+    ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
+    if (length <= 0)
+        return false;
+    folder[length] = '\0';
+    char *slash = strrchr(folder, '/');
+    if (!slash)
+        return false;
+    *slash = '\0';
+    return true;
+}
+
+/* The file at `from`/`path` as a user here would write it; false: there is none. */
+static bool find(const char *from, const char *path, char found[PATH_MAX])
+{
+    char whole[PATH_MAX];
+    char here[PATH_MAX];
+    if (snprintf(whole, sizeof whole, "%s/%s", from, path) >= (int)sizeof whole ||
+        !realpath(whole, found))
+        return false;
+    size_t length = getcwd(here, sizeof here) ? strlen(here) : 0;
+    if (length > 1 && strncmp(found, here, length) == 0 && found[length] == '/')
+        memmove(found, found + length + 1, strlen(found + length));
+    return true;
+}
+
+void complain_no_server(const char *what, unsigned domain)
+{
+    char folder[PATH_MAX];
+    char daemon[PATH_MAX];
+    char settings[PATH_MAX];
+    bool known = own_folder(folder);
+    for (size_t i = 0; known && i < sizeof places / sizeof places[0]; i++)
+        if (find(folder, places[i].daemon, daemon) && find(folder, places[i].settings, settings)) {
+            complain("%s; start one with: %s --config %s --domain %u", what, daemon, settings,
+                     domain);
+            return;
+        }
+    complain("%s; start one with: percussd --config FILE --domain %u", what, domain);
+}

@@ -1,0 +1,20 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+
+# The package of an installed tree, where it lies, finds the library of that tree; pip takes it from there.
+# Started by run.sh.
+set -eu
+cmake --install "$PERCUSS_BUILD" --prefix "$PWD/prefix" >log
+unset PERCUSS_LIBRARY
+package=$PWD/prefix/share/percuss/python
+PYTHONPATH=$package python -c "
+import percuss, percuss._abi
+assert percuss.__file__.startswith('$package'), percuss.__file__
+assert percuss._abi.library._name.startswith('$PWD/prefix/lib'), percuss._abi.library._name"
+PYTHONPATH=$package python "$package/examples/speed_sweep.py" .
+pip install --no-index --no-deps --no-build-isolation --target "$PWD/target" "$package" >>log 2>&1 || {
+    cat log >&2
+    exit 1
+}
+PYTHONPATH=$PWD/target PERCUSS_LIBRARY=$(echo "$PWD"/prefix/lib*/libpercuss.so.0) python -c "import percuss"
