@@ -1,19 +1,67 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include <math.h>
 #include <percuss/slow_link.h>
 
-static enum percuss_result ask(void *context, const struct percuss_request *request,
+#include "receive.h"
+
+static const double glance = 0.5; /* s between two looks whether the server is still there */
+static const double busy_interval = 0.02; /* s until a busy server is asked again */
+
+static bool server_is_gone(struct percuss_client *client)
+{
+    return dds_get_matched_publications(client->reply_reader, NULL, 0) == 0;
+}
+
+/* Sends the request and waits for its reply up to the deadline, or until the server is gone: then
+ * NO_SERVER, with the request's sequence for it to be sent again to the next one. */
+static enum percuss_result exchange(struct percuss_client *client, struct percuss_request *request,
+                                    double deadline, struct percuss_reply *reply)
+{
+    enum percuss_result result = percuss_submit(client, request, &request->sequence);
+    if (result)
+        return result;
+    do {
+        double wait = fmin(glance, fmax(0.0, deadline - receive_now()));
+        result = percuss_wait(client, request->sequence, wait, reply);
+    } while (result == PERCUSS_RESULT_TIMEOUT && receive_now() < deadline &&
+             !server_is_gone(client));
+    if (result == PERCUSS_RESULT_TIMEOUT) {
+        bool gone = server_is_gone(client);
+        percuss_cancel(client, request->sequence);
+        result = gone ? PERCUSS_RESULT_NO_SERVER : result;
+    }
+    return result;
+}
+
+/* A server that is busy, or is being restarted, costs time and does not change the result. */
+static enum percuss_result ask(void *context, const struct percuss_request *question,
                                struct percuss_reply *reply)
 {
     struct percuss_slow_link *link = context;
-    enum percuss_result result = PERCUSS_RESULT_OK;
-    if (!link->connected)
-        result = percuss_client_connect(link->client, link->reconnect);
-    if (result == PERCUSS_RESULT_OK)
-        result = percuss_solve(link->client, request, link->timeout, reply);
-    link->connected = result == PERCUSS_RESULT_OK;
-    return result;
+    struct percuss_request request = *question;
+    enum percuss_result result;
+    double deadline;
+    if (receive_deadline(link->timeout, &deadline))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
+    for (;;) {
+        result = link->connected ? PERCUSS_RESULT_OK
+                                 : percuss_client_connect(link->client, link->reconnect);
+        link->connected = result == PERCUSS_RESULT_OK;
+        if (!link->connected)
+            return result;
+        result = exchange(link->client, &request, deadline, reply);
+        bool busy = result == PERCUSS_RESULT_OK && reply->status == PERCUSS_BUSY;
+        link->connected = result == PERCUSS_RESULT_OK;
+        if (receive_now() >= deadline || (!busy && result != PERCUSS_RESULT_NO_SERVER))
+            return result;
+        if (busy) {
+            percuss_reply_free(reply);
+            request.sequence = 0; /* the answer to this one is that the server is busy */
+            dds_sleepfor((dds_duration_t)(1e9 * busy_interval));
+        }
+    }
 }
 
 static const char *problem(void *context)
@@ -24,7 +72,7 @@ static const char *problem(void *context)
 
 struct percuss_slow_link percuss_slow_link_default(struct percuss_client *client)
 {
-    return (struct percuss_slow_link){.client = client, .timeout = 2.0, .reconnect = 0.1};
+    return (struct percuss_slow_link){.client = client, .timeout = 60.0, .reconnect = 10.0};
 }
 
 struct percuss_slow_service percuss_slow_link_service(struct percuss_slow_link *link)

@@ -167,13 +167,13 @@ enum percuss_result episode_begin(struct percuss_slow *slow, const struct group 
 }
 
 static enum percuss_result apply(const struct percuss_slow *slow, const struct episode *episode,
-                                 const struct entry *entry)
+                                 const struct entry *entry, double impulse)
 {
     /* where the bodies touch by now, if they are still near */
     const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
     const struct pair *pair = pairs_find(slow, contact);
     const struct percuss_slow_engine *engine = &slow->config.engine;
-    if (engine->apply(engine->context, pair ? &pair->contact : contact, entry->impulse))
+    if (engine->apply(engine->context, pair ? &pair->contact : contact, impulse))
         return PERCUSS_RESULT_OK;
     return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's apply failed");
 }
@@ -186,7 +186,8 @@ enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t 
         next = episode->next;
         while (!result && episode->played < episode->entry_count &&
                slow_has_come(episode->entries[episode->played].time, now)) {
-            result = apply(slow, episode, &episode->entries[episode->played++]);
+            const struct entry *entry = &episode->entries[episode->played++];
+            result = apply(slow, episode, entry, entry->impulse);
             ++*applied;
         }
         if (episode->played == episode->entry_count && now >= episode->time + episode->window)
@@ -201,7 +202,7 @@ struct episode *episode_of(const struct percuss_slow *slow,
     for (struct episode *episode = slow->episodes; episode; episode = episode->next)
         for (size_t i = 0; i < episode->request.contact_count; i++) {
             const struct percuss_slow_contact *own = &episode->contacts[i];
-            if (episode->revocable && now < episode->time + episode->window &&
+            if (episode->revocable && !episode->revoked && now < episode->time + episode->window &&
                 pairs_is_same(own, contact))
                 return episode;
         }
@@ -225,67 +226,92 @@ double episode_pause(const struct episode *episode, double time)
 
 /* The vibration of the episode's bodies at `time` from its start: what it started with, or by a
  * question up to then. */
-static void take_vibration(struct percuss_slow *slow, struct episode *episode, struct group *group,
-                           double time)
+static enum percuss_result take_vibration(struct percuss_slow *slow, struct episode *episode,
+                                          struct group *group, double time)
 {
-    char why[512];
     struct percuss_reply reply;
     if (time < shortest_horizon) {
         tokens_restore(slow, episode->contacts, &episode->request, episode->time);
-        return;
+        return PERCUSS_RESULT_OK;
     }
-    episode->request.options.horizon = time;
+    struct percuss_request *request = &episode->request;
+    double horizon = request->options.horizon;
+    request->options.horizon = time;
     slow->counts.preempted++;
-    if (question_put(slow, &episode->request, &reply, why, sizeof why)) {
-        tokens_keep(slow, episode->contacts, &episode->request, &reply, episode->time + time);
-    } else {
-        tokens_forget(slow, episode->request.contact_count, episode->contacts);
-        group_note(group, "vibration unknown: %s", why);
+    enum percuss_result result = question_put(slow, group, request, &reply);
+    request->options.horizon = horizon;
+    if (!result) {
+        tokens_keep(slow, episode->contacts, request, &reply, episode->time + time);
+    } else if (result == PERCUSS_RESULT_INVALID_ARGUMENT || slow->config.fall_back) {
+        tokens_forget(slow, request->contact_count, episode->contacts);
+        group_note(group, "vibration unknown: %s", group->why);
+        result = PERCUSS_RESULT_OK;
     }
     slow->config.service.release(&reply);
+    return result ? question_fail(slow, group, result) : result;
 }
 
 /* Takes an impulse back that belongs to a sub-impact after the group's start. */
 static enum percuss_result take_back(const struct percuss_slow *slow, const struct episode *episode,
-                                     const struct entry *entry, struct group *group, double now)
+                                     struct entry *entry, struct group *group, double now)
 {
     const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
-    struct entry back = *entry;
-    back.impulse = -entry->impulse;
     for (size_t i = 0; i < group->count; i++)
         if (pairs_is_same(&group->contacts[i], contact))
             group->moved[i] += entry->impulse * (now - entry->time);
-    return apply(slow, episode, &back);
+    entry->taken_back = true;
+    return apply(slow, episode, entry, -entry->impulse);
 }
 
-enum percuss_result episode_preempt(struct percuss_slow *slow, struct episode *episode,
-                                    struct group *group, double now)
+enum percuss_result episode_revoke(struct percuss_slow *slow, struct episode *episode,
+                                   struct group *group, double now)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
     double time = fmax(0.0, group->start - episode->time);
     size_t revoked = 0;
+    episode->revoked = true;
     for (size_t i = 0; !result && i < episode->entry_count; i++) {
-        const struct entry *entry = &episode->entries[i];
-        bool played = i < episode->played;
-        if (entry->end <= time) {
-            if (!played)
-                result = apply(slow, episode, entry);
+        struct entry *entry = &episode->entries[i];
+        if (entry->end <= time) /* has happened, and was applied before its end */
             continue;
-        }
         revoked++;
-        if (played)
+        if (i < episode->played)
             result = take_back(slow, episode, entry, group, now);
     }
     if (!result && time < episode->window)
-        take_vibration(slow, episode, group, time);
+        result = take_vibration(slow, episode, group, time);
     if (revoked)
         group_note(group, "%zu sub-impacts of the impact at %.9g s revoked", revoked,
                    episode->time);
-    for (size_t i = 0; i < episode->request.contact_count; i++) {
-        struct pair *pair = pairs_find(slow, &episode->contacts[i]);
-        if (pair)
-            pair->latch = LATCH_WAITING; /* its further sub-impacts belong to the new question */
+    return result;
+}
+
+void episodes_drop_revoked(struct percuss_slow *slow)
+{
+    struct episode *next;
+    for (struct episode *episode = slow->episodes; episode; episode = next) {
+        next = episode->next;
+        if (!episode->revoked)
+            continue;
+        for (size_t i = 0; i < episode->request.contact_count; i++) {
+            struct pair *pair = pairs_find(slow, &episode->contacts[i]);
+            if (pair)
+                pair->latch = LATCH_WAITING; /* its further sub-impacts belong to the new answer */
+        }
+        forget(slow, episode);
     }
-    forget(slow, episode);
+}
+
+enum percuss_result episodes_restore_revoked(struct percuss_slow *slow)
+{
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    for (struct episode *episode = slow->episodes; episode; episode = episode->next) {
+        for (size_t i = 0; !result && i < episode->entry_count; i++)
+            if (episode->entries[i].taken_back)
+                result = apply(slow, episode, &episode->entries[i], episode->entries[i].impulse);
+        for (size_t i = 0; i < episode->entry_count; i++)
+            episode->entries[i].taken_back = false;
+        episode->revoked = false;
+    }
     return result;
 }

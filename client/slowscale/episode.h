@@ -22,10 +22,16 @@ struct episode *episode_of(const struct percuss_slow *slow,
 /* The last time up to `time` at which none of its sub-impacts is under way. */
 double episode_pause(const struct episode *episode, double time);
 
-/* Revokes what happens after the group's start: drops it, or takes it back if it was applied. Asks
- * for the vibration at that time and forgets the episode. What is lost is noted in the group. */
-enum percuss_result episode_preempt(struct percuss_slow *slow, struct episode *episode,
-                                    struct group *group, double now);
+/* Revokes what happens after the group's start, taking it back where it was applied, and asks for
+ * the vibration at that time. What is lost is noted in the group. */
+enum percuss_result episode_revoke(struct percuss_slow *slow, struct episode *episode,
+                                   struct group *group, double now);
+
+/* What happens instead of the revoked episodes is known: forgets them. */
+void episodes_drop_revoked(struct percuss_slow *slow);
+
+/* It cannot be known: applies again what was taken back, and goes on with them. */
+enum percuss_result episodes_restore_revoked(struct percuss_slow *slow);
 
 void episodes_free(struct percuss_slow *slow);
 

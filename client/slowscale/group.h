@@ -15,8 +15,10 @@ struct group {
     double *moved; /* impulses taken back times how long they had been there, N s^2 */
     double *gap_rate, *delassus, *impulse, *restitution;
     struct percuss_body_motion *bodies; /* [bodies of the configuration] */
-    const struct percuss_reply *reply;  /* NULL: declared */
+    struct percuss_reply answer;
+    const struct percuss_reply *reply; /* the answer; NULL: declared */
     char message[512];
+    char why[1100]; /* the last question of this group that had no usable answer */
 };
 
 struct group *group_create(const struct percuss_slow *slow, size_t count); /* NULL: no memory */

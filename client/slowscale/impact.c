@@ -3,6 +3,7 @@
 
 /* One impact: what belongs together, the question, the answer or the declared restitution. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -80,7 +81,7 @@ static enum percuss_result preempt(struct percuss_slow *slow, struct group *grou
     for (size_t i = 0; !result && i < group->count; i++) {
         struct episode *episode = episode_of(slow, &group->contacts[i], now);
         if (episode)
-            result = episode_preempt(slow, episode, group, now);
+            result = episode_revoke(slow, episode, group, now);
     }
     return result;
 }
@@ -122,84 +123,133 @@ static enum percuss_result report(const struct percuss_slow *slow, struct group 
         .restitution = group->restitution,
         .reply = group->reply,
         .message = group->message,
+        .declared = slow->counts.declared,
     };
     if (slow->config.report)
         slow->config.report(slow->config.report_context, &text);
     return PERCUSS_RESULT_OK;
 }
 
-/* The group has been probed: ask, or use the declared restitution, and begin to apply. */
-static enum percuss_result settle(struct percuss_slow *slow, struct group *group,
-                                  struct percuss_request *request, double now)
+/* Asks about the group. OK with group->reply NULL: the declared restitution is to be used, which
+ * takes the user's leave. */
+static enum percuss_result ask(struct percuss_slow *slow, struct group *group,
+                               struct percuss_request *request)
 {
-    struct percuss_reply reply = {0};
+    if (!slow->config.service.solve)
+        return PERCUSS_RESULT_OK;
+    enum percuss_result result = PERCUSS_RESULT_INVALID_ARGUMENT;
+    if (question_make(slow, group, group->start, request))
+        result = question_ask(slow, group, request, &group->answer);
+    else
+        snprintf(group->why, sizeof group->why, "%zu contacts are more than one question holds",
+                 group->count);
+    if (!result) {
+        group->reply = &group->answer;
+        for (size_t i = 0; i < group->count; i++)
+            group->impulse[i] = group->answer.contacts[i].impulse;
+        return PERCUSS_RESULT_OK;
+    }
+    slow->config.service.release(&group->answer);
+    if (!slow->config.fall_back)
+        return question_fail(slow, group, result);
+    group_note(group, "%s: declared restitution %g used", group->why, slow->config.restitution);
+    return PERCUSS_RESULT_OK;
+}
+
+/* Begins what the group's answer, or its impulses, say. */
+static enum percuss_result begin(struct percuss_slow *slow, struct group *group,
+                                 const struct percuss_request *request, double now)
+{
     size_t applied = 0;
-    bool asks = slow->config.service.solve != NULL;
-    bool fits = asks && question_make(slow, group, group->start, request);
-    if (asks && !fits)
-        group_note(group, "%zu contacts are more than one question holds", group->count);
-    bool answered = fits && question_ask(slow, group, request, &reply);
     slow->counts.impacts++;
-    slow->counts.declared += !answered;
-    group->reply = answered ? &reply : NULL;
-    for (size_t i = 0; answered && i < group->count; i++)
-        group->impulse[i] = reply.contacts[i].impulse;
-    if (answered)
-        tokens_keep(slow, group->contacts, request, &reply, group->start + reply.window);
+    slow->counts.declared += !group->reply;
+    episodes_drop_revoked(slow);
+    if (group->reply)
+        tokens_keep(slow, group->contacts, request, group->reply,
+                    group->start + group->reply->window);
     else
         tokens_forget(slow, group->count, group->contacts);
-    enum percuss_result result = PERCUSS_RESULT_OK;
-    if (!answered && !use_declared(slow, group))
-        result = slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT,
-                           "delassus: no impulses stop the approach of %zu contacts: check the "
-                           "engine's matrix",
-                           group->count);
-    if (!result)
-        result = episode_begin(slow, group, request);
+    enum percuss_result result = episode_begin(slow, group, request);
     if (!result)
         result = report(slow, group);
     if (!result)
         result = episodes_play(slow, now, &applied);
-    if (answered)
-        slow->config.service.release(&reply);
+    if (group->reply)
+        slow->config.service.release(&group->answer);
+    return result;
+}
+
+/* What happens in a group that has been probed. */
+static enum percuss_result find_impulses(struct percuss_slow *slow, struct group *group,
+                                         struct percuss_request *request)
+{
+    enum percuss_result result = ask(slow, group, request);
+    if (result || group->reply || use_declared(slow, group))
+        return result;
+    return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT,
+                     "delassus: no impulses stop the approach of %zu contacts: check the engine's "
+                     "matrix",
+                     group->count);
+}
+
+/* The members of `all` as a group. NULL: no memory. */
+static struct group *gather(const struct percuss_slow *slow, const struct group *all, size_t first,
+                            double now)
+{
+    bool *member = calloc(all->count, sizeof *member);
+    struct group *group =
+        member ? group_create(slow, mark_members(slow, all, first, now, member)) : NULL;
+    size_t next = 0;
+    for (size_t i = 0; group && i < all->count; i++)
+        if (member[i])
+            group->contacts[next++] = all->contacts[i];
+    free(member);
+    return group;
+}
+
+/* Revokes and asks. A failure leaves all as it was. */
+static enum percuss_result prepare(struct percuss_slow *slow, struct group *group,
+                                   struct percuss_request *request, double now)
+{
+    size_t size = slow->config.body_count * sizeof *slow->tokens;
+    struct token *tokens = malloc(size);
+    if (!tokens)
+        return slow_no_memory();
+    memcpy(tokens, slow->tokens, size);
+    enum percuss_result result = preempt(slow, group, now);
+    if (!result)
+        result = group_probe(slow, group, true);
+    if (!result) {
+        go_back(group, now);
+        result = find_impulses(slow, group, request);
+    }
+    if (result) {
+        memcpy(slow->tokens, tokens, size);
+        enum percuss_result restored = episodes_restore_revoked(slow);
+        result = restored ? restored : result;
+    }
+    free(tokens);
     return result;
 }
 
 enum percuss_result impact_solve(struct percuss_slow *slow, const struct group *seen, size_t first,
                                  double now)
 {
-    struct group *all = group_create(slow, seen->count);
-    bool *member = calloc(seen->count, sizeof *member);
+    struct group *all = group_create(slow, seen->count), *group = NULL;
     struct percuss_request *request = malloc(sizeof *request);
-    struct group *group = NULL;
-    enum percuss_result result =
-        all && member && request ? PERCUSS_RESULT_OK
-                                 : slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for an impact");
+    enum percuss_result result = all && request ? PERCUSS_RESULT_OK : slow_no_memory();
     if (!result) {
         memcpy(all->contacts, seen->contacts, seen->count * sizeof *seen->contacts);
         result = group_probe(slow, all, true);
     }
     if (!result) {
-        group = group_create(slow, mark_members(slow, all, first, now, member));
-        if (!group)
-            result = slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for an impact");
-    }
-    if (!result) {
-        size_t next = 0;
-        for (size_t i = 0; i < all->count; i++)
-            if (member[i])
-                group->contacts[next++] = all->contacts[i];
-        result = preempt(slow, group, now);
+        group = gather(slow, all, first, now);
+        result = group ? prepare(slow, group, request, now) : slow_no_memory();
     }
     if (!result)
-        result = group_probe(slow, group, true);
-    if (!result)
-        go_back(group, now);
-    if (!result)
-        result = settle(slow, group, request, now);
+        result = begin(slow, group, request, now);
     free(group);
     free(request);
-    free(member);
     free(all);
     return result;
 }

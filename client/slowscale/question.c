@@ -69,8 +69,15 @@ bool question_make(const struct percuss_slow *slow, const struct group *group, d
     return true;
 }
 
-bool question_put(struct percuss_slow *slow, const struct percuss_request *request,
-                  struct percuss_reply *reply, char *why, size_t size)
+/* A judgement that another time would be another one is no answer. */
+static enum percuss_result judge(enum percuss_status status)
+{
+    bool later = status == PERCUSS_BUSY || status == PERCUSS_TIMEOUT;
+    return later ? PERCUSS_RESULT_TIMEOUT : PERCUSS_RESULT_INVALID_ARGUMENT;
+}
+
+enum percuss_result question_put(struct percuss_slow *slow, struct group *group,
+                                 const struct percuss_request *request, struct percuss_reply *reply)
 {
     const struct percuss_slow_service *service = &slow->config.service;
     *reply = (struct percuss_reply){0};
@@ -78,22 +85,22 @@ bool question_put(struct percuss_slow *slow, const struct percuss_request *reque
     enum percuss_result result = service->solve(service->context, request, reply);
     if (result) {
         const char *problem = service->problem ? service->problem(service->context) : "no answer";
-        snprintf(why, size, "%s", problem);
-        return false;
+        snprintf(group->why, sizeof group->why, "%s", problem);
+        return result;
     }
     /* cut off for its effort an answer ends anywhere; at a horizon, between sub-impacts */
     bool answered = reply->status == PERCUSS_OK ||
                     (reply->status == PERCUSS_TRUNCATED && reply->end_reason != PERCUSS_END_LIMIT);
     if (answered && reply->contact_count == request->contact_count)
-        return true;
-    snprintf(why, size, "%s: %s", status_name(reply->status), reply->message);
-    return false;
+        return PERCUSS_RESULT_OK;
+    snprintf(group->why, sizeof group->why, "%s: %s", status_name(reply->status), reply->message);
+    return judge(reply->status);
 }
 
 /* Asks again without states, from rest. */
-static bool ask_from_rest(struct percuss_slow *slow, struct group *group,
-                          struct percuss_request *request, struct percuss_reply *reply, char *why,
-                          size_t size)
+static enum percuss_result ask_from_rest(struct percuss_slow *slow, struct group *group,
+                                         struct percuss_request *request,
+                                         struct percuss_reply *reply)
 {
     group_note(group, "%s; asked again without earlier vibration", reply->message);
     slow->config.service.release(reply);
@@ -102,14 +109,14 @@ static bool ask_from_rest(struct percuss_slow *slow, struct group *group,
         request->bodies[i].elapsed = 0.0;
     }
     slow->counts.repeated++;
-    return question_put(slow, request, reply, why, size);
+    return question_put(slow, group, request, reply);
 }
 
-/* A window that was cut off is asked for again, longer; the first answer stays if that fails. */
-static void ask_longer(struct percuss_slow *slow, struct group *group,
-                       struct percuss_request *request, struct percuss_reply *reply)
+/* A window that was cut off is asked for again, longer; the first answer stays if that is refused,
+ * or if no answer comes and the user prefers to go on. */
+static enum percuss_result ask_longer(struct percuss_slow *slow, struct group *group,
+                                      struct percuss_request *request, struct percuss_reply *reply)
 {
-    char why[512];
     for (int i = 0; i < MOST_LONGER && !reply->complete; i++) {
         bool cut =
             reply->end_reason == PERCUSS_END_HORIZON || reply->end_reason == PERCUSS_END_IN_CONTACT;
@@ -120,10 +127,13 @@ static void ask_longer(struct percuss_slow *slow, struct group *group,
         double before = request->options.horizon;
         request->options.horizon = horizon;
         slow->counts.repeated++;
-        if (!question_put(slow, request, &longer, why, sizeof why)) {
+        enum percuss_result result = question_put(slow, group, request, &longer);
+        if (result) {
             slow->config.service.release(&longer);
             request->options.horizon = before;
-            group_note(group, "horizon %g s: %s", horizon, why);
+            if (result != PERCUSS_RESULT_INVALID_ARGUMENT && !slow->config.fall_back)
+                return result;
+            group_note(group, "horizon %g s: %s", horizon, group->why);
             break;
         }
         slow->config.service.release(reply);
@@ -131,22 +141,26 @@ static void ask_longer(struct percuss_slow *slow, struct group *group,
     }
     if (!reply->complete)
         group_note(group, "cut off after %g s: the restitution is not final", reply->window);
+    return PERCUSS_RESULT_OK;
 }
 
-bool question_ask(struct percuss_slow *slow, struct group *group, struct percuss_request *request,
-                  struct percuss_reply *reply)
+enum percuss_result question_ask(struct percuss_slow *slow, struct group *group,
+                                 struct percuss_request *request, struct percuss_reply *reply)
 {
-    char why[512] = "";
-    bool good = question_put(slow, request, reply, why, sizeof why);
-    if (!good && reply->status == PERCUSS_UNKNOWN_STATE)
-        good = ask_from_rest(slow, group, request, reply, why, sizeof why);
-    if (good) {
-        ask_longer(slow, group, request, reply);
-        return true;
-    }
-    slow->config.service.release(reply);
-    group_note(group, "%s: declared restitution %g used", why, slow->config.restitution);
-    return false;
+    enum percuss_result result = question_put(slow, group, request, reply);
+    if (result && reply->status == PERCUSS_UNKNOWN_STATE)
+        result = ask_from_rest(slow, group, request, reply);
+    return result ? result : ask_longer(slow, group, request, reply);
+}
+
+enum percuss_result question_fail(const struct percuss_slow *slow, const struct group *group,
+                                  enum percuss_result result)
+{
+    return slow_fail(result,
+                     "impact of %s and %s at %.9g s: %s; config.fall_back would go on with the "
+                     "declared restitution",
+                     slow->ids[group->contacts[0].a], slow->ids[group->contacts[0].b], group->start,
+                     group->why);
 }
 
 void tokens_keep(struct percuss_slow *slow, const struct percuss_slow_contact *contacts,

@@ -11,14 +11,20 @@
 bool question_make(const struct percuss_slow *slow, const struct group *group, double now,
                    struct percuss_request *request);
 
-/* Puts it, again where that helps. False: no usable answer, noted in the group; else *reply is to
- * be released. */
-bool question_ask(struct percuss_slow *slow, struct group *group, struct percuss_request *request,
-                  struct percuss_reply *reply);
+/* Puts it, again where that helps. Not OK: no usable answer, as question_put. *reply is to be
+ * released in any case. */
+enum percuss_result question_ask(struct percuss_slow *slow, struct group *group,
+                                 struct percuss_request *request, struct percuss_reply *reply);
 
-/* One question as it is; false: noted in `why`. */
-bool question_put(struct percuss_slow *slow, const struct percuss_request *request,
-                  struct percuss_reply *reply, char *why, size_t size);
+/* One question as it is. INVALID_ARGUMENT: refused, now and always; any other: no answer came. The
+ * reason is in group->why. */
+enum percuss_result question_put(struct percuss_slow *slow, struct group *group,
+                                 const struct percuss_request *request,
+                                 struct percuss_reply *reply);
+
+/* Fails with the reason in group->why. */
+enum percuss_result question_fail(const struct percuss_slow *slow, const struct group *group,
+                                  enum percuss_result result);
 
 /* Keeps the tokens of a reply to a request about these contacts; they hold at `time`. */
 void tokens_keep(struct percuss_slow *slow, const struct percuss_slow_contact *contacts,

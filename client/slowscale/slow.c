@@ -25,6 +25,11 @@ enum percuss_result slow_fail(enum percuss_result result, const char *format, ..
     return result;
 }
 
+enum percuss_result slow_no_memory(void)
+{
+    return slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for an impact");
+}
+
 const char *percuss_slow_error_text(void)
 {
     return error_text;

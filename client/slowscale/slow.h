@@ -31,6 +31,7 @@ struct entry {
     double start, end; /* of its sub-impact */
     size_t contact;
     double impulse;
+    bool taken_back; /* was applied, and is not any more */
 };
 
 /* An answer that is being played. */
@@ -39,6 +40,7 @@ struct episode {
     double time;   /* s: of the impact */
     double window; /* s from then: the fast scale's, at whose end the tokens hold */
     bool revocable;
+    bool revoked;                   /* until it is known what happens instead */
     struct percuss_request request; /* delassus is its own */
     struct percuss_slow_contact *contacts;
     size_t entry_count, played;
@@ -69,6 +71,7 @@ static inline bool slow_has_come(double time, double now)
     return time <= now + 1e-12;
 }
 
+enum percuss_result slow_no_memory(void);
 enum percuss_result slow_fail(enum percuss_result result, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

@@ -1,8 +1,9 @@
 #!/bin/sh
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
-# A co-simulation goes on when the daemon is killed, with the declared restitution, and uses it again
-# when it is back.
+# A co-simulation waits for a daemon, and stops when there is none rather than get other results. With
+# leave it goes on when the daemon is killed, with the declared restitution, and asks again when it is
+# back.
 . "$(dirname "$0")/lib.sh"
 
 start_daemon
@@ -17,24 +18,60 @@ paste "$work/list" "$work/total" | awk '{ if ($4 - $11 > 1e-12 || $11 - $4 > 1e-
     $7 - $14 > 1e-12 || $14 - $7 > 1e-12) exit 1 }' || fail "$(cat "$work/list" "$work/total")"
 
 # a client of its own pace: a line into the pipe lets it make the next impact
-mkfifo "$work/pace"
-"$peers/slow_client" "$domain" list 6 <"$work/pace" >"$out" 2>"$err" 9>&- &
-others=$!
-exec 8>"$work/pace"
+start_client() { # IMPACTS [fall-back]
+    rm -f "$work/pace"
+    mkfifo "$work/pace"
+    "$peers/slow_client" "$domain" list "$@" <"$work/pace" >"$out" 2>"$err" 9>&- &
+    others=$!
+    exec 8>"$work/pace"
+}
 has_lines() {
     [ "$(wc -l <"$out")" -ge "$1" ]
 }
+line_is() { # NUMBER WHAT: it begins so
+    wait_for 90 has_lines "$1" || fail "no line $1"
+    sed -n "$1p" "$out" | grep -q "^$2" || fail "line $1 is not: $2"
+}
 next_impact() { # NUMBER WHAT: the next line begins so
     echo >&8
-    wait_for 40 has_lines "$1" || fail "no impact $1"
-    sed -n "$1p" "$out" | grep -q "^$2" || fail "impact $1 is not: $2"
+    line_is "$@"
 }
-wait_for 40 has_lines 1 || fail "no first impact"
+end_client() {
+    exec 8>&-
+    wait "$others" || fail "the client failed"
+    others=
+}
+kill_daemon() {
+    kill -KILL "$daemon"
+    wait "$daemon" 2>/dev/null || true
+    daemon=
+}
+
+say "a daemon that comes late changes nothing but the time"
+stop_daemon
+start_client 1
+sleep 2
+start_daemon
+line_is 1 "percuss e"
+end_client
+[ "$(sed -n 1p "$out")" = "$(sed -n 1p "$work/list")" ] || fail "another answer than before"
+
+say "without a daemon the simulation stops, says why, and can go on where it was"
+start_client 2
+line_is 1 "percuss e"
+kill_daemon
+next_impact 2 "error impact of steel-sphere and al-beam at 0.4 s: no percussd"
+start_daemon
+next_impact 3 "percuss e"
+end_client
+shows "2 impacts"
+shows "0 declared"
+
+start_client 6 fall-back
+line_is 1 "percuss e"
 next_impact 2 "percuss e"
 say "killed: the declared value, logged"
-kill -KILL "$daemon"
-wait "$daemon" 2>/dev/null || true
-daemon=
+kill_daemon
 next_impact 3 "declared e = 0.45"
 sed -n 3p "$out" | grep -q "declared restitution 0.45 used" || fail "the reason is not logged"
 next_impact 4 "declared e = 0.45"
@@ -42,24 +79,17 @@ say "back: used again"
 start_daemon
 next_impact 5 "percuss e"
 next_impact 6 "percuss e"
-exec 8>&-
-wait "$others" || fail "the client failed"
-others=
+end_client
 shows "6 impacts"
 shows "2 declared"
 
 say "a daemon that was restarted between two impacts does not know the vibration"
-mkfifo "$work/pace2"
-"$peers/slow_client" "$domain" list 2 <"$work/pace2" >"$out" 2>"$err" 9>&- &
-others=$!
-exec 8>"$work/pace2"
-wait_for 40 has_lines 1 || fail "no first impact"
+start_client 2
+line_is 1 "percuss e"
 stop_daemon
 start_daemon
 echo >&8
-exec 8>&-
-wait "$others" || fail "the client failed"
-others=
+end_client
 cat "$out"
 shows "asked again without earlier vibration"
 stop_daemon

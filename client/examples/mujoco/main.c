@@ -16,7 +16,7 @@
 struct choice {
     unsigned domain;
     double restitution, tolerance;
-    bool alone, total;
+    bool alone, total, falls_back;
     const char *scenes, *output, *only;
 };
 
@@ -40,6 +40,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'T':
         choice->total = true;
         break;
+    case 'f':
+        choice->falls_back = true;
+        break;
     case 's':
         choice->scenes = text;
         break;
@@ -60,7 +63,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp_option options[] = {
     {"domain", 'd', "N", 0, "DDS domain of percussd (0)", 0},
     {"no-service", 'n', 0, 0, "ask nobody: every impact has the declared restitution", 0},
-    {"restitution", 'e', "E", 0, "declared, for impacts without an answer (0.4)", 0},
+    {"restitution", 'e', "E", 0, "declared, for --no-service and --fall-back (0.4)", 0},
+    {"fall-back", 'f', 0, 0, "go on with the declared restitution when no answer comes", 0},
     {"tolerance", 't', "T", 0, "on the restitution asked for (1e-4)", 0},
     {"total", 'T', 0, 0, "apply the whole impulse at the start, not each sub-impact at its time",
      0},
@@ -161,6 +165,7 @@ static bool run(const struct choice *choice, const struct scene *scene, struct r
     config.options.tolerance = choice->tolerance;
     config.application = choice->total ? PERCUSS_SLOW_TOTAL : PERCUSS_SLOW_LIST;
     config.restitution = choice->restitution;
+    config.fall_back = choice->falls_back;
     config.report = records_report;
     config.report_context = records;
     records->engine = &engine;

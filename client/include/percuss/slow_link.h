@@ -15,17 +15,18 @@ extern "C" {
 /* Belongs to the caller, who keeps it and the client as long as the service is used. */
 struct percuss_slow_link {
     struct percuss_client *client;
-    double timeout; /* s, for an answer */
-    double
-        reconnect;  /* s, for a server to be found again at the first question after it was lost */
-    bool connected; /* the link's */
+    double timeout;   /* s, for an answer, with all attempts */
+    double reconnect; /* s, for a server to be found: at first, and whenever it was lost */
+    bool connected;   /* the link's */
 };
 
-/* A link by a client, connected or not yet: 2 s for an answer, 0.1 s for a server. */
+/* A link by a client, connected or not yet: 60 s for an answer, 10 s for a server. Answers take
+ * milliseconds and a server is found within a second or two; the limits are long because whoever
+ * meets them gets other results, and a loaded machine must not: they only end what would hang. */
 PERCUSS_API struct percuss_slow_link percuss_slow_link_default(struct percuss_client *client);
 
-/* The service for struct percuss_slow_config. A question that is not answered in time is given up;
- * the next one first looks whether a server is there (again). */
+/* The service for struct percuss_slow_config. A busy server is asked again; a server that was lost
+ * is looked for, and asked again. A question that is not answered in time is given up. */
 PERCUSS_API struct percuss_slow_service percuss_slow_link_service(struct percuss_slow_link *link);
 
 #ifdef __cplusplus

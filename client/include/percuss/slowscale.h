@@ -29,6 +29,7 @@ struct percuss_slow_report {
     const double *gap_rate, *delassus, *impulse, *restitution; /* restitution NAN: no compression */
     const struct percuss_reply *reply; /* NULL: the declared restitution was used */
     const char *message;               /* why, and what else the user should know; "": nothing */
+    uint64_t declared; /* impacts with the declared restitution so far, this one included */
 };
 
 struct percuss_slow_body {
@@ -43,20 +44,25 @@ struct percuss_slow_config {
     struct percuss_slow_service service;
     struct percuss_options options;
     enum percuss_slow_application application;
-    double restitution; /* declared, 0..1: used when there is no answer */
+    double restitution; /* declared, 0..1: used where nobody is asked, or by fall_back */
     double rest_speed;  /* m/s; slower approaches are no impacts: the engine's own contact holds
                            them. 0: what presses a pair that lay together (its gap acceleration;
                            earth's gravity if that is 0) can bring about in one step of the engine */
     double group_gap;   /* m; a coupled pair this near joins an impact */
     void (*report)(void *context, const struct percuss_slow_report *report); /* may be NULL */
     void *report_context;
+    bool
+        fall_back; /* where no answer comes, or the question is refused, the declared restitution is
+                      used, reported and counted: results then depend on whether the service could
+                      be had in time. false: such an impact is an error of percuss_slow_advance */
 };
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* LIST, declared restitution 0.5, rest_speed derived (0), group_gap 10 um, the rest empty. */
+/* LIST, declared restitution 0.5, rest_speed derived (0), group_gap 10 um, no fall_back, the rest
+ * empty. */
 PERCUSS_API struct percuss_slow_config percuss_slow_config_default(void);
 
 struct percuss_slow;
@@ -76,8 +82,10 @@ PERCUSS_API double percuss_slow_next(const struct percuss_slow *slow);
 
 /* To be called at every accepted state, with all contacts near touching: plays the sub-impacts
  * whose time has come, then solves the impacts that are due. Velocities may have changed
- * afterwards. An answer that does not come is no failure. INVALID_ARGUMENT, NO_MEMORY: see
- * percuss_slow_error_text. */
+ * afterwards. Without fall_back, an impact that has no answer is an error: NO_SERVER, TIMEOUT or
+ * what else the service returned, INVALID_ARGUMENT for a question that it refuses. The impact then
+ * has not happened and nothing is lost: call again at the same state, or later, and it is asked
+ * about again. INVALID_ARGUMENT, NO_MEMORY otherwise: see percuss_slow_error_text. */
 PERCUSS_API enum percuss_result percuss_slow_advance(struct percuss_slow *slow, size_t count,
                                                      const struct percuss_slow_contact *contacts);
 

@@ -73,8 +73,9 @@ Answer = Callable[[percuss.Request], percuss.Reply]
 class Simulation:
     """A MuJoCo model whose pairs collide by way of percuss."""
 
-    def __init__(self, xml: str, pairs: Sequence[Pair], answer: Answer, fallback: float = 0.5) -> None:
-        """fallback: the restitution to go on with, and say so, when no answer comes."""
+    def __init__(self, xml: str, pairs: Sequence[Pair], answer: Answer, fallback: float | None = None) -> None:
+        """fallback: the restitution to go on with, and say so, when no answer comes. None: no answer is an
+        error; results would otherwise depend on whether the server could be had in time."""
         self.model = mujoco.MjModel.from_xml_string(xml)
         self.data = mujoco.MjData(self.model)
         self.pairs = list(pairs)
@@ -206,6 +207,8 @@ class Simulation:
         try:
             reply: percuss.Reply | None = self.answer(request).raise_for_status()
         except percuss.PercussError as problem:
+            if self.fallback is None:
+                raise
             print(f"{self.data.time:.6f} s: e = {self.fallback} assumed: {problem}", file=sys.stderr)
             reply = None
         impulses, ends = self._impulses(reply, request, gap_rate)
@@ -229,7 +232,7 @@ class Simulation:
         for _ in range(100):
             for i, row in enumerate(delassus):
                 compression[i] = max(0.0, compression[i] - (row @ compression + gap_rate[i]) / row[i])
-        return (1.0 + self.fallback) * compression, [0.0] * len(gap_rate)
+        return (1.0 + (self.fallback or 0.0)) * compression, [0.0] * len(gap_rate)
 
 
 def hinged_bar(answer: Answer, speed: float = 0.2) -> Simulation:

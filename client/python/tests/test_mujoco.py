@@ -90,6 +90,14 @@ class Mujoco(unittest.TestCase):
             self.assertAlmostEqual(np.asarray(impact.request.delassus).item(), 10.186404, delta=1e-6)
             self.assertAlmostEqual(-impact.gap_rate_after[0] / impact.gap_rate[0], 0.4, delta=1e-9)
 
+    def test_no_answer_is_an_error(self) -> None:
+        """unless a restitution to fall back to was given; the velocities are then still those before."""
+        simulation = hinged_bar(unanswered)
+        with self.assertRaises(percuss.NoServer):
+            simulation.run(2.0)
+        self.assertEqual(simulation.impacts, [])
+        self.assertAlmostEqual(simulation.data.time, 0.354870653, delta=1e-8)
+
     def test_hinged_bar(self) -> None:
         answer = Counting(self.client.solve)
         simulation = hinged_bar(answer)

@@ -100,6 +100,7 @@ struct toy {
     size_t reports;
     double impulse[TOY_BODIES], restitution[TOY_BODIES], applied[TOY_BODIES];
     bool service_used;
+    uint64_t declared;
     char message[512];
 };
 
@@ -212,6 +213,7 @@ static inline void toy_report(void *context, const struct percuss_slow_report *r
     struct toy *toy = context;
     toy->reports++;
     toy->service_used = report->reply != NULL;
+    toy->declared = report->declared;
     for (size_t i = 0; i < report->count; i++) {
         toy->impulse[report->contacts[i].feature] = report->impulse[i];
         toy->restitution[report->contacts[i].feature] = report->restitution[i];
@@ -255,13 +257,19 @@ static inline struct percuss_slow_config toy_wishes(void)
     return config;
 }
 
-/* Straight motion for dt, then the slow scale. */
-static inline void toy_step(struct toy *toy, double dt)
+/* Straight motion for dt. */
+static inline void toy_move(struct toy *toy, double dt)
 {
-    struct percuss_slow_contact contacts[TOY_BODIES];
     toy->time += dt;
     for (size_t i = 0; i < toy->count; i++)
         toy->bodies[i].position[0] += dt * toy->bodies[i].velocity[0];
+}
+
+/* The same, then the slow scale. */
+static inline void toy_step(struct toy *toy, double dt)
+{
+    struct percuss_slow_contact contacts[TOY_BODIES];
+    toy_move(toy, dt);
     size_t n = toy_contacts(toy, contacts);
     if (percuss_slow_advance(toy->slow, n, contacts))
         fail_msg("%s", percuss_slow_error_text());
