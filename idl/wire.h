@@ -30,6 +30,12 @@ enum { WIRE_PARTITION_SIZE = 35, WIRE_WINDOW = 1024 };
  * DDS return code (dds_strretcode). */
 dds_entity_t wire_participant_create(uint32_t domain);
 
+/* A topic whose readers drop every sample that is not a whole one of its type (wire_whole.h) before
+ * DDS decodes it. `descriptor`: of an @appendable type with a key. Returns the entity, a child of
+ * the participant, or a negative DDS return code. */
+dds_entity_t wire_topic_create(dds_entity_t participant, const dds_topic_descriptor_t *descriptor,
+                               const char *name);
+
 /* Quality of service of requests and replies of every kind: RELIABLE, VOLATILE, KEEP_LAST
  * WIRE_WINDOW per client, blocking at most 100 ms. `partition` NULL: the default partition.
  * The caller deletes the result with dds_delete_qos. */

@@ -43,7 +43,7 @@ dds_entity_t client_reader_create(struct percuss_client *client,
                                   const dds_topic_descriptor_t *descriptor, const char *topic,
                                   dds_qos_t *qos)
 {
-    dds_entity_t reader = dds_create_topic(client->participant, descriptor, topic, NULL, NULL);
+    dds_entity_t reader = wire_topic_create(client->participant, descriptor, topic);
     if (reader > 0)
         reader = dds_create_reader(client->participant, reader, qos, NULL);
     dds_delete_qos(qos);
@@ -54,7 +54,7 @@ dds_entity_t client_writer_create(struct percuss_client *client,
                                   const dds_topic_descriptor_t *descriptor, const char *topic)
 {
     dds_qos_t *qos = wire_qos_exchange(NULL);
-    dds_entity_t writer = dds_create_topic(client->participant, descriptor, topic, NULL, NULL);
+    dds_entity_t writer = wire_topic_create(client->participant, descriptor, topic);
     if (writer > 0)
         writer = dds_create_writer(client->participant, writer, qos, NULL);
     dds_delete_qos(qos);

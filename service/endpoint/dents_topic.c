@@ -13,8 +13,7 @@ bool dents_topic_open(struct dents_topic *topic, dds_entity_t participant, const
                       struct fault *fault)
 {
     memcpy(topic->server, server, sizeof topic->server);
-    dds_entity_t name =
-        dds_create_topic(participant, &percuss_v2_Dents_desc, WIRE_TOPIC_DENTS, NULL, NULL);
+    dds_entity_t name = wire_topic_create(participant, &percuss_v2_Dents_desc, WIRE_TOPIC_DENTS);
     dds_qos_t *announces = wire_qos_announcement(), *hears = wire_qos_exchange(NULL);
     dds_qset_ignorelocal(hears, DDS_IGNORELOCAL_PARTICIPANT);
     topic->writer = dds_create_writer(participant, name, announces, NULL);

@@ -11,7 +11,6 @@
 #include <sys/random.h>
 
 #include "endpoint/describe.h"
-#include "endpoint/whole.h"
 
 enum { TAKEN_AT_ONCE = 32, WRITE_ATTEMPTS = 20 };
 
@@ -52,8 +51,8 @@ static bool create_readers(struct endpoint *endpoint, struct fault *fault)
     bool good = true;
     for (int i = 0; good && i < EXCHANGE_COUNT; i++) {
         endpoint->samples[i] = dds_alloc(requests[i].type->m_size);
-        dds_entity_t topic = dds_create_topic(endpoint->participant, requests[i].type,
-                                              requests[i].topic, NULL, NULL);
+        dds_entity_t topic =
+            wire_topic_create(endpoint->participant, requests[i].type, requests[i].topic);
         good = created(topic, requests[i].topic, fault);
         if (!good)
             break;
@@ -67,7 +66,7 @@ static bool create_readers(struct endpoint *endpoint, struct fault *fault)
 static bool create_announcer(struct endpoint *endpoint, const dds_topic_descriptor_t *type,
                              const char *name, dds_entity_t *writer, struct fault *fault)
 {
-    dds_entity_t topic = dds_create_topic(endpoint->participant, type, name, NULL, NULL);
+    dds_entity_t topic = wire_topic_create(endpoint->participant, type, name);
     if (!created(topic, name, fault))
         return false;
     dds_qos_t *qos = wire_qos_announcement();
@@ -175,14 +174,10 @@ static void handle(const struct endpoint_handler *handler, enum exchange exchang
         handler->ensemble(handler->context, sample);
 }
 
-/* Decodes into the sample of this exchange, unless that would be the end of us. */
+/* Decodes into the sample of this exchange. */
 static bool decode(struct endpoint *endpoint, enum exchange exchange, struct ddsi_serdata *taken)
 {
-    ddsrt_iovec_t data;
-    struct ddsi_serdata *held = ddsi_serdata_to_ser_ref(taken, 0, ddsi_serdata_size(taken), &data);
-    bool whole = whole_request(exchange, data.iov_base, data.iov_len);
-    ddsi_serdata_to_ser_unref(held, &data);
-    return whole && ddsi_serdata_to_sample(taken, endpoint->samples[exchange], NULL, NULL);
+    return ddsi_serdata_to_sample(taken, endpoint->samples[exchange], NULL, NULL);
 }
 
 /* Takes what is there, up to a bound; true: more may be left. */

@@ -61,7 +61,7 @@ static bool create_entities(struct reply_writers *writers, struct fault *fault)
 {
     for (int i = 0; i < CHANNEL_COUNT; i++) {
         writers->topics[i] =
-            dds_create_topic(writers->participant, replies[i].type, replies[i].topic, NULL, NULL);
+            wire_topic_create(writers->participant, replies[i].type, replies[i].topic);
         if (writers->topics[i] < 0) {
             fault_set(fault, PERCUSS_INTERNAL, "topic %s: %s", replies[i].topic,
                       dds_strretcode(writers->topics[i]));

@@ -1,0 +1,191 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "wire_topic.h"
+
+#include <dds/ddsi/ddsi_cdrstream.h>
+#include <dds/ddsi/ddsi_domaingv.h>
+#include <dds/ddsi/ddsi_serdata_default.h>
+#include <dds/ddsi/q_radmin.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "wire.h"
+#include "wire_whole.h"
+
+enum { ENCAPSULATION = 4, LARGEST_HEAD = 512 };
+
+/* Those of Cyclone DDS for keyed types in XCDR2, with a check in front of what comes from the
+ * network. */
+static struct ddsi_serdata_ops sample_operations;
+static struct ddsi_sertype_ops type_operations;
+static pthread_once_t operations_once = PTHREAD_ONCE_INIT;
+
+/* Whether DDS may look at a sample: `size` bytes from the encapsulation header on. */
+static bool may_pass(const struct ddsi_sertype *type, const uint8_t *data, size_t size)
+{
+    const struct ddsi_sertype_default *own = (const struct ddsi_sertype_default *)type;
+    if (size < ENCAPSULATION || data[0] != 0)
+        return false;
+    // delimited XCDR2, of a big or a little machine
+    const uint8_t big = 8, little = 9;
+    if (data[1] != big && data[1] != little)
+        return false;
+    // DDS takes only this bit of the padding's size
+    size_t padding = data[3] & 2;
+    bool swapped = (data[1] == big) == (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
+    return size - ENCAPSULATION >= padding && wire_whole(own->type.ops.ops, data + ENCAPSULATION,
+                                                         size - ENCAPSULATION - padding, swapped);
+}
+
+static struct ddsi_serdata *take_bytes(const struct ddsi_sertype *type, void *data, size_t size)
+{
+    if (!may_pass(type, data, size))
+        return NULL;
+    ddsrt_iovec_t whole = {.iov_base = data, .iov_len = size};
+    return ddsi_serdata_ops_xcdr2.from_ser_iov(type, SDK_DATA, 1, &whole, size);
+}
+
+static const unsigned char *fragment_data(const struct nn_rdata *fragment)
+{
+    return NN_RMSG_PAYLOADOFF(fragment->rmsg, NN_RDATA_PAYLOAD_OFF(fragment));
+}
+
+/* A sample in several packets. They ascend and may overlap. */
+static struct ddsi_serdata *take_fragments(const struct ddsi_sertype *type,
+                                           const struct nn_rdata *first, size_t size)
+{
+    uint8_t *data = malloc(size);
+    size_t filled = 0;
+    for (const struct nn_rdata *part = first; data && part; part = part->nextfrag) {
+        if (part->min > filled || part->maxp1 > size)
+            break;
+        if (part->maxp1 > filled)
+            memcpy(data + filled, fragment_data(part) + filled - part->min, part->maxp1 - filled);
+        filled = part->maxp1 > filled ? part->maxp1 : filled;
+    }
+    struct ddsi_serdata *sample = data ? take_bytes(type, data, filled) : NULL;
+    free(data);
+    return sample;
+}
+
+static struct ddsi_serdata *from_network(const struct ddsi_sertype *type,
+                                         enum ddsi_serdata_kind kind,
+                                         const struct nn_rdata *fragments, size_t size)
+{
+    if (fragments->maxp1 < ENCAPSULATION)
+        return NULL;
+    // keys are octets and strings, and these are checked well
+    if (kind == SDK_DATA && fragments->nextfrag)
+        return take_fragments(type, fragments, size);
+    if (kind == SDK_DATA && !may_pass(type, fragment_data(fragments), fragments->maxp1))
+        return NULL;
+    return ddsi_serdata_ops_xcdr2.from_ser(type, kind, fragments, size);
+}
+
+/* What the security plugins have decrypted, and what comes from this process in another type. */
+static struct ddsi_serdata *from_pieces(const struct ddsi_sertype *type,
+                                        enum ddsi_serdata_kind kind, ddsrt_msg_iovlen_t count,
+                                        const ddsrt_iovec_t *pieces, size_t size)
+{
+    if (kind != SDK_DATA)
+        return ddsi_serdata_ops_xcdr2.from_ser_iov(type, kind, count, pieces, size);
+    size_t filled = 0;
+    uint8_t *data = malloc(size);
+    for (size_t i = 0; data && i < (size_t)count && pieces[i].iov_len <= size - filled; i++) {
+        memcpy(data + filled, pieces[i].iov_base, pieces[i].iov_len);
+        filled += pieces[i].iov_len;
+    }
+    struct ddsi_serdata *sample = data ? take_bytes(type, data, filled) : NULL;
+    free(data);
+    return sample;
+}
+
+/* DDS asks whether a sample has these very operations of its own to see whether its type has a key.
+ * So it is shown the sample's head, which is all that it looks at, with them. */
+static struct ddsi_serdata *to_key(const struct ddsi_serdata *sample)
+{
+    union {
+        struct ddsi_serdata common;
+        uint8_t bytes[LARGEST_HEAD];
+    } head;
+    ddsrt_iovec_t header;
+    struct ddsi_serdata *held = ddsi_serdata_to_ser_ref(sample, 0, ENCAPSULATION, &header);
+    size_t size = (size_t)((uint8_t *)header.iov_base - (const uint8_t *)sample) + ENCAPSULATION;
+    if (size > sizeof head)
+        abort();
+    memcpy(&head, sample, size);
+    ddsi_serdata_to_ser_unref(held, &header);
+    head.common.ops = &ddsi_serdata_ops_xcdr2;
+    return ddsi_serdata_ops_xcdr2.to_untyped(&head.common);
+}
+
+static void prepare_operations(void)
+{
+    sample_operations = ddsi_serdata_ops_xcdr2;
+    sample_operations.from_ser = from_network;
+    sample_operations.from_ser_iov = from_pieces;
+    sample_operations.to_untyped = to_key;
+    type_operations = ddsi_sertype_ops_default;
+    // there is no other representation to derive a type for
+    type_operations.derive_sertype = NULL;
+}
+
+/* What dds_create_topic makes of a descriptor, with our operations. */
+static struct ddsi_sertype_default *create_type(const dds_topic_descriptor_t *descriptor)
+{
+    struct ddsi_sertype_default *type = dds_alloc(sizeof *type);
+    memset(type, 0, sizeof *type);
+    ddsi_sertype_init(&type->c, descriptor->m_typename, &type_operations, &sample_operations,
+                      false);
+    type->c.allowed_data_representation = DDS_DATA_REPRESENTATION_FLAG_XCDR2;
+#ifdef DDS_HAS_SHM
+    type->c.iox_size = descriptor->m_size;
+#endif
+    type->encoding_format = CDR_ENC_FORMAT_DELIMITED;
+    type->write_encoding_version = CDR_ENC_VERSION_2;
+    type->type.size = descriptor->m_size;
+    type->type.align = descriptor->m_align;
+    type->type.flagset = descriptor->m_flagset;
+    type->type.keys.nkeys = descriptor->m_nkeys;
+    type->type.keys.keys = dds_alloc(descriptor->m_nkeys * sizeof *type->type.keys.keys);
+    for (uint32_t i = 0; i < descriptor->m_nkeys; i++)
+        type->type.keys.keys[i] = (ddsi_sertype_default_desc_key_t){
+            .ops_offs = descriptor->m_keys[i].m_offset, .idx = descriptor->m_keys[i].m_idx};
+    type->type.ops.nops =
+        dds_stream_countops(descriptor->m_ops, descriptor->m_nkeys, descriptor->m_keys);
+    size_t ops = type->type.ops.nops * sizeof *type->type.ops.ops;
+    type->type.ops.ops = dds_alloc(ops);
+    memcpy(type->type.ops.ops, descriptor->m_ops, ops);
+    return type;
+}
+
+dds_entity_t wire_topic_create_typed(dds_entity_t participant,
+                                     const dds_topic_descriptor_t *descriptor, const char *name,
+                                     const struct ddsi_sertype **type)
+{
+    if (descriptor->m_nkeys == 0 || descriptor->m_ops[0] != DDS_OP_DLC)
+        return DDS_RETCODE_BAD_PARAMETER;
+    pthread_once(&operations_once, prepare_operations);
+    // registered with the domain, or exchanged for an equal one that is
+    struct ddsi_sertype *used = &create_type(descriptor)->c;
+    dds_entity_t topic = dds_create_topic_sertype(participant, name, &used, NULL, NULL, NULL);
+    if (topic < 0) {
+        ddsi_sertype_unref(used);
+        return topic;
+    }
+    // only now is it known which domain's pool of samples it takes from
+    const struct ddsi_domaingv *domain = ddsrt_atomic_ldvoidp(&used->gv);
+    __atomic_store_n(&((struct ddsi_sertype_default *)used)->serpool, domain->serpool,
+                     __ATOMIC_RELEASE);
+    if (type)
+        *type = used;
+    return topic;
+}
+
+dds_entity_t wire_topic_create(dds_entity_t participant, const dds_topic_descriptor_t *descriptor,
+                               const char *name)
+{
+    return wire_topic_create_typed(participant, descriptor, name, NULL);
+}
