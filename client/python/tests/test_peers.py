@@ -55,6 +55,7 @@ class NewerRequest(IdlStruct, typename="percuss::v2::Request"):
     contacts: sequence[plain_dds.Contact, 64] = field(default_factory=list)
     delassus: sequence[float64, 4096] = field(default_factory=list)
     options: plain_dds.Options = field(default_factory=plain_dds.Options)
+    server: array[byte, 16] = field(default_factory=lambda: bytes(16))
     more: float64 = 1.0
 
 
