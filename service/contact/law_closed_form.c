@@ -15,8 +15,11 @@
  * d_res begins with a slope at w = 1, where the plastic zone is a point and the loading curve
  * Hertz's as far as 1.9: a cubic step from 1 to 1.9 lets it begin with its square, as in the fit of
  * Etsion, Kligerman and Kadin (Int. J. Solids Struct. 42 (2005) 3716; 1.9 % of d_m at w = 1.4,
- * here 1.2 %, the published 3 %). It exceeds d_m beyond w = 1e4: what springs back is continued as
- * a power from w = 2670, where it is 2 % of d_m, far beyond the fit's range. */
+ * here 1.2 %, the published 3 %). It exceeds d_m beyond w = 1e4. From w = 2670, where it leaves 2 %
+ * of d_m to spring back, far beyond the fit's range, that share falls with the root of the depth:
+ * the dent is fully plastic there, under a constant hardness H, and springs back like an elastic
+ * body from under that pressure, by 3 F/(4 E-star a) with F ~ H a^2 and a ~ sqrt(R d) (K. L.
+ * Johnson, Contact Mechanics, 1985, section 6.4: e ~ v^(-1/4)). */
 #include "contact/law_closed_form.h"
 
 #include <math.h>
@@ -27,6 +30,7 @@ enum { STIFFNESS, YIELD_DEPTH, RADIUS, GROWTH, HARDNESS }; /* k, d_c, R, B, 4 * 
 
 static const double PLASTIC_FROM = 1.9;
 static const double PLASTIC_FULL = 3.8;
+static const double SPRING_FIT = 2670.0;
 
 /* Four-point Gauss-Legendre rule on (-1, 1). */
 static const double gauss_node[] = {0.33998104358485626480, 0.86113631159405257522};
@@ -162,13 +166,10 @@ static double residual_depth(const struct contact_law *law, double d)
     double w = d / law->parameters[YIELD_DEPTH];
     if (!(w > 1.0))
         return 0.0;
-    const double last = 0.04; /* of the power, at w = 2670 */
-    double power = pow((w + 5.9) / 6.9, -0.54);
-    /* what springs back: 1.02 power - 0.02, and a power with the same value and slope at `last` */
-    double back = 1.02 * power - 0.02;
-    double least = 1.02 * last - 0.02;
-    if (power < last)
-        back = least * pow(power / last, 1.02 * last / least);
+    /* what springs back */
+    double back = 1.02 * pow((fmin(w, SPRING_FIT) + 5.9) / 6.9, -0.54) - 0.02;
+    if (w > SPRING_FIT)
+        back *= sqrt(SPRING_FIT / w);
     double t = fmin(1.0, (w - 1.0) / (PLASTIC_FROM - 1.0));
     return d * (1.0 - back) * t * t * (3.0 - 2.0 * t);
 }

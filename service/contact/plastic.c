@@ -75,6 +75,15 @@ double contact_law_limit(const struct contact_law *law)
            law->history.residual;
 }
 
+double contact_law_unloading(const struct contact_law *law)
+{
+    double slope;
+    if (!(law->history.max_force > 0.0))
+        return 0.0;
+    law->operations->curve->branch(law, 1.0, &slope);
+    return slope * law->history.max_force / span_of(&law->history);
+}
+
 /* The history after a largest depth on the virgin curve. */
 static struct contact_history history_of(const struct contact_law *law, double depth)
 {

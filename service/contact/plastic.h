@@ -41,6 +41,9 @@ double plastic_indentation(const struct contact_law *law, double force);
 /* Indentation beyond which loading cannot be undone; INFINITY for an elastic law. */
 double contact_law_limit(const struct contact_law *law);
 
+/* Stiffness (N/m) at the top of the unloading branch; 0: the law has none yet. */
+double contact_law_unloading(const struct contact_law *law);
+
 /* Makes an indentation beyond the limit the largest so far. Returns the energy that this dissipated
  * (J, the area of the loop), by the law's own integrals. The dent deepens: indentations count from
  * its new bottom, history.residual - its former value further down. */

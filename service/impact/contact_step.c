@@ -243,6 +243,11 @@ static bool local_of_many(const struct scene *scene, const size_t *list, size_t 
     return false;
 }
 
+bool contact_bears(const struct scene *scene, size_t contact, double stiffness)
+{
+    return -scene->residual[contact * (scene->contacts + 1)] * stiffness < 0.5;
+}
+
 bool contact_local_indentation(const struct scene *scene, const bool *active,
                                const double *approach, double *indentation, double *force,
                                double *matrix)

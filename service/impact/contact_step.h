@@ -49,6 +49,11 @@ bool contact_step_solve(struct contact_step *step, const struct scene *scene,
 double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,
                          double force[1][NODES]);
 
+/* Whether the series compliance of a contact bears a law of that stiffness, N/m: a negative one
+ * (see solve/compliance.h) takes |C| dF/dd < 0.5, else small differences of the approach are large
+ * ones of the indentation, and from 1 on there are several. */
+bool contact_bears(const struct scene *scene, size_t contact, double stiffness);
+
 /* Local indentation of every contact for approaches d: F_i = law(d_i - sum_j residual_ij F_j) for
  * the active ones, d_i - sum_j residual_ij F_j for the others. `indentation` holds starting values.
  */

@@ -27,6 +27,7 @@ void impact_begin(struct impact_outcome *outcome, const struct scene *scene)
 {
     memcpy(outcome->laws, scene->laws, scene->contacts * sizeof *outcome->laws);
     outcome->plastic = 0.0;
+    outcome->too_stiff = false;
     for (size_t c = 0; c < scene->contacts; c++)
         track_clear(&outcome->tracks[c]);
 }

@@ -24,6 +24,7 @@ struct impact_outcome {
     enum percuss_end_reason end_reason;
     double window;            /* s: the end of the fast scale */
     bool always_overlapped;   /* no touch behind an overlap: nothing was solved */
+    bool too_stiff;           /* a law became stiffer than its series compliance bears: cut off */
     double time_shift;        /* the touch before (< 0) or after the stated instant, s */
     struct track *tracks;     /* [contact] */
     struct contact_law *laws; /* [contact], with what they remember at the end */

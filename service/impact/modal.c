@@ -59,6 +59,16 @@ static void rescale(struct modal_run *run)
     }
 }
 
+/* Laws have yielded. False: one has begun an unloading that its series compliance does not bear. */
+static bool unload(struct modal_run *run)
+{
+    rescale(run);
+    for (size_t c = 0; c < run->scene->contacts; c++)
+        if (!contact_bears(run->scene, c, contact_law_unloading(&run->scene->laws[c])))
+            run->outcome->too_stiff = true;
+    return !run->outcome->too_stiff;
+}
+
 /* A sub-impact begins at `time` with an approach rate. */
 static void activate(struct modal_run *run, size_t contact, double time, double rate)
 {
@@ -286,14 +296,16 @@ static enum percuss_end_reason contact_phase(struct modal_run *run)
         double roughness = solved ? step_roughness(run) : INFINITY;
         bool fine = level >= finest;
         if (!solved || (!fine && (roughness > 3.0 * allowed || has_event(run)))) {
-            if (level >= STEP_LEVELS - 1)
+            /* a step is not shortened any further: again the same would be tried */
+            if (level >= (solved ? STEP_LEVELS - 1 : deepest))
                 return PERCUSS_END_LIMIT;
             run->outcome->rejected++;
             level++;
             continue;
         }
         if (run->yielding.any && yielding_passes(&run->yielding, h, &level)) {
-            rescale(run);
+            if (!unload(run))
+                return PERCUSS_END_LIMIT;
             run->outcome->rejected++;
             continue;
         }
@@ -304,8 +316,8 @@ static enum percuss_end_reason contact_phase(struct modal_run *run)
             level--;
         else if (roughness > allowed)
             level++;
-        if (run->yielding.any && yielding_meet(&run->yielding, h, &level))
-            rescale(run);
+        if (run->yielding.any && yielding_meet(&run->yielding, h, &level) && !unload(run))
+            return PERCUSS_END_LIMIT;
     }
     return PERCUSS_END_NONE;
 }

@@ -26,7 +26,8 @@ bool yielding_create(struct yielding *yielding, struct arena *arena)
 }
 
 /* Unloading that begins a time t late, or early, gives a force wrong by its slope's jump times the
- * travel, a t^2/2, for that time: the impulse is wrong by about (t/duration)^3. */
+ * travel, a t^2/2, for that time: the impulse is wrong by about (t/duration)^3. The duration is
+ * that of unloading where it is shorter: a deep dent springs back by next to nothing, at once. */
 static double near_peak(const struct yielding *yielding, double duration)
 {
     return 0.5 * cbrt(yielding->accuracy) * duration;
@@ -47,6 +48,16 @@ static double rate_at(const double values[NODES], double s)
         rate += values[j] * (c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]));
     }
     return rate;
+}
+
+/* Second derivative of the cubic through the nodes. */
+static double bend_at(const double values[NODES], double s)
+{
+    double bend = 0.0;
+    for (int j = 0; j < NODES; j++)
+        bend +=
+            values[j] * (2.0 * collocation.monomial[j][2] + 6.0 * s * collocation.monomial[j][3]);
+    return bend;
 }
 
 /* One contact on the step just solved: start, nodes, end, and the first instant at which the
@@ -128,6 +139,17 @@ static bool exceeds(const struct yielding *yielding, size_t contact, double inde
     return indentation > limit * (1.0 + yielding->accuracy);
 }
 
+/* Time in which a contact unloads from the peak of its path, by the deceleration there. */
+static double unloading_time(const struct yielding *yielding, size_t contact,
+                             const struct path *path, double h)
+{
+    const struct contact_law *law = &yielding->scene->laws[contact];
+    double depth = path->largest + law->history.residual;
+    double springs_back = depth - law->operations->curve->residual(law, depth);
+    double bend = -bend_at(yielding->step->indentation[contact], path->peak) / (h * h);
+    return bend > 0.0 ? sqrt(2.0 * springs_back / bend) : INFINITY;
+}
+
 /* Notes an event at a share of the step if it is the first so far. */
 static void note(struct yielding *yielding, size_t contact, double when, double target,
                  double within)
@@ -161,8 +183,10 @@ static void expect(struct yielding *yielding, size_t contact, double h)
     double joint = law->operations->curve->joint(law, start) - residual;
     note(yielding, contact, time + h * crossing_on(&path, joint), joint, within);
 
-    if (exceeds(yielding, contact, path.largest))
-        note(yielding, contact, time + h * path.peak, INFINITY, within);
+    if (!exceeds(yielding, contact, path.largest))
+        return;
+    within = near_peak(yielding, fmin(duration, unloading_time(yielding, contact, &path, h)));
+    note(yielding, contact, time + h * path.peak, INFINITY, within);
 }
 
 /* First positive root of d + v t + a t^2/2 = target; INFINITY: none. */

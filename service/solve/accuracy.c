@@ -39,13 +39,22 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
         shifted.accuracy = fmin(best->accuracy, 1e-9);
         enum percuss_status status =
             attempt_run_scaled(context, &shifted, side == 0 ? 1.0 - step : 1.0 + step);
-        if (status)
+        if (status || attempt_is_spent(&shifted))
             return status;
         restitution[side] = attempt_restitution(context->geometry, &shifted.outcome, main_contact);
     }
     *by_speed = (restitution[1] - restitution[0]) /
                 (2.0 * step * fabs(context->geometry->gap_rate[main_contact]));
     return PERCUSS_OK;
+}
+
+/* The width of what a restitution can be, from no impulse (-1) to a full rebound, or what it is. */
+static double possible_range(const struct attempt_context *context, const struct attempt *best)
+{
+    double most = 1.0;
+    for (size_t c = 0; c < context->geometry->contact_count; c++)
+        most = fmax(most, attempt_restitution(context->geometry, &best->outcome, c));
+    return 1.0 + most;
 }
 
 /* What the searches found, in the terms of the answer. */
@@ -55,6 +64,10 @@ static void conclude(const struct attempt_context *context, const struct attempt
     accuracy->assembly = best->assembly;
     accuracy->outcome = best->outcome;
     accuracy->step_accuracy = best->accuracy;
+    /* what sequences amplify beyond all bounds */
+    double range = possible_range(context, best);
+    accuracy->steps.restitution = fmin(accuracy->steps.restitution, range);
+    accuracy->modes.restitution = fmin(accuracy->modes.restitution, range);
     accuracy->tolerance_met =
         accuracy->steps.energy_closes &&
         accuracy->steps.restitution + accuracy->modes.restitution <= context->tolerance;

@@ -91,6 +91,11 @@ struct attempt_difference attempt_compare(const struct attempt_context *context,
     return largest;
 }
 
+bool attempt_is_spent(const struct attempt *attempt)
+{
+    return attempt->outcome.end_reason == PERCUSS_END_LIMIT;
+}
+
 bool attempt_is_sequence(const struct attempt *attempt)
 {
     size_t contacts = attempt->assembly->scene.contacts;

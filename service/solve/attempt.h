@@ -60,6 +60,9 @@ double attempt_energy_defect(const struct geometry *geometry, const struct impac
 /* Whether a solution with that defect is one at all: to 1 %. */
 bool attempt_keeps_energy(double defect);
 
+/* Whether it was cut off: for its effort, or where no step could be solved. */
+bool attempt_is_spent(const struct attempt *attempt);
+
 /* Whether a contact closes more than once, or there are several: later sub-impacts amplify what the
  * first ones miss. */
 bool attempt_is_sequence(const struct attempt *attempt);

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "contact/plastic.h"
+#include "impact/contact_step.h"
 #include "model/vector.h"
 
 /* A hit counts as central up to this share of the radius: the correction is of second order in it.
@@ -115,13 +117,17 @@ enum percuss_status compliance_choose(struct geometry *geometry,
     return PERCUSS_OK;
 }
 
-/* Hertz's slope at the largest force of a contact, N/m: 3/2 k^(2/3) F^(1/3). */
-static double largest_stiffness(const struct hertz_contact *hertz, const struct track *track)
+/* Hertz's slope at the largest force of a contact, N/m: 3/2 k^(2/3) F^(1/3), or that of unloading
+ * from a dent. */
+static double largest_stiffness(const struct geometry *geometry,
+                                const struct impact_outcome *outcome, size_t c)
 {
+    const struct track *track = &outcome->tracks[c];
+    double k = geometry->hertz[c].stiffness;
     double force = 0.0;
     for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
         force = fmax(force, track->list[i].peak_force);
-    return 1.5 * cbrt(hertz->stiffness * hertz->stiffness * force);
+    return fmax(1.5 * cbrt(k * k * force), contact_law_unloading(&outcome->laws[c]));
 }
 
 bool compliance_revise(struct geometry *geometry, const struct scene *scene,
@@ -130,9 +136,7 @@ bool compliance_revise(struct geometry *geometry, const struct scene *scene,
     if (geometry->compliance->used != PERCUSS_COMPLIANCE_MATCHED)
         return false;
     for (size_t c = 0; c < scene->contacts; c++) {
-        double series = scene->residual[c * (scene->contacts + 1)];
-        double stiffness = largest_stiffness(&geometry->hertz[c], &outcome->tracks[c]);
-        if (-series * stiffness < 0.5)
+        if (!outcome->too_stiff && contact_bears(scene, c, largest_stiffness(geometry, outcome, c)))
             continue;
         use_half_space(geometry, "the matched compliance is too negative for so stiff a contact");
         return true;

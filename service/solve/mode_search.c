@@ -40,8 +40,8 @@ static struct attempt_difference slow_effect(const struct attempt_context *conte
 }
 
 /* A sequence amplifies errors, and not evenly: only a second solution shows by how much. */
-static enum percuss_status compare_next_model(struct attempt_context *context,
-                                              const struct attempt *best, struct mode_error *error)
+static enum percuss_status compare_next_model(struct attempt_context *context, struct attempt *best,
+                                              struct mode_error *error)
 {
     struct attempt next = *best;
     struct scene scene;
@@ -51,6 +51,7 @@ static enum percuss_status compare_next_model(struct attempt_context *context,
     enum percuss_status status = attempt_run(context, &next, &scene);
     if (status)
         return status;
+    best->outcome.too_stiff = next.outcome.too_stiff;
     struct attempt_difference change = attempt_compare(context, best, &next);
     struct attempt_difference slow = {error->restitution, error->impulse};
     error->restitution = fmax(slow.restitution, SEQUENCE_FACTOR * change.restitution);
@@ -60,12 +61,12 @@ static enum percuss_status compare_next_model(struct attempt_context *context,
     return PERCUSS_OK;
 }
 
-static enum percuss_status estimate(struct attempt_context *context, const struct attempt *best,
+static enum percuss_status estimate(struct attempt_context *context, struct attempt *best,
                                     struct mode_error *error)
 {
     struct attempt_difference slow = slow_effect(context, best);
     *error = (struct mode_error){slow.restitution, slow.impulse, 1.0};
-    bool spent = best->outcome.end_reason == PERCUSS_END_LIMIT;
+    bool spent = attempt_is_spent(best);
     bool exact = best->assembly->lowest_omitted == INFINITY;
     if (attempt_is_sequence(best) && !spent && !exact)
         return compare_next_model(context, best, error);
@@ -88,8 +89,8 @@ bool mode_search_expects_sequence(const struct geometry *geometry)
 /* Whether another attempt can be better, and is affordable. */
 static bool can_raise(const struct attempt *best)
 {
-    return best->assembly->adjustable && !best->assembly->capped &&
-           best->outcome.end_reason != PERCUSS_END_LIMIT;
+    return best->assembly->adjustable && !best->assembly->capped && !attempt_is_spent(best) &&
+           !best->outcome.too_stiff;
 }
 
 enum percuss_status mode_search(struct attempt_context *context, struct attempt *best,
@@ -101,7 +102,12 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
         .cut = INFINITY, .allowed = first * context->tolerance, .most = MODE_SEARCH_MOST};
     *error = (struct mode_error){.amplification = 1.0};
     for (int raise = 0;; raise++) {
-        enum percuss_status status = attempt_solve(context, best);
+        struct attempt next = *best;
+        enum percuss_status status = attempt_solve(context, &next);
+        /* what is cut off for its effort does not replace what was solved */
+        if (!status && raise > 0 && attempt_is_spent(&next) && !next.outcome.too_stiff)
+            return PERCUSS_OK;
+        *best = next;
         if (status || best->outcome.always_overlapped)
             return status;
         status = estimate(context, best, error);

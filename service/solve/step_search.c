@@ -18,39 +18,51 @@ double step_search_first_accuracy(double tolerance, bool sequence)
     return fmax(share * tolerance, FINEST);
 }
 
+/* Least restitution that an elastic contact's rebound is taken for: what it gives to vibration
+ * leaves it with speed. */
+static const double ELASTIC_REBOUND = 0.1;
+
 /* Effect of the time steps on the restitution without a second solution: the energy that the phases
- * gain or lose, as if all of it were the rebound's (e^2 is its share of what is available), and not
- * less than what the accuracy asked for has been seen to leave (docs/accuracy.md). */
+ * gain or lose, as if all of it were the rebound's (e^2 is its share of what is available; four
+ * times the energy, to be safe), and not less than what the accuracy asked for has been seen to
+ * leave (docs/accuracy.md). A soft contact hardly rebounds: e changes by the root of its share. */
 static double error_of_steps(const struct attempt_context *context, const struct attempt *best,
                              double amplification)
 {
-    double rebound = 0.2;
-    for (size_t c = 0; c < context->geometry->contact_count; c++) {
-        double e = attempt_restitution(context->geometry, &best->outcome, c);
-        if (isfinite(e))
-            rebound = fmax(rebound, 2.0 * fabs(e));
-    }
-    double defect = attempt_energy_defect(context->geometry, &best->outcome);
-    return amplification * fmax(4.0 * defect / rebound, 0.1 * pow(best->accuracy, 0.8));
+    double e = best->outcome.plastic > 0.0 ? 0.0 : ELASTIC_REBOUND;
+    for (size_t c = 0; c < context->geometry->contact_count; c++)
+        e = fmax(e, fabs(attempt_restitution(context->geometry, &best->outcome, c)));
+    double defect = 4.0 * attempt_energy_defect(context->geometry, &best->outcome);
+    double rebound = best->outcome.plastic > 0.0 ? e + sqrt(e * e + defect) : 2.0 * e;
+    double change = defect > 0.0 ? defect / rebound : 0.0;
+    return amplification * fmax(change, 0.1 * pow(best->accuracy, 0.8));
+}
+
+static enum percuss_status estimate_alone(const struct attempt_context *context,
+                                          const struct attempt *best, double amplification,
+                                          struct step_error *error)
+{
+    double largest = 0.0;
+    for (size_t c = 0; c < context->geometry->contact_count; c++)
+        largest = fmax(largest, context->geometry->impulse_compression[c]);
+    error->restitution = error_of_steps(context, best, amplification);
+    error->impulse = error->restitution * largest;
+    return PERCUSS_OK;
 }
 
 /* Compares with a solution of longer steps where the tolerance is tight, estimates otherwise. */
 static enum percuss_status estimate(struct attempt_context *context, const struct attempt *best,
                                     double amplification, struct step_error *error)
 {
-    if (context->tolerance >= COMPARE_BELOW) {
-        double largest = 0.0;
-        for (size_t c = 0; c < context->geometry->contact_count; c++)
-            largest = fmax(largest, context->geometry->impulse_compression[c]);
-        error->restitution = error_of_steps(context, best, amplification);
-        error->impulse = error->restitution * largest;
-        return PERCUSS_OK;
-    }
+    if (context->tolerance >= COMPARE_BELOW)
+        return estimate_alone(context, best, amplification, error);
     struct attempt coarse = *best;
     coarse.accuracy *= 100.0;
     enum percuss_status status = attempt_run(context, &coarse, &best->assembly->scene);
     if (status)
         return status;
+    if (attempt_is_spent(&coarse))
+        return estimate_alone(context, best, amplification, error);
     struct attempt_difference change = attempt_compare(context, best, &coarse);
     error->restitution = change.restitution;
     error->impulse = change.impulse;
@@ -69,11 +81,13 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         error->energy_closes = error->energy_defect <= closure_allowed;
         bool enough = error->restitution <= 0.3 * context->tolerance && error->energy_closes;
         if (enough || i >= MAX_TIGHTENINGS || best->accuracy < 1.01 * FINEST ||
-            best->outcome.end_reason == PERCUSS_END_LIMIT)
+            attempt_is_spent(best) || best->outcome.too_stiff)
             return PERCUSS_OK;
-        best->accuracy = fmax(best->accuracy / 100.0, FINEST);
-        status = attempt_run(context, best, &best->assembly->scene);
-        if (status)
+        struct attempt finer = *best;
+        finer.accuracy = fmax(best->accuracy / 100.0, FINEST);
+        status = attempt_run(context, &finer, &best->assembly->scene);
+        if (status || attempt_is_spent(&finer))
             return status;
+        *best = finer;
     }
 }

@@ -215,7 +215,7 @@ void validity_find(const struct geometry *geometry, const struct solve_request *
         approach = fmax(approach, -geometry->gap_rate[c]);
         touches = touches || outcome->tracks[c].count > 0;
     }
-    if (!touches)
+    if (!touches && outcome->end_reason != PERCUSS_END_LIMIT)
         warnings_add(warnings, WARNING_NO_TOUCH,
                      "contacts: the bodies do not touch: gap and acceleration keep them apart");
     for (size_t c = 0; c < geometry->contact_count; c++)

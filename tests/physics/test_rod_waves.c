@@ -1,11 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The elementary rod a second way: d'Alembert's waves. A force F on the free end of a uniform rod
- * moves it at F/Z, Z = rho c A, and every return of the wave adds 2 F/Z of 2 L/c, 4 L/c, ...
- * before; so a sphere on a rod is one delay equation, which a fine Runge-Kutta integration solves
- * here without modes, truncation or residual flexibility. */
+/* The elementary rod a second way: by d'Alembert's waves (waves.h) a sphere on a rod is one delay
+ * equation, which a fine Runge-Kutta integration solves here without modes, truncation or residual
+ * flexibility. */
 #include "physics/support.h"
+#include "physics/waves.h"
 
 struct wave_rod {
     double mass;      /* of the sphere */
@@ -14,25 +14,9 @@ struct wave_rod {
     double period;    /* 2 L/c */
 };
 
-/* One Runge-Kutta history: forces at the ends and middles of steps that divide the period. */
-struct history {
-    size_t per_period, count;
-    double *force; /* [2 count + 1], every half step */
-};
-
 static double hertz(const struct wave_rod *rod, double indentation)
 {
     return indentation > 0.0 ? rod->stiffness * indentation * sqrt(indentation) : 0.0;
-}
-
-/* 2 sum_j F(t - j period)/Z at half step i: the velocity that came back. */
-static double returned(const struct wave_rod *rod, const struct history *past, size_t i)
-{
-    double sum = 0.0;
-    size_t back = 2 * past->per_period;
-    for (size_t at = i; at >= back; at -= back)
-        sum += past->force[at - back];
-    return 2.0 * sum / rod->impedance;
 }
 
 /* Rates of (indentation, sphere's velocity) with a returned velocity. */
@@ -47,7 +31,7 @@ static void rates(const struct wave_rod *rod, double back, const double y[2], do
  * middle of a step by Hermite's cubic; the kinks of the force fall on step ends. */
 static double wave_impulse(const struct wave_rod *rod, double v, size_t per_period, size_t periods)
 {
-    struct history past = {per_period, per_period * periods, NULL};
+    struct wave_history past = {per_period, per_period * periods, NULL};
     double h = rod->period / (double)per_period;
     double y[2] = {0.0, v};
     past.force = calloc(2 * past.count + 1, sizeof *past.force);
@@ -57,7 +41,7 @@ static double wave_impulse(const struct wave_rod *rod, double v, size_t per_peri
         double back[3];
         double stage[2];
         for (size_t i = 0; i < 3; i++)
-            back[i] = returned(rod, &past, 2 * n + i);
+            back[i] = wave_returned(&past, rod->impedance, 2 * n + i);
         rates(rod, back[0], y, k[0]);
         for (int s = 1; s < 4; s++) {
             double part = s == 3 ? 1.0 : 0.5;
