@@ -23,6 +23,7 @@ struct ensemble_run {
     double deadline; /* monotonic, s; INFINITY: none */
     struct decoded_ensemble *decoded;
     struct ensemble ensemble;
+    struct table_maker maker; /* of tables that are asked for */
     unsigned worker_count;
     struct ensemble_worker *workers[MOST_WORKERS];
     struct ensemble_sample *samples;
@@ -231,6 +232,23 @@ static bool hire(struct ensemble_run *run, struct fault *fault)
     return true;
 }
 
+/* The same as for a single request: who leaves the choice takes the tables that are there, who
+ * insists has them computed, which happens when the impact as it is stated is tried; no input
+ * changes a material then, so that the workers only look them up. */
+static const struct contact_table_source *find_tables(struct ensemble_run *run)
+{
+    struct table_shelf *shelf = &run->service->tables;
+    const percuss_v2_Request *scene = &run->task->requests[0];
+    table_maker_init(&run->maker, shelf, true);
+    if (scene->options.contact_model != PERCUSS_CONTACT_TABLE)
+        return table_store_source(shelf->loaded);
+    const struct contact_table_source *source =
+        table_maker_begin(&run->maker, scene, run->task->arrival);
+    run->maker.client = run->task->client;
+    run->maker.cancelled = &run->task->cancelled;
+    return source;
+}
+
 /* From the wire to an ensemble that is ready to run. */
 static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault)
 {
@@ -244,11 +262,13 @@ static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault
     if (status)
         return status;
     run->decoded->spec.catalogue = task->edition->set;
-    run->decoded->spec.tables = table_store_source(run->service->tables.loaded);
+    run->decoded->spec.tables = find_tables(run);
     if (!is_wanted(run))
         return fault_set(fault, PERCUSS_TIMEOUT, "%s before the first sample", run->message);
     struct ensemble_interest interest = {lasts, run};
-    return ensemble_create(&run->ensemble, &run->decoded->spec, &interest, fault);
+    status = ensemble_create(&run->ensemble, &run->decoded->spec, &interest, fault);
+    return run->maker.status ? fault_set(fault, run->maker.status, "%s", run->maker.fault.text)
+                             : status;
 }
 
 static void release(struct ensemble_run *run)

@@ -79,7 +79,11 @@ static bool go_on(void *context, double done)
     if (atomic_load(maker->shelf->draining))
         maker->status =
             fault_set(&maker->fault, PERCUSS_BUSY, "the server is shutting down: ask another one");
-    else if (reply_store_is_gone(maker->shelf->replies, maker->request->client))
+    else if (maker->cancelled && atomic_load(maker->cancelled))
+        maker->status =
+            fault_set(&maker->fault, PERCUSS_TIMEOUT,
+                      "cancelled with %.0f %% of the contact table computed", 100.0 * done);
+    else if (reply_store_is_gone(maker->shelf->replies, maker->client))
         maker->status = fault_set(&maker->fault, PERCUSS_TIMEOUT, "the client is gone");
     else if (deadline > 0.0 && clock_now() - maker->arrival > deadline)
         maker->status = fault_set(
@@ -149,14 +153,41 @@ static const struct contact_curves *find_or_make(void *context, const struct con
     return NULL;
 }
 
-void table_maker_init(struct table_maker *maker, struct table_shelf *shelf, bool makes)
+static const struct contact_curves *find_only(void *context, const struct contact_pair *pair)
 {
-    *maker = (struct table_maker){.source = {maker, find_or_make}, .shelf = shelf, .makes = makes};
+    const struct table_maker *maker = context;
+    return table_store_is_circular(pair->curvature)
+               ? table_shelf_find(maker->shelf, pair->a, pair->b)
+               : NULL;
 }
 
-void table_maker_begin(struct table_maker *maker, const percuss_v2_Request *request, double arrival)
+static bool overrides_material(const percuss_v2_Request *request)
+{
+    for (size_t b = 0; b < request->bodies._length; b++) {
+        const percuss_v2_BodyMotion *body = &request->bodies._buffer[b];
+        for (size_t i = 0; i < body->overrides._length; i++) {
+            unsigned parameter = body->overrides._buffer[i].parameter;
+            if (parameter == PERCUSS_PARAMETER_YOUNG || parameter == PERCUSS_PARAMETER_POISSON ||
+                parameter == PERCUSS_PARAMETER_YIELD || parameter == PERCUSS_PARAMETER_TANGENT)
+                return true;
+        }
+    }
+    return false;
+}
+
+void table_maker_init(struct table_maker *maker, struct table_shelf *shelf, bool makes)
+{
+    *maker = (struct table_maker){.source.context = maker, .shelf = shelf, .makes = makes};
+}
+
+const struct contact_table_source *
+table_maker_begin(struct table_maker *maker, const percuss_v2_Request *request, double arrival)
 {
     maker->request = request;
     maker->arrival = arrival;
+    maker->client = request->client;
+    maker->cancelled = NULL;
     maker->status = PERCUSS_OK;
+    maker->source.find = overrides_material(request) ? find_only : find_or_make;
+    return &maker->source;
 }

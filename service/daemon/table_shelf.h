@@ -40,12 +40,17 @@ struct table_maker {
     bool makes;                        /* may take its time: the long lane */
     const percuss_v2_Request *request; /* being answered, set by who answers it */
     double arrival;                    /* of it, monotonic, s */
-    enum percuss_status status;        /* why a table could not be had */
+    const uint8_t *client;        /* who asks */
+    const atomic_bool *cancelled; /* its client wants no answer any more; NULL: cannot say so */
+    enum percuss_status status;   /* why a table could not be had */
     struct fault fault;
 };
 
 void table_maker_init(struct table_maker *maker, struct table_shelf *shelf, bool makes);
-void table_maker_begin(struct table_maker *maker, const percuss_v2_Request *request,
-                       double arrival);
+
+/* Begins with a request that asks for `table`; what answers it. Tables that are missing are
+ * computed, but for materials that `overrides` of the request give: those are nobody else's. */
+const struct contact_table_source *
+table_maker_begin(struct table_maker *maker, const percuss_v2_Request *request, double arrival);
 
 #endif

@@ -70,6 +70,12 @@ static void check_scene(struct check *check, const percuss_v2_Request *scene)
                    "scene.bodies[%u].state: %s: must be empty: a token names one state, which an "
                    "ensemble cannot vary",
                    i, state);
+        const char *specimen = scene->bodies._buffer[i].specimen;
+        check_that(
+            check, !specimen[0],
+            "scene.bodies[%u].specimen: %s: must be empty: no sample of an ensemble leaves a "
+            "dent in it",
+            i, specimen);
     }
 }
 

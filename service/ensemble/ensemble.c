@@ -332,7 +332,9 @@ enum percuss_status ensemble_create(struct ensemble *ensemble, const struct ense
 {
     memset(ensemble, 0, sizeof *ensemble);
     ensemble->spec = *spec;
-    enum percuss_status status = try_request(ensemble, fault);
+    enum percuss_status status = spec_check_tables(spec, fault);
+    if (!status)
+        status = try_request(ensemble, fault);
     if (!status)
         status = spec_check(spec, fault);
     if (!status)

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "contact/law_closed_form.h"
+
 bool spec_is_drawn(const struct ensemble_spec *spec, size_t input)
 {
     const struct ensemble_input *one = &spec->inputs[input];
@@ -108,6 +110,26 @@ static bool clash(const struct ensemble_spec *spec, size_t i, size_t j)
            (!input_is_of_body(a->quantity) || strcmp(bodies[a->body].id, bodies[b->body].id) == 0);
 }
 
+/* Nor what the request itself replaces. */
+static enum percuss_status check_overrides(const struct ensemble_spec *spec, size_t i,
+                                           struct fault *fault)
+{
+    const char *name = input_quantity_name(spec->inputs[i].quantity);
+    const struct solve_request *request = spec->request;
+    for (size_t b = 0; changes_body(&spec->inputs[i]) && b < request->body_count; b++) {
+        const struct solve_body *body = &request->bodies[b];
+        if (strcmp(body->id, request->bodies[spec->inputs[i].body].id) != 0)
+            continue;
+        for (size_t k = 0; k < body->variation_count; k++)
+            if (strcmp(parameter_name(body->variations[k].parameter), name) == 0)
+                return fault_set(fault, PERCUSS_BAD_REQUEST,
+                                 "inputs[%zu].name: %s: must be another one: bodies[%zu].overrides "
+                                 "give it already",
+                                 i, name, b);
+    }
+    return PERCUSS_OK;
+}
+
 /* What the inputs do must be possible with this impact. */
 static enum percuss_status check_input(const struct ensemble_spec *spec, size_t i,
                                        struct fault *fault)
@@ -125,6 +147,9 @@ static enum percuss_status check_input(const struct ensemble_spec *spec, size_t 
                          "inputs[%zu].name: %s: must be another one where there are %zu contacts: "
                          "it would move them apart",
                          i, name, spec->request->contact_count);
+    enum percuss_status status = check_overrides(spec, i, fault);
+    if (status)
+        return status;
     for (size_t j = 0; j < i; j++)
         if (clash(spec, i, j))
             return fault_set(fault, PERCUSS_BAD_REQUEST,
@@ -143,6 +168,40 @@ static enum percuss_status check_correlations(const struct ensemble_spec *spec, 
                              "correlations[%zu]: inputs %zu and %zu: must be two different "
                              "uncertain inputs",
                              p, pair->first, pair->second);
+    }
+    return PERCUSS_OK;
+}
+
+/* Whether a contact of the body leaves dents, in it or its partner. What is no contact of two known
+ * bodies is solve()'s to refuse. */
+static bool yields(const struct ensemble_spec *spec, size_t body)
+{
+    const struct solve_request *request = spec->request;
+    bool yields = false;
+    for (size_t c = 0; c < request->contact_count && c < PERCUSS_MAX_CONTACTS; c++) {
+        const struct solve_contact *contact = &request->contacts[c];
+        if (contact->a >= PERCUSS_MAX_BODIES || contact->b >= PERCUSS_MAX_BODIES ||
+            (contact->a != body && contact->b != body))
+            continue;
+        const struct body *a = body_set_find(spec->catalogue, request->bodies[contact->a].id);
+        const struct body *b = body_set_find(spec->catalogue, request->bodies[contact->b].id);
+        yields = yields || (a && b && closed_form_softer(&a->material, &b->material) >= 0);
+    }
+    return yields;
+}
+
+enum percuss_status spec_check_tables(const struct ensemble_spec *spec, struct fault *fault)
+{
+    bool insists = spec->request->options.contact_model == PERCUSS_CONTACT_TABLE;
+    for (size_t i = 0; insists && i < spec->input_count; i++) {
+        enum input_quantity quantity = spec->inputs[i].quantity;
+        bool material = quantity == INPUT_YOUNG || quantity == INPUT_POISSON;
+        if (quantity == INPUT_YIELD || (material && yields(spec, spec->inputs[i].body)))
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "inputs[%zu].name: %s: must be another one with options.contact_model "
+                             "table: a table is of one material only (auto or closed-form do "
+                             "without)",
+                             i, input_quantity_name(quantity));
     }
     return PERCUSS_OK;
 }

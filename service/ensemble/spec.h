@@ -42,6 +42,10 @@ struct ensemble_spec {
  * to judge. */
 enum percuss_status spec_check(const struct ensemble_spec *spec, struct fault *fault);
 
+/* A table belongs to materials to the last bit: BAD_REQUEST for inputs that change one while
+ * `table` is asked for. */
+enum percuss_status spec_check_tables(const struct ensemble_spec *spec, struct fault *fault);
+
 /* Whether an input is drawn, rather than a constant or a list walked through in order. */
 bool spec_is_drawn(const struct ensemble_spec *spec, size_t input);
 

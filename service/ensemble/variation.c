@@ -83,6 +83,18 @@ static enum percuss_status check_radius(const struct variation *variation, size_
                      index, id);
 }
 
+static enum percuss_status check_damping(const struct variation *variation, size_t index,
+                                         struct fault *fault)
+{
+    const struct ensemble_spec *spec = variation->spec;
+    const char *id = spec->request->bodies[spec->inputs[index].body].id;
+    if (body_is_flexible(body_set_find(spec->catalogue, id)))
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "inputs[%zu].body: %s: must be a body that vibrates for the quantity damping",
+                     index, id);
+}
+
 enum percuss_status variation_create(struct variation *variation, const struct ensemble_spec *spec,
                                      struct fault *fault)
 {
@@ -97,6 +109,8 @@ enum percuss_status variation_create(struct variation *variation, const struct e
             status = check_site(variation, i, fault);
         else if (quantity == INPUT_RADIUS)
             status = check_radius(variation, i, fault);
+        else if (quantity == INPUT_DAMPING)
+            status = check_damping(variation, i, fault);
         else if (quantity == INPUT_SPEED && !(variation->gap_rate < 0.0))
             status = fault_set(fault, PERCUSS_BAD_REQUEST,
                                "inputs[%zu].name: speed: contacts[%zu] must approach (its gap rate "

@@ -141,6 +141,9 @@ static void bad_numbers(struct peer *peer)
     strcpy(scene.bodies[1].state, "0123");
     refused(peer, good(), "scene.bodies[1].state: 0123");
     scene.bodies[1].state[0] = '\0';
+    strcpy(scene.bodies[1].specimen, "bar-1");
+    refused(peer, good(), "scene.bodies[1].specimen: bar-1: must be empty");
+    scene.bodies[1].specimen[0] = '\0';
 }
 
 static void answered(struct peer *peer)
