@@ -3,34 +3,29 @@
 
 #include "wire.h"
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Loopback has no multicast, so peers are addressed by port: one index per process, at most 100.
- * A lease of 2 s lets the daemon notice a killed client soon. The same stands in
- * config/cyclonedds.xml for people who want to start from it. */
-static const char *const builtin_configuration =
-    "<CycloneDDS><Domain Id=\"any\">"
-    "<General>"
-    "<Interfaces><NetworkInterface address=\"127.0.0.1\"/></Interfaces>"
-    "<AllowMulticast>false</AllowMulticast>"
-    "</General>"
-    "<Discovery>"
-    "<ParticipantIndex>auto</ParticipantIndex>"
-    "<MaxAutoParticipantIndex>100</MaxAutoParticipantIndex>"
-    "<Peers><Peer address=\"127.0.0.1\"/></Peers>"
-    "<LeaseDuration>2 s</LeaseDuration>"
-    "</Discovery>"
-    "</Domain></CycloneDDS>";
+#include "wire_loopback.h"
+
+/* The domain of an earlier participant of this process serves as well, as soon as it is ready. */
+static dds_return_t create_domain(uint32_t domain)
+{
+    static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&one_at_a_time);
+    dds_entity_t created = wire_loopback_create(domain);
+    pthread_mutex_unlock(&one_at_a_time);
+    return created == DDS_RETCODE_PRECONDITION_NOT_MET || created > 0 ? DDS_RETCODE_OK : created;
+}
 
 dds_entity_t wire_participant_create(uint32_t domain)
 {
     const char *uri = getenv("CYCLONEDDS_URI");
     if (!uri || !*uri) {
-        dds_entity_t created = dds_create_domain(domain, builtin_configuration);
-        /* the domain of an earlier participant of this process serves as well */
-        if (created < 0 && created != DDS_RETCODE_PRECONDITION_NOT_MET)
-            return created;
+        dds_return_t made = create_domain(domain);
+        if (made < 0)
+            return made;
     }
     return dds_create_participant(domain, NULL, NULL);
 }

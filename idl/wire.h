@@ -26,8 +26,9 @@
 enum { WIRE_PARTITION_SIZE = 35, WIRE_WINDOW = 1024 };
 
 /* A participant in `domain`. Without CYCLONEDDS_URI in the environment it uses a built-in
- * configuration: loopback only, no multicast, up to 100 processes. Returns the entity or a negative
- * DDS return code (dds_strretcode). */
+ * configuration: up to 100 processes of this machine, which hear nobody else (wire_loopback.h),
+ * unless the process has the domain already. Returns the entity or a negative DDS return code
+ * (dds_strretcode). */
 dds_entity_t wire_participant_create(uint32_t domain);
 
 /* A topic whose readers drop every sample that is not a whole one of its type (wire_whole.h) before

@@ -220,7 +220,7 @@ class Reply(IdlStruct, typename="percuss::v2::Reply"):
     timing: Timing
 
 
-# loopback only, as percussd without CYCLONEDDS_URI
+# finds percussd where CYCLONEDDS_URI is not set; unlike percussd it receives at every address
 LOOPBACK = """<CycloneDDS><Domain Id="any">
 <General>
   <Interfaces><NetworkInterface address="127.0.0.1"/></Interfaces><AllowMulticast>false</AllowMulticast>
