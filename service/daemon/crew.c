@@ -37,8 +37,11 @@ static void work_off(struct member *member)
         atomic_store(&member->at, first);
         if (first >= job->end)
             return;
-        for (uint64_t i = first; i < first + CHUNK && i < job->end; i++)
-            job->work(job->context, member->number, i);
+        for (uint64_t i = first; i < first + CHUNK && i < job->end; i++) {
+            atomic_store(&member->at, i);
+            if (!job->work(job->context, member->number, i))
+                return;
+        }
     }
     /* what was taken is done */
     atomic_store(&member->at, UINT64_MAX);
@@ -128,8 +131,5 @@ uint64_t crew_run(const struct crew_job *job)
         pthread_join(members[i].thread, NULL);
     pthread_cond_destroy(&crew.finished);
     pthread_mutex_destroy(&crew.lock);
-    uint64_t taken = atomic_load(&crew.next);
-    if (count == 0)
-        return job->first;
-    return taken < job->end ? taken : job->end;
+    return count == 0 ? job->first : done_by_all(&crew, members, count);
 }

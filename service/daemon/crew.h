@@ -8,8 +8,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Works on one item; `member` is the thread's number, 0 .. members - 1. */
-typedef void crew_work(void *context, unsigned member, uint64_t item);
+/* Works on one item; `member` is the thread's number, 0 .. members - 1. False: it was given up, as
+ * the watch has said to stop. */
+typedef bool crew_work(void *context, unsigned member, uint64_t item);
 
 /* Called by the waiting thread about ten times a second with the number of items from the first on
  * that are all done. False: stop. */

@@ -30,8 +30,9 @@ struct ensemble_run {
     double *extras;
     uint64_t done;
     bool in_extras;
-    double told;       /* monotonic, s: when those who wait were */
-    char message[160]; /* what cut it short; empty: nothing */
+    double told;         /* monotonic, s: when those who wait were */
+    atomic_bool stopped; /* the workers are to give up */
+    char message[160];   /* what cut it short; empty: nothing */
 };
 
 /* Writes a progress sample to the client of a task. */
@@ -93,9 +94,10 @@ static bool is_wanted(struct ensemble_run *run)
 }
 
 /* While the model is chosen. */
-static bool lasts(void *context)
+static bool lasts(void *context, double done)
 {
     struct ensemble_run *run = context;
+    (void)done;
     if (clock_now() >= run->told + 1.0)
         tell_waiting(run->service, run->task);
     keep_waiting(run);
@@ -106,19 +108,30 @@ static bool watch(void *context, uint64_t done)
 {
     struct ensemble_run *run = context;
     publish_progress(run, run->in_extras ? run->done : done);
-    return is_wanted(run);
+    atomic_store(&run->stopped, !is_wanted(run));
+    return !atomic_load(&run->stopped);
 }
 
-static void work_on_sample(void *context, unsigned member, uint64_t item)
+/* Within a sample, which may take a second: what the watch has said. */
+static bool goes_on(void *context, double done)
+{
+    struct ensemble_run *run = context;
+    (void)done;
+    return !atomic_load(&run->stopped);
+}
+
+static bool work_on_sample(void *context, unsigned member, uint64_t item)
 {
     struct ensemble_run *run = context;
     ensemble_solve(run->workers[member], item, &run->samples[item], NULL);
+    return run->samples[item].status != PERCUSS_TIMEOUT;
 }
 
-static void work_on_extra(void *context, unsigned member, uint64_t item)
+static bool work_on_extra(void *context, unsigned member, uint64_t item)
 {
     struct ensemble_run *run = context;
     run->extras[item] = ensemble_extra(run->workers[member], run->done, item);
+    return goes_on(run, 0.0);
 }
 
 /* Solves samples until there are all, or enough, or nobody wants more. */
@@ -218,6 +231,7 @@ static struct answer *report(struct ensemble_run *run, const struct envelope *en
 /* One worker a thread. False: no memory. */
 static bool hire(struct ensemble_run *run, struct fault *fault)
 {
+    const struct watch watch = {goes_on, run};
     unsigned wanted = run->service->settings->workers;
     wanted = wanted < MOST_WORKERS ? wanted : MOST_WORKERS;
     run->samples = calloc(run->ensemble.count, sizeof *run->samples);
@@ -226,8 +240,10 @@ static bool hire(struct ensemble_run *run, struct fault *fault)
         return false;
     }
     for (; run->worker_count < wanted; run->worker_count++) {
-        if (ensemble_worker_create(&run->workers[run->worker_count], &run->ensemble, fault))
+        struct ensemble_worker **worker = &run->workers[run->worker_count];
+        if (ensemble_worker_create(worker, &run->ensemble, fault))
             return false;
+        ensemble_worker_watch(*worker, watch);
     }
     return true;
 }
@@ -263,10 +279,13 @@ static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault
         return status;
     run->decoded->spec.catalogue = task->edition->set;
     run->decoded->spec.tables = find_tables(run);
-    if (!is_wanted(run))
-        return fault_set(fault, PERCUSS_TIMEOUT, "%s before the first sample", run->message);
-    struct ensemble_interest interest = {lasts, run};
-    status = ensemble_create(&run->ensemble, &run->decoded->spec, &interest, fault);
+    const struct watch watch = {lasts, run};
+    if (is_wanted(run))
+        status = ensemble_create(&run->ensemble, &run->decoded->spec, &watch, fault);
+    else
+        status = fault_set(fault, PERCUSS_TIMEOUT, "the client had gone: ask again");
+    if (run->message[0])
+        status = fault_set(fault, PERCUSS_TIMEOUT, "%s before the first sample", run->message);
     return run->maker.status ? fault_set(fault, run->maker.status, "%s", run->maker.fault.text)
                              : status;
 }

@@ -118,7 +118,7 @@ int main(int argc, char **argv)
              service->editions.current->set->count, service->editions.current->set->revision);
     serve(service, &signals);
     if (!drain(service, &signals, settings.drain_seconds)) {
-        /* a thread that solves cannot be stopped, so nothing is taken apart */
+        /* a thread still works, so nothing is taken apart */
         log_line(LEVEL_ERROR, "ends with requests unanswered");
         _exit(EXIT_FAILURE);
     }

@@ -18,6 +18,10 @@ static const double cheap_tolerance = 1e-4, short_tolerance = 1e-9;
 /* Two clients that ask within this time, s, are served side by side by the workers. */
 static const double company_seconds = 0.01;
 
+/* Warm solves of what is_cheap says take some 0.02 to 0.5 ms; what takes longer than this, s, is
+ * not cheap whatever it looks like. */
+static const double desk_seconds = 0.005;
+
 static struct answer *refusal(const struct envelope *envelope, enum exchange exchange,
                               enum percuss_status status, const char *message)
 {
@@ -161,20 +165,39 @@ static bool is_sole(struct service *service, const uint8_t client[16], double no
     return now >= service->company_until;
 }
 
-static void answer_here(struct service *service, const struct request_name *name,
+/* How long a solve may keep the reading thread: nobody else is heard meanwhile. */
+struct patience {
+    double end; /* monotonic, s */
+    bool over;
+};
+
+static enum percuss_status is_quick(void *context, struct fault *fault)
+{
+    struct patience *patience = context;
+    patience->over = clock_now() > patience->end;
+    return patience->over ? fault_set(fault, PERCUSS_BUSY, "for the workers") : PERCUSS_OK;
+}
+
+/* False: it takes longer than the reading thread has; nothing is answered yet. */
+static bool answer_here(struct service *service, const struct request_name *name,
                         const percuss_v2_Request *request, double arrival)
 {
+    struct patience patience = {.end = arrival + desk_seconds};
     struct edition *edition = editions_hold(&service->editions);
     struct question question = {
         .request = request,
         .set = edition->set,
         .envelope = service_envelope(service, name, edition),
         .arrival = arrival,
+        .still_wanted = is_quick,
+        .context = &patience,
     };
     struct answer *answer = respond(service->desk, service->tokens, &question);
-    service_deliver(service, name, answer);
+    if (!patience.over)
+        service_deliver(service, name, answer);
     answer_release(answer);
     editions_let_go(&service->editions, edition);
+    return !patience.over;
 }
 
 static void receive_single(void *context, const percuss_v2_Request *request, bool alone)
@@ -192,9 +215,8 @@ static void receive_single(void *context, const percuss_v2_Request *request, boo
     bool here = alone && sole && service->settings->inline_solves && is_cheap(request) &&
                 !is_durable(service, request) && !atomic_load(&service->draining) &&
                 queue_length(service->lanes[LANE_SHORT]) == 0;
-    if (here)
-        answer_here(service, &name, request, arrival);
-    else
+    /* what does not end soon the workers solve from its beginning: the same bits */
+    if (!here || !answer_here(service, &name, request, arrival))
         enqueue_requests(service, &name, request, 1, arrival);
 }
 

@@ -70,12 +70,39 @@ static struct token_subject subject_of(const struct question *question, size_t i
     return (struct token_subject){question->set->revision, name->text};
 }
 
-/* What a long solution is told and asked. */
-static bool is_in_time(void *context, double done)
+/* Whether a question is to be answered, and if not, what it is refused with. */
+struct vigil {
+    const struct question *question;
+    enum percuss_status status;
+    bool unwanted; /* nobody waits: the refusal is not to be kept */
+    struct fault fault;
+};
+
+static bool vigil_look(struct vigil *vigil, const char *when)
 {
-    struct fault ignored;
+    const struct question *question = vigil->question;
+    vigil->status = check_deadline(question, when, &vigil->fault);
+    if (vigil->status || !question->still_wanted)
+        return !vigil->status;
+    vigil->status = question->still_wanted(question->context, &vigil->fault);
+    vigil->unwanted = vigil->status != PERCUSS_OK;
+    return !vigil->unwanted;
+}
+
+/* What a solve asks now and then. */
+static bool goes_on(void *context, double done)
+{
     (void)done;
-    return check_deadline(context, "", &ignored) == PERCUSS_OK;
+    return vigil_look(context, "within the solve");
+}
+
+static struct answer *refuse(const struct vigil *vigil)
+{
+    struct answer *answer =
+        encode_refusal(&vigil->question->envelope, vigil->status, vigil->fault.text);
+    if (answer)
+        answer->passing = vigil->unwanted;
+    return answer;
 }
 
 /* What keeps a specimen outlives the solve. */
@@ -132,8 +159,6 @@ static enum percuss_status prepare(struct seat *seat, struct token_store *tokens
     if (!status && question->in_batch && seat->request.options.trace)
         status = fault_set(fault, PERCUSS_BAD_REQUEST,
                            "options.trace: true: must be false in a batch: ask by itself");
-    if (!status)
-        status = check_deadline(question, "before the solve began", fault);
     if (status)
         return status;
     for (size_t i = 0; !status && i < seat->request.body_count; i++)
@@ -173,17 +198,22 @@ static struct answer *compute(struct seat *seat, struct token_store *tokens,
 {
     const struct envelope *envelope = &question->envelope;
     struct solve_result *result = &seat->result;
-    struct fault fault;
+    struct vigil vigil = {.question = question};
+    if (!vigil_look(&vigil, "before the solve began"))
+        return refuse(&vigil);
     use_tables(seat, question);
-    solve_workspace_watch(seat->workspace, (struct solve_watch){is_in_time, (void *)question});
+    solve_workspace_watch(seat->workspace, (struct watch){goes_on, &vigil});
     solve(seat->workspace, question->set, &seat->request, result);
+    solve_workspace_watch(seat->workspace, (struct watch){0});
     if (seat->maker.status)
         return encode_refusal(envelope, seat->maker.status, seat->maker.fault.text);
     if (result->status == PERCUSS_INTERNAL)
         log_line(LEVEL_ERROR, "request %llu: internal: %s", (unsigned long long)envelope->sequence,
                  result->fault.text);
-    if (check_deadline(question, "when the solve ended", &fault))
-        return encode_refusal(envelope, PERCUSS_TIMEOUT, fault.text);
+    if (!vigil.status)
+        vigil.status = check_deadline(question, "when the solve ended", &vigil.fault);
+    if (vigil.status)
+        return refuse(&vigil);
     if (!encode_status_has_result(result->status))
         return encode_refusal(envelope, result->status, result->fault.text);
     name_states(seat, tokens, question);

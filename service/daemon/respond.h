@@ -33,11 +33,16 @@ struct question {
     struct envelope envelope;   /* of the reply */
     double arrival;             /* monotonic, s */
     bool in_batch;
+    /* OK while somebody waits for the answer, otherwise what to refuse it with; asked about once a
+     * millisecond of the solve. NULL: always */
+    enum percuss_status (*still_wanted)(void *context, struct fault *fault);
+    void *context;                             /* of that */
     const struct body_state *const *specimens; /* by body; NULL: specimens are refused */
 };
 
 /* The reply, whatever it says; it differs with the thread, the load and the time in its timing
- * only, and where a deadline passed. NULL: out of memory. */
+ * only, and where a deadline passed or nobody waits any more: then it is not to be kept
+ * (answer.passing). NULL: out of memory. */
 struct answer *respond(struct seat *seat, struct token_store *tokens,
                        const struct question *question);
 

@@ -225,6 +225,7 @@ bool service_drain(struct service *service, double seconds)
 
 bool service_cut_short(struct service *service)
 {
+    atomic_store(&service->ending, true);
     ensembles_cancel_all(&service->ensembles);
     return service_drain(service, cut_seconds);
 }

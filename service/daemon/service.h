@@ -34,6 +34,7 @@ struct service {
     double company_until; /* monotonic, s: till then several clients count as asking */
     double started;       /* monotonic, s */
     atomic_bool draining;
+    atomic_bool ending;              /* what is being solved is to be given up */
     atomic_ullong answered, refused; /* replies with and without results */
     atomic_ullong undelivered;       /* replies their clients did not take */
     unsigned long long reported;     /* of those, in the log */
@@ -59,7 +60,8 @@ void service_begin_drain(struct service *service);
 /* Waits until everything queued is answered and delivered, at most `seconds`. False: not all is. */
 bool service_drain(struct service *service, double seconds);
 
-/* Ends ensembles early, with what they have, and waits for that as service_drain does. */
+/* Gives up what is being solved, with BUSY, ensembles with what they have, and waits for that as
+ * service_drain does. */
 bool service_cut_short(struct service *service);
 
 /* Ends the threads and leaves the domain. */

@@ -46,7 +46,8 @@ static struct answer *assemble(const struct service *service, struct task *task)
 static void finish(struct service *service, struct task *task)
 {
     struct request_name name = task_name(task);
-    if (atomic_load(&task->abandoned)) {
+    /* a client that has come back meanwhile is told */
+    if (atomic_load(&task->abandoned) && reply_store_is_gone(service->replies, task->client)) {
         reply_store_forget(service->replies, &name);
     } else if (task->exchange == EXCHANGE_BATCH) {
         struct answer *answer = assemble(service, task);
@@ -59,6 +60,24 @@ static void finish(struct service *service, struct task *task)
         ensembles_leave(&service->ensembles, task);
     editions_let_go(&service->editions, task->edition);
     task_free(task);
+}
+
+/* Who asked. */
+struct asker {
+    struct service *service;
+    struct task *task;
+};
+
+/* Whether he still waits, see question.still_wanted. */
+static enum percuss_status still_wanted(void *context, struct fault *fault)
+{
+    const struct asker *asker = context;
+    if (atomic_load(&asker->service->ending))
+        return fault_set(fault, PERCUSS_BUSY, "the server is shutting down: ask another one");
+    if (!reply_store_is_gone(asker->service->replies, asker->task->client))
+        return PERCUSS_OK;
+    atomic_store(&asker->task->abandoned, true);
+    return fault_set(fault, PERCUSS_TIMEOUT, "the client had gone: ask again");
 }
 
 /* The reply to one request. */
@@ -88,19 +107,18 @@ static void work_on(struct worker *worker, struct task *task, size_t index)
     struct service *service = worker->service;
     struct request_name name = task_name(task);
     name.sequence = task->requests[index].sequence;
+    struct asker asker = {service, task};
     struct question question = {
         .request = &task->requests[index],
         .set = task->edition->set,
         .envelope = service_envelope(service, &name, task->edition),
         .arrival = task->arrival,
         .in_batch = task->exchange == EXCHANGE_BATCH,
+        .still_wanted = still_wanted,
+        .context = &asker,
     };
-    if (reply_store_is_gone(service->replies, task->client))
-        atomic_store(&task->abandoned, true);
-    else if (task->ensemble)
-        task->answers[index] = ensemble_respond(service, task);
-    else
-        task->answers[index] = answer_one(worker, &question);
+    task->answers[index] =
+        task->ensemble ? ensemble_respond(service, task) : answer_one(worker, &question);
     if (atomic_fetch_sub(&task->left, 1) == 1)
         finish(service, task);
 }

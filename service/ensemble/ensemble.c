@@ -47,6 +47,11 @@ enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
     return status;
 }
 
+void ensemble_worker_watch(struct ensemble_worker *worker, struct watch watch)
+{
+    repeat_set_watch(worker->repeat, watch);
+}
+
 void ensemble_worker_free(struct ensemble_worker *worker)
 {
     if (!worker)
@@ -160,14 +165,14 @@ struct pilot {
 struct choice {
     struct ensemble *ensemble;
     struct ensemble_worker *worker;
-    const struct ensemble_interest *interest; /* NULL: lasts */
+    const struct watch *watch; /* NULL: nobody */
     struct pilot *pilots;
     unsigned count; /* pilots with an answer */
 };
 
 static bool is_wanted(const struct choice *choice)
 {
-    return !choice->interest || choice->interest->lasts(choice->interest->context);
+    return !choice->watch || choice->watch->proceed(choice->watch->context, 0.0);
 }
 
 /* Solves the pilots. A refusal of all is the ensemble's. */
@@ -245,15 +250,17 @@ static void choose_steps(struct choice *choice)
     chosen->model.accuracy = finest;
 }
 
-static enum percuss_status find_model(struct ensemble *ensemble,
-                                      const struct ensemble_interest *interest, struct fault *fault)
+static enum percuss_status find_model(struct ensemble *ensemble, const struct watch *watch,
+                                      struct fault *fault)
 {
     const struct solve_options *options = &ensemble->spec.request->options;
     ensemble->model.tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3;
-    struct choice choice = {.ensemble = ensemble, .interest = interest};
+    struct choice choice = {.ensemble = ensemble, .watch = watch};
     enum percuss_status status = ensemble_worker_create(&choice.worker, ensemble, fault);
     if (status)
         return status;
+    if (watch)
+        ensemble_worker_watch(choice.worker, *watch);
     choice.pilots = calloc(PILOTS, sizeof *choice.pilots);
     status = choice.pilots ? solve_pilots(&choice, fault)
                            : fault_set(fault, PERCUSS_INTERNAL, "out of memory");
@@ -270,7 +277,8 @@ static enum percuss_status find_model(struct ensemble *ensemble,
 }
 
 /* The impact as it is stated must be one that solve() answers. */
-static enum percuss_status try_request(struct ensemble *ensemble, struct fault *fault)
+static enum percuss_status try_request(struct ensemble *ensemble, const struct watch *watch,
+                                       struct fault *fault)
 {
     const struct ensemble_spec *spec = &ensemble->spec;
     enum percuss_contact_model asked = spec->request->options.contact_model;
@@ -284,6 +292,7 @@ static enum percuss_status try_request(struct ensemble *ensemble, struct fault *
     enum percuss_status status = PERCUSS_INTERNAL;
     if (workspace && result) {
         solve_workspace_set_tables(workspace, spec->tables);
+        solve_workspace_watch(workspace, watch ? *watch : (struct watch){0});
         status = solve(workspace, spec->catalogue, spec->request, result);
         *fault = result->fault;
         ensemble->stated_model = result->contact_model;
@@ -328,19 +337,19 @@ static enum percuss_status find_dimensions(struct ensemble *ensemble, struct fau
 }
 
 enum percuss_status ensemble_create(struct ensemble *ensemble, const struct ensemble_spec *spec,
-                                    const struct ensemble_interest *interest, struct fault *fault)
+                                    const struct watch *watch, struct fault *fault)
 {
     memset(ensemble, 0, sizeof *ensemble);
     ensemble->spec = *spec;
     enum percuss_status status = spec_check_tables(spec, fault);
     if (!status)
-        status = try_request(ensemble, fault);
+        status = try_request(ensemble, watch, fault);
     if (!status)
         status = spec_check(spec, fault);
     if (!status)
         status = find_dimensions(ensemble, fault);
     if (!status)
-        status = find_model(ensemble, interest, fault);
+        status = find_model(ensemble, watch, fault);
     if (status)
         ensemble_release(ensemble);
     return status;

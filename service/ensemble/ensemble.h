@@ -47,25 +47,22 @@ struct ensemble_worker;
 /* BAD_REQUEST: an input that this impact cannot have; INTERNAL: out of memory. */
 enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
                                            const struct ensemble *ensemble, struct fault *fault);
+/* Who is asked about once a millisecond of a solution whether to go on. */
+void ensemble_worker_watch(struct ensemble_worker *worker, struct watch watch);
 void ensemble_worker_free(struct ensemble_worker *worker);
-
-/* Asked now and then whether to go on. */
-struct ensemble_interest {
-    bool (*lasts)(void *context);
-    void *context;
-};
 
 /* Checks the request and chooses the model, which takes some ten milliseconds, or seconds where
  * single impacts take long. PERCUSS_OK, or the refusal: of the ensemble, or of the impact as it is
- * stated; TIMEOUT when the interest (NULL: lasts) has ended. */
+ * stated; TIMEOUT where the watch (NULL: nobody), asked as above, stopped it. */
 enum percuss_status ensemble_create(struct ensemble *ensemble, const struct ensemble_spec *spec,
-                                    const struct ensemble_interest *interest, struct fault *fault);
+                                    const struct watch *watch, struct fault *fault);
 void ensemble_release(struct ensemble *ensemble);
 
 /* The inputs of sample `index` < count: spec.input_count values. */
 void ensemble_inputs(const struct ensemble *ensemble, uint64_t index, double *values);
 
-/* Solves sample `index`. The message of a refusal goes to `fault` (NULL: nobody reads it). */
+/* Solves sample `index`; its status is TIMEOUT where the watch stopped it: it is not solved. The
+ * message of a refusal goes to `fault` (NULL: nobody reads it). */
 void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensemble_sample *sample,
                     struct fault *fault);
 

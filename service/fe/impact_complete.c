@@ -214,6 +214,9 @@ static enum percuss_status march(struct progress *progress, struct fault *fault)
     while (!run->contact.outgrown) {
         advance(progress);
         double time = now(progress);
+        if (problem->proceed &&
+            !problem->proceed(problem->context, fmin(time / (2.0 * run->duration), 0.99)))
+            return fault_set(fault, PERCUSS_TIMEOUT, "stopped at %g s of the impact", time);
         /* stresses grow with the root of time at first, slowly later: no element can pass from
          * well below yield to beyond it between two looks */
         if (time - progress->window_start < fmin(progress->quiet, 0.1 * time) &&
@@ -221,9 +224,6 @@ static enum percuss_status march(struct progress *progress, struct fault *fault)
             continue;
         dynamics_watch_yield(&run->dynamics);
         look(progress);
-        if (problem->proceed &&
-            !problem->proceed(problem->context, fmin(time / (2.0 * run->duration), 0.99)))
-            return fault_set(fault, PERCUSS_TIMEOUT, "stopped at %g s of the impact", time);
         if (is_over(progress)) {
             progress->result->end = PERCUSS_END_SEPARATED;
             return PERCUSS_OK;

@@ -91,7 +91,7 @@ static bool equilibrate(struct region *region, const struct target *target)
         region->count = region->candidates < 6 ? region->candidates : 6;
     if (target->kind == BY_EDGE && region->count < target->node + 3)
         region->count = target->node + 3;
-    for (int i = 0; i < NEWTON_MAX; i++) {
+    for (int i = 0; i < NEWTON_MAX && pace_ask(region->pace, region->done); i++) {
         double worst = 0.0;
         for (int k = 0; k < 2; k++)
             worst = fmax(worst,
@@ -110,6 +110,12 @@ static bool equilibrate(struct region *region, const struct target *target)
             solid_move(region->solids[k], region->count, region->present.forces);
     }
     return false;
+}
+
+void region_watch(struct region *region, struct pace *pace, double done)
+{
+    region->pace = pace;
+    region->done = done;
 }
 
 static void begin(struct region *region)
@@ -170,6 +176,8 @@ static enum percuss_status reach(struct region *region, const struct target *tar
             continue;
         }
         retreat(region);
+        if (pace_status(region->pace))
+            return fault_set(fault, PERCUSS_TIMEOUT, "contact region: stopped");
         part *= 0.5;
         if (part < ldexp(1.0, -HALVINGS_MAX) || target->kind == BY_EDGE)
             return fault_set(fault, PERCUSS_INTERNAL, "contact region: no equilibrium at %s %g",

@@ -13,6 +13,7 @@
 #include <stddef.h>
 
 #include "base/fault.h"
+#include "base/watch.h"
 #include "model/material.h"
 
 struct region_input {
@@ -36,6 +37,10 @@ struct region;
 enum percuss_status region_create(const struct region_input *input, struct region **region,
                                   struct fault *fault);
 void region_destroy(struct region *region);
+
+/* From now on `pace` (borrowed; NULL: nobody) is asked at every Newton step and told `done`, the
+ * part of the whole work that is done: a TIMEOUT of what follows. */
+void region_watch(struct region *region, struct pace *pace, double done);
 
 /* Static equilibrium at an indentation (m; any sign), or under a force (N, > 0), reached from the
  * committed state. INTERNAL with a reason where no equilibrium is found or the indentation is

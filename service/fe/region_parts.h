@@ -30,6 +30,8 @@ struct region {
     double peak; /* N */
     double *offsets, *compliance, *more, *initial, *scratch;
     struct region_effort effort;
+    struct pace *pace; /* NULL: nobody */
+    double done;       /* what it is told */
 };
 
 #endif

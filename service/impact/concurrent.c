@@ -227,9 +227,6 @@ static enum percuss_status contact_phase(struct concurrent *run, enum percuss_en
     if (!begin_contact(run))
         return fault_set(run->fault, PERCUSS_INTERNAL, "out of memory");
     while (!open && *end == PERCUSS_END_NONE) {
-        if (settings->proceed && !settings->proceed(settings->context))
-            return fault_set(run->fault, PERCUSS_TIMEOUT, "stopped at %g s of the impact",
-                             run->motion->time);
         enum percuss_status status = step(run, &open);
         if (status != PERCUSS_OK)
             return status;
@@ -304,14 +301,21 @@ enum percuss_status impact_concurrent(const struct scene *scene, struct region *
     enum percuss_end_reason end = PERCUSS_END_NONE;
     enum percuss_status status = PERCUSS_OK;
     impact_begin(outcome, scene);
+    region_watch(region, settings->pace, settings->done);
     outcome->steps = outcome->rejected = 0;
     if (!run_create(&run, arena))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    run.flight.pace = settings->pace;
+    run.flight.cost = impact_step_cost(scene);
     motion_start(run.motion, scene);
-    outcome->always_overlapped =
-        !impact_find_start(scene, settings->horizon, run.motion, &outcome->time_shift);
+    struct rewind rewind = {settings->horizon, MAX_STEPS, arena, settings->pace};
+    enum impact_start start = impact_find_start(scene, &rewind, run.motion, &outcome->time_shift);
+    outcome->always_overlapped = start == START_NONE;
     if (outcome->always_overlapped)
         return PERCUSS_OK;
+    if (start == START_LIMIT)
+        return fault_set(fault, pace_status(settings->pace) ? PERCUSS_TIMEOUT : PERCUSS_INTERNAL,
+                         "the way back to the touch was not found in time");
     while (status == PERCUSS_OK && (end = fly(&run)) == PERCUSS_END_NONE) {
         if (outcome->steps == 0 && outcome->time_shift == 0.0)
             outcome->time_shift = run.motion->time;
@@ -321,6 +325,8 @@ enum percuss_status impact_concurrent(const struct scene *scene, struct region *
     }
     if (status != PERCUSS_OK)
         return status;
+    if (pace_status(settings->pace))
+        return fault_set(fault, PERCUSS_TIMEOUT, "stopped at %g s of the impact", run.motion->time);
     track_mark_negligible(&outcome->tracks[0]);
     outcome->end_reason = end;
     outcome->window = run.motion->time;

@@ -56,6 +56,9 @@ static const double (*coupling_of_level(struct contact_step *step, const struct 
                 const struct scene_group *group = &scene->group[g];
                 const double *pa = group->participation[a];
                 const double *pb = group->participation[b];
+                /* a level's tables take milliseconds to make */
+                if (!group->set->tables[level] && !pace_ask(step->pace, 0.0))
+                    return NULL;
                 const struct step_table *table = oscillators_table(group->set, level);
                 if (!table)
                     return NULL;

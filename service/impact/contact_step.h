@@ -8,6 +8,7 @@
 
 #include <stdbool.h>
 
+#include "base/watch.h"
 #include "impact/motion.h"
 
 struct contact_step {
@@ -25,6 +26,7 @@ struct contact_step {
     double *matrix, *residual;
     double *approach, *end_force;
     struct arena *arena;
+    struct pace *pace; /* asked before a level's tables are made; NULL (as created): nobody */
 };
 
 /* Memory for a scene from the arena. False: out of memory. */

@@ -178,7 +178,11 @@ static bool move_probe(struct flight *flight, const struct scene *scene, int lev
         flight->probe.gap_rate[c] += a * h;
     }
     for (size_t g = 0; g < scene->groups; g++) {
-        const struct step_table *table = oscillators_table(scene->group[g].set, level);
+        struct oscillators *set = scene->group[g].set;
+        /* a level's tables take milliseconds to make */
+        if (!set->tables[level] && !pace_ask(flight->pace, 0.0))
+            return false;
+        const struct step_table *table = oscillators_table(set, level);
         if (!table)
             return false;
         kernel_advance(table, scene->group[g].stride, flight->probe.q[g], flight->probe.v[g],
@@ -226,6 +230,8 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
     find_amplitudes(flight, scene, motion);
     double complete = completion(flight, scene, motion);
     for (unsigned long i = 1; flight->probe.time - motion->time < fmin(complete, allowed); i++) {
+        if (!pace_keeps(flight->pace, flight->cost))
+            return FLIGHT_LIMIT;
         flight->intervals++;
         double from = flight->probe.time - motion->time;
         bool open = all_stay_open(flight, scene, level);
@@ -238,8 +244,12 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
         if (!open && touch_within(flight, scene, from, step_length(level), time, contact) &&
             *time < fmin(complete, allowed))
             return FLIGHT_TOUCH;
+        double before = flight->probe.time;
         if (!move_probe(flight, scene, level) || i >= intervals)
             return FLIGHT_LIMIT;
+        /* what is left to the end is rounding of the time */
+        if (!(flight->probe.time > before))
+            break;
         /* after a refusal two steps before the next try of longer ones */
         passed = open ? passed + 1 : 0;
         if (passed >= wait && level > 0) {

@@ -9,13 +9,14 @@
 #ifndef PERCUSS_IMPACT_FLIGHT_H
 #define PERCUSS_IMPACT_FLIGHT_H
 
+#include "base/watch.h"
 #include "impact/motion.h"
 
 enum flight_end {
     FLIGHT_TOUCH,    /* `contact` touches after `time` */
     FLIGHT_COMPLETE, /* from `time` on the rigid gaps exceed the vibration for good */
     FLIGHT_TIMEOUT,  /* neither within the time allowed */
-    FLIGHT_LIMIT     /* too many intervals, or out of memory */
+    FLIGHT_LIMIT     /* too many intervals, out of memory, or stopped by the pace */
 };
 
 struct flight {
@@ -28,6 +29,8 @@ struct flight {
     size_t *slow_count;      /* [group][level]: how many are slow */
     bool known[STEP_LEVELS];
     unsigned long intervals; /* examined, since creation */
+    struct pace *pace;       /* asked whether to go on; NULL (as created): nobody */
+    double cost;             /* of an interval, in the pace's work */
 };
 
 bool flight_create(struct flight *flight, const struct scene *scene, struct arena *arena);

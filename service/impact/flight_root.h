@@ -19,10 +19,4 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
 bool flight_root_touch(const struct motion *motion, const struct scene *scene, size_t contact,
                        double from, double to, double *time);
 
-/* The latest touch before the stated instant, for a contact that overlaps now: negative time;
- * -INFINITY: none. Bodies at rest but for their rigid motion: any time ago; vibrating ones: within
- * `longest` s. */
-double flight_root_back(const struct motion *motion, const struct scene *scene, size_t contact,
-                        double longest);
-
 #endif

@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "impact/flight_root.h"
-
 bool impact_create(struct impact_outcome *outcome, const struct scene *scene, struct arena *arena)
 {
     memset(outcome, 0, sizeof *outcome);
@@ -32,9 +30,10 @@ void impact_begin(struct impact_outcome *outcome, const struct scene *scene)
         track_clear(&outcome->tracks[c]);
 }
 
-bool impact_find_start(const struct scene *scene, double longest, struct motion *motion,
-                       double *time_shift)
+enum impact_start impact_find_start(const struct scene *scene, struct rewind *rewind,
+                                    struct motion *motion, double *time_shift)
 {
+    double earliest = 0.0;
     *time_shift = 0.0;
     for (size_t c = 0; c < scene->contacts; c++) {
         double d;
@@ -42,14 +41,15 @@ bool impact_find_start(const struct scene *scene, double longest, struct motion 
         motion_approach(motion, scene, c, &d, &rate);
         if (d <= 0.0)
             continue;
-        double back = flight_root_back(motion, scene, c, longest);
+        double back = rewind_find(rewind, scene, motion, c);
         if (!isfinite(back))
-            return false;
-        *time_shift = fmin(*time_shift, back);
+            return isnan(back) ? START_LIMIT : START_NONE;
+        earliest = fmin(earliest, back);
     }
-    if (*time_shift < 0.0)
-        motion_rewind(motion, scene, -*time_shift);
-    return true;
+    if (earliest < 0.0)
+        motion_rewind(motion, scene, -earliest);
+    *time_shift = earliest;
+    return START_FOUND;
 }
 
 /* What a step costs, in modes: the modes themselves, and the equations of the contacts. */
@@ -66,7 +66,7 @@ static bool feels(const struct scene *scene, size_t a, size_t b)
 
 /* The elimination for the contact forces skips what is zero: in a row of spheres each contact feels
  * two others, on a beam all of them. Measured with rows of up to 24 spheres. */
-static double step_cost(const struct scene *scene)
+double impact_step_cost(const struct scene *scene)
 {
     double n = (double)scene->contacts;
     double cost = 2.0 * n * n + 6.0 * n;
@@ -83,12 +83,12 @@ static double step_cost(const struct scene *scene)
 
 unsigned long impact_max_steps(const struct scene *scene, const struct impact_settings *settings)
 {
-    return (unsigned long)(fmax(0.0, settings->max_work) / step_cost(scene));
+    return (unsigned long)(fmax(0.0, settings->max_work) / impact_step_cost(scene));
 }
 
 double impact_work(const struct scene *scene, const struct impact_outcome *outcome)
 {
-    return (double)outcome->effort * step_cost(scene);
+    return (double)outcome->effort * impact_step_cost(scene);
 }
 
 /* Inverse mass that a contact feels within `duration`: rigid, and every mode that is slower than

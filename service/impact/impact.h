@@ -6,9 +6,11 @@
 #ifndef PERCUSS_IMPACT_IMPACT_H
 #define PERCUSS_IMPACT_IMPACT_H
 
+#include "base/watch.h"
 #include "impact/force_log.h"
 #include "impact/motion.h"
 #include "impact/result.h"
+#include "impact/rewind.h"
 #include "impact/track.h"
 
 struct impact_settings {
@@ -17,6 +19,7 @@ struct impact_settings {
     double max_work; /* contact steps and flight intervals, times modes + 8 contacts (contacts that
                         each feels)^2 + 2 contacts^2 + 6 contacts */
     struct force_log *log; /* takes the contact forces down; NULL: nobody asks. Only impact_modal */
+    struct pace *pace;     /* NULL: nothing stops it; otherwise the status may be PERCUSS_TIMEOUT */
 };
 
 /* Everything here lives in the arena given to impact_create. */
@@ -45,7 +48,8 @@ bool impact_create(struct impact_outcome *outcome, const struct scene *scene, st
 void impact_begin(struct impact_outcome *outcome, const struct scene *scene);
 
 /* Solves by exact modal propagation. `arena` holds scratch memory until its next reset. PERCUSS_OK,
- * or PERCUSS_INTERNAL when memory runs out. */
+ * PERCUSS_INTERNAL when memory runs out, or PERCUSS_TIMEOUT where settings->pace stopped it: the
+ * outcome then says nothing. */
 enum percuss_status impact_modal(const struct scene *scene, const struct impact_settings *settings,
                                  struct arena *arena, struct impact_outcome *outcome);
 
@@ -61,10 +65,18 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
 enum percuss_status impact_cvode(const struct scene *scene, const struct impact_settings *settings,
                                  struct arena *arena, struct impact_outcome *outcome);
 
-/* Brings the state to the touch when the bodies overlap at the stated instant: sets time_shift.
- * False: there was no touch before. */
-bool impact_find_start(const struct scene *scene, double longest, struct motion *motion,
-                       double *time_shift);
+enum impact_start {
+    START_FOUND,
+    START_NONE, /* the bodies overlap and never touched before */
+    START_LIMIT /* the search was given up, see rewind_find */
+};
+
+/* Brings the state to the touch when the bodies overlap at the stated instant: sets time_shift. */
+enum impact_start impact_find_start(const struct scene *scene, struct rewind *rewind,
+                                    struct motion *motion, double *time_shift);
+
+/* The work of one step or interval, see impact_settings.max_work. */
+double impact_step_cost(const struct scene *scene);
 
 /* How many steps and intervals the work allowed is on a scene. */
 unsigned long impact_max_steps(const struct scene *scene, const struct impact_settings *settings);

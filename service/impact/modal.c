@@ -31,6 +31,7 @@ struct modal_run {
     double damping;                /* J taken so far */
     double roughness;              /* largest highest-order share of a force on an accepted step */
     unsigned long used, max_steps; /* contact steps and flight intervals */
+    double step_cost;              /* of each of them */
 };
 
 static bool any_active(const struct modal_run *run)
@@ -276,7 +277,7 @@ static enum percuss_end_reason contact_phase(struct modal_run *run)
     int level = finest_level(run);
     begin_phase(run);
     while (any_active(run)) {
-        if (++run->used > run->max_steps)
+        if (++run->used > run->max_steps || !pace_keeps(run->settings->pace, run->step_cost))
             return PERCUSS_END_LIMIT;
         int finest = finest_level(run);
         /* roughness may ask for more than events do: a graze is shorter than its scale */
@@ -390,12 +391,16 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
     outcome->steps = outcome->rejected = 0;
     motion_start(run.motion, scene);
     run.max_steps = impact_max_steps(scene, settings);
-    outcome->always_overlapped =
-        !impact_find_start(scene, settings->horizon, run.motion, &outcome->time_shift);
+    run.step_cost = run.flight.cost = impact_step_cost(scene);
+    run.flight.pace = run.step.pace = settings->pace;
+    struct rewind rewind = {settings->horizon, run.max_steps, arena, settings->pace};
+    enum impact_start start = impact_find_start(scene, &rewind, run.motion, &outcome->time_shift);
+    outcome->always_overlapped = start == START_NONE;
     if (outcome->always_overlapped)
         return PERCUSS_OK;
+    run.used = run.max_steps - rewind.intervals;
     bool touched = false;
-    enum percuss_end_reason end = PERCUSS_END_NONE;
+    enum percuss_end_reason end = start == START_LIMIT ? PERCUSS_END_LIMIT : PERCUSS_END_NONE;
     while (end == PERCUSS_END_NONE) {
         end = fly(&run);
         if (end != PERCUSS_END_NONE)
@@ -416,6 +421,6 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
     outcome->window = run.motion->time;
     outcome->intervals = run.flight.intervals;
     outcome->effort = run.used;
-    return energy_audit(scene, run.final, run.damping, arena, outcome) ? PERCUSS_OK
+    return energy_audit(scene, run.final, run.damping, arena, outcome) ? pace_status(settings->pace)
                                                                        : PERCUSS_INTERNAL;
 }

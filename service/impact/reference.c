@@ -288,7 +288,9 @@ static enum percuss_end_reason integrate(struct reference *run, struct ode *ode,
 {
     int found[3 * PERCUSS_MAX_CONTACTS];
     unsigned long max_steps = impact_max_steps(run->scene, settings);
-    for (unsigned long used = 0; used < max_steps; used++) {
+    /* some ten passes over the modes in a step: right-hand sides, and the history of the steps */
+    double cost = 10.0 * impact_step_cost(run->scene);
+    for (unsigned long used = 0; used < max_steps && pace_keeps(settings->pace, cost); used++) {
         enum ode_event event = ode_step(ode, settings->horizon, t, run->y, found);
         if (event == ODE_FAILED)
             return PERCUSS_END_LIMIT;
@@ -319,13 +321,16 @@ static enum percuss_end_reason integrate(struct reference *run, struct ode *ode,
     return PERCUSS_END_LIMIT;
 }
 
-static bool start(struct reference *run, const struct impact_settings *settings,
-                  struct impact_outcome *outcome)
+static enum impact_start start(struct reference *run, const struct impact_settings *settings,
+                               struct arena *arena, struct impact_outcome *outcome)
 {
     const struct scene *scene = run->scene;
+    struct rewind rewind = {settings->horizon, impact_max_steps(scene, settings), arena,
+                            settings->pace};
     motion_start(&run->motion, scene);
-    if (!impact_find_start(scene, settings->horizon, &run->motion, &outcome->time_shift))
-        return false;
+    enum impact_start found = impact_find_start(scene, &rewind, &run->motion, &outcome->time_shift);
+    if (found == START_NONE)
+        return found;
     set_absolute(run, 0.01 * settings->accuracy);
     pack(run, &run->motion, run->y);
     for (size_t c = 0; c < scene->contacts; c++) {
@@ -334,7 +339,7 @@ static bool start(struct reference *run, const struct impact_settings *settings,
         if (run->approach[c] >= -near && run->rate[c] > 0.0)
             open_contact(run, outcome, c, outcome->time_shift, run->y);
     }
-    return true;
+    return found;
 }
 
 /* Start of the first sub-impact of all, 0 when there is none. */
@@ -384,7 +389,8 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
     if (!reference_create(&run, scene, arena))
         return PERCUSS_INTERNAL;
     run.own.laws = outcome->laws;
-    outcome->always_overlapped = !start(&run, settings, outcome);
+    enum impact_start found = start(&run, settings, arena, outcome);
+    outcome->always_overlapped = found == START_NONE;
     if (outcome->always_overlapped)
         return PERCUSS_OK;
     struct ode *ode = ode_create(&(struct ode_problem){
@@ -401,7 +407,7 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
     double t = outcome->time_shift;
     /* CVODE sees roots between its steps only: at least eight of them in the fastest period */
     double fastest = scene_highest_frequency(scene);
-    bool ready = ode_set(ode, t, run.y) &&
+    bool ready = found == START_FOUND && ode_set(ode, t, run.y) &&
                  (fastest == 0.0 || ode_set_longest_step(ode, 0.25 * M_PI / fastest));
     outcome->end_reason = ready ? integrate(&run, ode, settings, outcome, &t) : PERCUSS_END_LIMIT;
     unsigned long evaluations;
@@ -410,5 +416,5 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
     outcome->intervals = evaluations;
     outcome->effort = outcome->steps + evaluations;
     ode_free(ode);
-    return finish(&run, scene, t, arena, outcome) ? PERCUSS_OK : PERCUSS_INTERNAL;
+    return finish(&run, scene, t, arena, outcome) ? pace_status(settings->pace) : PERCUSS_INTERNAL;
 }

@@ -36,8 +36,18 @@ void oscillators_free(struct oscillators *set)
         return;
     for (int level = 0; level < STEP_LEVELS; level++)
         free(set->tables[level]);
+    oscillators_free(set->undamped);
     free(set->omega);
     free(set);
+}
+
+struct oscillators *oscillators_undamped(struct oscillators *set)
+{
+    if (set->damping == 0.0)
+        return set;
+    if (!set->undamped)
+        set->undamped = oscillators_create(set->count, set->omega, 0.0);
+    return set->undamped;
 }
 
 double step_length(int level)

@@ -31,6 +31,7 @@ struct oscillators {
     double damping;
     double *omega;                          /* ascending, rad/s; 0 beyond count */
     struct step_table *tables[STEP_LEVELS]; /* filled on first use */
+    struct oscillators *undamped;           /* the same frequencies; NULL: not asked for yet */
 };
 
 enum { LANES = 4 };
@@ -38,6 +39,9 @@ enum { LANES = 4 };
 /* Copies the frequencies. NULL: out of memory. */
 struct oscillators *oscillators_create(size_t count, const double *omega, double damping);
 void oscillators_free(struct oscillators *set);
+
+/* The same without damping, its own where it has none; belongs to it. NULL: out of memory. */
+struct oscillators *oscillators_undamped(struct oscillators *set);
 
 /* The step of a level, s. */
 double step_length(int level);

@@ -25,6 +25,8 @@ struct tracer {
     double (*silent)[NODES];   /* [contact]: no force */
     double *none;              /* [contact]: zeros */
     size_t room, stride, skip; /* every stride-th instant is kept */
+    struct pace *pace;
+    double cost; /* of a step */
 };
 
 static bool create(struct tracer *tracer, struct arena *arena)
@@ -168,13 +170,15 @@ static void push_rigid(struct tracer *tracer, double (*const force)[NODES], doub
     }
 }
 
-/* A step of a level with these forces at its nodes. False: out of memory. */
+/* A step of a level with these forces at its nodes. False: out of memory, or stopped. */
 static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
 {
     const struct scene *scene = tracer->scene;
     const struct motion *now = &tracer->now;
     struct motion *next = &tracer->next;
     double h = step_length(level);
+    if (!pace_keeps(tracer->pace, tracer->cost))
+        return false;
     next->time = now->time + h;
     for (size_t c = 0; c < scene->contacts; c++) {
         double a = scene->gap_acceleration[c];
@@ -249,30 +253,42 @@ static bool show_flight(struct tracer *tracer, double end, double phase)
     return true;
 }
 
-enum percuss_status trace_make(const struct scene *scene, const struct force_log *log,
-                               const struct trace_sides *sides, double shift, double end,
-                               struct arena *arena, struct trace *trace)
+/* Goes through the log. False: out of memory, or stopped. */
+static bool follow(struct tracer *tracer, const struct force_log *log, double end)
 {
-    struct tracer tracer = {.scene = scene, .sides = sides, .trace = trace, .stride = 1};
-    if (!log->complete || !create(&tracer, arena))
-        return PERCUSS_INTERNAL;
-    motion_start(&tracer.now, scene);
-    if (shift < 0.0)
-        motion_rewind(&tracer.now, scene, -shift);
-    sample(&tracer, tracer.none, tracer.none);
-    double phase_start = tracer.now.time;
+    double phase_start = tracer->now.time;
     double phase = 0.0;
     for (size_t i = 0; i < log->count && log->steps[i].start < end; i++) {
         const struct force_step *logged = &log->steps[i];
         /* what is shorter than a step is rounding, not a flight */
-        if (logged->start - tracer.now.time > 1e-3 * step_length(logged->level)) {
-            if (!show_flight(&tracer, logged->start, phase))
-                return PERCUSS_INTERNAL;
-            phase_start = tracer.now.time;
+        if (logged->start - tracer->now.time > 1e-3 * step_length(logged->level)) {
+            if (!show_flight(tracer, logged->start, phase))
+                return false;
+            phase_start = tracer->now.time;
         }
-        if (!show_step(&tracer, logged))
-            return PERCUSS_INTERNAL;
-        phase = tracer.now.time - phase_start;
+        if (!show_step(tracer, logged))
+            return false;
+        phase = tracer->now.time - phase_start;
     }
-    return show_flight(&tracer, end, phase) ? PERCUSS_OK : PERCUSS_INTERNAL;
+    return show_flight(tracer, end, phase);
+}
+
+enum percuss_status trace_make(const struct trace_task *task, struct arena *arena,
+                               struct trace *trace)
+{
+    struct tracer tracer = {.scene = task->scene,
+                            .sides = task->sides,
+                            .trace = trace,
+                            .stride = 1,
+                            .pace = task->pace,
+                            .cost = impact_step_cost(task->scene)};
+    if (!task->log->complete || !create(&tracer, arena))
+        return PERCUSS_INTERNAL;
+    motion_start(&tracer.now, task->scene);
+    if (task->shift < 0.0)
+        motion_rewind(&tracer.now, task->scene, -task->shift);
+    sample(&tracer, tracer.none, tracer.none);
+    if (follow(&tracer, task->log, task->end))
+        return PERCUSS_OK;
+    return pace_status(task->pace) ? PERCUSS_TIMEOUT : PERCUSS_INTERNAL;
 }

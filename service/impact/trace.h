@@ -33,11 +33,19 @@ struct trace {
     struct trace_contact *contact;
 };
 
-/* Samples the motion behind `log` from its start (`shift` < 0: before the stated instant) to `end`:
- * contact phases in eighths of the solution's steps, flights by the length of the phase before;
- * not more than some thousand instants. Memory from the arena. PERCUSS_OK or PERCUSS_INTERNAL. */
-enum percuss_status trace_make(const struct scene *scene, const struct force_log *log,
-                               const struct trace_sides *sides, double shift, double end,
-                               struct arena *arena, struct trace *trace);
+struct trace_task {
+    const struct scene *scene;
+    const struct force_log *log;
+    const struct trace_sides *sides;
+    double shift; /* s; < 0: the motion starts before the stated instant */
+    double end;   /* s */
+    struct pace *pace;
+};
+
+/* Samples the motion behind the log: contact phases in eighths of the solution's steps, flights by
+ * the length of the phase before; not more than some thousand instants. Memory from the arena.
+ * PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT. */
+enum percuss_status trace_make(const struct trace_task *task, struct arena *arena,
+                               struct trace *trace);
 
 #endif

@@ -75,15 +75,15 @@ static void conclude(const struct attempt_context *context, const struct attempt
 
 enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geometry *geometry,
                                    const struct solve_request *request,
-                                   struct prepared_cache *cache, struct arena *memory,
-                                   struct fault *fault)
+                                   const struct attempt_means *means, struct fault *fault)
 {
     const struct solve_options *options = &request->options;
     struct attempt_context context = {
         .geometry = geometry,
         .request = request,
-        .cache = cache,
-        .arena = memory,
+        .cache = means->cache,
+        .arena = means->arena,
+        .pace = means->pace,
         .tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3,
         .work = attempt_work_allowed(request),
     };
@@ -99,7 +99,7 @@ enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geome
     if (!status && options->conditioning)
         status = find_conditioning(&context, &best, &accuracy->restitution_by_speed);
     if (status)
-        return fault_set(fault, status, "out of memory");
+        return pace_fault(fault, status);
     conclude(&context, &best, accuracy);
     return PERCUSS_OK;
 }

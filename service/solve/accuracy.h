@@ -19,11 +19,10 @@ struct accuracy {
     bool tolerance_met;
 };
 
-/* Solves until the estimated error fits the tolerance or the effort allowed is spent. `memory`
- * holds everything that is returned. PERCUSS_OK or PERCUSS_INTERNAL. */
+/* Solves until the estimated error fits the tolerance or the effort allowed is spent. The arena
+ * holds everything that is returned. PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT. */
 enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geometry *geometry,
                                    const struct solve_request *request,
-                                   struct prepared_cache *cache, struct arena *memory,
-                                   struct fault *fault);
+                                   const struct attempt_means *means, struct fault *fault);
 
 #endif

@@ -30,6 +30,7 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
         .accuracy = attempt->accuracy,
         .horizon = attempt_horizon(context->request, scene),
         .max_work = context->work,
+        .pace = context->pace,
     };
     if (!impact_create(&attempt->outcome, scene, context->arena))
         return PERCUSS_INTERNAL;

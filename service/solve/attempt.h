@@ -8,12 +8,20 @@
 #include "impact/impact.h"
 #include "solve/assemble.h"
 
+/* What solving takes besides the problem; all borrowed. */
+struct attempt_means {
+    struct prepared_cache *cache;
+    struct arena *arena;
+    struct pace *pace; /* NULL: nothing stops it; otherwise a status may be PERCUSS_TIMEOUT */
+};
+
 /* What all attempts at a request share. */
 struct attempt_context {
     const struct geometry *geometry;
     const struct solve_request *request;
     struct prepared_cache *cache;
     struct arena *arena;
+    struct pace *pace;
     double tolerance; /* on the restitution */
     double work;      /* left for the request (impact.h) */
 };
@@ -32,7 +40,8 @@ double attempt_horizon(const struct solve_request *request, const struct scene *
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
                                 const struct scene *scene);
 
-/* Assembles the attempt's scene and solves it. PERCUSS_OK or PERCUSS_INTERNAL. */
+/* Assembles the attempt's scene and solves it. PERCUSS_OK, PERCUSS_INTERNAL or
+ * PERCUSS_TIMEOUT. */
 enum percuss_status attempt_solve(struct attempt_context *context, struct attempt *attempt);
 
 /* The same with all gap rates times `factor`; impulses are divided by it. */

@@ -24,15 +24,14 @@ static const double TWO_MESHES = 2.5e-3;
 
 /* One mesh of several. */
 struct share {
-    const struct solve_watch *watch;
+    struct pace *pace;
     double done, part; /* of the whole work: before this mesh, and its own */
 };
 
 static bool proceed(void *context, double fraction)
 {
     const struct share *share = context;
-    return !share->watch->proceed ||
-           share->watch->proceed(share->watch->context, share->done + share->part * fraction);
+    return pace_ask(share->pace, share->done + share->part * fraction);
 }
 
 static enum percuss_status check_options(const struct solve_request *request, struct fault *fault)
@@ -274,12 +273,11 @@ static void fill_end(const struct complete_result *from, double error, double to
 }
 
 enum percuss_status complete_answer(const struct geometry *geometry,
-                                    const struct solve_request *request,
-                                    const struct solve_watch *watch, struct arena *arena,
-                                    struct solve_result *result)
+                                    const struct solve_request *request, struct pace *pace,
+                                    struct arena *arena, struct solve_result *result)
 {
     struct complete_problem problem = {0};
-    struct share share = {.watch = watch};
+    struct share share = {.pace = pace};
     struct complete_result *results = arena_take(arena, MESHES, sizeof *results);
     struct complete_convergence *convergence = arena_take(arena, 1, sizeof *convergence);
     if (!results || !convergence)

@@ -18,18 +18,6 @@ enum { RESOLUTIONS = sizeof resolutions / sizeof *resolutions, STEPS = 8 };
 /* Largest indentation of a region over its radius, see region.h. */
 static const double INDENTATION_LIMIT = 0.0199;
 
-struct progress {
-    const struct solve_watch *watch;
-    double done;
-};
-
-static bool proceed(void *context)
-{
-    const struct progress *progress = context;
-    return !progress->watch->proceed ||
-           progress->watch->proceed(progress->watch->context, progress->done);
-}
-
 static enum percuss_status check(const struct geometry *geometry,
                                  const struct solve_request *request, struct fault *fault)
 {
@@ -113,9 +101,9 @@ static void estimate(struct accuracy *accuracy, const struct geometry *geometry,
 }
 
 enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct geometry *geometry,
-                                      const struct solve_request *request,
-                                      const struct solve_watch *watch, struct arena *arena,
-                                      struct concurrent_effort *effort, struct fault *fault)
+                                      const struct solve_request *request, struct pace *pace,
+                                      struct arena *arena, struct concurrent_effort *effort,
+                                      struct fault *fault)
 {
     enum percuss_status status = check(geometry, request, fault);
     if (status != PERCUSS_OK)
@@ -123,15 +111,13 @@ enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct ge
     const struct scene *scene = &accuracy->assembly->scene;
     const struct solve_options *options = &request->options;
     double tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3;
-    struct progress progress = {.watch = watch};
     struct refinement refinement = {
         .geometry = geometry,
         .scene = scene,
         .settings = {.horizon = options->horizon > 0.0
                                     ? options->horizon
                                     : fmax(0.020, 2.0 * scene_longest_period(scene)),
-                     .context = &progress,
-                     .proceed = proceed},
+                     .pace = pace},
         .arena = arena,
         .effort = effort,
         .fault = fault,
@@ -146,7 +132,7 @@ enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct ge
     for (size_t i = 0; i < RESOLUTIONS && !accuracy->tolerance_met; i++) {
         struct impact_outcome coarse = accuracy->outcome;
         /* every mesh costs some nine times the one before */
-        progress.done = i ? pow(9.0, (double)i - RESOLUTIONS) : 0.0;
+        refinement.settings.done = i ? pow(9.0, (double)i - RESOLUTIONS) : 0.0;
         status = solve_on(&refinement, resolutions[i], &accuracy->outcome);
         if (status != PERCUSS_OK)
             return status;

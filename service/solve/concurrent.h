@@ -18,11 +18,11 @@ struct concurrent_effort {
 /* Takes a solution with the closed form, its modes and its error in them, and solves it anew with
  * contact regions of growing resolution until two of them differ by less than the tolerance.
  * An elliptic contact's region is that of the sphere of equal stiffness. BAD_REQUEST: what the
- * region cannot answer; TIMEOUT as `watch` wants. */
+ * region cannot answer; TIMEOUT where the pace stopped it. */
 enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct geometry *geometry,
-                                      const struct solve_request *request,
-                                      const struct solve_watch *watch, struct arena *arena,
-                                      struct concurrent_effort *effort, struct fault *fault);
+                                      const struct solve_request *request, struct pace *pace,
+                                      struct arena *arena, struct concurrent_effort *effort,
+                                      struct fault *fault);
 
 /* Says so in the result. */
 void concurrent_report(const struct concurrent_effort *effort, const struct geometry *geometry,

@@ -110,15 +110,17 @@ static double difference(const struct geometry *geometry, const struct accuracy 
 
 enum percuss_status history_make(const struct geometry *geometry,
                                  const struct solve_request *request,
-                                 const struct accuracy *accuracy, struct arena *arena,
+                                 const struct accuracy *accuracy, const struct attempt_means *means,
                                  struct solve_result *result)
 {
+    struct arena *arena = means->arena;
     const struct scene *scene = &accuracy->assembly->scene;
     struct force_log log = force_log_make(arena, scene->contacts);
     struct impact_settings settings = {.accuracy = accuracy->step_accuracy,
                                        .horizon = attempt_horizon(request, scene),
                                        .max_work = AMPLE_WORK,
-                                       .log = &log};
+                                       .log = &log,
+                                       .pace = means->pace};
     /* the closed form of a rigid pair is exact */
     if (impact_is_rigid_pair(scene))
         settings.accuracy = fmin(settings.accuracy, 1e-9);
@@ -130,9 +132,11 @@ enum percuss_status history_make(const struct geometry *geometry,
         find_sides(geometry, request, accuracy->assembly, arena, &sides))
         status = impact_modal(scene, &settings, arena, &again);
     if (!status)
-        status = trace_make(scene, &log, &sides, again.time_shift, again.window, arena, trace);
+        status = trace_make(
+            &(struct trace_task){scene, &log, &sides, again.time_shift, again.window, means->pace},
+            arena, trace);
     if (status) {
-        result->status = fault_set(&result->fault, status, "out of memory for the trace");
+        result->status = pace_fault(&result->fault, status);
         return result->status;
     }
     result->trace = trace;

@@ -12,7 +12,7 @@
  * result->status, or PERCUSS_INTERNAL with the message. */
 enum percuss_status history_make(const struct geometry *geometry,
                                  const struct solve_request *request,
-                                 const struct accuracy *accuracy, struct arena *arena,
+                                 const struct accuracy *accuracy, const struct attempt_means *means,
                                  struct solve_result *result);
 
 #endif

@@ -9,10 +9,10 @@ enum percuss_status models_choose(struct geometry *geometry, const struct solve_
                                   const struct models_source *source, struct fault *fault)
 {
     enum percuss_status status =
-        contact_model_choose(geometry, request, source->tables, source->arena, fault);
+        contact_model_choose(geometry, request, source->tables, source->means.arena, fault);
     if (!status)
-        status = compliance_choose(geometry, request, source->catalogue, source->cache,
-                                   source->arena, fault);
+        status = compliance_choose(geometry, request, source->catalogue, source->means.cache,
+                                   source->means.arena, fault);
     return status;
 }
 
@@ -30,7 +30,7 @@ enum percuss_status models_solve(struct accuracy *accuracy, struct geometry *geo
     enum percuss_status status = models_choose(geometry, request, source, fault);
     bool revised = true;
     while (!status && revised) {
-        status = accuracy_solve(accuracy, geometry, request, source->cache, source->arena, fault);
+        status = accuracy_solve(accuracy, geometry, request, &source->means, fault);
         revised = !status &&
                   models_revise(geometry, request, &accuracy->assembly->scene, &accuracy->outcome);
     }

@@ -13,8 +13,7 @@
 struct models_source {
     const struct body_set *catalogue;
     const struct contact_table_source *tables; /* NULL: none */
-    struct prepared_cache *cache;
-    struct arena *arena;
+    struct attempt_means means;
 };
 
 /* After geometry_find. PERCUSS_OK, or the refusals of contact_model_choose and compliance_choose.

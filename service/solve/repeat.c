@@ -12,6 +12,7 @@
 struct repeat {
     struct prepared_cache *cache;
     const struct contact_table_source *tables; /* borrowed */
+    struct watch watch;
     struct arena scene_memory, run_memory;
     struct geometry *geometry; /* in scene_memory as what follows; NULL: no scene is kept */
     struct scene scene;
@@ -45,6 +46,11 @@ void repeat_free(struct repeat *repeat)
 void repeat_set_tables(struct repeat *repeat, const struct contact_table_source *tables)
 {
     repeat->tables = tables;
+}
+
+void repeat_set_watch(struct repeat *repeat, struct watch watch)
+{
+    repeat->watch = watch;
 }
 
 void repeat_forget(struct repeat *repeat, const char *id)
@@ -109,8 +115,9 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
     if (!geometry || !accuracy)
         return outcome->status = no_memory(fault);
     outcome->status = geometry_find(geometry, catalogue, request, &repeat->run_memory, fault);
-    const struct models_source source = {catalogue, repeat->tables, repeat->cache,
-                                         &repeat->run_memory};
+    struct pace pace = {.watch = &repeat->watch};
+    const struct models_source source = {
+        catalogue, repeat->tables, {repeat->cache, &repeat->run_memory, &pace}};
     if (!outcome->status)
         outcome->status = models_solve(accuracy, geometry, request, &source, fault);
     if (outcome->status)
@@ -147,7 +154,7 @@ static enum percuss_status make_scene(struct repeat *repeat, const struct body_s
     if (!geometry)
         return no_memory(fault);
     enum percuss_status status = geometry_find(geometry, catalogue, request, memory, fault);
-    const struct models_source source = {catalogue, repeat->tables, repeat->cache, memory};
+    const struct models_source source = {catalogue, repeat->tables, {repeat->cache, memory, NULL}};
     if (!status)
         status = models_choose(geometry, request, &source, fault);
     if (status)
@@ -166,16 +173,19 @@ static enum percuss_status run_scene(struct repeat *repeat, const struct solve_r
                                      const struct repeat_model *model, struct attempt *attempt,
                                      struct fault *fault)
 {
+    struct pace pace = {.watch = &repeat->watch};
     struct attempt_context context = {
         .geometry = repeat->geometry,
         .request = request,
         .arena = &repeat->run_memory,
+        .pace = &pace,
         .work = attempt_work_allowed(request),
     };
     attempt->accuracy = model->accuracy;
     for (;;) {
-        if (attempt_run(&context, attempt, &repeat->scene))
-            return no_memory(fault);
+        enum percuss_status status = attempt_run(&context, attempt, &repeat->scene);
+        if (status)
+            return pace_fault(fault, status);
         if (attempt->outcome.always_overlapped)
             return fault_set(fault, PERCUSS_BAD_REQUEST,
                              "contacts[].gap: the bodies overlap and never touched before");

@@ -18,7 +18,7 @@ struct repeat_model {
 
 /* One contact of one impact. */
 struct repeat_outcome {
-    enum percuss_status status; /* OK, TRUNCATED, or a refusal */
+    enum percuss_status status; /* OK, TRUNCATED, a refusal, or TIMEOUT: stopped */
     double restitution;         /* NAN where the contact does not approach */
     double impulse;
     double end_time;                          /* of the last sub-impact; 0 without any */
@@ -36,6 +36,9 @@ void repeat_free(struct repeat *repeat);
 
 /* Where it finds tabulated contact laws; borrowed, NULL (as created): nowhere. */
 void repeat_set_tables(struct repeat *repeat, const struct contact_table_source *tables);
+
+/* Who is asked about once a millisecond whether to go on: TIMEOUT where he says no. */
+void repeat_set_watch(struct repeat *repeat, struct watch watch);
 
 /* The body of that id is another one from now on. */
 void repeat_forget(struct repeat *repeat, const char *id);

@@ -16,7 +16,7 @@
 struct solve_workspace {
     struct prepared_cache *cache;
     const struct contact_table_source *tables;
-    struct solve_watch watch;
+    struct watch watch;
     struct arena arena;
 };
 
@@ -48,7 +48,7 @@ void solve_workspace_set_tables(struct solve_workspace *workspace,
     workspace->tables = tables;
 }
 
-void solve_workspace_watch(struct solve_workspace *workspace, struct solve_watch watch)
+void solve_workspace_watch(struct solve_workspace *workspace, struct watch watch)
 {
     workspace->watch = watch;
 }
@@ -115,19 +115,20 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     struct accuracy *accuracy = arena_take(&workspace->arena, 1, sizeof *accuracy);
     if (!geometry || !accuracy)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
+    struct pace pace = {.watch = &workspace->watch};
     enum percuss_status status =
         geometry_find(geometry, catalogue, request, &workspace->arena, &result->fault);
     if (!status && request->options.contact_model == PERCUSS_CONTACT_COMPLETE_FE)
-        return complete_answer(geometry, request, &workspace->watch, &workspace->arena, result);
-    const struct models_source source = {catalogue, workspace->tables, workspace->cache,
-                                         &workspace->arena};
+        return complete_answer(geometry, request, &pace, &workspace->arena, result);
+    const struct models_source source = {
+        catalogue, workspace->tables, {workspace->cache, &workspace->arena, &pace}};
     if (!status)
         status = models_solve(accuracy, geometry, request, &source, &result->fault);
     struct concurrent_effort effort;
     bool concurrent = request->options.contact_model == PERCUSS_CONTACT_CONCURRENT_FE;
     if (!status && concurrent)
-        status = concurrent_refine(accuracy, geometry, request, &workspace->watch,
-                                   &workspace->arena, &effort, &result->fault);
+        status = concurrent_refine(accuracy, geometry, request, &pace, &workspace->arena, &effort,
+                                   &result->fault);
     if (!status) {
         report_fill(geometry, request, accuracy, &workspace->arena, result);
         if (concurrent)
@@ -135,7 +136,7 @@ static enum percuss_status answer(struct solve_workspace *workspace,
         status = result->status;
     }
     if (request->options.trace && (status == PERCUSS_OK || status == PERCUSS_TRUNCATED))
-        status = history_make(geometry, request, accuracy, &workspace->arena, result);
+        status = history_make(geometry, request, accuracy, &source.means, result);
     return status;
 }
 

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 #include "base/fault.h"
+#include "base/watch.h"
 #include "impact/result.h"
 #include "model/body.h"
 #include "solve/body_state.h"
@@ -116,13 +117,9 @@ struct contact_table_source;
 void solve_workspace_set_tables(struct solve_workspace *workspace,
                                 const struct contact_table_source *tables);
 
-/* Told the part done (0 ... 1) of a solution that takes seconds, now and then; false stops it with
- * TIMEOUT. The answer does not depend on it otherwise. */
-struct solve_watch {
-    bool (*proceed)(void *context, double done);
-    void *context;
-};
-void solve_workspace_watch(struct solve_workspace *workspace, struct solve_watch watch);
+/* Who is asked about once a millisecond of a solve whether to go on; otherwise it ends with
+ * TIMEOUT. An answer does not depend on it. */
+void solve_workspace_watch(struct solve_workspace *workspace, struct watch watch);
 
 /* Answers one request. Always fills `result`; returns result->status. Refusals (BAD_REQUEST, ...)
  * are ordinary results with a message. The catalogue must outlive the call; prepared bodies are

@@ -314,8 +314,9 @@ static void stops_when_it_is_enough(void **state)
     ensemble_lab_close(&e);
 }
 
-static bool lasts_five_times(void *context)
+static bool lasts_five_times(void *context, double done)
 {
+    (void)done;
     return ++*(int *)context <= 5;
 }
 
@@ -326,9 +327,9 @@ static void interest_ends(void **state)
     struct ensemble_lab e;
     struct fault fault = {""};
     int asked = 0;
-    struct ensemble_interest interest = {lasts_five_times, &asked};
+    struct watch watch = {lasts_five_times, &asked};
     ensemble_lab_open(&e);
-    assert_int_equal(ensemble_create(&e.ensemble, &e.spec, &interest, &fault), PERCUSS_TIMEOUT);
+    assert_int_equal(ensemble_create(&e.ensemble, &e.spec, &watch, &fault), PERCUSS_TIMEOUT);
     assert_true(asked < 60);
     lab_free(e.lab);
 }

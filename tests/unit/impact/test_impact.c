@@ -153,14 +153,15 @@ static void overlaps_go_back_to_their_touch(void **state)
     toy.gap_rate[1] = -2.0;
     assert_true(motion_create(&motion, &toy.scene, &toy.arena));
     motion_start(&motion, &toy.scene);
-    assert_true(impact_find_start(&toy.scene, 1.0, &motion, &shift));
+    struct rewind rewind = {1.0, 1000, &toy.arena, NULL};
+    assert_int_equal(impact_find_start(&toy.scene, &rewind, &motion, &shift), START_FOUND);
     near("shift", shift, -0.15, 1e-16);
     near("gap", motion.gap[0], 0.05, 1e-16);
     near("gap", motion.gap[1], 0.0, 1e-16);
     near("time", motion.time, -0.15, 1e-16);
     toy.gap_rate[1] = 0.1; /* opens: it was never apart */
     motion_start(&motion, &toy.scene);
-    assert_false(impact_find_start(&toy.scene, 1.0, &motion, &shift));
+    assert_int_equal(impact_find_start(&toy.scene, &rewind, &motion, &shift), START_NONE);
     toy_free(&toy);
 }
 

@@ -55,8 +55,8 @@ static void answers_in_the_terms_of_all_models(void **state)
     sub3(result.bodies[0].velocity, result.bodies[1].velocity, after);
     measured_relative("velocity after", dot3(request.contacts[0].normal, after), 0.3 * e, 1e-9);
     measured("energy", result.energy.closure / result.energy.available, 0.0, 1e-5);
-    /* the modal model of the same scene, which shares nothing with it: waves, Hertz, and the matched
-     * compliance of rod and sphere. Eight elements across the patch leave 0.0005. */
+    /* the modal model of the same scene, which shares nothing with it: waves, Hertz, and the
+     * matched compliance of rod and sphere. Eight elements across the patch leave 0.0005. */
     request.options.contact_model = PERCUSS_CONTACT_HERTZ;
     request.options.compliance = PERCUSS_COMPLIANCE_MATCHED;
     request.options.tolerance = 1e-4;
@@ -153,7 +153,7 @@ static void a_watch_stops_it(void **state)
     (void)state;
     struct lab *lab = shapes();
     double done = 0.0;
-    solve_workspace_watch(lab->workspace, (struct solve_watch){stop, &done});
+    solve_workspace_watch(lab->workspace, (struct watch){stop, &done});
     struct solve_request request = on_rod("ball", "rod", 0.3);
     request.options.tolerance = 1e-4;
     assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_TIMEOUT);

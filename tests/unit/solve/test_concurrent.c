@@ -138,7 +138,7 @@ static void a_watch_stops_it(void **state)
 {
     (void)state;
     struct lab *lab = shapes();
-    solve_workspace_watch(lab->workspace, (struct solve_watch){stop, NULL});
+    solve_workspace_watch(lab->workspace, (struct watch){stop, NULL});
     struct solve_request request = on_rod("soft", 0.3);
     assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_TIMEOUT);
     lab_free(lab);

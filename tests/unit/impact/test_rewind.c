@@ -1,0 +1,102 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/impact/rewind.c: parabolas by their closed roots, one oscillator by arc cosine,
+ * many of them by dense samples; and how much work that takes. */
+#include "impact/rewind.h"
+#include "unit/impact/toy_scene.h"
+
+static void near(double value, double expected, double allowed)
+{
+    if (!(value == expected || fabs(value - expected) <= allowed))
+        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
+}
+
+/* Approach -gap - rate t + cos(omega t) by one mode of unit amplitude that starts at its far end.
+ */
+static void ring(struct toy *toy, double omega, double gap, double rate)
+{
+    const double shape = -1.0, q = 1.0, v = 0.0;
+    toy_init(toy, 1);
+    toy->gap[0] = gap;
+    toy->gap_rate[0] = rate;
+    toy_ring(toy, toy_add(toy, 0, 1, &omega, 0.0, &shape), &q, &v);
+}
+
+static void start(struct toy *toy, struct motion *motion)
+{
+    assert_true(motion_create(motion, &toy->scene, &toy->arena));
+    motion_start(motion, &toy->scene);
+}
+
+enum { AMPLE = 1000000 };
+
+static double back(struct toy *toy, const struct motion *motion, double longest)
+{
+    struct rewind rewind = {longest, AMPLE, &toy->arena, NULL};
+    return rewind_find(&rewind, &toy->scene, motion, 0);
+}
+
+static void finds_the_touch_behind(void **state)
+{
+    (void)state;
+    static const struct {
+        double gap, rate, acceleration, expected;
+    } cases[] = {
+        {-0.1, -2.0, 0.0, -0.05},
+        {-0.1, -2.0, 3.0, -0.048214}, /* was faster */
+        {-0.1, -2.0, -3.0, -0.052},   /* was slower: the nearer root */
+        {-0.1, 2.0, 0.0, -INFINITY},  /* opening: overlapped ever more before */
+        {-1.0, -2.0, -3.0, -INFINITY} /* turned inside */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct toy toy;
+        struct motion motion;
+        toy_init(&toy, 1);
+        toy.gap[0] = cases[i].gap;
+        toy.gap_rate[0] = cases[i].rate;
+        toy.gap_acceleration[0] = cases[i].acceleration;
+        start(&toy, &motion);
+        double t = back(&toy, &motion, 10.0);
+        near(t, cases[i].expected, 1e-3);
+        if (isfinite(t)) {
+            double a = cases[i].acceleration;
+            near(cases[i].gap + t * (cases[i].rate + 0.5 * a * t), 0.0, 1e-16);
+        }
+        toy_free(&toy);
+    }
+}
+
+/* With vibration: the latest instant before now at which the approach rose through zero. */
+static void finds_the_touch_behind_a_ringing_body(void **state)
+{
+    (void)state;
+    struct toy toy;
+    struct motion motion;
+    ring(&toy, 2.0, 0.5, 0.0); /* cos(2t) - 0.5: overlap of 0.5 now, since 2t = -acos(0.5) */
+    start(&toy, &motion);
+    near(back(&toy, &motion, 10.0), -0.5 * acos(0.5), 1e-15);
+    toy_free(&toy);
+    ring(&toy, 2.0, -1.5, 0.0); /* never apart */
+    start(&toy, &motion);
+    near(back(&toy, &motion, 10.0), -INFINITY, 0.0);
+    toy_free(&toy);
+    ring(&toy, 2.0, -1.5, -0.3); /* 1.5 + 0.3 t + cos(2t) at t < 0 */
+    start(&toy, &motion);
+    double t = back(&toy, &motion, 20.0);
+    near(1.5 + 0.3 * t + cos(2.0 * t), 0.0, 1e-14);
+    /* it rises there, and stays positive from there to now */
+    assert_true(0.3 - 2.0 * sin(2.0 * t) > 0.0);
+    for (double s = t + 1e-6; s < 0.0; s += 1e-4)
+        assert_true(1.5 + 0.3 * s + cos(2.0 * s) > 0.0);
+    toy_free(&toy);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finds_the_touch_behind),
+        cmocka_unit_test(finds_the_touch_behind_a_ringing_body),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
