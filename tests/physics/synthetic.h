@@ -67,7 +67,8 @@ static inline void synthetic_read(struct measured_impact *impact, double noise,
     impact->second_start *= 1.0 + noise * random_normal(random);
 }
 
-/* The paper's speeds: normal, mean 0.25 and deviation 0.0929 m/s, positive. */
+/* Normal with mean 0.25 and deviation 0.0929 m/s, none below 0.05 m/s. These two moments are all
+ * that the paper states of its 53 speeds: they are not listed there. */
 static inline double synthetic_speed(struct random *random)
 {
     double speed;

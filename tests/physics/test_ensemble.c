@@ -5,10 +5,10 @@
  * and inputs that do what mechanics says. */
 #include "physics/ensemble_lab.h"
 
-/* 53 normal speeds, mean 0.25 and deviation 0.0929 m/s. The paper's simulation gives 0.3981 and
- * 0.2275, its measurement 0.3800 and 0.2125; its materials are not known. The mean of 53 scatters
- * by 0.22/sqrt(53) = 0.030, that of twenty times 53 by 0.007; four of either are allowed around the
- * middle of what large ensembles must reach. */
+/* 53 normal speeds, mean 0.25 and deviation 0.0929 m/s, which is all that the paper states of its
+ * own. Its simulation gives 0.3981 and 0.2275, its measurement 0.3800 and 0.2125; its materials are
+ * not known. The mean of 53 scatters by 0.22/sqrt(53) = 0.030, that of twenty times 53 by 0.007;
+ * four of either are allowed around the middle of what large ensembles must reach. */
 static void paper_53(void **state)
 {
     (void)state;
@@ -34,8 +34,8 @@ static void paper_53(void **state)
     ensemble_lab_close(&e);
 }
 
-/* The same number of speeds spread evenly over the paper's range, as a rig steps through it (their
- * deviation is 0.093 m/s too): mean 0.39 to 0.47, deviation 0.18 to 0.24. */
+/* The same number of speeds spread evenly over the range with the same mean and deviation, as a rig
+ * steps through it: mean 0.39 to 0.47, deviation 0.18 to 0.24. */
 static void paper_53_evenly(void **state)
 {
     (void)state;
