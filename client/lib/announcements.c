@@ -80,7 +80,7 @@ bool announcements_server(struct percuss_client *client, uint8_t server[16])
 {
     pthread_mutex_lock(&client->lock);
     bool connected = client->connected;
-    memcpy(server, client->server, 16);
+    memcpy(server, client->server.id, 16);
     pthread_mutex_unlock(&client->lock);
     return connected;
 }

@@ -27,6 +27,11 @@ static enum percuss_result check_config(const struct percuss_client_config *conf
                          config->window, WIRE_WINDOW);
     if (config->first_sequence == 0)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "first_sequence: 0 means a ping");
+    size_t length = strnlen(config->server, sizeof config->server);
+    if (length == sizeof config->server || strspn(config->server, "0123456789abcdef") < length)
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                         "server: '%.33s': up to 32 of the digits 0..9, a..f are allowed",
+                         config->server);
     return PERCUSS_RESULT_OK;
 }
 
@@ -37,6 +42,47 @@ static enum percuss_result choose_id(const uint8_t configured[16], uint8_t id[16
     if (memcmp(id, none, 16) == 0 && getrandom(id, 16, 0) != 16)
         return error_set(PERCUSS_RESULT_TRANSPORT, "random client id: %s", strerror(errno));
     return PERCUSS_RESULT_OK;
+}
+
+/* Partitions never fit: each client has its own, and each server writes to all of them. */
+static void note_refusal(atomic_uint *refused, uint32_t policy)
+{
+    if (policy != DDS_PARTITION_QOS_POLICY_ID)
+        atomic_store(refused, policy);
+}
+
+static void requests_refused(dds_entity_t writer, dds_offered_incompatible_qos_status_t status,
+                             void *context)
+{
+    (void)writer;
+    note_refusal(&((struct percuss_client *)context)->refused_requests, status.last_policy_id);
+}
+
+static void replies_refused(dds_entity_t reader, dds_requested_incompatible_qos_status_t status,
+                            void *context)
+{
+    (void)reader;
+    note_refusal(&((struct percuss_client *)context)->refused_replies, status.last_policy_id);
+}
+
+/* What DDS refuses of our requests and of replies to us is noted from the beginning. */
+static void watch_refusals(struct percuss_client *client)
+{
+    dds_offered_incompatible_qos_status_t offered = {0};
+    dds_requested_incompatible_qos_status_t requested = {0};
+    dds_listener_t *listener = dds_create_listener(client);
+    dds_lset_offered_incompatible_qos(listener, requests_refused);
+    dds_lset_requested_incompatible_qos(listener, replies_refused);
+    dds_set_listener(client->request_writer, listener);
+    dds_set_listener(client->reply_reader, listener);
+    dds_delete_listener(listener);
+    // and what came before the listener
+    dds_get_offered_incompatible_qos_status(client->request_writer, &offered);
+    dds_get_requested_incompatible_qos_status(client->reply_reader, &requested);
+    if (offered.total_count > 0)
+        requests_refused(client->request_writer, offered, client);
+    if (requested.total_count > 0)
+        replies_refused(client->reply_reader, requested, client);
 }
 
 dds_entity_t client_reader_create(struct percuss_client *client,
@@ -91,10 +137,16 @@ static enum percuss_result create_entities(struct percuss_client *client)
         client_reply_reader_create(client, &percuss_v2_Reply_desc, WIRE_TOPIC_REPLY);
     if (client->reply_reader < 0)
         return error_dds("reader of " WIRE_TOPIC_REPLY, client->reply_reader);
+    // whoever waits is woken when the server goes, too
+    dds_return_t code = dds_set_status_mask(
+        client->reply_reader, DDS_DATA_AVAILABLE_STATUS | DDS_SUBSCRIPTION_MATCHED_STATUS);
+    if (code < 0)
+        return error_dds("status of the reader of " WIRE_TOPIC_REPLY, code);
     client->request_writer =
         client_writer_create(client, &percuss_v2_Request_desc, WIRE_TOPIC_REQUEST);
     if (client->request_writer < 0)
         return error_dds("writer of " WIRE_TOPIC_REQUEST, client->request_writer);
+    watch_refusals(client);
     return PERCUSS_RESULT_OK;
 }
 
@@ -123,6 +175,7 @@ enum percuss_result percuss_client_create(const struct percuss_client_config *co
     created->domain = chosen.domain;
     created->next_sequence = chosen.first_sequence;
     created->pending.window = chosen.window;
+    memcpy(created->wanted, chosen.server, sizeof created->wanted);
 
     result = choose_id(chosen.id, created->id);
     if (result == PERCUSS_RESULT_OK)
@@ -152,6 +205,15 @@ void percuss_client_free(struct percuss_client *client)
 void percuss_client_id(const struct percuss_client *client, uint8_t id[16])
 {
     memcpy(id, client->id, 16);
+}
+
+bool percuss_client_server(struct percuss_client *client, uint8_t server[16])
+{
+    static const uint8_t none[16];
+    pthread_mutex_lock(&client->lock);
+    memcpy(server, client->server.id, 16);
+    pthread_mutex_unlock(&client->lock);
+    return memcmp(server, none, sizeof none) != 0;
 }
 
 uint64_t client_draw_sequences(struct percuss_client *client, size_t count)

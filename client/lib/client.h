@@ -7,20 +7,32 @@
 
 #include <percuss/percuss.h>
 #include <pthread.h>
+#include <stdatomic.h>
 
 #include "pending.h"
 #include "wire.h"
 
-enum { CLIENT_TAKE_AT_ONCE = 4 };
+enum { CLIENT_TAKE_AT_ONCE = 4, CLIENT_MOST_SERVERS = 16 };
+
+/* A server that has answered a ping. */
+struct client_server {
+    uint8_t id[16];
+    dds_instance_handle_t writer; /* of its replies to us */
+};
 
 struct percuss_client {
     /* constant once created */
     uint8_t id[16];
     uint32_t domain;
+    char wanted[PERCUSS_SERVER_ID_SIZE]; /* what the id of the server begins with; empty: any */
     dds_entity_t participant;
     dds_entity_t waitset;
     dds_entity_t request_writer;
     dds_entity_t reply_reader;
+
+    /* the last policy but partition for which DDS refused a match of what we write, of what we
+     * read; 0: none. Told by threads of DDS. */
+    atomic_uint refused_requests, refused_replies;
 
     pthread_mutex_t lock; /* guards everything below */
     pthread_cond_t changed;
@@ -28,7 +40,11 @@ struct percuss_client {
     /* Replies as they came, the leader's: kept, so that their lists need no memory each time. */
     percuss_v2_Reply taken[CLIENT_TAKE_AT_ONCE];
     bool connected;
-    uint8_t server[16]; /* who answered the ping of percuss_client_connect */
+    bool lost;                   /* the server does not write to us any more */
+    struct client_server server; /* whom we stay with; its id is all zero before the first one */
+    char server_name[128];       /* in words */
+    struct client_server answering[CLIENT_MOST_SERVERS]; /* pings of percuss_client_connect */
+    size_t answering_count;
     uint64_t next_sequence;
     uint64_t pings_answered;
     struct pending_table pending;

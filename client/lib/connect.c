@@ -2,15 +2,19 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Finding a server. A volatile request or reply that is written before both ends know each other is
- * lost, so a client asks only after both directions are matched and a ping came back. */
-
-#include <math.h>
-#include <string.h>
+ * lost, so a client asks only after a ping came back. Pings go to everybody; what is asked later
+ * names the server that was chosen among those that answered, and the others ignore it. */
 
 #include "connect.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
 #include "error.h"
 #include "exchange.h"
 #include "receive.h"
+#include "servers.h"
 
 enum { MOST_MATCHES = 64 };
 static const double match_poll = 1e-3;    /* s */
@@ -31,22 +35,63 @@ static bool participant_of(matched_data *data, dds_entity_t endpoint, dds_instan
     return true;
 }
 
-/* Whether some participant both reads our requests and writes to our partition. */
-static bool same_server_matched(dds_entity_t writer, dds_entity_t reader)
+/* Whether one of `count` matches of an endpoint is that participant's. */
+static bool is_among(matched_data *data, dds_entity_t endpoint,
+                     const dds_instance_handle_t *matches, int count, const dds_guid_t *participant)
 {
-    dds_instance_handle_t readers[MOST_MATCHES], writers[MOST_MATCHES];
-    int reader_count = dds_get_matched_subscriptions(writer, readers, MOST_MATCHES);
-    int writer_count = dds_get_matched_publications(reader, writers, MOST_MATCHES);
-    for (int i = 0; i < reader_count && i < MOST_MATCHES; ++i) {
-        dds_guid_t taker, giver;
-        if (!participant_of(dds_get_matched_subscription_data, writer, readers[i], &taker))
-            continue;
-        for (int j = 0; j < writer_count && j < MOST_MATCHES; ++j)
-            if (participant_of(dds_get_matched_publication_data, reader, writers[j], &giver) &&
-                memcmp(&taker, &giver, sizeof taker) == 0)
-                return true;
-    }
+    dds_guid_t other;
+    for (int i = 0; i < count && i < MOST_MATCHES; ++i)
+        if (participant_of(data, endpoint, matches[i], &other) &&
+            memcmp(&other, participant, sizeof other) == 0)
+            return true;
     return false;
+}
+
+/* Whether the participant reads what `writer` writes and writes what `reader` reads. */
+static bool is_matched(dds_entity_t writer, dds_entity_t reader, const dds_guid_t *participant)
+{
+    dds_instance_handle_t takers[MOST_MATCHES], givers[MOST_MATCHES];
+    int taker_count = dds_get_matched_subscriptions(writer, takers, MOST_MATCHES);
+    int giver_count = dds_get_matched_publications(reader, givers, MOST_MATCHES);
+    return is_among(dds_get_matched_subscription_data, writer, takers, taker_count, participant) &&
+           is_among(dds_get_matched_publication_data, reader, givers, giver_count, participant);
+}
+
+/* The words of a server; it may not have announced itself yet. */
+static void describe(const uint8_t id[16], const struct percuss_server *server, char *text,
+                     size_t size)
+{
+    int length = snprintf(text, size, "percussd %02x%02x%02x%02x", id[0], id[1], id[2], id[3]);
+    if (server)
+        snprintf(text + length, size - (size_t)length, " (process %u on %s)", server->process,
+                 server->host);
+}
+
+static enum percuss_result unanswered(const char *server, double start)
+{
+    return error_set(PERCUSS_RESULT_TIMEOUT, "%s is there but has not answered for %.1f s (busy?)",
+                     server, receive_now() - start);
+}
+
+enum percuss_result connect_match(struct percuss_client *client, dds_entity_t writer,
+                                  dds_entity_t reader, double deadline)
+{
+    const double start = receive_now();
+    dds_guid_t participant;
+    char name[sizeof client->server_name];
+    pthread_mutex_lock(&client->lock);
+    dds_instance_handle_t replies = client->server.writer;
+    memcpy(name, client->server_name, sizeof name);
+    pthread_mutex_unlock(&client->lock);
+    while (participant_of(dds_get_matched_publication_data, client->reply_reader, replies,
+                          &participant)) {
+        if (is_matched(writer, reader, &participant))
+            return PERCUSS_RESULT_OK;
+        if (receive_now() >= deadline)
+            return unanswered(name, start);
+        dds_sleepfor((dds_duration_t)(1e9 * match_poll));
+    }
+    return error_lost(name);
 }
 
 static const char *policy_name(uint32_t policy)
@@ -71,85 +116,200 @@ static const char *policy_name(uint32_t policy)
     return "a policy unknown to this library";
 }
 
-/* INCOMPATIBLE with the policy in words if Cyclone has refused a match, else OK. */
-static enum percuss_result check_compatible(dds_entity_t writer, dds_entity_t reader)
+/* INCOMPATIBLE with the policy in words if DDS has refused a match, else OK. */
+static enum percuss_result check_compatible(struct percuss_client *client)
 {
-    dds_offered_incompatible_qos_status_t offered = {0};
-    dds_requested_incompatible_qos_status_t requested = {0};
-    dds_get_offered_incompatible_qos_status(writer, &offered);
-    dds_get_requested_incompatible_qos_status(reader, &requested);
-    if (offered.total_count == 0 && requested.total_count == 0)
+    uint32_t requests = atomic_load(&client->refused_requests);
+    uint32_t policy = requests ? requests : atomic_load(&client->refused_replies);
+    if (!policy)
         return PERCUSS_RESULT_OK;
-    bool requests = offered.total_count > 0;
-    uint32_t policy = requests ? offered.last_policy_id : requested.last_policy_id;
     return error_set(PERCUSS_RESULT_INCOMPATIBLE,
                      "a server is there, but its %s do not match ours: %s (policy %u)",
                      requests ? "requests" : "replies", policy_name(policy), policy);
 }
 
-enum percuss_result connect_match(struct percuss_client *client, dds_entity_t writer,
-                                  dds_entity_t reader, double deadline)
+/* A search for a server. */
+struct search {
+    struct percuss_client *client;
+    double start, deadline;
+    double settled;                                      /* when no further answer is waited for */
+    struct client_server answering[CLIENT_MOST_SERVERS]; /* a copy */
+    size_t count;
+    struct percuss_server_list announced;
+};
+
+static bool is_wanted(const struct percuss_client *client, const uint8_t id[16])
 {
-    double verdict = fmin(deadline, receive_now() + grace);
-    while (!same_server_matched(writer, reader)) {
-        double now = receive_now();
-        enum percuss_result result =
-            now < verdict ? PERCUSS_RESULT_OK : check_compatible(writer, reader);
-        if (result != PERCUSS_RESULT_OK)
-            return result;
-        if (now >= deadline)
-            return error_set(PERCUSS_RESULT_NO_SERVER, "no percussd in DDS domain %u",
-                             client->domain);
-        dds_sleepfor((dds_duration_t)(1e9 * match_poll));
+    char text[PERCUSS_SERVER_ID_SIZE];
+    for (int i = 0; i < 16; ++i)
+        snprintf(text + 2 * i, 3, "%02x", id[i]);
+    return strncmp(text, client->wanted, strlen(client->wanted)) == 0;
+}
+
+/* What there is when the time is over and no server has been chosen. */
+static enum percuss_result explain(const struct search *search)
+{
+    struct percuss_client *client = search->client;
+    const struct percuss_server_list *announced = &search->announced;
+    char others[200] = "", name[128];
+    size_t length = 0;
+    for (size_t i = 0; i < announced->count; ++i) {
+        const struct percuss_server *server = &announced->servers[i];
+        describe(server->server, server, name, sizeof name);
+        if (is_wanted(client, server->server))
+            return unanswered(name, search->start);
+        if (length < sizeof others)
+            length += (size_t)snprintf(others + length, sizeof others - length, "%s%s",
+                                       i ? ", " : "; there is ", name);
     }
-    return PERCUSS_RESULT_OK;
+    enum percuss_result result = check_compatible(client);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    if (client->wanted[0])
+        return error_set(PERCUSS_RESULT_NO_SERVER,
+                         "no percussd in DDS domain %u has an id that begins with %s%s",
+                         client->domain, client->wanted, others);
+    if (servers_reading(client) > 0)
+        return error_set(PERCUSS_RESULT_NO_SERVER,
+                         "no percussd has answered in DDS domain %u, where somebody reads requests "
+                         "who has not announced himself",
+                         client->domain);
+    return error_set(PERCUSS_RESULT_NO_SERVER, "no percussd in DDS domain %u", client->domain);
 }
 
-static bool ping_is_answered(const struct percuss_client *client, const void *subject)
+/* The answering one that was up first; those that have not announced themselves come last. */
+static const struct client_server *find_first(const struct search *search)
 {
-    const uint64_t *before = subject;
-    return client->pings_answered > *before;
+    for (size_t i = 0; i < search->announced.count; ++i)
+        for (size_t k = 0; k < search->count; ++k)
+            if (memcmp(search->announced.servers[i].server, search->answering[k].id, 16) == 0)
+                return &search->answering[k];
+    return search->answering;
 }
 
-/* Pings every `interval` until answered; the lock is held. */
-static enum percuss_result ping_until_answered(struct percuss_client *client, double interval,
-                                               double deadline)
+/* The one that is wanted among those that answer. PENDING: none; INVALID_ARGUMENT: several. */
+static enum percuss_result find_wanted(const struct search *search,
+                                       const struct client_server **found)
+{
+    *found = NULL;
+    for (size_t k = 0; k < search->count; ++k) {
+        if (!is_wanted(search->client, search->answering[k].id))
+            continue;
+        if (*found)
+            return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                             "server: '%s': the ids of several servers begin so: more digits are "
+                             "needed",
+                             search->client->wanted);
+        *found = &search->answering[k];
+    }
+    return *found ? PERCUSS_RESULT_OK : PERCUSS_RESULT_PENDING;
+}
+
+/* Stays with a server. */
+static void settle_on(const struct search *search, const struct client_server *server)
+{
+    struct percuss_client *client = search->client;
+    pthread_mutex_lock(&client->lock);
+    client->server = *server;
+    describe(server->id, servers_find(&search->announced, server->id), client->server_name,
+             sizeof client->server_name);
+    client->connected = true;
+    receive_note_loss(client);
+    pthread_mutex_unlock(&client->lock);
+}
+
+/* PENDING: nobody can be chosen yet. */
+static enum percuss_result choose(struct search *search)
+{
+    struct percuss_client *client = search->client;
+    const struct client_server *server;
+    const double now = receive_now();
+    if (search->count == 0)
+        return now - search->start < grace ? PERCUSS_RESULT_PENDING
+               : check_compatible(client)  ? PERCUSS_RESULT_INCOMPATIBLE
+                                           : PERCUSS_RESULT_PENDING;
+    search->settled = fmin(search->settled, now + SERVERS_SETTLING);
+    if (search->count < servers_reading(client) && now < fmin(search->settled, search->deadline))
+        return PERCUSS_RESULT_PENDING;
+    if (!client->wanted[0]) {
+        settle_on(search, find_first(search));
+        return PERCUSS_RESULT_OK;
+    }
+    enum percuss_result result = find_wanted(search, &server);
+    if (result == PERCUSS_RESULT_OK)
+        settle_on(search, server);
+    return result;
+}
+
+static bool is_answered(const struct percuss_client *client, const void *subject)
+{
+    const size_t *before = subject;
+    return client->answering_count > *before;
+}
+
+static enum percuss_result write_ping(struct percuss_client *client, const uint8_t *server)
 {
     percuss_v2_Request ping = {0};
     memcpy(ping.client, client->id, sizeof ping.client);
-    uint64_t before = client->pings_answered;
-    enum percuss_result result = PERCUSS_RESULT_TIMEOUT;
-    while (result == PERCUSS_RESULT_TIMEOUT) {
-        dds_return_t code = dds_write(client->request_writer, &ping);
-        if (code < 0 && code != DDS_RETCODE_TIMEOUT)
-            return error_dds("writing a ping", code);
-        double until = fmin(deadline, receive_now() + interval);
-        result = receive_until(client, ping_is_answered, &before, until);
-        if (result == PERCUSS_RESULT_TIMEOUT && until >= deadline)
-            return error_set(result, "the server does not answer pings");
-    }
-    return result;
+    if (server)
+        memcpy(ping.server, server, sizeof ping.server);
+    dds_return_t code = dds_write(client->request_writer, &ping);
+    return code < 0 && code != DDS_RETCODE_TIMEOUT ? error_dds("writing a ping", code)
+                                                   : PERCUSS_RESULT_OK;
+}
+
+/* Pings all servers and collects who answers, until another one has or the next ping is due. */
+static enum percuss_result ping_all(struct search *search)
+{
+    struct percuss_client *client = search->client;
+    pthread_mutex_lock(&client->lock);
+    enum percuss_result result = write_ping(client, NULL);
+    double until = fmin(search->deadline, receive_now() + ping_interval);
+    if (result == PERCUSS_RESULT_OK)
+        result = receive_until(client, is_answered, &search->count, until);
+    search->count = client->answering_count;
+    memcpy(search->answering, client->answering, sizeof search->answering);
+    pthread_mutex_unlock(&client->lock);
+    return result == PERCUSS_RESULT_TIMEOUT ? PERCUSS_RESULT_OK : result;
 }
 
 enum percuss_result percuss_client_connect(struct percuss_client *client, double timeout)
 {
-    double deadline;
-    enum percuss_result result = receive_deadline(timeout, &deadline);
+    struct search search = {.client = client, .start = receive_now(), .settled = INFINITY};
+    enum percuss_result result = receive_deadline(timeout, &search.deadline);
     if (result == PERCUSS_RESULT_OK)
-        result = connect_match(client, client->request_writer, client->reply_reader, deadline);
+        result = servers_open(client);
     if (result != PERCUSS_RESULT_OK)
         return result;
     pthread_mutex_lock(&client->lock);
-    result = ping_until_answered(client, ping_interval, deadline);
-    client->connected = result == PERCUSS_RESULT_OK;
+    client->connected = false;
+    client->answering_count = 0;
     pthread_mutex_unlock(&client->lock);
-    return result == PERCUSS_RESULT_TIMEOUT ? PERCUSS_RESULT_NO_SERVER : result;
+    do {
+        percuss_server_list_free(&search.announced);
+        bool late = receive_now() >= search.deadline;
+        result = ping_all(&search);
+        if (result == PERCUSS_RESULT_OK)
+            result = servers_look(client, &search.announced);
+        if (result == PERCUSS_RESULT_OK)
+            result = choose(&search);
+        if (result == PERCUSS_RESULT_PENDING && late)
+            result = explain(&search);
+    } while (result == PERCUSS_RESULT_PENDING);
+    percuss_server_list_free(&search.announced);
+    return result;
 }
 
 static bool never(const struct percuss_client *client, const void *subject)
 {
     (void)client, (void)subject;
     return false;
+}
+
+static bool ping_is_answered(const struct percuss_client *client, const void *subject)
+{
+    const uint64_t *before = subject;
+    return client->pings_answered > *before;
 }
 
 enum percuss_result percuss_ping(struct percuss_client *client, double timeout, double *round_trip)
@@ -163,8 +323,13 @@ enum percuss_result percuss_ping(struct percuss_client *client, double timeout, 
     if (result == PERCUSS_RESULT_OK) {
         // answers to earlier pings, which look the same, must not count
         receive_until(client, never, NULL, 0.0);
+        uint64_t before = client->pings_answered;
         double start = receive_now();
-        result = ping_until_answered(client, timeout, deadline);
+        result = write_ping(client, client->server.id);
+        if (result == PERCUSS_RESULT_OK)
+            result = receive_until(client, ping_is_answered, &before, deadline);
+        if (result == PERCUSS_RESULT_TIMEOUT)
+            result = unanswered(client->server_name, start);
         *round_trip = receive_now() - start;
     }
     pthread_mutex_unlock(&client->lock);

@@ -6,8 +6,8 @@
 
 #include "client.h"
 
-/* Waits until one server reads from `writer` and writes to `reader`. NO_SERVER at the deadline;
- * INCOMPATIBLE after 2 s or at the deadline if a quality of service does not fit. */
+/* Waits until the server that the client stays with reads from `writer` and writes to `reader`.
+ * TIMEOUT at the deadline, NO_SERVER when it has gone. */
 enum percuss_result connect_match(struct percuss_client *client, dds_entity_t writer,
                                   dds_entity_t reader, double deadline);
 

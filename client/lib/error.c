@@ -29,3 +29,10 @@ const char *percuss_error_text(void)
 {
     return error_text;
 }
+
+enum percuss_result error_lost(const char *server)
+{
+    return error_set(PERCUSS_RESULT_NO_SERVER,
+                     "%s is gone; connect again to ask another one, or the same one restarted",
+                     server);
+}

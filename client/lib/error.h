@@ -13,4 +13,7 @@ enum percuss_result error_set(enum percuss_result result, const char *format, ..
 /* TRANSPORT with what failed and Cyclone's word for the negative return code. */
 enum percuss_result error_dds(const char *what, int code);
 
+/* NO_SERVER: the server of that name has gone. */
+enum percuss_result error_lost(const char *server);
+
 #endif

@@ -15,7 +15,7 @@
 enum percuss_result exchange_check_connected(const struct percuss_client *client)
 {
     if (client->connected)
-        return PERCUSS_RESULT_OK;
+        return client->lost ? error_lost(client->server_name) : PERCUSS_RESULT_OK;
     return error_set(PERCUSS_RESULT_NO_SERVER, "not connected: call percuss_client_connect first");
 }
 
@@ -26,19 +26,14 @@ static bool pending_is_ready(const struct percuss_client *client, const void *su
     return pending->ready;
 }
 
-/* Words for a time-out: a server that has gone is worth telling from a slow one. */
-static enum percuss_result time_out(const struct percuss_client *client, uint64_t sequence)
-{
-    bool gone = dds_get_matched_publications(client->reply_reader, NULL, 0) == 0;
-    return error_set(PERCUSS_RESULT_TIMEOUT, "request %llu is not answered yet%s",
-                     (unsigned long long)sequence, gone ? "; the server is gone" : "");
-}
-
 enum percuss_result exchange_await(struct percuss_client *client, const struct pending *pending,
                                    double deadline)
 {
     enum percuss_result result = receive_until(client, pending_is_ready, pending, deadline);
-    return result == PERCUSS_RESULT_TIMEOUT ? time_out(client, pending->sequence) : result;
+    if (result == PERCUSS_RESULT_TIMEOUT)
+        error_set(result, "request %llu is not answered yet by %s",
+                  (unsigned long long)pending->sequence, client->server_name);
+    return result;
 }
 
 /* Enters the request, or finds it where it is repeated. */
@@ -78,6 +73,7 @@ static enum percuss_result send_request(struct percuss_client *client,
     if (result != PERCUSS_RESULT_OK)
         return result;
     memcpy(wire.client, client->id, sizeof wire.client);
+    memcpy(wire.server, client->server.id, sizeof wire.server);
     wire.sequence = (*pending)->sequence;
     wire.options.trace = wire.options.trace || gather;
     (*pending)->gather = gather;

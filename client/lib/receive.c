@@ -32,16 +32,35 @@ enum percuss_result receive_deadline(double timeout, double *deadline)
     return PERCUSS_RESULT_OK;
 }
 
-/* Files one reply. A reply that nobody waits for is a repeated or a cancelled one. */
+/* Whether a reply comes from the server that we stay with; the lock is held. */
+static bool is_ours(const struct percuss_client *client, const uint8_t server[16])
+{
+    return memcmp(client->server.id, server, sizeof client->server.id) == 0;
+}
+
+/* The answer to a ping, from any server while we are looking for one; the lock is held. */
+static void file_ping(struct percuss_client *client, const struct client_server *server)
+{
+    size_t i = 0;
+    client->pings_answered += client->connected && is_ours(client, server->id);
+    while (i < client->answering_count && memcmp(client->answering[i].id, server->id, 16) != 0)
+        ++i;
+    if (i == CLIENT_MOST_SERVERS)
+        return;
+    client->answering[i] = *server;
+    client->answering_count += i == client->answering_count;
+}
+
+/* Files one reply of that writer. A reply that nobody waits for is a repeated or a cancelled one.
+ */
 static void file_reply(struct percuss_client *client, struct percuss_reply *reply,
-                       enum percuss_result result)
+                       dds_instance_handle_t writer, enum percuss_result result)
 {
     pthread_mutex_lock(&client->lock);
     struct pending *pending = pending_find(&client->pending, reply->sequence);
-    if (reply->sequence == 0) {
-        ++client->pings_answered;
-        memcpy(client->server, reply->server, sizeof client->server);
-    } else if (pending && !pending->ready && !pending->batch && !pending->ensemble) {
+    // not by the server that it names: a durable reply may be older than the server that sends it
+    bool ours = writer == client->server.writer;
+    if (ours && pending && !pending->ready && !pending->batch && !pending->ensemble) {
         pending->reply = *reply;
         *reply = (struct percuss_reply){0};
         pending_set_ready(&client->pending, pending, result);
@@ -50,12 +69,21 @@ static void file_reply(struct percuss_client *client, struct percuss_reply *repl
     percuss_reply_free(reply);
 }
 
-static void take_reply(struct percuss_client *client, const percuss_v2_Reply *wire)
+static void take_reply(struct percuss_client *client, const percuss_v2_Reply *wire,
+                       dds_instance_handle_t writer)
 {
     struct percuss_reply reply;
+    if (wire->sequence == 0) {
+        struct client_server server = {.writer = writer};
+        memcpy(server.id, wire->server, sizeof server.id);
+        pthread_mutex_lock(&client->lock);
+        file_ping(client, &server);
+        pthread_mutex_unlock(&client->lock);
+        return;
+    }
     enum percuss_result result = convert_reply(wire, &reply);
     reply.sequence = wire->sequence;
-    file_reply(client, &reply, result);
+    file_reply(client, &reply, writer, result);
 }
 
 static void take_batch_reply(struct percuss_client *client, const void *sample)
@@ -63,7 +91,7 @@ static void take_batch_reply(struct percuss_client *client, const void *sample)
     const percuss_v2_BatchReply *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = pending_find(&client->pending, wire->sequence);
-    if (pending && !pending->ready && pending->batch) {
+    if (is_ours(client, wire->server) && pending && !pending->ready && pending->batch) {
         enum percuss_result result = batch_add_part(pending->batch, wire);
         if (result != PERCUSS_RESULT_PENDING)
             pending_set_ready(&client->pending, pending, result);
@@ -83,7 +111,7 @@ static void take_ensemble_reply(struct percuss_client *client, const void *sampl
     const percuss_v2_EnsembleReply *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = find_ensemble(client, wire->sequence);
-    if (pending && !pending->ready)
+    if (is_ours(client, wire->server) && pending && !pending->ready)
         pending_set_ready(&client->pending, pending,
                           convert_ensemble_reply(wire, &pending->ensemble->reply));
     pthread_mutex_unlock(&client->lock);
@@ -118,7 +146,7 @@ static bool take_replies(struct percuss_client *client, dds_entity_t reader, dds
     *count = dds_take(reader, samples, infos, CLIENT_TAKE_AT_ONCE, CLIENT_TAKE_AT_ONCE);
     for (dds_return_t i = 0; i < *count; ++i)
         if (infos[i].valid_data)
-            take_reply(client, &client->taken[i]);
+            take_reply(client, &client->taken[i], infos[i].publication_handle);
     return *count == CLIENT_TAKE_AT_ONCE;
 }
 
@@ -185,11 +213,40 @@ static enum percuss_result take_all(struct percuss_client *client, dds_entity_t 
     return count < 0 ? error_dds("taking replies", count) : PERCUSS_RESULT_OK;
 }
 
+/* Whether that writer of replies is there. */
+static bool is_there(const struct percuss_client *client, dds_instance_handle_t writer)
+{
+    dds_builtintopic_endpoint_t *found =
+        dds_get_matched_publication_data(client->reply_reader, writer);
+    if (found)
+        dds_builtintopic_free_endpoint(found);
+    return found;
+}
+
+void receive_note_loss(struct percuss_client *client)
+{
+    client->lost = !is_there(client, client->server.writer);
+}
+
+/* Whether some writer of replies has come or gone, and that one has. Being read, the status no
+ * longer wakes. */
+static bool has_gone(const struct percuss_client *client, dds_instance_handle_t writer)
+{
+    uint32_t changes = 0;
+    dds_subscription_matched_status_t matched;
+    dds_get_status_changes(client->reply_reader, &changes);
+    if (!(changes & DDS_SUBSCRIPTION_MATCHED_STATUS))
+        return false;
+    dds_get_subscription_matched_status(client->reply_reader, &matched);
+    return !is_there(client, writer);
+}
+
 /* Waits up to `seconds` for anything and files it. The lock is released meanwhile. */
 static enum percuss_result lead(struct percuss_client *client, double seconds)
 {
     dds_entity_t batch_reader = client->batch_reader, trace_reader = client->trace_reader;
     dds_entity_t ensemble_reader = client->ensemble_reader;
+    dds_instance_handle_t writer = client->server.writer;
     client->leading = true;
     pthread_mutex_unlock(&client->lock);
 
@@ -198,6 +255,8 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
     dds_return_t triggered = dds_waitset_wait(client->waitset, NULL, 0, duration);
     if (triggered < 0)
         result = error_dds("waiting for replies", triggered);
+    // before what has arrived is taken: what a server wrote arrives before it is seen to go
+    bool gone = triggered > 0 && has_gone(client, writer);
     if (triggered > 0)
         result = take_all(client, client->reply_reader, take_replies);
     if (triggered > 0 && result == PERCUSS_RESULT_OK && batch_reader)
@@ -213,6 +272,7 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
     }
 
     pthread_mutex_lock(&client->lock);
+    client->lost = client->lost || (gone && writer == client->server.writer);
     client->leading = false;
     pthread_cond_broadcast(&client->changed);
     return result;
@@ -234,6 +294,8 @@ enum percuss_result receive_until(struct percuss_client *client, receive_conditi
     bool looked = false;
     while (result == PERCUSS_RESULT_OK && !done(client, subject)) {
         double left = deadline - receive_now();
+        if (client->connected && client->lost)
+            return error_lost(client->server_name);
         if (left <= 0.0 && looked)
             return PERCUSS_RESULT_TIMEOUT;
         looked = true;

@@ -20,8 +20,12 @@ enum percuss_result receive_deadline(double timeout, double *deadline);
 typedef bool receive_condition(const struct percuss_client *client, const void *subject);
 
 /* Receives until `done` or the deadline; looks at least once at what has arrived. The lock is held
- * at entry and return, and whenever `done` is called. OK, TIMEOUT or TRANSPORT. */
+ * at entry and return, and whenever `done` is called. OK, TIMEOUT, TRANSPORT, or NO_SERVER: the
+ * server of a connected client has gone. */
 enum percuss_result receive_until(struct percuss_client *client, receive_condition *done,
                                   const void *subject, double deadline);
+
+/* Looks whether the server still writes to us; the lock is held. */
+void receive_note_loss(struct percuss_client *client);
 
 #endif

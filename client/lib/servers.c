@@ -1,12 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "announcements.h"
 #include "error.h"
 #include "receive.h"
+#include "servers.h"
 
 static void convert_server(const percuss_v2_ServerStatus *wire, struct percuss_server *server)
 {
@@ -31,49 +33,103 @@ static void convert_server(const percuss_v2_ServerStatus *wire, struct percuss_s
     memcpy(server->activity, wire->activity, sizeof server->activity);
 }
 
-/* One look at the servers. PENDING: the one that is wanted (NULL: any) is not among them. */
-static enum percuss_result look_at_servers(struct percuss_client *client, dds_entity_t reader,
-                                           const uint8_t *wanted, struct percuss_server_list *list)
+/* A server with what decides its place in the list. */
+struct sighting {
+    bool draining;
+    double started; /* s, by the clock of its host */
+    struct percuss_server server;
+};
+
+static int compare_sightings(const void *left, const void *right)
+{
+    const struct sighting *a = left, *b = right;
+    if (a->draining != b->draining)
+        return a->draining - b->draining;
+    if (a->started != b->started)
+        return a->started < b->started ? -1 : 1;
+    return memcmp(a->server.server, b->server.server, sizeof a->server.server);
+}
+
+/* The valid ones among the samples; their number. */
+static size_t list_sightings(const struct announcements *all, struct sighting *sightings)
+{
+    size_t count = 0;
+    for (int i = 0; i < all->count; ++i) {
+        if (!all->infos[i].valid_data)
+            continue;
+        struct sighting *sighting = &sightings[count++];
+        convert_server(all->samples[i], &sighting->server);
+        sighting->draining = strcmp(sighting->server.state, "ready") != 0;
+        sighting->started = 1e-9 * (double)all->infos[i].source_timestamp - sighting->server.uptime;
+    }
+    qsort(sightings, count, sizeof *sightings, compare_sightings);
+    return count;
+}
+
+enum percuss_result servers_look(struct percuss_client *client, struct percuss_server_list *list)
 {
     struct announcements all;
-    enum percuss_result result = announcements_read(client, reader, &all);
+    *list = (struct percuss_server_list){0};
+    enum percuss_result result = announcements_read(client, client->server_reader, &all);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    bool found = false;
-    list->count = 0;
+    struct sighting *sightings = calloc((size_t)all.count + 1, sizeof *sightings);
     list->servers = calloc((size_t)all.count + 1, sizeof *list->servers);
-    for (int i = 0; list->servers && i < all.count; ++i) {
-        if (!all.infos[i].valid_data)
-            continue;
-        struct percuss_server *server = &list->servers[list->count++];
-        convert_server(all.samples[i], server);
-        found = found || !wanted || memcmp(server->server, wanted, 16) == 0;
+    if (sightings && list->servers) {
+        list->count = list_sightings(&all, sightings);
+        for (size_t i = 0; i < list->count; ++i)
+            list->servers[i] = sightings[i].server;
     }
     announcements_release(&all);
-    if (!list->servers)
-        return error_set(PERCUSS_RESULT_NO_MEMORY, "a list of servers");
-    if (!found)
-        percuss_server_list_free(list);
-    return found ? PERCUSS_RESULT_OK : PERCUSS_RESULT_PENDING;
+    bool good = sightings && list->servers;
+    free(sightings);
+    if (good)
+        return PERCUSS_RESULT_OK;
+    percuss_server_list_free(list);
+    return error_set(PERCUSS_RESULT_NO_MEMORY, "a list of servers");
+}
+
+const struct percuss_server *servers_find(const struct percuss_server_list *list,
+                                          const uint8_t id[16])
+{
+    for (size_t i = 0; i < list->count; ++i)
+        if (memcmp(list->servers[i].server, id, 16) == 0)
+            return &list->servers[i];
+    return NULL;
+}
+
+enum percuss_result servers_open(struct percuss_client *client)
+{
+    return announcements_open(client, &client->server_reader, &percuss_v2_ServerStatus_desc,
+                              WIRE_TOPIC_SERVER_STATUS);
+}
+
+size_t servers_reading(const struct percuss_client *client)
+{
+    dds_return_t count = dds_get_matched_subscriptions(client->request_writer, NULL, 0);
+    return count > 0 ? (size_t)count : 0;
 }
 
 enum percuss_result percuss_servers(struct percuss_client *client, double timeout,
                                     struct percuss_server_list *list)
 {
     uint8_t server[16];
-    double deadline;
+    double deadline, settled = receive_now() + SERVERS_SETTLING;
     *list = (struct percuss_server_list){0};
     enum percuss_result result = receive_deadline(timeout, &deadline);
     if (result == PERCUSS_RESULT_OK)
-        result = announcements_open(client, &client->server_reader, &percuss_v2_ServerStatus_desc,
-                                    WIRE_TOPIC_SERVER_STATUS);
-    if (result != PERCUSS_RESULT_OK)
-        return result;
-    const uint8_t *wanted = announcements_server(client, server) ? server : NULL;
-    while ((result = look_at_servers(client, client->server_reader, wanted, list)) ==
-           PERCUSS_RESULT_PENDING) {
-        if (receive_now() >= deadline)
-            return error_set(wanted ? PERCUSS_RESULT_TIMEOUT : PERCUSS_RESULT_NO_SERVER,
+        result = servers_open(client);
+    const bool connected = announcements_server(client, server);
+    while (result == PERCUSS_RESULT_OK) {
+        result = servers_look(client, list);
+        bool found = connected ? servers_find(list, server) != NULL : list->count > 0;
+        double now = receive_now();
+        bool all = list->count >= servers_reading(client) || now >= fmin(settled, deadline);
+        if (result != PERCUSS_RESULT_OK || (found && all))
+            return result;
+        percuss_server_list_free(list);
+        if (now >= deadline)
+            return error_set(connected ? PERCUSS_RESULT_TIMEOUT : PERCUSS_RESULT_NO_SERVER,
                              "no percussd has announced itself in DDS domain %u", client->domain);
         dds_sleepfor(ANNOUNCEMENTS_INTERVAL);
     }
@@ -88,9 +144,8 @@ enum percuss_result announcements_connected(struct percuss_client *client, doubl
     if (!announcements_server(client, id))
         return error_set(PERCUSS_RESULT_NO_SERVER, "not connected");
     enum percuss_result result = percuss_servers(client, timeout, &servers);
-    for (size_t i = 0; i < servers.count; ++i)
-        if (memcmp(servers.servers[i].server, id, sizeof id) == 0)
-            *server = servers.servers[i];
+    if (result == PERCUSS_RESULT_OK)
+        *server = *servers_find(&servers, id);
     percuss_server_list_free(&servers);
     return result;
 }

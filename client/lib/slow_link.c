@@ -6,32 +6,20 @@
 
 #include "receive.h"
 
-static const double glance = 0.5; /* s between two looks whether the server is still there */
 static const double busy_interval = 0.02; /* s until a busy server is asked again */
 
-static bool server_is_gone(struct percuss_client *client)
-{
-    return dds_get_matched_publications(client->reply_reader, NULL, 0) == 0;
-}
-
-/* Sends the request and waits for its reply up to the deadline, or until the server is gone: then
- * NO_SERVER, with the request's sequence for it to be sent again to the next one. */
+/* Sends the request and waits for its reply up to the deadline. NO_SERVER: the server has gone; the
+ * request keeps its sequence, to be sent again to the next one. */
 static enum percuss_result exchange(struct percuss_client *client, struct percuss_request *request,
                                     double deadline, struct percuss_reply *reply)
 {
     enum percuss_result result = percuss_submit(client, request, &request->sequence);
-    if (result)
+    if (result != PERCUSS_RESULT_OK)
         return result;
-    do {
-        double wait = fmin(glance, fmax(0.0, deadline - receive_now()));
-        result = percuss_wait(client, request->sequence, wait, reply);
-    } while (result == PERCUSS_RESULT_TIMEOUT && receive_now() < deadline &&
-             !server_is_gone(client));
-    if (result == PERCUSS_RESULT_TIMEOUT) {
-        bool gone = server_is_gone(client);
+    double left = fmax(0.0, deadline - receive_now());
+    result = percuss_wait(client, request->sequence, left, reply);
+    if (result != PERCUSS_RESULT_OK)
         percuss_cancel(client, request->sequence);
-        result = gone ? PERCUSS_RESULT_NO_SERVER : result;
-    }
     return result;
 }
 

@@ -70,6 +70,7 @@ static enum percuss_result send_batch(struct percuss_client *client, struct batc
         return result;
     percuss_v2_BatchRequest wire = {.sequence = sequence};
     memcpy(wire.client, client->id, sizeof wire.client);
+    memcpy(wire.server, client->server.id, sizeof wire.server);
     for (size_t i = 0; i < count; ++i) {
         memcpy(sample->requests[i].client, client->id, sizeof client->id);
         sample->requests[i].sequence = sequence + 1 + i;

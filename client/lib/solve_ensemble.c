@@ -89,6 +89,7 @@ static enum percuss_result send(struct percuss_client *client, percuss_v2_Ensemb
     if (result != PERCUSS_RESULT_OK)
         return result;
     memcpy(wire->client, client->id, sizeof wire->client);
+    memcpy(wire->server, client->server.id, sizeof wire->server);
     wire->sequence = sequence;
     dds_return_t code = dds_write(client->ensemble_writer, wire);
     if (code >= 0)
@@ -101,6 +102,7 @@ static void send_cancel(struct percuss_client *client, uint64_t sequence)
 {
     percuss_v2_EnsembleRequest wire = {.sequence = sequence, .cancel = true};
     memcpy(wire.client, client->id, sizeof wire.client);
+    memcpy(wire.server, client->server.id, sizeof wire.server);
     dds_write(client->ensemble_writer, &wire);
 }
 

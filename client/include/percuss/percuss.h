@@ -37,9 +37,11 @@ struct percuss_client_config {
     uint8_t id[16];  /* all zero: random. A kept id lets a restarted client repeat requests */
     uint64_t first_sequence; /* of the first request, > 0; a kept id goes on where it stopped */
     unsigned window;         /* most outstanding requests, 1..1024 */
+    char server[PERCUSS_SERVER_ID_SIZE]; /* hexadecimal digits with which the id of the server to
+                                            stay with begins; empty: any */
 };
 
-/* Domain 0, random id, first sequence 1, window 256. */
+/* Domain 0, random id, first sequence 1, window 256, any server. */
 PERCUSS_API struct percuss_client_config percuss_client_config_default(void);
 
 /* Makes a client; NULL config: the default. The caller frees it. INVALID_ARGUMENT, NO_MEMORY or
@@ -50,12 +52,20 @@ PERCUSS_API enum percuss_result percuss_client_create(const struct percuss_clien
 /* Forgets what is outstanding and leaves the domain; NULL is allowed. */
 PERCUSS_API void percuss_client_free(struct percuss_client *client);
 
-/* Waits until requests and replies are matched with the same server, then pings it every 5 ms until
- * it answers. NO_SERVER: none within the time; INCOMPATIBLE: one is there, but after 2 s a quality
- * of service still does not fit, named in percuss_error_text. To be called again after the server
- * was restarted; what was outstanding is lost then and may be submitted again as it was. */
+/* Pings every 5 ms until a server answers, and stays with it: no other one is asked from then on.
+ * Where several answer it takes the one that has been up longest, or the one that the configuration
+ * names. NO_SERVER: none within the time, or none of that name; TIMEOUT: one is there but has not
+ * answered; INVALID_ARGUMENT: several have ids that begin so; INCOMPATIBLE: one is there, but after
+ * 2 s a quality of service still does not fit, named in percuss_error_text.
+ *
+ * When that server goes, whatever waits for it returns NO_SERVER with its name: at once when it
+ * ends, 2 s after it was killed. To be called again then, and after a restart, since a restarted
+ * server is another one; what was outstanding is lost then and may be submitted again as it was. */
 PERCUSS_API enum percuss_result percuss_client_connect(struct percuss_client *client,
                                                        double timeout);
+
+/* The id of the server that the client stays with; false, and all zero, before the first one. */
+PERCUSS_API bool percuss_client_server(struct percuss_client *client, uint8_t server[16]);
 
 /* The client's id: the one configured or drawn. */
 PERCUSS_API void percuss_client_id(const struct percuss_client *client, uint8_t id[16]);
@@ -100,8 +110,10 @@ PERCUSS_API enum percuss_result percuss_solve_batch(struct percuss_client *clien
 PERCUSS_API enum percuss_result percuss_ping(struct percuss_client *client, double timeout,
                                              double *round_trip);
 
-/* The servers of the domain, for percuss_server_list_free; need not be connected. Waits until the
- * connected server, or else any, has announced itself. */
+/* The servers of the domain, longest up first, for percuss_server_list_free; need not be connected.
+ * Waits until the connected server, or else any, has announced itself, and then up to 0.2 s for
+ * others that are known to read requests. More than one, with different catalogue_revision: who
+ * connects to any gets answers that depend on which. */
 PERCUSS_API enum percuss_result percuss_servers(struct percuss_client *client, double timeout,
                                                 struct percuss_server_list *list);
 

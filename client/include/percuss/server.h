@@ -29,6 +29,9 @@ struct percuss_body_list {
     struct percuss_body *bodies; /* sorted by id */
 };
 
+/* A server's id in hexadecimal digits, with the terminating zero. */
+enum { PERCUSS_SERVER_ID_SIZE = 33 };
+
 struct percuss_server {
     uint8_t server[16];
     char version[32], catalogue_revision[64];

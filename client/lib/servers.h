@@ -1,0 +1,27 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Which servers there are, by what they announce. */
+#ifndef PERCUSS_LIB_SERVERS_H
+#define PERCUSS_LIB_SERVERS_H
+
+#include "client.h"
+
+/* s; servers that are there are all discovered within it, but for those that hang */
+#define SERVERS_SETTLING 0.2
+
+/* Opens the reader that servers_look needs. */
+enum percuss_result servers_open(struct percuss_client *client);
+
+/* Those that have announced themselves by now, longest up first, draining ones last. For
+ * percuss_server_list_free. */
+enum percuss_result servers_look(struct percuss_client *client, struct percuss_server_list *list);
+
+/* The one of that id; NULL: it is not in the list. */
+const struct percuss_server *servers_find(const struct percuss_server_list *list,
+                                          const uint8_t id[16]);
+
+/* How many read requests, announced or not. */
+size_t servers_reading(const struct percuss_client *client);
+
+#endif
