@@ -22,6 +22,7 @@ struct common {
     uint32_t domain;
     double timeout; /* s for the answer; NAN: not given */
     bool json;
+    char server[PERCUSS_SERVER_ID_SIZE]; /* what its id begins with; empty: any */
 };
 
 /* Long options without a letter; each command goes on from OPTION_OWN. */
@@ -29,11 +30,12 @@ enum option_key {
     OPTION_DOMAIN = 256,
     OPTION_TIMEOUT,
     OPTION_JSON,
+    OPTION_SERVER,
     OPTION_SCENE,
     OPTION_OWN = 300
 };
 
-/* Parses --domain, --timeout and --json into the `struct common` that is its input. */
+/* Parses --domain, --timeout, --server and --json into the `struct common` that is its input. */
 extern const struct argp common_argp;
 
 /* One command: argv[0] is "percuss <command>"; `common` holds what stood before the command.
@@ -62,7 +64,16 @@ int complain_result(enum percuss_result result);
 /* That there is no server, for the reason `what`, and how to start one in that domain. */
 void complain_no_server(const char *what, unsigned domain);
 
-/* A connected client; `id` NULL: random. EXIT_ANSWERED, or complains. */
+/* The DDS domain that PERCUSS_DOMAIN names, 0 without; what is no domain ends the process. */
+uint32_t environment_domain(void);
+
+/* A client; `id` NULL: random. EXIT_ANSWERED, or complains and leaves *client NULL. */
+int make_client(const struct common *common, const uint8_t *id, struct percuss_client **client);
+
+/* Connects it; EXIT_ANSWERED, or complains. */
+int connect_client(const struct common *common, struct percuss_client *client);
+
+/* Both. Warns of servers that answer beside the one it stays with. */
 int open_client(const struct common *common, const uint8_t *id, struct percuss_client **client);
 
 /* The exit code of a reply. */

@@ -1,6 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
@@ -9,15 +10,21 @@
 #include <string.h>
 
 #include "cli.h"
+#include "others.h"
 
 enum { HIGHEST_DOMAIN = 230 };
 static const double default_timeout = 30.0; /* s */
 static const double default_patience = 3.0; /* s for a server to appear; discovery takes 0.1 s */
 
 static const struct argp_option common_options[] = {
-    {"domain", OPTION_DOMAIN, "N", 0, "DDS domain of the server (default 0)", 90},
+    {"domain", OPTION_DOMAIN, "N", 0,
+     "DDS domain of the server (default: PERCUSS_DOMAIN, or else 0)", 90},
     {"timeout", OPTION_TIMEOUT, "S", 0,
      "seconds to wait for the server and then for the answer (default 3 and 30)", 90},
+    {"server", OPTION_SERVER, "ID", 0,
+     "the server to ask: how its id begins, as percuss status shows it (default: the one up "
+     "longest)",
+     90},
     {"json", OPTION_JSON, NULL, 0, "print one JSON object", 90},
     {0},
 };
@@ -41,6 +48,32 @@ unsigned parse_count(const char *option, const char *text, unsigned most, struct
     return (unsigned)number;
 }
 
+static void parse_server(const char *text, char server[PERCUSS_SERVER_ID_SIZE],
+                         struct argp_state *state)
+{
+    size_t length = strlen(text);
+    if (length == 0 || length >= PERCUSS_SERVER_ID_SIZE ||
+        strspn(text, "0123456789abcdefABCDEF") < length)
+        argp_error(state, "--server: '%s' is not 1 to %d hexadecimal digits", text,
+                   PERCUSS_SERVER_ID_SIZE - 1);
+    for (size_t i = 0; i <= length; ++i)
+        server[i] = (char)tolower((unsigned char)text[i]);
+}
+
+uint32_t environment_domain(void)
+{
+    const char *text = getenv("PERCUSS_DOMAIN");
+    if (!text || !*text)
+        return 0;
+    char *end;
+    unsigned long domain = strtoul(text, &end, 10);
+    if (!isdigit((unsigned char)*text) || *end || domain > HIGHEST_DOMAIN) {
+        complain("PERCUSS_DOMAIN: '%s' is not a whole number of 0..%d", text, HIGHEST_DOMAIN);
+        exit(EXIT_USAGE);
+    }
+    return (uint32_t)domain;
+}
+
 static error_t parse_common(int key, char *text, struct argp_state *state)
 {
     struct common *common = state->input;
@@ -52,6 +85,9 @@ static error_t parse_common(int key, char *text, struct argp_state *state)
         common->timeout = parse_number("timeout", text, state);
         if (common->timeout < 0.0)
             argp_error(state, "--timeout: '%s': seconds >= 0 are needed", text);
+        return 0;
+    case OPTION_SERVER:
+        parse_server(text, common->server, state);
         return 0;
     case OPTION_JSON:
         common->json = true;
@@ -101,10 +137,10 @@ void complain(const char *format, ...)
 
 int complain_result(enum percuss_result result)
 {
+    if (result == PERCUSS_RESULT_OK)
+        return EXIT_ANSWERED;
     complain("%s", percuss_error_text());
     switch (result) {
-    case PERCUSS_RESULT_OK:
-        return EXIT_ANSWERED;
     case PERCUSS_RESULT_TIMEOUT:
         return EXIT_TIMEOUT;
     case PERCUSS_RESULT_INVALID_ARGUMENT:
@@ -114,23 +150,34 @@ int complain_result(enum percuss_result result)
     }
 }
 
-int open_client(const struct common *common, const uint8_t *id, struct percuss_client **client)
+int make_client(const struct common *common, const uint8_t *id, struct percuss_client **client)
 {
     struct percuss_client_config config = percuss_client_config_default();
     config.domain = common->domain;
+    memcpy(config.server, common->server, sizeof config.server);
     if (id)
         memcpy(config.id, id, sizeof config.id);
-    enum percuss_result result = percuss_client_create(&config, client);
-    if (result != PERCUSS_RESULT_OK)
+    return complain_result(percuss_client_create(&config, client));
+}
+
+int connect_client(const struct common *common, struct percuss_client *client)
+{
+    enum percuss_result result = percuss_client_connect(client, common_patience(common));
+    if (result != PERCUSS_RESULT_NO_SERVER || common->server[0])
         return complain_result(result);
-    result = percuss_client_connect(*client, common_patience(common));
-    if (result == PERCUSS_RESULT_OK)
-        return EXIT_ANSWERED;
-    int code = EXIT_NO_SERVER;
-    if (result == PERCUSS_RESULT_NO_SERVER)
-        complain_no_server(percuss_error_text(), common->domain);
-    else
-        code = complain_result(result);
+    complain_no_server(percuss_error_text(), common->domain);
+    return EXIT_NO_SERVER;
+}
+
+int open_client(const struct common *common, const uint8_t *id, struct percuss_client **client)
+{
+    int code = make_client(common, id, client);
+    if (code == EXIT_ANSWERED)
+        code = connect_client(common, *client);
+    if (code == EXIT_ANSWERED) {
+        others_warn(common, *client);
+        return code;
+    }
     percuss_client_free(*client);
     *client = NULL;
     return code;

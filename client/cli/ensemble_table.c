@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli.h"
 #include "ensemble_output.h"
+#include "others.h"
 
 /* "[low, high]" with a word for bounds that so few samples cannot give. */
 struct bounds_text {
@@ -166,6 +166,7 @@ void ensemble_print_table(const struct percuss_ensemble_request *request,
         print_intervals(reply);
         print_sensitivities(reply);
         print_model(reply);
+        print_server_line(reply->server, reply->catalogue_revision);
     }
     if (reply->message[0])
         fprintf(stderr, "percuss: %s: %s\n", percuss_status_name(reply->status), reply->message);

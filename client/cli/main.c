@@ -83,7 +83,7 @@ static int run(const char *name, int argc, char **argv, struct common *common)
 
 int main(int argc, char **argv)
 {
-    struct invocation invocation = {.common.timeout = NAN};
+    struct invocation invocation = {.common = {.timeout = NAN, .domain = environment_domain()}};
     argp_err_exit_status = EXIT_USAGE;
     argp_parse(&main_argp, argc, argv, ARGP_IN_ORDER, NULL, &invocation);
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "cli.h"
+#include "others.h"
 
 double reply_restitution_error(const struct percuss_reply *reply)
 {
@@ -112,6 +112,7 @@ void reply_table_print(const struct percuss_request *request, const struct percu
     if (reply->contact_count > 0) {
         print_energy(&reply->energy);
         print_model(&reply->model);
+        print_server_line(reply->server, reply->catalogue_revision);
     }
     if (reply->time_shift != 0.0 && !isnan(reply->time_shift))
         printf("  time shift   %.4g us\n", 1e6 * reply->time_shift);

@@ -63,10 +63,15 @@ int command_status(int argc, char **argv, struct common *common)
 {
     struct percuss_client *client;
     struct percuss_server_list list;
-    parse_only_common(argc, argv, "Shows what the server is doing.", common);
-    int code = open_client(common, NULL, &client);
-    if (code != EXIT_ANSWERED)
+    parse_only_common(argc, argv, "Shows what the servers are doing.", common);
+    int code = make_client(common, NULL, &client);
+    if (code == EXIT_ANSWERED)
+        code = connect_client(common, client);
+    // what a server announces that does not answer is of interest, too
+    if (code != EXIT_ANSWERED && code != EXIT_TIMEOUT) {
+        percuss_client_free(client);
         return code;
+    }
     enum percuss_result result = percuss_servers(client, common_timeout(common), &list);
     if (result != PERCUSS_RESULT_OK)
         code = complain_result(result);

@@ -7,4 +7,71 @@
 start_daemon
 say "a request that names a server is answered by no other"
 expect 0 "$peers/wire_servers" "$domain"
+expect 0 percuss status --json
+elder=$(field server)
+expect 0 query --json
+cp "$out" "$work/elder"
+
+# start_second CATALOGUE: beside the first one, in a log of its own
+start_second() {
+    sed "s|catalogue.yaml|$1|" "$work/percussd.yaml" >"$work/second.yaml"
+    "$bin/percussd" --config "$work/second.yaml" --domain "$domain" 2>"$work/second.log" 9>&- &
+    others=$!
+    wait_for 20 grep -q 'ready: domain' "$work/second.log" || fail "$(cat "$work/second.log")"
+}
+
+has_two() {
+    percuss status --json >"$out" 2>"$err" && [ "$(grep -c '"server": "' "$out")" = 2 ]
+}
+
+stiff=$work/stiff.yaml
+sed 's/young: 70e9/young: 90e9/' "$work/catalogue.yaml" >"$stiff"
+start_second stiff.yaml
+say "status lists both, the one that has been up longest first"
+wait_for 20 has_two || fail "status does not list two servers"
+[ "$(field server)" = "$elder" ] || fail "the elder is not the first"
+younger=$(sed -n 's/^ *"server": "\([0-9a-f]*\)",*$/\1/p' "$out" | sed -n 2p)
+short=$(echo "$younger" | cut -c1-12)
+
+say "who is named answers, and all the time: other numbers by another catalogue"
+for server in "$elder" "$short"; do
+    for i in 1 2 3 4 5 6; do
+        expect 0 query --json --server "$server"
+        [ ! -s "$err" ] || fail "a chosen server is warned of"
+        case $(field server) in "$server"*) ;; *) fail "answered by $(field server)" ;; esac
+        field restitution >>"$work/by-$server"
+    done
+    [ "$(sort -u "$work/by-$server" | wc -l)" = 1 ] || fail "$(cat "$work/by-$server")"
+done
+[ "$(head -n 1 "$work/by-$elder")" != "$(head -n 1 "$work/by-$short")" ] || fail "the same numbers"
+[ "$(head -n 1 "$work/by-$elder")" = "$(field restitution "$work/elder")" ] || fail "other numbers than before"
+
+say "the points of a sweep, the samples of an ensemble and a trace come from one server"
+expect 0 percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.4:31 --json --server "$short"
+[ "$(sed -n 's/^ *"server": "\(.*\)",*$/\1/p' "$out" | sort -u)" = "$younger" ] || fail "several servers"
+expect 0 percuss ensemble --a steel-sphere --b al-beam --speed uniform:0.1:0.4 --samples 256 --json \
+    --server "$short"
+[ "$(field server)" = "$younger" ] || fail "answered by $(field server)"
+expect 0 query --trace "$work/trace.csv" --json --server "$short"
+[ "$(field server)" = "$younger" ] || fail "answered by $(field server)"
+percuss ping --count 20 --server "$short" >"$out" 2>"$err" || fail "no ping"
+
+say "who names none is told that there are two, with emphasis on the other catalogue, and who answered"
+expect 0 query
+says "answers here too, with ANOTHER CATALOGUE"
+grep -q '^  server       [0-9a-f]\{8\}, catalogue revision [0-9a-f]\{8\}$' "$out" || fail "the table does not say who"
+
+say "who names what is not there"
+expect 3 query --server 0123456789abcdef --timeout 1
+says "has an id that begins with 0123456789abcdef; there is percussd "
+expect 2 query --server xyz
+says "--server: 'xyz' is not 1 to 32 hexadecimal digits"
+
+say "the domain may come from the environment"
+expect 0 env PERCUSS_DOMAIN="$domain" "$bin/percuss" ping
+expect 2 env PERCUSS_DOMAIN=300 "$bin/percuss" ping
+says "PERCUSS_DOMAIN: '300' is not a whole number of 0..230"
+kill -TERM $others
+wait $others || fail "the second daemon failed"
+others=
 stop_daemon

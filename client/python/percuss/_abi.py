@@ -16,7 +16,13 @@ _Vector = c_double * 3
 
 
 class ClientConfig(ctypes.Structure):
-    _fields_ = [("domain", c_uint32), ("id", _Octets), ("first_sequence", c_uint64), ("window", c_uint)]
+    _fields_ = [
+        ("domain", c_uint32),
+        ("id", _Octets),
+        ("first_sequence", c_uint64),
+        ("window", c_uint),
+        ("server", c_char * 33),
+    ]
 
 
 class Override(ctypes.Structure):
@@ -333,6 +339,7 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("client_free", None, [_Client]),
     ("client_connect", c_int, [_Client, c_double]),
     ("client_id", None, [_Client, _Octets]),
+    ("client_server", c_bool, [_Client, _Octets]),
     ("solve", c_int, [_Client, POINTER(Request), c_double, POINTER(Reply)]),
     ("submit", c_int, [_Client, POINTER(Request), POINTER(c_uint64)]),
     ("wait", c_int, [_Client, c_uint64, c_double, POINTER(Reply)]),

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from types import TracebackType
 
 from . import _abi, reply, request, server
-from .errors import Incompatible, NoServer, check
+from .errors import CallError, check
 from .reply import Reply
 from .request import Request
 from .server import Body, Server, Specimen
@@ -26,11 +26,17 @@ class Client:
     """
 
     def __init__(
-        self, domain: int = 0, id: bytes | None = None, first_sequence: int = 1, window: int = 256
+        self,
+        domain: int = 0,
+        id: bytes | None = None,
+        first_sequence: int = 1,
+        window: int = 256,
+        server: str = "",
     ) -> None:
         """domain: 0..230. id: 16 octets, not all zero; None: random; a kept one lets a restarted client
         repeat requests. first_sequence: of the first request, > 0; a kept id goes on where it stopped.
-        window: most outstanding requests, 1..1024."""
+        window: most outstanding requests, 1..1024. server: hexadecimal digits with which the id of the
+        server to stay with begins (as in Server.server.hex()); empty: any."""
         self._handle = ctypes.c_void_p()
         if id is not None and (len(id) != 16 or not any(id)):
             raise ValueError(f"id: {id!r}: 16 octets, not all zero, are allowed")
@@ -43,7 +49,9 @@ class Client:
             if not 0 <= number <= most:
                 raise ValueError(f"{name}: {number}: up to {most} is allowed")
         octets = (ctypes.c_uint8 * 16)(*(id or bytes(16)))
-        config = _abi.ClientConfig(domain, octets, first_sequence, window)
+        if len(server) > 32:
+            raise ValueError(f"server: {server!r}: up to 32 hexadecimal digits are allowed")
+        config = _abi.ClientConfig(domain, octets, first_sequence, window, server.lower().encode())
         check(_library.percuss_client_create(ctypes.byref(config), ctypes.byref(self._handle)))
 
     def close(self) -> None:
@@ -80,10 +88,19 @@ class Client:
         _library.percuss_client_id(self._open, octets)
         return bytes(octets)
 
+    @property
+    def server(self) -> bytes | None:
+        """The id of the server that the client stays with; None before the first one."""
+        octets = (ctypes.c_uint8 * 16)()
+        return bytes(octets) if _library.percuss_client_server(self._open, octets) else None
+
     def connect(self, timeout: float = 3.0) -> None:
-        """Waits until a server answers. NoServer: none within the time; Incompatible: one is there but a
-        quality of service does not fit. To be called again after the server was restarted; what was
-        outstanding is lost then and may be submitted again as it was."""
+        """Waits until a server answers and stays with it; of several, with the one that has been up
+        longest or the one that was named. NoServer: none within the time; AnswerTimeout: one is there
+        but has not answered; InvalidArgument: several have ids that begin as named; Incompatible: one is
+        there but a quality of service does not fit. When that server goes, what waits for it raises
+        NoServer. To be called again then, and after a restart; what was outstanding is lost then and
+        may be submitted again as it was."""
         check(_library.percuss_client_connect(self._open, timeout))
 
     def solve(self, question: Request, timeout: float = 10.0) -> Reply:
@@ -154,7 +171,7 @@ class Client:
         return round_trip.value
 
     def servers(self, timeout: float = 3.0) -> list[Server]:
-        """The servers of the domain; need not be connected. Waits until the connected server, or else
+        """The servers of the domain, longest up first; need not be connected. Waits until the connected server, or else
         any, has announced itself."""
         found = _abi.ServerList()
         check(_library.percuss_servers(self._open, timeout, ctypes.byref(found)))
@@ -198,13 +215,18 @@ def _take(answer: _abi.Reply) -> Reply:
 
 
 def connect(
-    domain: int = 0, timeout: float = 3.0, id: bytes | None = None, first_sequence: int = 1, window: int = 256
+    domain: int = 0,
+    timeout: float = 3.0,
+    id: bytes | None = None,
+    first_sequence: int = 1,
+    window: int = 256,
+    server: str = "",
 ) -> Client:
     """A connected client, to be used in a `with` statement; see Client and Client.connect."""
-    client = Client(domain, id, first_sequence, window)
+    client = Client(domain, id, first_sequence, window, server)
     try:
         client.connect(timeout)
-    except (NoServer, Incompatible):
+    except CallError:
         client.close()
         raise
     return client

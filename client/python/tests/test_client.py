@@ -250,6 +250,20 @@ class Mistakes(Beside):
         with self.assertRaisesRegex(ValueError, "closed"):
             client.ping()
 
+    def test_named_server(self) -> None:
+        (server,) = self.client.servers()
+        self.assertEqual(self.client.server, server.server)
+        for name in (server.server.hex(), server.server.hex()[:6].upper()):
+            with percuss.connect(DOMAIN, 10.0, server=name) as client:
+                self.assertEqual(client.server, server.server)
+        other = "0" if server.server[0] >= 16 else "f"
+        with self.assertRaisesRegex(percuss.NoServer, f"id that begins with {other}; there is percussd"):
+            percuss.connect(DOMAIN, 0.5, server=other)
+        for name in ("xyz", "0" * 33):
+            with self.subTest(name), self.assertRaises(ValueError):
+                percuss.Client(DOMAIN, server=name)
+        self.assertIsNone(percuss.Client(DOMAIN).server)
+
     def test_no_server(self) -> None:
         # no story's domain: tests/service/lib.sh keeps below 100
         with self.assertRaises(ConnectionError):
