@@ -15,19 +15,29 @@ const char *argp_program_version = "percussd " PERCUSS_VERSION;
 static const struct argp_option options[] = {
     {"config", 'c', "FILE", 0, "Settings; the shipped percussd.yaml explains each key", 0},
     {"catalogue", 'C', "FILE", 0, "Bodies and materials; goes before the one in the settings", 0},
-    {"domain", 'd', "N", 0, "DDS domain, 0 to 230; goes before the one in the settings", 0},
+    {"domain", 'd', "N", 0,
+     "DDS domain, 0 to 230; goes before PERCUSS_DOMAIN, and that before the one in the settings",
+     0},
     {"check-config", KEY_CHECK, NULL, 0, "Read settings and catalogue, say ok or what is wrong", 0},
     {0},
 };
 
-static int parse_domain(struct argp_state *state, const char *text)
+static int parse_domain(struct argp_state *state, const char *name, const char *text)
 {
     char *end;
     long domain = strtol(text, &end, 10);
     if (end == text || *end || domain < 0 || domain > SETTINGS_MAX_DOMAIN)
-        argp_error(state, "--domain: %s: must be a whole number, 0 to %d", text,
+        argp_error(state, "%s: %s: must be a whole number, 0 to %d", name, text,
                    SETTINGS_MAX_DOMAIN);
     return (int)domain;
+}
+
+/* What the environment says, unless the command line has said it. */
+static void read_environment(struct argp_state *state, struct arguments *arguments)
+{
+    const char *domain = getenv("PERCUSS_DOMAIN");
+    if (arguments->domain < 0 && domain && *domain)
+        arguments->domain = parse_domain(state, "PERCUSS_DOMAIN", domain);
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -41,7 +51,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         arguments->catalogue = text;
         return 0;
     case 'd':
-        arguments->domain = parse_domain(state, text);
+        arguments->domain = parse_domain(state, "--domain", text);
         return 0;
     case KEY_CHECK:
         arguments->check_config = true;
@@ -52,6 +62,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (!arguments->config && !arguments->catalogue)
             argp_error(state, "--config FILE or --catalogue FILE must be given");
+        read_environment(state, arguments);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;

@@ -71,6 +71,8 @@ say "the domain may come from the environment"
 expect 0 env PERCUSS_DOMAIN="$domain" "$bin/percuss" ping
 expect 2 env PERCUSS_DOMAIN=300 "$bin/percuss" ping
 says "PERCUSS_DOMAIN: '300' is not a whole number of 0..230"
+expect 2 env PERCUSS_DOMAIN=300 "$bin/percussd" --config "$work/percussd.yaml"
+says "PERCUSS_DOMAIN: 300: must be a whole number, 0 to 230"
 kill -TERM $others
 wait $others || fail "the second daemon failed"
 others=
