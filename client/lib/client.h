@@ -12,7 +12,7 @@
 #include "pending.h"
 #include "wire.h"
 
-enum { CLIENT_TAKE_AT_ONCE = 4, CLIENT_MOST_SERVERS = 16 };
+enum { CLIENT_TAKE_AT_ONCE = 4, CLIENT_MOST_SERVERS = 16, SERVERS_NAME_SIZE = 128 };
 
 /* A server that has answered a ping. */
 struct client_server {
@@ -42,7 +42,7 @@ struct percuss_client {
     bool connected;
     bool lost;                   /* the server does not write to us any more */
     struct client_server server; /* whom we stay with; its id is all zero before the first one */
-    char server_name[128];       /* in words */
+    char server_name[SERVERS_NAME_SIZE];                 /* in words */
     struct client_server answering[CLIENT_MOST_SERVERS]; /* pings of percuss_client_connect */
     size_t answering_count;
     uint64_t next_sequence;

@@ -57,16 +57,6 @@ static bool is_matched(dds_entity_t writer, dds_entity_t reader, const dds_guid_
            is_among(dds_get_matched_publication_data, reader, givers, giver_count, participant);
 }
 
-/* The words of a server; it may not have announced itself yet. */
-static void describe(const uint8_t id[16], const struct percuss_server *server, char *text,
-                     size_t size)
-{
-    int length = snprintf(text, size, "percussd %02x%02x%02x%02x", id[0], id[1], id[2], id[3]);
-    if (server)
-        snprintf(text + length, size - (size_t)length, " (process %u on %s)", server->process,
-                 server->host);
-}
-
 static enum percuss_result unanswered(const char *server, double start)
 {
     return error_set(PERCUSS_RESULT_TIMEOUT, "%s is there but has not answered for %.1f s (busy?)",
@@ -151,11 +141,11 @@ static enum percuss_result explain(const struct search *search)
 {
     struct percuss_client *client = search->client;
     const struct percuss_server_list *announced = &search->announced;
-    char others[200] = "", name[128];
+    char others[200] = "", name[SERVERS_NAME_SIZE];
     size_t length = 0;
     for (size_t i = 0; i < announced->count; ++i) {
         const struct percuss_server *server = &announced->servers[i];
-        describe(server->server, server, name, sizeof name);
+        servers_describe(server->server, server, name);
         if (is_wanted(client, server->server))
             return unanswered(name, search->start);
         if (length < sizeof others)
@@ -211,8 +201,7 @@ static void settle_on(const struct search *search, const struct client_server *s
     struct percuss_client *client = search->client;
     pthread_mutex_lock(&client->lock);
     client->server = *server;
-    describe(server->id, servers_find(&search->announced, server->id), client->server_name,
-             sizeof client->server_name);
+    servers_describe(server->id, servers_find(&search->announced, server->id), client->server_name);
     client->connected = true;
     receive_note_loss(client);
     pthread_mutex_unlock(&client->lock);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,6 +67,27 @@ static size_t list_sightings(const struct announcements *all, struct sighting *s
     return count;
 }
 
+void servers_describe(const uint8_t id[16], const struct percuss_server *server,
+                      char text[SERVERS_NAME_SIZE])
+{
+    int length =
+        snprintf(text, SERVERS_NAME_SIZE, "percussd %02x%02x%02x%02x", id[0], id[1], id[2], id[3]);
+    if (server)
+        snprintf(text + length, SERVERS_NAME_SIZE - (size_t)length, " (process %u on %s)",
+                 server->process, server->host);
+}
+
+/* Names the server that we stay with once it has announced itself: when it has gone, nobody knows
+ * any more where it was. */
+static void note_name(struct percuss_client *client, const struct percuss_server_list *list)
+{
+    pthread_mutex_lock(&client->lock);
+    const struct percuss_server *ours = servers_find(list, client->server.id);
+    if (ours)
+        servers_describe(client->server.id, ours, client->server_name);
+    pthread_mutex_unlock(&client->lock);
+}
+
 enum percuss_result servers_look(struct percuss_client *client, struct percuss_server_list *list)
 {
     struct announcements all;
@@ -83,8 +105,10 @@ enum percuss_result servers_look(struct percuss_client *client, struct percuss_s
     announcements_release(&all);
     bool good = sightings && list->servers;
     free(sightings);
-    if (good)
+    if (good) {
+        note_name(client, list);
         return PERCUSS_RESULT_OK;
+    }
     percuss_server_list_free(list);
     return error_set(PERCUSS_RESULT_NO_MEMORY, "a list of servers");
 }

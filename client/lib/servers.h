@@ -17,6 +17,10 @@ enum percuss_result servers_open(struct percuss_client *client);
  * percuss_server_list_free. */
 enum percuss_result servers_look(struct percuss_client *client, struct percuss_server_list *list);
 
+/* Words for a server: its id, and where it runs if it has announced itself (NULL: not yet). */
+void servers_describe(const uint8_t id[16], const struct percuss_server *server,
+                      char text[SERVERS_NAME_SIZE]);
+
 /* The one of that id; NULL: it is not in the list. */
 const struct percuss_server *servers_find(const struct percuss_server_list *list,
                                           const uint8_t id[16]);
