@@ -1,12 +1,13 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Answers being played: which impulse at which contact is due when. */
+/* Answers being played. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "episode.h"
+#include "list.h"
 #include "pairs.h"
 #include "question.h"
 
@@ -34,60 +35,6 @@ void episodes_free(struct percuss_slow *slow)
 {
     while (slow->episodes)
         forget(slow, slow->episodes);
-}
-
-static int by_time(const void *x, const void *y)
-{
-    const struct entry *a = x, *b = y;
-    if (a->time != b->time)
-        return a->time < b->time ? -1 : 1;
-    return a->contact < b->contact ? -1 : a->contact > b->contact;
-}
-
-/* When a sub-impact's impulse is applied: at the centre of its force in time, so that the positions
- * afterwards are those of the force. Both halves of a Hertzian contact's force, about a sine to the
- * power of 1.5, have their centre at 0.326 of their length from the peak. */
-static double centre_of(const struct percuss_sub_impact *sub)
-{
-    double before = sub->compression_impulse * (sub->compression_end - sub->start);
-    double after = (sub->impulse - sub->compression_impulse) * (sub->end - sub->compression_end);
-    double shift = sub->impulse > 0.0 ? 0.326 * (after - before) / sub->impulse : 0.0;
-    return fmin(fmax(sub->compression_end + shift, sub->start), sub->end);
-}
-
-/* The sub-impacts of a contact; their sum is its impulse to the last bit that matters. */
-static void list_contact(struct episode *episode, const struct percuss_contact_result *result,
-                         size_t contact)
-{
-    double sum = 0.0;
-    struct entry *first = &episode->entries[episode->entry_count];
-    for (uint32_t i = 0; i < result->sub_impacts_listed; i++) {
-        const struct percuss_sub_impact *sub = &result->sub_impacts[i];
-        struct entry *entry = &episode->entries[episode->entry_count++];
-        *entry = (struct entry){.time = episode->time + centre_of(sub),
-                                .start = sub->start,
-                                .end = sub->end,
-                                .contact = contact,
-                                .impulse = sub->impulse};
-        sum += sub->impulse;
-    }
-    /* rounding, or more sub-impacts than are listed */
-    struct entry rest = {.time = episode->time + result->end_time,
-                         .start = result->end_time,
-                         .end = result->end_time,
-                         .contact = contact,
-                         .impulse = result->impulse - sum};
-    if (result->sub_impact_count > result->sub_impacts_listed)
-        episode->entries[episode->entry_count++] = rest;
-    else if (result->sub_impacts_listed)
-        first[result->sub_impacts_listed - 1].impulse += rest.impulse;
-}
-
-static void list_total(struct episode *episode, double impulse, size_t contact)
-{
-    if (impulse != 0.0)
-        episode->entries[episode->entry_count++] =
-            (struct entry){.time = episode->time, .contact = contact, .impulse = impulse};
 }
 
 /* Room for a group's contacts, their matrix and the entries of its reply; NULL: no memory. */
@@ -133,7 +80,7 @@ static void latch(struct percuss_slow *slow, const struct group *group,
     pair->until = episode->time + reply->contacts[contact].end_time;
     for (size_t i = 0; episode->revocable && i < episode->entry_count; i++)
         if (episode->entries[i].contact == contact)
-            pair->until = episode->entries[i].time;
+            pair->until = episode->entries[i].play;
 }
 
 enum percuss_result episode_begin(struct percuss_slow *slow, const struct group *group,
@@ -143,22 +90,16 @@ enum percuss_result episode_begin(struct percuss_slow *slow, const struct group 
     if (!episode)
         return slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for an answer");
     const struct percuss_reply *reply = group->reply;
-    bool listed = reply && slow->config.application == PERCUSS_SLOW_LIST;
+    bool total = slow->config.application == PERCUSS_SLOW_TOTAL;
     episode->time = group->start;
     episode->window = reply ? reply->window : 0.0;
-    episode->revocable = listed;
+    episode->revocable = reply && !total;
     if (reply) {
         const double *own = episode->request.delassus;
         episode->request = *request;
         episode->request.delassus = own;
     }
-    for (size_t i = 0; i < group->count; i++) {
-        if (listed)
-            list_contact(episode, &reply->contacts[i], i);
-        else
-            list_total(episode, group->impulse[i], i);
-    }
-    qsort(episode->entries, episode->entry_count, sizeof *episode->entries, by_time);
+    list_make(episode, reply, group->impulse, total);
     for (size_t i = 0; i < group->count; i++)
         latch(slow, group, episode, i, group->start);
     episode->next = slow->episodes;
@@ -166,16 +107,36 @@ enum percuss_result episode_begin(struct percuss_slow *slow, const struct group 
     return PERCUSS_RESULT_OK;
 }
 
+/* Gaps after a movement by an impulse of the episode, of all its pairs that are still near. */
+static void move_gaps(const struct percuss_slow *slow, const struct episode *episode,
+                      size_t contact, double moment)
+{
+    size_t n = episode->request.contact_count;
+    for (size_t i = 0; i < n; i++) {
+        struct pair *pair = pairs_find(slow, &episode->contacts[i]);
+        if (pair)
+            pair->contact.gap += episode->request.delassus[i * n + contact] * moment;
+    }
+}
+
+/* Applies `impulse` as if it had been at the entry's time. */
 static enum percuss_result apply(const struct percuss_slow *slow, const struct episode *episode,
-                                 const struct entry *entry, double impulse)
+                                 const struct entry *entry, double impulse, double now)
 {
     /* where the bodies touch by now, if they are still near */
     const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
     const struct pair *pair = pairs_find(slow, contact);
     const struct percuss_slow_engine *engine = &slow->config.engine;
-    if (engine->apply(engine->context, pair ? &pair->contact : contact, impulse))
-        return PERCUSS_RESULT_OK;
-    return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's apply failed");
+    struct percuss_slow_contact place = pair ? pair->contact : *contact;
+    double late = now - entry->time;
+    bool moves = slow->config.move && !(fabs(late) <= SLOW_INSTANT);
+    if (!engine->apply(engine->context, &place, impulse))
+        return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's apply failed");
+    if (moves && !slow->config.move(engine->context, &place, impulse * late))
+        return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's move failed");
+    if (moves)
+        move_gaps(slow, episode, entry->contact, impulse * late);
+    return PERCUSS_RESULT_OK;
 }
 
 enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t *applied)
@@ -185,9 +146,9 @@ enum percuss_result episodes_play(struct percuss_slow *slow, double now, size_t 
     for (struct episode *episode = slow->episodes; !result && episode; episode = next) {
         next = episode->next;
         while (!result && episode->played < episode->entry_count &&
-               slow_has_come(episode->entries[episode->played].time, now)) {
+               slow_has_come(episode->entries[episode->played].play, now)) {
             const struct entry *entry = &episode->entries[episode->played++];
-            result = apply(slow, episode, entry, entry->impulse);
+            result = apply(slow, episode, entry, entry->impulse, now);
             ++*applied;
         }
         if (episode->played == episode->entry_count && now >= episode->time + episode->window)
@@ -256,11 +217,11 @@ static enum percuss_result take_back(const struct percuss_slow *slow, const stru
                                      struct entry *entry, struct group *group, double now)
 {
     const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
-    for (size_t i = 0; i < group->count; i++)
+    for (size_t i = 0; !slow->config.move && i < group->count; i++)
         if (pairs_is_same(&group->contacts[i], contact))
             group->moved[i] += entry->impulse * (now - entry->time);
     entry->taken_back = true;
-    return apply(slow, episode, entry, -entry->impulse);
+    return apply(slow, episode, entry, -entry->impulse, now);
 }
 
 enum percuss_result episode_revoke(struct percuss_slow *slow, struct episode *episode,
@@ -302,13 +263,14 @@ void episodes_drop_revoked(struct percuss_slow *slow)
     }
 }
 
-enum percuss_result episodes_restore_revoked(struct percuss_slow *slow)
+enum percuss_result episodes_restore_revoked(struct percuss_slow *slow, double now)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
     for (struct episode *episode = slow->episodes; episode; episode = episode->next) {
         for (size_t i = 0; !result && i < episode->entry_count; i++)
             if (episode->entries[i].taken_back)
-                result = apply(slow, episode, &episode->entries[i], episode->entries[i].impulse);
+                result =
+                    apply(slow, episode, &episode->entries[i], episode->entries[i].impulse, now);
         for (size_t i = 0; i < episode->entry_count; i++)
             episode->entries[i].taken_back = false;
         episode->revoked = false;

@@ -31,7 +31,7 @@ enum percuss_result episode_revoke(struct percuss_slow *slow, struct episode *ep
 void episodes_drop_revoked(struct percuss_slow *slow);
 
 /* It cannot be known: applies again what was taken back, and goes on with them. */
-enum percuss_result episodes_restore_revoked(struct percuss_slow *slow);
+enum percuss_result episodes_restore_revoked(struct percuss_slow *slow, double now);
 
 void episodes_free(struct percuss_slow *slow);
 

@@ -2,10 +2,19 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include <math.h>
+#include <percuss/reply.h>
 #include <percuss/slow_equations.h>
 #include <stdlib.h>
 
 #include "numeric/lcp.h"
+
+double percuss_slow_force_centre(const struct percuss_sub_impact *sub)
+{
+    double before = sub->compression_impulse * (sub->compression_end - sub->start);
+    double after = (sub->impulse - sub->compression_impulse) * (sub->end - sub->compression_end);
+    double shift = sub->impulse > 0.0 ? 0.326 * (after - before) / sub->impulse : 0.0;
+    return fmin(fmax(sub->compression_end + shift, sub->start), sub->end);
+}
 
 bool percuss_slow_compression(size_t n, const double *W, const double *gap_rate, double *impulse)
 {

@@ -120,3 +120,34 @@ void percuss_slow_free_apply(struct percuss_body_motion *bodies,
         }
     }
 }
+
+/* Turns by a rotation vector, world. */
+static void turn(double q[4], const double by[3])
+{
+    double angle = sqrt(dot(by, by));
+    double s = angle > 0.0 ? sin(0.5 * angle) / angle : 0.5;
+    double r[4] = {cos(0.5 * angle), s * by[0], s * by[1], s * by[2]};
+    double turned[4] = {r[0] * q[0] - r[1] * q[1] - r[2] * q[2] - r[3] * q[3],
+                        r[0] * q[1] + r[1] * q[0] + r[2] * q[3] - r[3] * q[2],
+                        r[0] * q[2] + r[2] * q[0] + r[3] * q[1] - r[1] * q[3],
+                        r[0] * q[3] + r[3] * q[0] + r[1] * q[2] - r[2] * q[1]};
+    for (int i = 0; i < 4; i++)
+        q[i] = turned[i];
+}
+
+void percuss_slow_free_move(struct percuss_body_motion *bodies,
+                            const struct percuss_slow_inertia *inertias,
+                            const struct percuss_slow_contact *contact, double moment)
+{
+    for (int side = 0; side < 2; side++) {
+        uint32_t body = side == 0 ? contact->a : contact->b;
+        double signed_moment = side == 0 ? moment : -moment;
+        double velocity[3], turning[3], by[3];
+        unit_response(&bodies[body], &inertias[body], contact, velocity, turning);
+        for (int i = 0; i < 3; i++) {
+            bodies[body].position[i] += signed_moment * velocity[i];
+            by[i] = signed_moment * turning[i];
+        }
+        turn(bodies[body].orientation, by);
+    }
+}

@@ -15,6 +15,9 @@
 /* Couplings below this, relative to the contacts' own inverse masses, are rounding. */
 static const double no_coupling = 1e-12;
 
+/* What an acceleration may bring during an impact, relative to the approach, to be left out. */
+static const double negligible = 1e-3;
+
 /* Whether an impulse at one contact is felt at the other, rigidly or through a shared body's
  * vibration. */
 static bool are_coupled(const struct percuss_slow *slow, const struct group *seen, size_t i,
@@ -207,6 +210,40 @@ static struct group *gather(const struct percuss_slow *slow, const struct group 
     return group;
 }
 
+/* The gap acceleration of a member, as the engine states it or as its rates showed it. */
+static double acceleration(const struct percuss_slow *slow,
+                           const struct percuss_slow_contact *member)
+{
+    const struct pair *pair = pairs_find(slow, member);
+    return member->gap_acceleration != 0.0 || !pair ? member->gap_acceleration : pair->acceleration;
+}
+
+/* Without config.move, impulses that are not applied at their times leave the bodies in wrong
+ * places. What presses or swings the bodies makes energy of that: TOTAL is then refused. */
+static enum percuss_result check_places(const struct percuss_slow *slow, struct group *group,
+                                        double now)
+{
+    double latest = 0.0;
+    for (size_t i = 0; group->reply && !slow->config.move && i < group->count; i++) {
+        const struct percuss_contact_result *contact = &group->reply->contacts[i];
+        double a = acceleration(slow, &group->contacts[i]);
+        if (slow->config.application == PERCUSS_SLOW_TOTAL &&
+            fabs(a) * contact->end_time > negligible * fabs(group->gap_rate[i]))
+            return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT,
+                             "application: total: the gap of %s and %s accelerates with %.3g m/s^2 "
+                             "during an impact of %.3g s, which would change its energy: give "
+                             "config.move, or use the list",
+                             slow->ids[group->contacts[i].a], slow->ids[group->contacts[i].b], a,
+                             contact->end_time);
+        for (uint32_t j = 0; j < contact->sub_impacts_listed; j++)
+            latest = fmax(latest,
+                          now - group->start - percuss_slow_force_centre(&contact->sub_impacts[j]));
+    }
+    if (latest > SLOW_INSTANT)
+        group_note(group, "impulses applied up to %.3g s late without config.move", latest);
+    return PERCUSS_RESULT_OK;
+}
+
 /* Revokes and asks. A failure leaves all as it was. */
 static enum percuss_result prepare(struct percuss_slow *slow, struct group *group,
                                    struct percuss_request *request, double now)
@@ -220,12 +257,17 @@ static enum percuss_result prepare(struct percuss_slow *slow, struct group *grou
     if (!result)
         result = group_probe(slow, group, true);
     if (!result) {
+        pairs_give_gaps(slow, group->count, group->contacts);
         go_back(group, now);
         result = find_impulses(slow, group, request);
     }
+    if (!result)
+        result = check_places(slow, group, now);
     if (result) {
+        if (group->reply)
+            slow->config.service.release(&group->answer);
         memcpy(slow->tokens, tokens, size);
-        enum percuss_result restored = episodes_restore_revoked(slow);
+        enum percuss_result restored = episodes_restore_revoked(slow, now);
         result = restored ? restored : result;
     }
     free(tokens);

@@ -62,6 +62,23 @@ bool pairs_take(struct percuss_slow *slow, size_t count,
     return true;
 }
 
+void pairs_observe(struct percuss_slow *slow, size_t count,
+                   const struct percuss_slow_contact *contacts, const double *gap_rate, double now)
+{
+    for (size_t i = 0; i < count; i++) {
+        struct pair *pair = pairs_find(slow, &contacts[i]);
+        if (pair->known && now > slow->time)
+            pair->acceleration = (gap_rate[i] - pair->gap_rate) / (now - slow->time);
+    }
+}
+
+void pairs_give_gaps(const struct percuss_slow *slow, size_t count,
+                     struct percuss_slow_contact *contacts)
+{
+    for (size_t i = 0; i < count; i++)
+        contacts[i].gap = pairs_find(slow, &contacts[i])->contact.gap;
+}
+
 void pairs_update(struct percuss_slow *slow, double now)
 {
     for (size_t i = 0; i < slow->pair_count; i++) {
@@ -118,6 +135,7 @@ void pairs_settle(struct percuss_slow *slow, double now)
         bool touches = pair->seen && pair->contact.gap <= lying_gap(slow, pair, now - slow->time);
         pair->lies = touches && pair->latch == LATCH_ARMED && pair->gap_rate >= -slow_enough;
         /* above the touch the engine's own contact could not act yet */
+        pair->known = pair->seen;
         pair->had = pair->contact.gap > 0.0 ? fmax(0.0, -pair->gap_rate) : 0.0;
         pair->rests =
             touches && pair->latch != LATCH_PLAYING && fabs(pair->gap_rate) <= slow_enough;

@@ -21,6 +21,15 @@ struct pair *pairs_find(const struct percuss_slow *slow,
 bool pairs_take(struct percuss_slow *slow, size_t count,
                 const struct percuss_slow_contact *contacts);
 
+/* Sees how the gaps accelerated since the last call, by the rates before any impulse of this one.
+ */
+void pairs_observe(struct percuss_slow *slow, size_t count,
+                   const struct percuss_slow_contact *contacts, const double *gap_rate, double now);
+
+/* The gaps as they are by now: impulses may have moved bodies since the engine was asked. */
+void pairs_give_gaps(const struct percuss_slow *slow, size_t count,
+                     struct percuss_slow_contact *contacts);
+
 /* Moves the latches on, with the gap rates known. */
 void pairs_update(struct percuss_slow *slow, double now);
 

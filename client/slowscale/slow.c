@@ -119,7 +119,7 @@ double percuss_slow_next(const struct percuss_slow *slow)
     double next = INFINITY;
     for (const struct episode *episode = slow->episodes; episode; episode = episode->next)
         if (episode->played < episode->entry_count)
-            next = fmin(next, episode->entries[episode->played].time);
+            next = fmin(next, episode->entries[episode->played].play);
     return next;
 }
 
@@ -173,13 +173,14 @@ bool percuss_slow_due(const struct percuss_slow *slow, size_t count,
     return due;
 }
 
-/* Velocities have changed, or time has gone on: the latches see the rates of now. */
+/* Velocities and places have changed, or time has gone on: the latches see the rates of now. */
 static enum percuss_result see_rates(struct percuss_slow *slow, struct group *group, bool changed,
                                      double now)
 {
     enum percuss_result result = changed ? group_probe(slow, group, false) : PERCUSS_RESULT_OK;
     for (size_t i = 0; !result && i < group->count; i++)
         pairs_find(slow, &group->contacts[i])->gap_rate = group->gap_rate[i];
+    pairs_give_gaps(slow, group->count, group->contacts);
     if (!result)
         pairs_update(slow, now);
     return result;
@@ -212,8 +213,10 @@ enum percuss_result percuss_slow_advance(struct percuss_slow *slow, size_t count
         return result;
     if (!pairs_take(slow, count, contacts))
         result = slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for %zu pairs", count);
-    if (!result)
+    if (!result) {
+        pairs_observe(slow, count, group->contacts, group->gap_rate, now);
         result = episodes_play(slow, now, &applied);
+    }
     if (!result)
         result = see_rates(slow, group, applied > 0, now);
     if (!result)

@@ -17,17 +17,20 @@ struct pair {
     struct percuss_slow_contact contact; /* as last seen */
     double gap_rate;
     enum latch latch;
-    double until; /* s: end of PLAYING */
-    double over;  /* s: end of WAITING: what the answer says ends here */
-    bool seen;    /* in the present call */
-    bool lies;    /* touched and did not approach as an impact at the end of the last call */
-    double had;   /* m/s: approach then, if it lay above the touch */
-    bool rests;   /* was slow then as well */
+    double until;        /* s: end of PLAYING */
+    double over;         /* s: end of WAITING: what the answer says ends here */
+    bool seen;           /* in the present call */
+    bool known;          /* at the end of the last call */
+    bool lies;           /* touched and did not approach as an impact at the end of the last call */
+    double acceleration; /* m/s^2, of the gap in the last step without an impulse */
+    double had;          /* m/s: approach then, if it lay above the touch */
+    bool rests;          /* was slow then as well */
 };
 
 /* An impulse of an episode that is to be applied. */
 struct entry {
-    double time;       /* s: when it is applied */
+    double time;       /* s: where it belongs */
+    double play;       /* s: when it is applied */
     double start, end; /* of its sub-impact */
     size_t contact;
     double impulse;
@@ -65,10 +68,13 @@ struct percuss_slow {
     struct percuss_slow_counts counts;
 };
 
-/* Whether a time has come: an engine's clock rarely ends on the very bit asked for. */
+/* s: an engine's clock rarely ends on the very bit asked for */
+#define SLOW_INSTANT 1e-12
+
+/* Whether a time has come. */
 static inline bool slow_has_come(double time, double now)
 {
-    return time <= now + 1e-12;
+    return time <= now + SLOW_INSTANT;
 }
 
 enum percuss_result slow_no_memory(void);

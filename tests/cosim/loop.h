@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The whole loop in one process: free bodies, the slow scale, and the solver as its service, with
- * states under numbers as tokens. Bodies hold their places and only gaps change: W and n are fixed.
- */
+ * states under numbers as tokens. Bodies hold their places and only gaps change, also by gravity: W
+ * and n are fixed. */
 #ifndef PERCUSS_TEST_LOOP_H
 #define PERCUSS_TEST_LOOP_H
 
@@ -21,15 +21,18 @@ struct loop {
     struct percuss_slow_inertia inertias[LOOP_BODIES];
     char ids[LOOP_BODIES][PERCUSS_ID_SIZE];
     struct percuss_slow_contact pairs[LOOP_CONTACTS]; /* that may touch: a above b along z */
+    double falls[LOOP_BODIES];                        /* m/s^2, downwards */
     struct percuss_slow *slow;
     size_t states;
     struct body_state *state[LOOP_STATES];
     struct solve_result result;
     /* of the last impact, and sums */
-    double vibration; /* J, of all bodies, by the last reply */
+    double vibration;  /* J, of all bodies, by the last reply */
+    double time_shift; /* s, of the earliest reply */
     double restitution[LOOP_CONTACTS], restitution_reply[LOOP_CONTACTS];
     size_t reports;
-    char message[512];
+    char message[512], notes[4096]; /* of the last report, and of all */
+    bool silent;                    /* does not state accelerations */
 };
 
 static inline bool loop_probe(void *context, struct percuss_slow_view *view)
@@ -53,6 +56,24 @@ static inline bool loop_apply(void *context, const struct percuss_slow_contact *
 {
     struct loop *loop = context;
     percuss_slow_free_apply(loop->bodies, loop->inertias, contact, impulse);
+    return true;
+}
+
+/* Places are kept in the gaps. */
+static inline bool loop_move(void *context, const struct percuss_slow_contact *contact,
+                             double moment)
+{
+    struct loop *loop = context;
+    struct percuss_body_motion still[LOOP_BODIES];
+    double change[LOOP_CONTACTS];
+    memcpy(still, loop->bodies, sizeof still);
+    for (size_t i = 0; i < loop->body_count; i++)
+        for (int k = 0; k < 3; k++)
+            still[i].velocity[k] = still[i].angular_velocity[k] = 0.0;
+    percuss_slow_free_apply(still, loop->inertias, contact, moment);
+    percuss_slow_gap_rates(still, loop->pair_count, loop->pairs, change);
+    for (size_t i = 0; i < loop->pair_count; i++)
+        loop->pairs[i].gap += change[i];
     return true;
 }
 
@@ -97,7 +118,19 @@ static inline void loop_ask(struct loop *loop, const struct percuss_request *req
     }
     question.options.tolerance = request->options.tolerance;
     question.options.horizon = request->options.horizon;
+    question.options.trace = request->options.trace;
     solve(loop->lab->workspace, &loop->lab->set, &question, &loop->result);
+}
+
+static inline struct percuss_sub_impact loop_sub_impact(const struct solve_contact_result *from,
+                                                        size_t i)
+{
+    return (struct percuss_sub_impact){.start = from->sub_impacts[i].start,
+                                       .compression_end = from->sub_impacts[i].compression_end,
+                                       .end = from->sub_impacts[i].end,
+                                       .compression_impulse =
+                                           from->sub_impacts[i].compression_impulse,
+                                       .impulse = from->sub_impacts[i].impulse};
 }
 
 static inline enum percuss_result loop_solve(void *context, const struct percuss_request *request,
@@ -114,6 +147,7 @@ static inline enum percuss_result loop_solve(void *context, const struct percuss
     reply->complete = result->complete;
     reply->end_reason = result->end_reason;
     reply->window = result->window;
+    loop->time_shift = fmin(loop->time_shift, result->time_shift);
     reply->contact_count = result->contact_count;
     reply->states_after_count = request->body_count;
     reply->contacts = calloc(result->contact_count, sizeof *reply->contacts);
@@ -128,12 +162,7 @@ static inline enum percuss_result loop_solve(void *context, const struct percuss
         to->sub_impacts_listed = (uint32_t)from->sub_impacts_listed;
         to->sub_impacts = subs[i];
         for (size_t j = 0; j < from->sub_impacts_listed; j++)
-            subs[i][j] = (struct percuss_sub_impact){
-                .start = from->sub_impacts[j].start,
-                .compression_end = from->sub_impacts[j].compression_end,
-                .end = from->sub_impacts[j].end,
-                .compression_impulse = from->sub_impacts[j].compression_impulse,
-                .impulse = from->sub_impacts[j].impulse};
+            subs[i][j] = loop_sub_impact(from, j);
     }
     loop->vibration = 0.0;
     for (size_t i = 0; i < request->body_count; i++) {
@@ -155,6 +184,8 @@ static inline void loop_report(void *context, const struct percuss_slow_report *
     struct loop *loop = context;
     loop->reports++;
     snprintf(loop->message, sizeof loop->message, "%s", report->message);
+    size_t used = strlen(loop->notes);
+    snprintf(loop->notes + used, sizeof loop->notes - used, "%s\n", report->message);
     if (!report->reply)
         fail_msg("no answer: %s", report->message);
     for (size_t i = 0; i < report->count; i++) {
@@ -189,11 +220,12 @@ static inline void loop_pair(struct loop *loop, uint32_t a, uint32_t b, double z
                                       .gap = gap};
 }
 
-static inline void loop_start(struct loop *loop, enum percuss_slow_application application,
-                              double tolerance)
+static inline void loop_start_moving(struct loop *loop, enum percuss_slow_application application,
+                                     double tolerance, bool moves)
 {
     struct percuss_slow_body bodies[LOOP_BODIES];
     struct percuss_slow_config config = percuss_slow_config_default();
+    config.move = moves ? loop_move : NULL;
     for (size_t i = 0; i < loop->body_count; i++)
         bodies[i] = (struct percuss_slow_body){loop->ids[i], false};
     config.body_count = loop->body_count;
@@ -207,15 +239,41 @@ static inline void loop_start(struct loop *loop, enum percuss_slow_application a
     assert_int_equal(percuss_slow_create(&config, &loop->slow), PERCUSS_RESULT_OK);
 }
 
-static inline void loop_step(struct loop *loop, double dt)
+static inline void loop_start(struct loop *loop, enum percuss_slow_application application,
+                              double tolerance)
+{
+    loop_start_moving(loop, application, tolerance, false);
+}
+
+/* Exact motion. */
+static inline void loop_fly(struct loop *loop, double dt)
 {
     double rates[LOOP_CONTACTS];
     loop->time += dt;
     percuss_slow_gap_rates(loop->bodies, loop->pair_count, loop->pairs, rates);
-    for (size_t i = 0; i < loop->pair_count; i++)
-        loop->pairs[i].gap += dt * rates[i];
+    for (size_t i = 0; i < loop->pair_count; i++) {
+        struct percuss_slow_contact *pair = &loop->pairs[i];
+        double a = loop->falls[pair->b] - loop->falls[pair->a];
+        pair->gap_acceleration = loop->silent ? 0.0 : a;
+        pair->gap += dt * (rates[i] + 0.5 * dt * a);
+    }
+    for (size_t i = 0; i < loop->body_count; i++)
+        loop->bodies[i].velocity[2] -= dt * loop->falls[i];
+}
+
+static inline void loop_step(struct loop *loop, double dt)
+{
+    loop_fly(loop, dt);
     if (percuss_slow_advance(loop->slow, loop->pair_count, loop->pairs))
         fail_msg("%s", percuss_slow_error_text());
+}
+
+/* Time until a gap is closed by 1e-15 m; INFINITY: never. */
+static inline double loop_touch(const struct percuss_slow_contact *pair, double rate)
+{
+    double gap = pair->gap + 1e-15, press = -pair->gap_acceleration;
+    double root = sqrt(fmax(0.0, rate * rate + 2.0 * press * gap));
+    return rate < 0.0 || press > 0.0 ? 2.0 * gap / (root - rate) : INFINITY;
 }
 
 /* Until `end` in steps of at most `step`, each of which ends where something is due. */
@@ -225,9 +283,9 @@ static inline void loop_run(struct loop *loop, double end, double step)
         double rates[LOOP_CONTACTS];
         double h = fmin(fmin(step, end - loop->time), percuss_slow_next(loop->slow) - loop->time);
         percuss_slow_gap_rates(loop->bodies, loop->pair_count, loop->pairs, rates);
-        for (size_t i = 0; i < loop->pair_count; i++)
-            if (loop->pairs[i].gap > 0.0 && rates[i] < 0.0) /* a little behind the touch */
-                h = fmin(h, -(loop->pairs[i].gap + 1e-15) / rates[i]);
+        for (size_t i = 0; i < loop->pair_count; i++) /* a little behind the touch */
+            if (loop->pairs[i].gap > 0.0)
+                h = fmin(h, loop_touch(&loop->pairs[i], rates[i]));
         loop_step(loop, h);
     }
 }

@@ -80,7 +80,7 @@ double engine_kinetic_energy(const struct engine *engine)
     return 0.5 * mju_dot(momentum, engine->data->qvel, engine->model->nv);
 }
 
-/* --- the three callbacks --- */
+/* --- the callbacks --- */
 
 /* How the catalogue's body moves. */
 static void describe(const struct engine *engine, size_t body, struct percuss_body_motion *motion)
@@ -134,14 +134,26 @@ static bool apply(void *context, const struct percuss_slow_contact *contact, dou
     return true;
 }
 
+static bool move(void *context, const struct percuss_slow_contact *contact, double moment)
+{
+    struct engine *engine = context;
+    int nv = engine->model->nv;
+    double w[nv], u[nv];
+    direction(engine, contact, w);
+    respond(engine, w, u);
+    mj_integratePos(engine->model, engine->data->qpos, u, moment);
+    return true;
+}
+
 static double now(void *context)
 {
     return ((struct engine *)context)->data->time;
 }
 
-struct percuss_slow_engine engine_callbacks(struct engine *engine)
+void engine_configure(struct engine *engine, struct percuss_slow_config *config)
 {
-    return (struct percuss_slow_engine){engine, probe, apply, now};
+    config->engine = (struct percuss_slow_engine){engine, probe, apply, now};
+    config->move = move;
 }
 
 /* --- contacts and steps --- */
@@ -231,7 +243,7 @@ enum percuss_result engine_step(struct engine *engine, struct percuss_slow *slow
         step_from_start(engine, after);
     size_t count = engine_contacts(engine, due, contacts);
     enum percuss_result result = percuss_slow_advance(slow, count, contacts);
-    refresh(engine); /* the velocities may be others */
+    refresh(engine); /* velocities and positions may be others */
     return result;
 }
 

@@ -34,8 +34,8 @@ bool engine_open(struct engine *engine, const char *file, size_t body_count,
                  const struct engine_body *bodies);
 void engine_close(struct engine *engine);
 
-/* The callbacks, with the engine as their context. */
-struct percuss_slow_engine engine_callbacks(struct engine *engine);
+/* Enters the callbacks, with the engine as their context. */
+void engine_configure(struct engine *engine, struct percuss_slow_config *config);
 
 /* All contacts near touching; with their accelerations if `accelerations`. Returns how many. */
 size_t engine_contacts(struct engine *engine, bool accelerations,

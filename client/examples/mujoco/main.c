@@ -160,7 +160,7 @@ static bool run(const struct choice *choice, const struct scene *scene, struct r
     struct percuss_slow_config config = percuss_slow_config_default();
     config.body_count = scene->body_count;
     config.bodies = bodies;
-    config.engine = engine_callbacks(&engine);
+    engine_configure(&engine, &config);
     config.service = service;
     config.options.tolerance = choice->tolerance;
     config.application = choice->total ? PERCUSS_SLOW_TOTAL : PERCUSS_SLOW_LIST;

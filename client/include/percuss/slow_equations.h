@@ -47,6 +47,13 @@ PERCUSS_API bool percuss_slow_restitution(size_t n, const double *W, const doubl
 PERCUSS_API void percuss_slow_gap_rate_after(size_t n, const double *W, const double *gap_rate,
                                              const double *impulse, double *after);
 
+struct percuss_sub_impact; /* percuss/reply.h */
+
+/* The centre in time of a sub-impact's force, s from the stated instant: an impulse applied then
+ * leaves the positions that the force would. Each half of a Hertzian force, about a sine to the
+ * power of 1.5, has its centre at 0.326 of its length from the peak. */
+PERCUSS_API double percuss_slow_force_centre(const struct percuss_sub_impact *sub);
+
 /* Two bodies that touch, or nearly, as the engine sees them now. */
 struct percuss_slow_contact {
     uint32_t a, b;           /* indices of the engine's bodies */
@@ -82,6 +89,11 @@ PERCUSS_API void percuss_slow_free_apply(struct percuss_body_motion *bodies,
                                          const struct percuss_slow_inertia *inertias,
                                          const struct percuss_slow_contact *contact,
                                          double impulse);
+
+/* Moves free bodies, and turns them, by M^-1 w moment; moment in N s^2. */
+PERCUSS_API void percuss_slow_free_move(struct percuss_body_motion *bodies,
+                                        const struct percuss_slow_inertia *inertias,
+                                        const struct percuss_slow_contact *contact, double moment);
 
 #ifdef __cplusplus
 }

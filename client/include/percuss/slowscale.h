@@ -51,10 +51,16 @@ struct percuss_slow_config {
     double group_gap;   /* m; a coupled pair this near joins an impact */
     void (*report)(void *context, const struct percuss_slow_report *report); /* may be NULL */
     void *report_context;
-    bool
-        fall_back; /* where no answer comes, or the question is refused, the declared restitution is
-                      used, reported and counted: results then depend on whether the service could
-                      be had in time. false: such an impact is an error of percuss_slow_advance */
+    /* Where no answer comes, or the question is refused, the declared restitution is used, reported
+     * and counted: results then depend on whether the service could be had in time. false: such an
+     * impact is an error of percuss_slow_advance. */
+    bool fall_back;
+    /* With the engine's context: changes the positions by M^-1 w moment, as `apply` does the
+     * velocities; moment in N s^2: an impulse times how late it is applied, < 0 if early. The
+     * impulses of ringing bodies often lie before the instant of the question, and a step may end
+     * behind one. NULL: they are applied late without it, which takes energy, and TOTAL is refused
+     * where the gap accelerates. False: failure, as of the engine's callbacks. */
+    bool (*move)(void *context, const struct percuss_slow_contact *contact, double moment);
 };
 
 #ifdef __cplusplus

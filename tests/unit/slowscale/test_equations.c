@@ -130,6 +130,40 @@ static void nothing_sinks_in_and_no_energy_comes(void **state)
     }
 }
 
+/* A movement is what the velocities of an impulse would bring about in a time. */
+static void free_bodies_are_moved_as_by_velocities(void **state)
+{
+    (void)state;
+    const struct percuss_body_motion start[2] = {
+        {.orientation = {0.8, 0.0, 0.6, 0.0}, .position = {0.1, 0.2, 0.3}},
+        {.orientation = {0.6, 0.48, 0.0, 0.64}, .position = {-0.1, 0.3, 0.2}}};
+    const struct percuss_slow_inertia inertias[2] = {{0.111, {1e-5, 1e-5, 1e-5}},
+                                                     {0.848, {4e-5, 0.07, 0.06}}};
+    const struct percuss_slow_contact contact = {
+        .a = 0, .b = 1, .point = {0.1, 0.21, 0.29}, .normal = {0.6, 0.0, 0.8}};
+    const double impulse = 0.02, time = 1e-5;
+    struct percuss_body_motion kicked[2], moved[2];
+    memcpy(kicked, start, sizeof start);
+    memcpy(moved, start, sizeof start);
+    percuss_slow_free_apply(kicked, inertias, &contact, impulse);
+    percuss_slow_free_move(moved, inertias, &contact, impulse * time);
+    for (int b = 0; b < 2; b++) {
+        const double *q = start[b].orientation, *o = kicked[b].angular_velocity;
+        /* q' = omega q / 2 */
+        const double rate[4] = {
+            -o[0] * q[1] - o[1] * q[2] - o[2] * q[3], o[0] * q[0] + o[1] * q[3] - o[2] * q[2],
+            o[1] * q[0] + o[2] * q[1] - o[0] * q[3], o[2] * q[0] + o[0] * q[2] - o[1] * q[1]};
+        double angle = time * sqrt(o[0] * o[0] + o[1] * o[1] + o[2] * o[2]), norm = 0.0;
+        for (int i = 0; i < 3; i++)
+            near(moved[b].position[i] - start[b].position[i], time * kicked[b].velocity[i], 1e-16);
+        for (int i = 0; i < 4; i++) {
+            near(moved[b].orientation[i] - q[i], 0.5 * time * rate[i], angle * angle + 1e-16);
+            norm += moved[b].orientation[i] * moved[b].orientation[i];
+        }
+        near(norm, 1.0, 1e-14);
+    }
+}
+
 /* A rod turned in space, against the formula of the effective mass and by conservation. */
 static void free_bodies_keep_their_momentum(void **state)
 {
@@ -190,6 +224,7 @@ int main(void)
         cmocka_unit_test(one_contact_is_the_papers),
         cmocka_unit_test(permanent_contacts_open),
         cmocka_unit_test(nothing_sinks_in_and_no_energy_comes),
+        cmocka_unit_test(free_bodies_are_moved_as_by_velocities),
         cmocka_unit_test(free_bodies_keep_their_momentum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

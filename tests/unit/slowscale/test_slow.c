@@ -66,6 +66,48 @@ static void total_and_list_end_with_the_same_velocities(void **state)
     near(end[0], end[1], 1e-15);
 }
 
+/* Impulses that belong before the question, between two steps, or after the total was applied: the
+ * bodies end where impulses at the centres of the forces would have brought them. */
+static void impulses_out_of_their_time_move_the_bodies(void **state)
+{
+    (void)state;
+    static const struct toy_answer answer = {
+        .window = 4e-3,
+        .count = {3},
+        .subs = {{{.start = -3e-3, .compression_end = -2.9e-3, .end = -2.8e-3, .impulse = 0.004},
+                  {.start = 1e-3, .compression_end = 1.2e-3, .end = 1.5e-3, .impulse = 0.006},
+                  {.start = 3e-3, .compression_end = 3.1e-3, .end = 3.3e-3, .impulse = 0.005}}},
+    };
+    for (int way = 0; way < 3; way++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        wishes.application = way == 2 ? PERCUSS_SLOW_TOTAL : PERCUSS_SLOW_LIST;
+        wishes.move = toy_shift;
+        struct toy *toy = toy_create(2, &wishes);
+        toy->answers = 1;
+        toy->answer[0] = answer;
+        double right = 0.0, momentum = 0.0;
+        for (uint32_t i = 0; i < 3; i++) {
+            struct percuss_sub_impact sub = answer.subs[0][i];
+            sub.compression_impulse = 0.5 * sub.impulse;
+            double centre = percuss_slow_force_centre(&sub);
+            assert_true(i == 0 ? centre == sub.compression_end : centre > sub.compression_end);
+            right += sub.impulse / 0.1 * (0.02 - centre);
+            momentum += sub.impulse;
+        }
+        toy_step(toy, 0.0);
+        if (way == 0)
+            toy_run(toy, 0.02, 1e-3);
+        for (int i = 0; way > 0 && i < 20; i++)
+            toy_step(toy, 1e-3); /* stops nowhere */
+        near(toy->time, 0.02, 1e-15);
+        near(toy->bodies[1].position[0], 0.02 + right, 1e-15);
+        near(toy->bodies[0].position[0], 0.2 * 0.02 - right, 1e-15);
+        near(toy->applied[0], momentum, 1e-16);
+        assert_string_equal(toy->message, "");
+        toy_free(toy);
+    }
+}
+
 /* After the list the bodies still overlap and approach: while the answer lasts nothing else can
  * happen, then it is a new impact. */
 static void a_pair_that_goes_on_approaching_is_asked_about_again(void **state)
@@ -486,6 +528,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(asks_once_while_bodies_overlap),
         cmocka_unit_test(total_and_list_end_with_the_same_velocities),
+        cmocka_unit_test(impulses_out_of_their_time_move_the_bodies),
         cmocka_unit_test(a_pair_that_goes_on_approaching_is_asked_about_again),
         cmocka_unit_test(the_order_of_a_pair_does_not_matter),
         cmocka_unit_test(trials_ask_nobody),

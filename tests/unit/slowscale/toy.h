@@ -149,6 +149,14 @@ static inline bool toy_apply(void *context, const struct percuss_slow_contact *c
     return true;
 }
 
+static inline bool toy_shift(void *context, const struct percuss_slow_contact *contact,
+                             double moment)
+{
+    struct toy *toy = context;
+    percuss_slow_free_move(toy->bodies, toy->inertias, contact, moment);
+    return true;
+}
+
 static inline double toy_now(void *context)
 {
     return ((struct toy *)context)->time;
