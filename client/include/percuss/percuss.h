@@ -11,10 +11,10 @@
  * Every function may be called from several threads on one client at once, except that
  * percuss_client_free must be the last; and one outstanding request is waited for by one thread.
  * The library starts no thread of its own besides those of Cyclone DDS and installs no signal
- * handler. Without CYCLONEDDS_URI in the environment it talks to this machine only. *
+ * handler. Without CYCLONEDDS_URI in the environment it talks to this machine only.
+ *
  * A program that loaded the library with dlopen may dlclose it when its clients are freed; code and
- * threads of DDS stay.
- */
+ * threads of DDS stay. */
 #ifndef PERCUSS_PERCUSS_H
 #define PERCUSS_PERCUSS_H
 

@@ -66,7 +66,8 @@ static inline void any_fill(enum dds_stream_typecode type, char *data, size_t co
     }
 }
 
-/* Fills a sequence with two or three elements and returns the next instruction. */
+/* Fills a sequence with two or three elements, or up to fifty numbers, and returns the next
+ * instruction. */
 static inline const uint32_t *any_fill_list(const uint32_t *ops, dds_sequence_t *list)
 {
     enum dds_stream_typecode type = DDS_OP_SUBTYPE(*ops);
@@ -76,7 +77,8 @@ static inline const uint32_t *any_fill_list(const uint32_t *ops, dds_sequence_t 
     size_t size = type == DDS_OP_VAL_STR ? sizeof(char *)
                   : structs              ? words[0]
                                          : any_number_size(type);
-    list->_length = bounded && ops[2] < 2 ? ops[2] : 2 + any_number() % 2;
+    list->_length =
+        bounded && ops[2] < 2 ? ops[2] : 2 + any_number() % (any_number_size(type) ? 49 : 2);
     list->_maximum = list->_length;
     list->_release = true;
     list->_buffer = dds_alloc(list->_length * size);
@@ -113,21 +115,37 @@ struct any_bytes {
     size_t size;
 };
 
-/* Without the encapsulation header; the caller frees them. */
-static inline struct any_bytes any_sample(const dds_topic_descriptor_t *type, bool swapped)
+static inline struct any_bytes any_bytes_of(const void *sample, const uint32_t *ops, bool swapped)
+{
+    dds_ostream_t stream;
+    dds_ostream_init(&stream, 0, XCDR2);
+    bool big = swapped == (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
+    dds_stream_write_with_byte_order(&stream, sample, ops, big ? DDSRT_BOSEL_BE : DDSRT_BOSEL_LE);
+    struct any_bytes bytes = {malloc(stream.m_index), stream.m_index};
+    memcpy(bytes.data, stream.m_buffer, bytes.size);
+    dds_ostream_fini(&stream);
+    return bytes;
+}
+
+/* One sample in this machine's byte order and in the other or the same, without the encapsulation
+ * header; the caller frees both. */
+static inline void any_sample_twice(const dds_topic_descriptor_t *type, struct any_bytes *native,
+                                    struct any_bytes *other, bool swapped)
 {
     void *sample = dds_alloc(type->m_size);
     memset(sample, 0, type->m_size);
     any_fill_struct(type->m_ops, sample);
-    dds_ostream_t stream;
-    dds_ostream_init(&stream, 0, XCDR2);
-    bool big = swapped == (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
-    dds_stream_write_with_byte_order(&stream, sample, type->m_ops,
-                                     big ? DDSRT_BOSEL_BE : DDSRT_BOSEL_LE);
-    struct any_bytes bytes = {malloc(stream.m_index), stream.m_index};
-    memcpy(bytes.data, stream.m_buffer, bytes.size);
-    dds_ostream_fini(&stream);
+    *native = any_bytes_of(sample, type->m_ops, false);
+    *other = any_bytes_of(sample, type->m_ops, swapped);
     dds_sample_free(sample, type, DDS_FREE_ALL);
+}
+
+/* Without the encapsulation header; the caller frees them. */
+static inline struct any_bytes any_sample(const dds_topic_descriptor_t *type, bool swapped)
+{
+    struct any_bytes native, bytes;
+    any_sample_twice(type, &native, &bytes, swapped);
+    free(native.data);
     return bytes;
 }
 

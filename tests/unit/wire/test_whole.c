@@ -16,7 +16,7 @@
 #include "any_sample.h"
 #include "wire_whole.h"
 
-/* More than the 2 KiB by which Cyclone DDS can run over our samples' lists of two or three. */
+/* More than the half of fifty numbers by which Cyclone DDS can run over our samples. */
 enum { BEYOND = 4096, MARK = 0xa5 };
 
 /* Copied to its exact size, so that tools see every byte read beyond it. */
