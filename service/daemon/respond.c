@@ -11,7 +11,7 @@
 #include "endpoint/clock.h"
 #include "endpoint/decode.h"
 #include "endpoint/encode.h"
-#include "endpoint/hash.h"
+#include "base/hash.h"
 
 struct seat *seat_create(struct table_shelf *shelf, bool makes)
 {

@@ -168,16 +168,27 @@ static struct answer *compute(struct rig *rig, struct seat *seat, struct token_s
 }
 
 /* Kept nowhere, so that the request whose number it is still finds its own reply. */
-static struct answer *refuse_number(const struct question *question)
+static struct answer *refuse_number(const struct question *question, enum percuss_status status,
+                                    const char *reason)
 {
-    char message[160];
-    snprintf(message, sizeof message,
-             "sequence: %llu: was used for another request: must be a new number",
-             (unsigned long long)question->envelope.sequence);
-    struct answer *answer = encode_refusal(&question->envelope, PERCUSS_BAD_REQUEST, message);
+    char message[512];
+    snprintf(message, sizeof message, "sequence: %llu: %s",
+             (unsigned long long)question->envelope.sequence, reason);
+    struct answer *answer = encode_refusal(&question->envelope, status, message);
     if (answer)
         answer->passing = true;
     return answer;
+}
+
+/* A reply that was kept and cannot be given: what the request did to its specimens stays. */
+static struct answer *refuse_damaged(const struct question *question, const char *problem)
+{
+    log_line(LEVEL_ERROR, "%s", problem);
+    return refuse_number(
+        question, PERCUSS_INTERNAL,
+        "was answered before, but the stored reply cannot be read any more (the "
+        "server's log says why); its impact stays counted: another one needs a new "
+        "number");
 }
 
 /* The stored reply, if it is one to this request. */
@@ -185,11 +196,15 @@ static struct answer *recall(const struct question *question, const struct store
                              struct digest content)
 {
     if (reply->content[0] != content.first || reply->content[1] != content.second)
-        return refuse_number(question);
+        return refuse_number(question, PERCUSS_BAD_REQUEST,
+                             "was used for another request: must be a new number");
     struct answer *answer = reply_bytes_read(reply->bytes, reply->size);
-    return answer ? answer
-                  : encode_refusal(&question->envelope, PERCUSS_INTERNAL,
-                                   "the stored reply cannot be read");
+    if (answer)
+        return answer;
+    char problem[96];
+    snprintf(problem, sizeof problem, "the stored reply to request %llu is damaged",
+             (unsigned long long)reply->sequence);
+    return refuse_damaged(question, problem);
 }
 
 struct answer *rig_respond(struct rig *rig, struct seat *seat, struct token_store *tokens,
@@ -203,6 +218,8 @@ struct answer *rig_respond(struct rig *rig, struct seat *seat, struct token_stor
     memcpy(reply.client, question->envelope.client, sizeof reply.client);
     memcpy(kept.client, reply.client, sizeof kept.client);
     enum percuss_status status = specimen_store_find(rig->store, &kept, &fault);
+    if (status == PERCUSS_INTERNAL)
+        return refuse_damaged(question, fault.text);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
     struct answer *answer = kept.bytes ? recall(question, &kept, content)

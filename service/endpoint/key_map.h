@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "endpoint/hash.h"
+#include "base/hash.h"
 
 /* The structure of type `type` that a node is the member `member` of. */
 #define KEY_MAP_OWNER(node, type, member) ((type *)((char *)(node)-offsetof(type, member)))

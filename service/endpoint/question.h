@@ -6,7 +6,7 @@
 #ifndef PERCUSS_ENDPOINT_QUESTION_H
 #define PERCUSS_ENDPOINT_QUESTION_H
 
-#include "endpoint/hash.h"
+#include "base/hash.h"
 #include "wire.h"
 
 struct digest question_digest_single(const percuss_v2_Request *request);

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "wire_whole.h"
+
 enum { XCDR2 = 2, FIRST_ROOM = 4096 };
 
 static const bool swapped = __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__;
@@ -29,7 +31,8 @@ void *reply_bytes_write(const struct answer *answer, size_t *size)
 static bool decode(char *bytes, uint32_t size, percuss_v2_Reply *reply)
 {
     uint32_t used = 0;
-    if (!dds_stream_normalize_data(bytes, &used, size, swapped, XCDR2, percuss_v2_Reply_desc.m_ops))
+    if (!wire_whole(percuss_v2_Reply_desc.m_ops, bytes, size, swapped) ||
+        !dds_stream_normalize_data(bytes, &used, size, swapped, XCDR2, percuss_v2_Reply_desc.m_ops))
         return false;
     dds_istream_t stream;
     dds_istream_init(&stream, size, bytes, XCDR2);

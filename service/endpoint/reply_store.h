@@ -10,7 +10,7 @@
 #include <stdbool.h>
 
 #include "endpoint/answer.h"
-#include "endpoint/hash.h"
+#include "base/hash.h"
 
 struct reply_limits {
     size_t per_client; /* replies */

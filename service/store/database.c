@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* "prcs" marks a file as a store of percuss. */
-enum { APPLICATION = 0x70726373, SCHEMA_VERSION = 1 };
+enum { APPLICATION = 0x70726373 };
 
 static const int busy_milliseconds = 2000; /* a killed daemon's lock goes with its process */
 
@@ -61,12 +61,36 @@ static bool is_whole(struct database *database, bool *whole)
     return sqlite3_finalize(statement) == SQLITE_OK && good;
 }
 
-static enum percuss_status check_schema(struct database *database, const char *schema,
-                                        struct fault *fault)
+/* Says in the file that it is ours, and of which version. */
+static bool mark(struct database *database, int version)
+{
+    char text[96];
+    snprintf(text, sizeof text, "PRAGMA application_id = %d; PRAGMA user_version = %d", APPLICATION,
+             version);
+    return execute(database, text);
+}
+
+/* Brings a file of ours from that version up to date. */
+static enum percuss_status upgrade(struct database *database, const struct database_design *design,
+                                   int version, struct fault *fault)
+{
+    char problem[160];
+    if (version < 1 || version > design->version) {
+        snprintf(problem, sizeof problem, "is of version %d: must be of version 1 to %d", version,
+                 design->version);
+        return refuse(database, problem, fault);
+    }
+    bool good = true;
+    for (int v = version; good && v < design->version; v++)
+        good = execute(database, design->upgrades[v - 1]);
+    return good && mark(database, design->version) ? PERCUSS_OK : refuse_file(database, fault);
+}
+
+static enum percuss_status check_schema(struct database *database,
+                                        const struct database_design *design, struct fault *fault)
 {
     int application, version, tables;
     bool whole;
-    char problem[160];
     if (!query_number(database, "PRAGMA application_id", &application) ||
         !query_number(database, "PRAGMA user_version", &version) ||
         !query_number(database, "SELECT count(*) FROM sqlite_master", &tables) ||
@@ -74,37 +98,33 @@ static enum percuss_status check_schema(struct database *database, const char *s
         return refuse_file(database, fault);
     if (!whole)
         return refuse(database, "is damaged: restore it from a copy or move it away", fault);
-    if (application == APPLICATION && version == SCHEMA_VERSION)
+    if (application == APPLICATION && version == design->version)
         return PERCUSS_OK;
-    if (application == APPLICATION) {
-        snprintf(problem, sizeof problem, "is of version %d: must be of version %d", version,
-                 SCHEMA_VERSION);
-        return refuse(database, problem, fault);
-    }
+    if (application == APPLICATION)
+        return upgrade(database, design, version, fault);
     if (application != 0 || tables != 0)
         return refuse(database, "is a database of another program", fault);
-    snprintf(problem, sizeof problem, "PRAGMA application_id = %d; PRAGMA user_version = %d",
-             APPLICATION, SCHEMA_VERSION);
-    return execute(database, schema) && execute(database, problem) ? PERCUSS_OK
-                                                                   : refuse_file(database, fault);
+    return execute(database, design->schema) && mark(database, design->version)
+               ? PERCUSS_OK
+               : refuse_file(database, fault);
 }
 
 /* The schema is looked at and made in one transaction. */
-static enum percuss_status set_up(struct database *database, const char *schema,
+static enum percuss_status set_up(struct database *database, const struct database_design *design,
                                   struct fault *fault)
 {
     if (!execute(database, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL;"
                            "PRAGMA foreign_keys = ON; BEGIN EXCLUSIVE"))
         return refuse_file(database, fault);
-    enum percuss_status status = check_schema(database, schema, fault);
+    enum percuss_status status = check_schema(database, design, fault);
     /* it is written into the file: not into that of another program */
     if (!status && !execute(database, "COMMIT; PRAGMA journal_mode = WAL"))
         status = refuse_file(database, fault);
     return status;
 }
 
-enum percuss_status database_open(struct database *database, const char *path, const char *schema,
-                                  const char *const *texts, struct fault *fault)
+enum percuss_status database_open(struct database *database, const char *path,
+                                  const struct database_design *design, struct fault *fault)
 {
     size_t length = strlen(path), most = sizeof database->path - 1;
     snprintf(database->path, sizeof database->path, "%s",
@@ -113,10 +133,11 @@ enum percuss_status database_open(struct database *database, const char *path, c
     if (sqlite3_open_v2(path, &database->connection, flags, NULL) != SQLITE_OK)
         return refuse_file(database, fault);
     sqlite3_busy_timeout(database->connection, busy_milliseconds);
-    enum percuss_status status = set_up(database, schema, fault);
+    enum percuss_status status = set_up(database, design, fault);
     for (int i = 0; !status && i < STATEMENT_COUNT; i++) {
-        if (sqlite3_prepare_v3(database->connection, texts[i], -1, SQLITE_PREPARE_PERSISTENT,
-                               &database->statements[i], NULL) != SQLITE_OK)
+        if (sqlite3_prepare_v3(database->connection, design->texts[i], -1,
+                               SQLITE_PREPARE_PERSISTENT, &database->statements[i],
+                               NULL) != SQLITE_OK)
             status = refuse_file(database, fault);
     }
     return status;

@@ -38,10 +38,19 @@ struct database {
     char path[256]; /* its end, for messages */
 };
 
-/* Opens the file, or creates it with that schema, keeps other processes out, checks that it is ours
- * and whole, and prepares the statements. database_close is due whatever came of it. */
-enum percuss_status database_open(struct database *database, const char *path, const char *schema,
-                                  const char *const *texts, struct fault *fault);
+/* What is in such a file. */
+struct database_design {
+    int version;                 /* of the schema */
+    const char *schema;          /* makes a new one */
+    const char *const *upgrades; /* [v - 1] makes version v + 1 of version v */
+    const char *const *texts;    /* of the statements */
+};
+
+/* Opens the file, brings one of an older version up to date, or creates it; keeps other processes
+ * out, checks that it is ours and whole, and prepares the statements. database_close is due
+ * whatever came of it. */
+enum percuss_status database_open(struct database *database, const char *path,
+                                  const struct database_design *design, struct fault *fault);
 void database_close(struct database *database);
 
 /* The statement, rewound, with nothing bound. */

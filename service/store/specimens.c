@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "store/database.h"
 #include "store/nature.h"
 
@@ -23,9 +24,12 @@ static const char schema[] =
     " residual REAL NOT NULL, contact_radius REAL NOT NULL,"
     " PRIMARY KEY (specimen, number)) WITHOUT ROWID;"
     "CREATE TABLE replies (id INTEGER PRIMARY KEY AUTOINCREMENT, client BLOB NOT NULL,"
-    " sequence INTEGER NOT NULL, content BLOB NOT NULL, reply BLOB NOT NULL,"
+    " sequence INTEGER NOT NULL, content BLOB NOT NULL, reply BLOB NOT NULL, checksum BLOB,"
     " UNIQUE (client, sequence));"
     "CREATE TABLE marks (client BLOB PRIMARY KEY, sequence INTEGER NOT NULL) WITHOUT ROWID;";
+
+/* Replies that were kept before there were checksums have none. */
+static const char *const upgrades[] = {"ALTER TABLE replies ADD COLUMN checksum BLOB"};
 
 static const char *const texts[STATEMENT_COUNT] = {
     [STATEMENT_BEGIN] = "BEGIN IMMEDIATE",
@@ -40,14 +44,15 @@ static const char *const texts[STATEMENT_COUNT] = {
                       " RETURNING id, impacts",
     [STATEMENT_SMOOTH] = "DELETE FROM dents WHERE specimen = ?1",
     [STATEMENT_DENT] = "INSERT INTO dents VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
-    [STATEMENT_KEEP] = "INSERT INTO replies (client, sequence, content, reply)"
-                       " VALUES (?1, ?2, ?3, ?4)",
+    [STATEMENT_KEEP] = "INSERT INTO replies (client, sequence, content, reply, checksum)"
+                       " VALUES (?1, ?2, ?3, ?4, ?5)",
     [STATEMENT_OLDEST] = "SELECT id, client, sequence FROM replies ORDER BY id LIMIT 1",
     [STATEMENT_DROP] = "DELETE FROM replies WHERE id = ?1",
     [STATEMENT_MARK] = "INSERT INTO marks VALUES (?1, ?2)"
                        " ON CONFLICT (client) DO UPDATE SET sequence = ?2",
     [STATEMENT_MARKED] = "SELECT sequence FROM marks WHERE client = ?1",
-    [STATEMENT_REPLY] = "SELECT content, reply FROM replies WHERE client = ?1 AND sequence = ?2",
+    [STATEMENT_REPLY] =
+        "SELECT content, reply, checksum FROM replies WHERE client = ?1 AND sequence = ?2",
     [STATEMENT_LIST] = "SELECT id, name, body, impacts FROM specimens"
                        " WHERE ?1 IS NULL OR name = ?1 ORDER BY name",
     [STATEMENT_CLEAR] = "DELETE FROM specimens WHERE name = ?1",
@@ -79,7 +84,9 @@ enum percuss_status specimen_store_open(const char *path, unsigned replies,
     if (!created)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     created->most_replies = replies;
-    enum percuss_status status = database_open(&created->database, path, schema, texts, fault);
+    static const struct database_design design = {
+        .version = 2, .schema = schema, .upgrades = upgrades, .texts = texts};
+    enum percuss_status status = database_open(&created->database, path, &design, fault);
     if (!status)
         status = count_all(created, fault);
     if (status) {
@@ -262,6 +269,17 @@ static bool drop_oldest(struct specimen_store *store)
     return database_run(set);
 }
 
+/* Over all that a row says. */
+static struct digest checksum(const struct stored_reply *reply)
+{
+    struct hasher hasher = {0};
+    hash_bytes(&hasher, reply->client, sizeof reply->client);
+    hash_number(&hasher, reply->sequence);
+    hash_bytes(&hasher, reply->content, sizeof reply->content);
+    hash_bytes(&hasher, reply->bytes, reply->size);
+    return hash_digest(&hasher);
+}
+
 static bool write_reply(struct specimen_store *store, const struct stored_reply *reply)
 {
     sqlite3_stmt *keep = database_statement(&store->database, STATEMENT_KEEP);
@@ -269,6 +287,8 @@ static bool write_reply(struct specimen_store *store, const struct stored_reply 
     sqlite3_bind_int64(keep, 2, (int64_t)reply->sequence);
     sqlite3_bind_blob(keep, 3, reply->content, sizeof reply->content, SQLITE_STATIC);
     sqlite3_bind_blob64(keep, 4, reply->bytes, reply->size, SQLITE_STATIC);
+    struct digest sum = checksum(reply);
+    sqlite3_bind_blob(keep, 5, &sum, sizeof sum, SQLITE_STATIC);
     return database_run(keep);
 }
 
@@ -294,6 +314,27 @@ enum percuss_status specimen_store_commit(struct specimen_store *store,
     enum percuss_status status = database_fault(database, "the impact is not stored", fault);
     database_roll_back(database);
     return status;
+}
+
+/* Whether the row is what was kept. */
+static bool is_intact(sqlite3_stmt *row, const struct stored_reply *reply)
+{
+    if (sqlite3_column_type(row, 2) == SQLITE_NULL)
+        return true;
+    struct digest sum = checksum(reply);
+    const void *kept = sqlite3_column_blob(row, 2);
+    return sqlite3_column_bytes(row, 2) == sizeof sum && memcmp(kept, &sum, sizeof sum) == 0;
+}
+
+/* PERCUSS_INTERNAL; the reply holds nothing then. */
+static enum percuss_status refuse_damaged(struct specimen_store *store, struct stored_reply *reply,
+                                          struct fault *fault)
+{
+    free(reply->bytes);
+    reply->bytes = NULL;
+    return fault_set(fault, PERCUSS_INTERNAL,
+                     "%s: the stored reply to request %llu is damaged: its checksum differs",
+                     store->database.path, (unsigned long long)reply->sequence);
 }
 
 /* Copies the row to the reply. */
@@ -324,7 +365,10 @@ enum percuss_status specimen_store_find(struct specimen_store *store, struct sto
     good = good && (found == SQLITE_ROW || read_mark(store, reply->client, &mark));
     if (!good)
         return database_fault(&store->database, "stored replies", fault);
+    bool intact = found != SQLITE_ROW || is_intact(statement, reply);
     sqlite3_reset(statement);
+    if (!intact)
+        return refuse_damaged(store, reply, fault);
     if (found == SQLITE_ROW || reply->sequence > mark)
         return PERCUSS_OK;
     return fault_set(fault, PERCUSS_BAD_REQUEST,

@@ -56,7 +56,8 @@ enum percuss_status specimen_store_commit(struct specimen_store *store,
 
 /* The reply kept under reply->client and ->sequence: fills in the rest, and the caller free()s
  * ->bytes; NULL: there was no such request. PERCUSS_BAD_REQUEST: replies of that client with
- * numbers as high are no longer kept, so that nobody knows whether there was one. */
+ * numbers as high are no longer kept, so that nobody knows whether there was one. PERCUSS_INTERNAL:
+ * the file cannot be read, or what it holds is not what was kept: its checksum differs. */
 enum percuss_status specimen_store_find(struct specimen_store *store, struct stored_reply *reply,
                                         struct fault *fault);
 

@@ -49,9 +49,26 @@ static void damaged_bytes_do_not(void **state)
     assert_null(reply_bytes_read(bytes, 0));
     assert_null(reply_bytes_read(bytes, 3));
     assert_null(reply_bytes_read(bytes, size / 2));
-    /* the size of all */
+    /* the size of all: it would end before a member, which the decoder does not survive */
+    for (uint32_t shorter = 0; shorter < size - 4; shorter++) {
+        memcpy(bytes, &shorter, sizeof shorter);
+        answer_release(reply_bytes_read(bytes, size));
+    }
+    const uint32_t header_only = 24;
+    memcpy(bytes, &header_only, sizeof header_only);
+    assert_null(reply_bytes_read(bytes, size));
     memset(bytes, 0xff, 4);
     assert_null(reply_bytes_read(bytes, size));
+    free(bytes);
+    /* any octet: refused or read, nothing worse */
+    bytes = reply_bytes_write(answer, &size);
+    for (size_t i = 0; i < size; i++) {
+        for (unsigned flipped = 1; flipped < 256; flipped <<= 1) {
+            ((uint8_t *)bytes)[i] ^= (uint8_t)flipped;
+            answer_release(reply_bytes_read(bytes, size));
+            ((uint8_t *)bytes)[i] ^= (uint8_t)flipped;
+        }
+    }
     free(bytes);
     answer_release(answer);
     free(result);

@@ -291,8 +291,8 @@ static void refuses_other_files(void **state)
     refuses_to_open("store.db: cannot be used");
     unlink(path);
     specimen_store_close(open_store(10));
-    execute("PRAGMA user_version = 2");
-    refuses_to_open("is of version 2: must be of version 1");
+    execute("PRAGMA user_version = 3");
+    refuses_to_open("is of version 3: must be of version 1 to 2");
 }
 
 static void refuses_a_damaged_file(void **state)
@@ -314,6 +314,59 @@ static void refuses_a_damaged_file(void **state)
     free(dents);
 }
 
+static void is_damaged(uint8_t client, uint64_t sequence)
+{
+    struct fault fault;
+    struct stored_reply reply = {.client = {client}, .sequence = sequence};
+    struct specimen_store *store = open_store(10);
+    assert_int_equal(specimen_store_find(store, &reply, &fault), PERCUSS_INTERNAL);
+    assert_null(reply.bytes);
+    assert_non_null(strstr(fault.text, "request 1 is damaged: its checksum differs"));
+    finds(store, 1, 2, "reply 1 2");
+    specimen_store_close(store);
+}
+
+/* Whatever has changed in its row. */
+static void tells_a_damaged_reply(void **state)
+{
+    (void)state;
+    struct specimen_store *store = open_store(10);
+    assert_int_equal(hit(store, "bar", NULL, 1, 1), PERCUSS_OK);
+    assert_int_equal(hit(store, "bar", NULL, 1, 2), PERCUSS_OK);
+    finds(store, 1, 1, "reply 1 1");
+    specimen_store_close(store);
+    execute("UPDATE replies SET reply = CAST('reply 1 0' AS BLOB) WHERE sequence = 1");
+    is_damaged(1, 1);
+    execute("UPDATE replies SET reply = CAST('reply 1 1 ' AS BLOB) WHERE sequence = 1");
+    is_damaged(1, 1);
+    execute("UPDATE replies SET reply = CAST('reply 1 1' AS BLOB), content = zeroblob(16)"
+            " WHERE sequence = 1");
+    is_damaged(1, 1);
+    execute("UPDATE replies SET checksum = zeroblob(16) WHERE sequence = 1");
+    is_damaged(1, 1);
+    execute("UPDATE replies SET checksum = x'00' WHERE sequence = 1");
+    is_damaged(1, 1);
+}
+
+/* Version 1 had no checksums: what it kept is found, what comes on top has them. */
+static void brings_version_1_up_to_date(void **state)
+{
+    (void)state;
+    struct body_state *dents = dented(3, 2.0);
+    struct specimen_store *store = open_store(10);
+    assert_int_equal(hit(store, "bar", dents, 1, 2), PERCUSS_OK);
+    specimen_store_close(store);
+    execute("ALTER TABLE replies DROP COLUMN checksum; PRAGMA user_version = 1");
+    store = open_store(10);
+    finds(store, 1, 2, "reply 1 2");
+    has_dents(store, "bar", dents);
+    assert_int_equal(hit(store, "bar", dents, 1, 1), PERCUSS_OK);
+    specimen_store_close(store);
+    execute("UPDATE replies SET reply = zeroblob(9) WHERE sequence = 1");
+    is_damaged(1, 1);
+    free(dents);
+}
+
 static void refuses_a_second_process(void **state)
 {
     (void)state;
@@ -328,10 +381,11 @@ static void refuses_a_second_process(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(keeps_to_the_last_bit),    WITH_FOLDER(survives_a_kill),
-        WITH_FOLDER(refuses_another_body),     WITH_FOLDER(keeps_the_last_replies),
-        WITH_FOLDER(refuses_other_files),      WITH_FOLDER(refuses_a_damaged_file),
-        WITH_FOLDER(refuses_a_second_process),
+        WITH_FOLDER(keeps_to_the_last_bit),       WITH_FOLDER(survives_a_kill),
+        WITH_FOLDER(refuses_another_body),        WITH_FOLDER(keeps_the_last_replies),
+        WITH_FOLDER(refuses_other_files),         WITH_FOLDER(refuses_a_damaged_file),
+        WITH_FOLDER(refuses_a_second_process),    WITH_FOLDER(tells_a_damaged_reply),
+        WITH_FOLDER(brings_version_1_up_to_date),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

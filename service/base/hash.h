@@ -4,8 +4,8 @@
 /* A 128-bit hash of what a request or a state says. The bits mix as in MurmurHash3 x64 128 (Austin
  * Appleby, public domain), which is fast and spreads well but does not resist an attacker: whoever
  * looks something up by hash compares the content where a mistake would matter. */
-#ifndef PERCUSS_ENDPOINT_HASH_H
-#define PERCUSS_ENDPOINT_HASH_H
+#ifndef PERCUSS_BASE_HASH_H
+#define PERCUSS_BASE_HASH_H
 
 #include <stddef.h>
 #include <stdint.h>

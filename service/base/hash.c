@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "endpoint/hash.h"
+#include "base/hash.h"
 
 #include <string.h>
 
