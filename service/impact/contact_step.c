@@ -122,23 +122,15 @@ static void push_rigid(struct contact_step *step, const struct scene *scene, con
 
 /* What the dampers of one group take, by the quadratic form of its table. */
 static double group_loss(const struct contact_step *step, const struct scene_group *group,
-                         const struct motion *motion, const double *q, const double *v,
-                         const size_t *list, size_t count, const struct step_table *table)
+                         const double *const state[2], const size_t *list, size_t count, int level)
 {
-    (void)motion;
-    double sum = 0.0;
-    for (size_t k = 0; k < group->count; k++) {
-        double x[NODES + 2] = {q[k], v[k]};
-        for (size_t b = 0; b < count; b++)
-            for (int j = 0; group->participation[list[b]] && j < NODES; j++)
-                x[j + 2] += group->participation[list[b]][k] * step->force[list[b]][j];
-        for (int r = 0, term = 0; r < NODES + 2; r++) {
-            for (int s = 0; s < r; s++, term++)
-                sum += 2.0 * table->loss[term][k] * x[r] * x[s];
-            sum += table->loss[term++][k] * x[r] * x[r];
-        }
-    }
-    return sum;
+    struct kernel_load loads[PERCUSS_MAX_CONTACTS];
+    size_t used = 0;
+    for (size_t b = 0; b < count; b++)
+        if (group->participation[list[b]])
+            loads[used++] =
+                (struct kernel_load){group->participation[list[b]], step->force[list[b]]};
+    return kernel_loss(group->set->tables[level], group->stride, state, loads, used);
 }
 
 /* Many contacts of a group are open most of the time. */
@@ -159,8 +151,8 @@ double contact_step_loss(const struct scene *scene, const struct motion *motion,
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         if (group->set->damping > 0.0)
-            sum += group_loss(&step, group, motion, motion->q[g], motion->v[g], &contact, 1,
-                              group->set->tables[level]);
+            sum += group_loss(&step, group, (const double *const[]){motion->q[g], motion->v[g]},
+                              &contact, 1, level);
     }
     return sum;
 }
@@ -188,7 +180,8 @@ static void advance(struct contact_step *step, const struct scene *scene,
                             step->force[list[b]], step->end.q[g], step->end.v[g]);
         if (group->set->damping > 0.0)
             step->loss +=
-                group_loss(step, group, motion, motion->q[g], motion->v[g], list, count, table);
+                group_loss(step, group, (const double *const[]){motion->q[g], motion->v[g]}, list,
+                           count, level);
     }
 }
 

@@ -106,3 +106,23 @@ VECTOR_CLONES void kernel_response(const struct step_table *table, size_t length
         sums[i][3] += TOTAL(s3);
     }
 }
+
+VECTOR_CLONES double kernel_loss(const struct step_table *table, size_t length,
+                                 const double *const state[2], const struct kernel_load *loads,
+                                 size_t count)
+{
+    lanes sum = {0};
+    for (size_t k = 0; k < length; k += LANES) {
+        lanes x[NODES + 2] = {AT(state[0], k), AT(state[1], k)};
+        for (size_t b = 0; b < count; b++)
+            for (int j = 0; j < NODES; j++)
+                x[j + 2] += AT(loads[b].phi, k) * loads[b].force[j];
+        for (int r = 0, term = 0; r < NODES + 2; r++) {
+            lanes row = {0};
+            for (int s = 0; s < r; s++, term++)
+                row += AT(table->loss[term], k) * x[s];
+            sum += (2.0 * row + AT(table->loss[term++], k) * x[r]) * x[r];
+        }
+    }
+    return TOTAL(sum);
+}

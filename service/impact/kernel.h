@@ -35,4 +35,15 @@ void kernel_derivatives(size_t length, const double *omega, double damping, cons
 void kernel_response(const struct step_table *table, size_t length, const double *phi_a,
                      const double *phi_b, double sums[NODES][NODES]);
 
+/* A contact's forces at the nodes, and how they reach the modes. */
+struct kernel_load {
+    const double *phi;   /* [length] */
+    const double *force; /* [NODES] */
+};
+
+/* What dampers take on the step: sum_k of the table's quadratic form of (q_k, v_k, f_1..f_4), f_j
+ * the sum over the loads of phi_k force_j. Damped tables only. */
+double kernel_loss(const struct step_table *table, size_t length, const double *const state[2],
+                   const struct kernel_load *loads, size_t count);
+
 #endif

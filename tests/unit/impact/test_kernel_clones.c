@@ -20,6 +20,7 @@
 #define kernel_dot2        baseline_dot2
 #define kernel_response    baseline_response
 #define kernel_derivatives baseline_derivatives
+#define kernel_loss        baseline_loss
 #include "impact/kernel.c"
 #undef kernel_nodes
 #undef kernel_advance
@@ -27,6 +28,7 @@
 #undef kernel_dot2
 #undef kernel_response
 #undef kernel_derivatives
+#undef kernel_loss
 
 void kernel_nodes(const struct step_table *table, size_t length, const double *phi, const double *q,
                   const double *v, double sums[NODES]);
@@ -40,6 +42,8 @@ void kernel_response(const struct step_table *table, size_t length, const double
                      const double *phi_b, double sums[NODES][NODES]);
 void kernel_derivatives(size_t length, const double *omega, double damping, const double *phi,
                         const double *q, const double *v, double sums[DERIVATIVES]);
+double kernel_loss(const struct step_table *table, size_t length, const double *const state[2],
+                   const struct kernel_load *loads, size_t count);
 
 enum { LONGEST = 64 };
 
@@ -95,6 +99,11 @@ static void every_vector_unit_gives_the_same_bits(void **state)
         kernel_derivatives(n, set->omega, 0.01, phi, q, v, derivatives[0]);
         baseline_derivatives(n, set->omega, 0.01, phi, q, v, derivatives[1]);
         same(derivatives[0], derivatives[1], DERIVATIVES);
+        const double *const q_and_v[2] = {q, v};
+        const struct kernel_load loads[2] = {{phi, force}, {psi, force}};
+        double losses[2] = {kernel_loss(table, n, q_and_v, loads, 2),
+                            baseline_loss(table, n, q_and_v, loads, 2)};
+        same(&losses[0], &losses[1], 1);
         oscillators_free(set);
     }
 }
