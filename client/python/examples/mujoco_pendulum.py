@@ -3,8 +3,8 @@
 """A MuJoCo simulation that asks percuss at every impact of a sphere.
 
 MuJoCo stays on the slow time scale. Its own contact between the two bodies is switched off; instead the
-instant of touch is located, the reply's impulse is applied to the joint velocities, and the vibration goes
-on as a state token. Needs `pip install mujoco` and a percussd with the shipped catalogue; the DDS domain may
+instant of touch is located, the reply's impulse is applied to the joint velocities, the bodies are put where
+its sub-impacts at their own times bring them, and the vibration goes on as a state token. Needs `pip install mujoco` and a percussd with the shipped catalogue; the DDS domain may
 be the argument. Prints the impacts of a pendulum on a bar that hangs beside it.
 """
 
@@ -46,14 +46,10 @@ class Pair:
     sphere_id: str = "steel-sphere"
     other_id: str = "al-beam"
     latched_until: float = -math.inf
-    armed: bool = True
 
     def watch(self, now: float, gap: float, gap_rate: float) -> bool:
-        """Whether an impact begins. One that was answered does not begin again while it lasts, nor until
-        the bodies were seen apart or separating."""
-        if not self.armed and now >= self.latched_until:
-            self.armed = gap > 0.0 or gap_rate >= 0.0
-        return self.armed and gap <= 0.0 and gap_rate < 0.0
+        """Whether an impact begins. While the window of one lasts, whatever happens is in its answer."""
+        return now >= self.latched_until and gap <= 0.0 and gap_rate < 0.0
 
 
 @dataclass
@@ -171,7 +167,8 @@ class Simulation:
         mujoco.mj_jacBodyCom(self.model, self.data, linear, angular, body.id)
         velocity, angular_velocity = linear @ self.data.qvel, angular @ self.data.qvel
         token, since = self._tokens.get(geom, ("", self.data.time))
-        elapsed = self.data.time - since if token else 0.0
+        # another body may hit before the window is over: then this is the nearest state there is
+        elapsed = max(0.0, self.data.time - since) if token else 0.0
         return percuss.BodyMotion(id, body.xipos, orientation, velocity, angular_velocity, token, elapsed)
 
     def request(self, touching: list[Pair]) -> tuple[percuss.Request, list[str], FloatArray]:
@@ -211,28 +208,37 @@ class Simulation:
                 raise
             print(f"{self.data.time:.6f} s: e = {self.fallback} assumed: {problem}", file=sys.stderr)
             reply = None
-        impulses, ends = self._impulses(reply, request, gap_rate)
-        self.data.qvel += impulses @ self.inverse_mass_times(w)
+        impulses = self._impulses(reply, request, gap_rate)
+        window = reply.window if reply else 0.0
+        response = self.inverse_mass_times(w)
+        self.data.qvel += impulses @ response
+        mujoco.mj_integratePos(self.model, self.data.qpos, self._lateness(reply, impulses) @ response, 1.0)
         mujoco.mj_forward(self.model, self.data)
-        for pair, end in zip(touching, ends):
-            pair.armed, pair.latched_until = False, self.data.time + end
+        for pair in touching:
+            pair.latched_until = self.data.time + window
         for i, geom in enumerate(geoms):
-            token = reply.states_after[i].state if reply else ""
-            self._tokens[geom] = (token, self.data.time)
+            # the state is that at the end of the window
+            self._tokens[geom] = (reply.states_after[i].state if reply else "", self.data.time + window)
         self.impacts.append(Impact(self.data.time, request, gap_rate, w @ self.data.qvel, reply))
 
-    def _impulses(
-        self, reply: percuss.Reply | None, request: percuss.Request, gap_rate: FloatArray
-    ) -> tuple[FloatArray, list[float]]:
+    def _impulses(self, reply: percuss.Reply | None, request: percuss.Request, gap_rate: FloatArray) -> FloatArray:
         if reply:
-            results = reply.contacts
-            return np.array([one.impulse for one in results]), [one.end_time for one in results]
+            return np.array([contact.impulse for contact in reply.contacts])
         # compression by Gauss-Seidel, 0 <= W p + g perpendicular to p >= 0; expansion in proportion
         delassus, compression = np.asarray(request.delassus), np.zeros(len(gap_rate))
         for _ in range(100):
             for i, row in enumerate(delassus):
                 compression[i] = max(0.0, compression[i] - (row @ compression + gap_rate[i]) / row[i])
-        return (1.0 + (self.fallback or 0.0)) * compression, [0.0] * len(gap_rate)
+        return (1.0 + (self.fallback or 0.0)) * compression
+
+    @staticmethod
+    def _lateness(reply: percuss.Reply | None, impulses: FloatArray) -> FloatArray:
+        """Each impulse times how late it is applied, N s^2: all are applied now, each belongs to the centre of
+        its force. Velocities alone would make energy where gravity presses or swings the bodies."""
+        if not reply:
+            return np.zeros(len(impulses))
+        subs = [contact.sub_impacts for contact in reply.contacts]
+        return np.array([-(percuss.force_centres(one) @ one["impulse"]) for one in subs])
 
 
 def hinged_bar(answer: Answer, speed: float = 0.2) -> Simulation:

@@ -41,6 +41,7 @@ from .reply import (
     Model,
     Reply,
     Timing,
+    force_centres,
 )
 from .request import BodyMotion, Contact, Options, Request
 from .server import Body, Dent, Server, Specimen, contact_pair
@@ -109,4 +110,5 @@ __all__ = [
     "__version__",
     "connect",
     "contact_pair",
+    "force_centres",
 ]

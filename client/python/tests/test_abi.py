@@ -11,8 +11,10 @@ import re
 import subprocess
 import tempfile
 import unittest
-from ctypes import Structure, c_char_p
+from ctypes import CDLL, POINTER, Structure, c_char_p, c_double
 from pathlib import Path
+
+import numpy as np
 
 import percuss
 from percuss import _abi, vocabulary
@@ -131,6 +133,22 @@ class Abi(unittest.TestCase):
         }
         declared = {name for name, _, _ in _abi._FUNCTIONS}
         self.assertEqual(declared | unused | {"version"}, functions)
+
+    def test_force_centres(self) -> None:
+        """To the bit as the C side of the slow scale has them."""
+        library = CDLL(os.environ["PERCUSS_LIBRARY"].replace("libpercuss", "libpercuss-slowscale"))
+        in_c = library.percuss_slow_force_centre
+        in_c.argtypes, in_c.restype = [POINTER(_abi.SubImpact)], c_double
+        subs = np.zeros(4, percuss.SUB_IMPACT)
+        subs["start"] = [0.0, -3e-3, 1.0, 2.0]
+        subs["compression_end"] = subs["start"] + [1e-4, 2e-4, 3e-4, 4e-4]
+        subs["end"] = subs["compression_end"] + [1e-4, 5e-4, 1e-4, 0.0]
+        subs["impulse"] = [0.02, 0.03, 0.01, 0.0]
+        subs["compression_impulse"] = [0.01, 0.011, 0.009, 0.0]
+        expected = [in_c(_abi.SubImpact.from_buffer_copy(one.tobytes())) for one in subs]
+        self.assertEqual(percuss.force_centres(subs).tolist(), expected)
+        self.assertEqual(expected[0], 1e-4)
+        self.assertGreater(expected[1], subs["compression_end"][1])
 
     def test_unknown_choice(self) -> None:
         newer = percuss.Status(4711)
