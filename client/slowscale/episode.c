@@ -217,7 +217,7 @@ static enum percuss_result take_back(const struct percuss_slow *slow, const stru
                                      struct entry *entry, struct group *group, double now)
 {
     const struct percuss_slow_contact *contact = &episode->contacts[entry->contact];
-    for (size_t i = 0; !slow->config.move && i < group->count; i++)
+    for (size_t i = 0; i < group->count; i++)
         if (pairs_is_same(&group->contacts[i], contact))
             group->moved[i] += entry->impulse * (now - entry->time);
     entry->taken_back = true;
@@ -233,7 +233,9 @@ enum percuss_result episode_revoke(struct percuss_slow *slow, struct episode *ep
     episode->revoked = true;
     for (size_t i = 0; !result && i < episode->entry_count; i++) {
         struct entry *entry = &episode->entries[i];
-        if (entry->end <= time) /* has happened, and was applied before its end */
+        /* has happened, and was applied before its end; back at the start, nothing has: what lies
+         * before it on a ringing body belongs to the same question */
+        if (entry->end <= time && time >= shortest_horizon)
             continue;
         revoked++;
         if (i < episode->played)

@@ -89,15 +89,18 @@ static enum percuss_result preempt(struct percuss_slow *slow, struct group *grou
     return result;
 }
 
-/* The gaps at the group's start, as straight motion from there led to those of now. */
-static void go_back(struct group *group, double now)
+/* The gaps at the group's start, as straight motion from there, without the impulses taken back,
+ * led to those of now. */
+static void go_back(const struct percuss_slow *slow, struct group *group, double now)
 {
     double back = now - group->start;
     for (size_t i = 0; i < group->count; i++) {
         struct percuss_slow_contact *contact = &group->contacts[i];
-        contact->gap -= back * (group->gap_rate[i] - 0.5 * contact->gap_acceleration * back);
         for (size_t j = 0; j < group->count; j++)
             contact->gap -= group->delassus[i * group->count + j] * group->moved[j];
+        if (slow->config.move) /* where the bodies are by now */
+            pairs_find(slow, contact)->contact.gap = contact->gap;
+        contact->gap -= back * (group->gap_rate[i] - 0.5 * contact->gap_acceleration * back);
     }
 }
 
@@ -257,8 +260,7 @@ static enum percuss_result prepare(struct percuss_slow *slow, struct group *grou
     if (!result)
         result = group_probe(slow, group, true);
     if (!result) {
-        pairs_give_gaps(slow, group->count, group->contacts);
-        go_back(group, now);
+        go_back(slow, group, now);
         result = find_impulses(slow, group, request);
     }
     if (!result)

@@ -267,6 +267,41 @@ static void a_sub_impact_under_way_is_asked_about_again(void **state)
     }
 }
 
+/* Asked about again from its start, an impact has all of its impulses taken back, those too that
+ * belong before its start: the new answer has them. */
+static void what_lay_before_the_question_is_taken_back_with_it(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    wishes.move = toy_shift;
+    struct toy *toy = toy_create(3, &wishes);
+    toy->bodies[2].position[0] += 20e-6;
+    toy->bodies[2].velocity[0] = -0.2;
+    toy->answers = 2;
+    toy->answer[0] = (struct toy_answer){
+        .window = 6e-3,
+        .count = {2},
+        .subs = {{{.start = -3e-4, .compression_end = -2e-4, .end = -1e-4, .impulse = 0.001},
+                  {.compression_end = 1e-4, .end = 2e-4, .impulse = 0.013}}}};
+    toy->answer[1] = (struct toy_answer){
+        .window = 6e-3,
+        .count = {2, 1},
+        .subs = {{{.start = -3e-4, .compression_end = -2e-4, .end = -1e-4, .impulse = 0.001},
+                  {.compression_end = 1e-4, .end = 2e-4, .impulse = 0.029}},
+                 {{.start = 5e-5, .compression_end = 1.5e-4, .end = 2.5e-4, .impulse = 0.03}}}};
+    toy_step(toy, 0.0);
+    near(toy->applied[0], 0.001, 1e-17);
+    toy_run(toy, 2e-2, 1e-5);
+    assert_int_equal(toy->asked, 2);
+    near(toy->question[1].bodies[1].velocity[0], 0.2, 1e-15);
+    near(toy->question[1].contacts[0].gap, 0.0, 1e-15);
+    near(toy->question[1].contacts[1].gap, 20e-6, 1e-15);
+    near(toy->applied[0], 0.03, 1e-17);
+    near(toy->bodies[0].position[0], 0.2 * 0.02 - 0.01 * (0.02 + 2e-4) - 0.29 * (0.02 - 1e-4),
+         1e-15);
+    toy_free(toy);
+}
+
 static void an_unknown_state_is_asked_from_rest(void **state)
 {
     (void)state;
@@ -535,6 +570,7 @@ int main(void)
         cmocka_unit_test(coupled_contacts_are_one_question),
         cmocka_unit_test(a_second_hit_revokes_the_list),
         cmocka_unit_test(a_sub_impact_under_way_is_asked_about_again),
+        cmocka_unit_test(what_lay_before_the_question_is_taken_back_with_it),
         cmocka_unit_test(an_unknown_state_is_asked_from_rest),
         cmocka_unit_test(without_an_answer_the_declared_value_is_used_with_leave),
         cmocka_unit_test(without_an_answer_nothing_happens_and_the_engine_may_try_again),
