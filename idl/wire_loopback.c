@@ -53,7 +53,7 @@ struct sockets {
 static bool is_ours(int file, uint32_t domain)
 {
     const uint32_t first = 7400 + 250 * domain + 10, last = first + 1 + 2 * HIGHEST_INDEX;
-    struct sockaddr_in address;
+    struct sockaddr_in address = {0};
     socklen_t size = sizeof address;
     return getsockname(file, (struct sockaddr *)&address, &size) == 0 &&
            address.sin_family == AF_INET && address.sin_addr.s_addr == htonl(INADDR_ANY) &&
