@@ -16,10 +16,11 @@
 #include <stdint.h>
 
 /* Whether every member that is there fits into its struct, list and sample, every list into its
- * bound, and no key and no struct member is missing. `ops`: instructions of the type as idlc writes
- * them (m_ops of a topic's descriptor): @appendable or @final structs of numbers, booleans,
- * strings, arrays of numbers, sequences and structs; anything else is refused. `data`: `size` bytes
- * of XCDR2 after the encapsulation header, `swapped`: not in this machine's byte order. */
+ * bound and, unless it is one of numbers, into 64 MiB of memory, and no key and no struct member is
+ * missing. `ops`: instructions of the type as idlc writes them (m_ops of a topic's descriptor):
+ * @appendable or @final structs of numbers, booleans, strings, arrays of numbers, sequences and
+ * structs; anything else is refused. `data`: `size` bytes of XCDR2 after the encapsulation header,
+ * `swapped`: not in this machine's byte order. */
 bool wire_whole(const uint32_t *ops, const void *data, size_t size, bool swapped);
 
 #endif

@@ -163,6 +163,26 @@ static void more_elements_than_the_bound_are_refused(void **state)
     assert_false(passes(&percuss_v2_BatchRequest_desc, &bytes, bytes.size, false));
 }
 
+/* Elements that have left out all their members, 4 bytes each. */
+static void a_list_that_would_swell_is_refused(void **state)
+{
+    (void)state;
+    const size_t before = 44, room = (64 << 20) / sizeof(percuss_v2_Dent);
+    struct any_bytes bytes = {calloc(1, before + 4 * (room + 1)), before + 4 * (room + 1)};
+    assert_non_null(bytes.data);
+    // specimen and body, empty, around the server; then the size of the list and how many
+    any_put(bytes.data + 4, 1, false);
+    any_put(bytes.data + 28, 1, false);
+    for (size_t count = room; count <= room + 1; count++) {
+        size_t size = before + 4 * count;
+        any_put(bytes.data, size - 4, false);
+        any_put(bytes.data + 36, size - 40, false);
+        any_put(bytes.data + 40, count, false);
+        assert_int_equal(passes(&percuss_v2_Dents_desc, &bytes, size, false), count == room);
+    }
+    free(bytes.data);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -171,6 +191,7 @@ int main(void)
         cmocka_unit_test(damaged_samples_pass_only_where_dds_stays_inside),
         cmocka_unit_test(a_missing_struct_is_refused),
         cmocka_unit_test(more_elements_than_the_bound_are_refused),
+        cmocka_unit_test(a_list_that_would_swell_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
