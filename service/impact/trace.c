@@ -10,8 +10,8 @@
 
 /* Bounds of the instants: of one contact, of all contacts together. */
 enum { MOST_INSTANTS = 4096, MOST_VALUES = 16384, LEAST_INSTANTS = 256 };
-/* A step of a contact phase is shown in 2^FINER parts. */
-enum { FINER = 3 };
+/* A step of a contact phase is shown in 2^FINER parts, in fewer where most would be dropped. */
+enum { FINER = 3, DROPPED = 4 };
 /* A flight is shown in this share of the contact phase before, which is what excites its modes. */
 static const double PHASE_SHARE = 1.0 / 16.0;
 enum { LEAST_FLIGHT = 32, MOST_FLIGHT = 1500 };
@@ -25,6 +25,7 @@ struct tracer {
     double (*silent)[NODES];   /* [contact]: no force */
     double *none;              /* [contact]: zeros */
     size_t room, stride, skip; /* every stride-th instant is kept */
+    int finer;
     struct pace *pace;
     double cost; /* of a step */
 };
@@ -207,7 +208,7 @@ static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
 static bool show_step(struct tracer *tracer, const struct force_step *logged)
 {
     size_t n = tracer->scene->contacts;
-    int finer = logged->level + FINER < STEP_LEVELS ? FINER : 0;
+    int finer = logged->level + tracer->finer < STEP_LEVELS ? tracer->finer : 0;
     int parts = 1 << finer;
     double force[PERCUSS_MAX_CONTACTS][NODES];
     double end_force[PERCUSS_MAX_CONTACTS];
@@ -284,6 +285,9 @@ enum percuss_status trace_make(const struct trace_task *task, struct arena *aren
                             .cost = impact_step_cost(task->scene)};
     if (!task->log->complete || !create(&tracer, arena))
         return PERCUSS_INTERNAL;
+    for (tracer.finer = FINER; tracer.finer > 0; tracer.finer--)
+        if (task->log->count << tracer.finer <= DROPPED * tracer.room)
+            break;
     motion_start(&tracer.now, task->scene);
     if (task->shift < 0.0)
         motion_rewind(&tracer.now, task->scene, -task->shift);

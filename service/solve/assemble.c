@@ -268,6 +268,15 @@ bool assemble(struct assembly *assembly, const struct geometry *geometry,
     return true;
 }
 
+bool assembly_same_modes(const struct assembly *a, const struct assembly *b)
+{
+    bool same = a->scene.groups == b->scene.groups;
+    for (size_t g = 0; same && g < a->scene.groups; g++)
+        same = a->groups[g].count == b->groups[g].count && a->families[g] == b->families[g] &&
+               a->groups[g].body == b->groups[g].body;
+    return same;
+}
+
 bool assemble_remainder(const struct assembly *assembly, const struct geometry *geometry,
                         struct prepared_cache *cache, struct arena *arena, struct scene *scene)
 {

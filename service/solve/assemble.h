@@ -47,6 +47,9 @@ bool assemble(struct assembly *assembly, const struct geometry *geometry,
               const struct solve_request *request, struct prepared_cache *cache,
               const struct mode_choice *choice, struct arena *arena);
 
+/* Whether two assemblies of a request have the same modes, and so the same scene. */
+bool assembly_same_modes(const struct assembly *a, const struct assembly *b);
+
 /* The same scene with one oscillator for the omitted modes of each body at each contact in the
  * place of their own residual flexibility: the next better model, for an error estimate. Valid as
  * long as the assembly. False: out of memory. */

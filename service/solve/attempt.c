@@ -45,13 +45,13 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
     return status;
 }
 
-enum percuss_status attempt_solve(struct attempt_context *context, struct attempt *attempt)
+enum percuss_status attempt_assemble(struct attempt_context *context, struct attempt *attempt)
 {
     attempt->assembly = arena_take(context->arena, 1, sizeof *attempt->assembly);
-    if (!attempt->assembly || !assemble(attempt->assembly, context->geometry, context->request,
-                                        context->cache, &attempt->choice, context->arena))
-        return PERCUSS_INTERNAL;
-    return attempt_run(context, attempt, &attempt->assembly->scene);
+    return attempt->assembly && assemble(attempt->assembly, context->geometry, context->request,
+                                         context->cache, &attempt->choice, context->arena)
+               ? PERCUSS_OK
+               : PERCUSS_INTERNAL;
 }
 
 enum percuss_status attempt_run_scaled(struct attempt_context *context, struct attempt *attempt,

@@ -40,9 +40,8 @@ double attempt_horizon(const struct solve_request *request, const struct scene *
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
                                 const struct scene *scene);
 
-/* Assembles the attempt's scene and solves it. PERCUSS_OK, PERCUSS_INTERNAL or
- * PERCUSS_TIMEOUT. */
-enum percuss_status attempt_solve(struct attempt_context *context, struct attempt *attempt);
+/* Assembles the attempt's scene by its choice. PERCUSS_OK or PERCUSS_INTERNAL. */
+enum percuss_status attempt_assemble(struct attempt_context *context, struct attempt *attempt);
 
 /* The same with all gap rates times `factor`; impulses are divided by it. */
 enum percuss_status attempt_run_scaled(struct attempt_context *context, struct attempt *attempt,

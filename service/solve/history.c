@@ -108,6 +108,14 @@ static double difference(const struct geometry *geometry, const struct accuracy 
     return worst;
 }
 
+/* What a solution that came to its end takes once more; one that was cut off is cut off again. */
+static double work_of(const struct accuracy *accuracy)
+{
+    return accuracy->outcome.end_reason == PERCUSS_END_LIMIT
+               ? impact_work(&accuracy->assembly->scene, &accuracy->outcome)
+               : AMPLE_WORK;
+}
+
 enum percuss_status history_make(const struct geometry *geometry,
                                  const struct solve_request *request,
                                  const struct accuracy *accuracy, const struct attempt_means *means,
@@ -118,7 +126,7 @@ enum percuss_status history_make(const struct geometry *geometry,
     struct force_log log = force_log_make(arena, scene->contacts);
     struct impact_settings settings = {.accuracy = accuracy->step_accuracy,
                                        .horizon = attempt_horizon(request, scene),
-                                       .max_work = AMPLE_WORK,
+                                       .max_work = work_of(accuracy),
                                        .log = &log,
                                        .pace = means->pace};
     /* the closed form of a rigid pair is exact */

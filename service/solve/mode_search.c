@@ -103,14 +103,19 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
     *error = (struct mode_error){.amplification = 1.0};
     for (int raise = 0;; raise++) {
         struct attempt next = *best;
-        enum percuss_status status = attempt_solve(context, &next);
-        /* what is cut off for its effort does not replace what was solved */
-        if (!status && raise > 0 && attempt_is_spent(&next) && !next.outcome.too_stiff)
-            return PERCUSS_OK;
-        *best = next;
-        if (status || best->outcome.always_overlapped)
+        enum percuss_status status = attempt_assemble(context, &next);
+        if (status)
             return status;
-        status = estimate(context, best, error);
+        if (raise == 0 || !assembly_same_modes(next.assembly, best->assembly)) {
+            status = attempt_run(context, &next, &next.assembly->scene);
+            /* what is cut off for its effort does not replace what was solved */
+            if (!status && raise > 0 && attempt_is_spent(&next) && !next.outcome.too_stiff)
+                return PERCUSS_OK;
+            *best = next;
+            if (status || best->outcome.always_overlapped)
+                return status;
+            status = estimate(context, best, error);
+        }
         if (status || error->restitution <= 0.7 * context->tolerance || raise >= MAX_RAISES ||
             !can_raise(best))
             return status;

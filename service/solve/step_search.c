@@ -8,6 +8,8 @@
 enum { MAX_TIGHTENINGS = 3 };
 /* Finest accuracy of the time steps that is tried. */
 static const double FINEST = 1e-17;
+/* Accuracies of the time steps that are compared, and tried one after the other. */
+static const double LONGER = 100.0;
 /* From here down longer steps are tried for comparison. */
 static const double COMPARE_BELOW = 1e-5;
 
@@ -50,20 +52,25 @@ static enum percuss_status estimate_alone(const struct attempt_context *context,
     return PERCUSS_OK;
 }
 
-/* Compares with a solution of longer steps where the tolerance is tight, estimates otherwise. */
+/* Compares with a solution of longer steps where the tolerance is tight, estimates otherwise.
+ * `coarse` is that solution where there is one already. */
 static enum percuss_status estimate(struct attempt_context *context, const struct attempt *best,
-                                    double amplification, struct step_error *error)
+                                    const struct attempt *coarse, double amplification,
+                                    struct step_error *error)
 {
     if (context->tolerance >= COMPARE_BELOW)
         return estimate_alone(context, best, amplification, error);
-    struct attempt coarse = *best;
-    coarse.accuracy *= 100.0;
-    enum percuss_status status = attempt_run(context, &coarse, &best->assembly->scene);
-    if (status)
-        return status;
-    if (attempt_is_spent(&coarse))
+    struct attempt own = *best;
+    if (!coarse) {
+        own.accuracy *= LONGER;
+        enum percuss_status status = attempt_run(context, &own, &best->assembly->scene);
+        if (status)
+            return status;
+        coarse = &own;
+    }
+    if (attempt_is_spent(coarse))
         return estimate_alone(context, best, amplification, error);
-    struct attempt_difference change = attempt_compare(context, best, &coarse);
+    struct attempt_difference change = attempt_compare(context, best, coarse);
     error->restitution = change.restitution;
     error->impulse = change.impulse;
     return PERCUSS_OK;
@@ -73,8 +80,11 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
                                 double amplification, struct step_error *error)
 {
     double closure_allowed = context->tolerance <= 1e-8 ? 1e-9 : 10.0 * context->tolerance;
+    struct attempt before = *best;
     for (int i = 0;; i++) {
-        enum percuss_status status = estimate(context, best, amplification, error);
+        bool known = before.accuracy > 0.99 * LONGER * best->accuracy;
+        enum percuss_status status =
+            estimate(context, best, known ? &before : NULL, amplification, error);
         if (status)
             return status;
         error->energy_defect = attempt_energy_defect(context->geometry, &best->outcome);
@@ -84,10 +94,11 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
             attempt_is_spent(best) || best->outcome.too_stiff)
             return PERCUSS_OK;
         struct attempt finer = *best;
-        finer.accuracy = fmax(best->accuracy / 100.0, FINEST);
+        finer.accuracy = fmax(best->accuracy / LONGER, FINEST);
         status = attempt_run(context, &finer, &best->assembly->scene);
         if (status || attempt_is_spent(&finer))
             return status;
+        before = *best;
         *best = finer;
     }
 }
