@@ -3,11 +3,13 @@
 
 /* Whether every valid request ends: random ones of every kind (any_scene.h), each under a watchdog,
  * and what they cost.
- *   any_scenes [--first N] [--count N] [--limit S] [--patience S] [--save FOLDER] [--list]
- * Prints the distribution of processor time, what the requests ended in, and the worst ones by
- * number; with --save those are written as files (any_scene_save). --list prints each answer.
- * Exit 1: a request hung (--patience, processor time), crashed, took more than --limit, or was
- * refused or cut off without words. */
+ *   any_scenes [--first N] [--count N] [--limit S] [--work W] [--patience S] [--save FOLDER]
+ *              [--list]
+ * Prints the distributions of processor time and of work (base/watch.h: the same on every machine),
+ * what the requests ended in, and the worst ones by number; with --save those are written as files
+ * (any_scene_save). --list prints each answer.
+ * Exit 1: a request hung (--patience, processor time), crashed, took more than --limit or --work,
+ * or was refused or cut off without words. */
 #include <getopt.h>
 
 #include "any_scene.h"
@@ -26,23 +28,23 @@ struct distribution {
 struct noted {
     uint64_t scene;
     size_t blow;
-    double seconds;
+    double seconds, work;
     enum percuss_status status;
     char text[160];
 };
 
 /* What the child adds up, in shared memory. */
 struct figures {
-    struct distribution seconds;
+    struct distribution seconds, work;
     struct noted worst[KEPT];
     struct noted wrong[KEPT];
-    uint64_t wrongs, late, traced, ringing, met, answered;
+    uint64_t wrongs, late, heavy, traced, ringing, met, answered;
     uint64_t statuses[PERCUSS_STATUS_COUNT], ends[PERCUSS_END_COUNT];
 };
 
 struct settings {
     uint64_t first, count;
-    double limit;
+    double limit, work;
     const char *save;
     bool list;
 };
@@ -51,7 +53,15 @@ struct run {
     struct settings settings;
     struct figures *figures;
     struct lab *lab;
+    unsigned long asked; /* how often the solver asked its watch */
 };
+
+static bool count_asking(void *context, double done)
+{
+    (void)done;
+    ++*(unsigned long *)context;
+    return true;
+}
 
 static void add_to(struct distribution *distribution, double value)
 {
@@ -126,7 +136,9 @@ static void note(const struct run *run, const struct any_scene *scene, struct no
     describe(run, scene, noted, result);
     add_to(&figures->seconds, noted->seconds);
     figures->statuses[result->status]++;
+    add_to(&figures->work, noted->work);
     figures->late += noted->seconds > run->settings.limit;
+    figures->heavy += noted->work > run->settings.work;
     figures->traced += scene->drawn.request.options.trace;
     figures->ringing += noted->blow > 0;
     if (result->status == PERCUSS_OK || result->status == PERCUSS_TRUNCATED) {
@@ -138,8 +150,8 @@ static void note(const struct run *run, const struct any_scene *scene, struct no
     if (wrong && figures->wrongs++ < KEPT)
         figures->wrong[figures->wrongs - 1] = *noted;
     if (run->settings.list)
-        printf("%llu.%zu %.3g ms e %.17g met %d %s%s\n", (unsigned long long)noted->scene,
-               noted->blow, 1e3 * noted->seconds, result->contacts[0].restitution,
+        printf("%llu.%zu %.3g ms work %.3g e %.17g met %d %s%s\n", (unsigned long long)noted->scene,
+               noted->blow, 1e3 * noted->seconds, noted->work, result->contacts[0].restitution,
                result->tolerance_met, noted->text, wrong ? wrong : "");
 }
 
@@ -161,7 +173,7 @@ static void take_states(struct body_state **states, const struct solve_result *r
     }
 }
 
-static void strike_all(const struct run *run, uint64_t number)
+static void strike_all(struct run *run, uint64_t number)
 {
     static struct any_scene scene;
     static struct solve_result result;
@@ -172,9 +184,11 @@ static void strike_all(const struct run *run, uint64_t number)
         struct noted noted = {.scene = number, .blow = blow};
         for (size_t b = 0; b < request.body_count; b++)
             request.bodies[b].state = states[b];
+        run->asked = 0;
         double start = guarded_clock();
         solve(run->lab->workspace, &run->lab->set, &request, &result);
         noted.seconds = guarded_clock() - start;
+        noted.work = PACE_WORK * (double)run->asked;
         note(run, &scene, &noted, &result);
         if (result.status != PERCUSS_OK && result.status != PERCUSS_TRUNCATED)
             break;
@@ -203,6 +217,7 @@ static void work(void *context, struct guarded_place *place, uint64_t end)
         abort();
     }
     solve_workspace_set_tables(run->lab->workspace, table_store_source(store));
+    solve_workspace_watch(run->lab->workspace, (struct watch){count_asking, &run->asked});
     for (uint64_t n = place->resume; n < end; n++) {
         place->started = guarded_clock();
         place->job = n;
@@ -229,11 +244,20 @@ static void save(const struct run *run, uint64_t number)
 static void print_list(const struct run *run, const struct noted list[KEPT], double least)
 {
     for (size_t i = 0; i < KEPT && list[i].text[0]; i++) {
-        printf("    %.4g s  scene %llu.%zu  %s\n", list[i].seconds,
+        printf("    %.4g s  %.3g  scene %llu.%zu  %s\n", list[i].seconds, list[i].work,
                (unsigned long long)list[i].scene, list[i].blow, list[i].text);
         if (list[i].seconds >= least)
             save(run, list[i].scene);
     }
+}
+
+static void print_distribution(const char *what, double unit,
+                               const struct distribution *distribution)
+{
+    printf("%s: median %.3g, 90 %% %.3g, 99 %% %.3g, 99.9 %% %.3g, largest %.4g\n", what,
+           unit * quantile(distribution, 0.5), unit * quantile(distribution, 0.9),
+           unit * quantile(distribution, 0.99), unit * quantile(distribution, 0.999),
+           unit * distribution->largest);
 }
 
 static void print_figures(const struct run *run)
@@ -250,12 +274,11 @@ static void print_figures(const struct run *run)
     for (unsigned e = 0; e < PERCUSS_END_COUNT; e++)
         if (f->ends[e])
             printf("    ended %s %llu\n", end_reason_name(e), (unsigned long long)f->ends[e]);
-    printf("processor time, ms: median %.3g, 90 %% %.3g, 99 %% %.3g, 99.9 %% %.3g, largest %.4g\n",
-           1e3 * quantile(&f->seconds, 0.5), 1e3 * quantile(&f->seconds, 0.9),
-           1e3 * quantile(&f->seconds, 0.99), 1e3 * quantile(&f->seconds, 0.999),
-           1e3 * f->seconds.largest);
+    print_distribution("processor time, ms", 1e3, &f->seconds);
+    print_distribution("work, millions", 1e-6, &f->work);
     print_list(run, f->worst, run->settings.limit);
-    printf("more than %g s: %llu\n", run->settings.limit, (unsigned long long)f->late);
+    printf("more than %g s: %llu, more work than %g: %llu\n", run->settings.limit,
+           (unsigned long long)f->late, run->settings.work, (unsigned long long)f->heavy);
     printf("wrong: %llu\n", (unsigned long long)f->wrongs);
     print_list(run, f->wrong, 0.0);
 }
@@ -274,14 +297,12 @@ static bool print_lost(const struct run *run, const struct guarded *guarded)
 
 int main(int count, char **words)
 {
-    static const struct option options[] = {{"first", required_argument, NULL, 'f'},
-                                            {"count", required_argument, NULL, 'n'},
-                                            {"limit", required_argument, NULL, 'l'},
-                                            {"patience", required_argument, NULL, 'p'},
-                                            {"save", required_argument, NULL, 's'},
-                                            {"list", no_argument, NULL, 'i'},
-                                            {0}};
-    struct run run = {.settings = {.count = 1000, .limit = 1.0}};
+    static const struct option options[] = {
+        {"first", required_argument, NULL, 'f'},    {"count", required_argument, NULL, 'n'},
+        {"limit", required_argument, NULL, 'l'},    {"work", required_argument, NULL, 'w'},
+        {"patience", required_argument, NULL, 'p'}, {"save", required_argument, NULL, 's'},
+        {"list", no_argument, NULL, 'i'},           {0}};
+    struct run run = {.settings = {.count = 1000, .limit = 1.0, .work = INFINITY}};
     struct guarded guarded = {.work = work, .context = &run, .patience = 30.0};
     for (int c; (c = getopt_long(count, words, "", options, NULL)) != -1;) {
         switch (c) {
@@ -293,6 +314,9 @@ int main(int count, char **words)
             break;
         case 'l':
             run.settings.limit = strtod(optarg, NULL);
+            break;
+        case 'w':
+            run.settings.work = strtod(optarg, NULL);
             break;
         case 'p':
             guarded.patience = strtod(optarg, NULL);
@@ -309,10 +333,11 @@ int main(int count, char **words)
     }
     run.figures = guarded_memory(sizeof *run.figures);
     run.figures->seconds.unit = 1e-6;
+    run.figures->work.unit = PACE_WORK;
     guarded_run(&guarded, run.settings.first, run.settings.first + run.settings.count);
     run.lab = lab_create();
     print_figures(&run);
     bool failed = print_lost(&run, &guarded);
     lab_free(run.lab);
-    return failed || run.figures->late || run.figures->wrongs;
+    return failed || run.figures->late || run.figures->heavy || run.figures->wrongs;
 }
