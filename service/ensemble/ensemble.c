@@ -12,11 +12,7 @@
 enum {
     PILOTS = 24,
     AGREEING = 21, /* 7 of 8: where a sequence of sub-impacts is chaotic no affordable model does */
-    VERIFIED = 200,
-    MODEL_LEVELS = 12,
-    SUBSTITUTED = 1000, /* samples with one input drawn anew, at most, for each input */
-    LEAST_SUBSTITUTED = 32,
-    FIRST_CHECK = 256
+    MODEL_LEVELS = 12
 };
 
 static const double MODEL_RATIO = 1.25; /* between frequencies that are tried */
@@ -360,40 +356,6 @@ void ensemble_release(struct ensemble *ensemble)
     copula_release(&ensemble->copula);
 }
 
-static uint64_t verified(uint64_t done)
-{
-    return done < VERIFIED ? done : VERIFIED;
-}
-
-/* Samples to be repeated with an input drawn anew: all of that within half the work so far. Without
- * a second input there is nothing to tell apart, and correlated ones cannot change by themselves.
- */
-static uint64_t substituted(const struct ensemble *ensemble, uint64_t done)
-{
-    size_t dimensions = ensemble->sampling.dimensions;
-    if (dimensions < 2 || ensemble->copula.factor)
-        return 0;
-    uint64_t each = done / (2 * dimensions);
-    each = each < SUBSTITUTED ? each : SUBSTITUTED;
-    return each < LEAST_SUBSTITUTED ? 0 : each;
-}
-
-uint64_t ensemble_extras(const struct ensemble *ensemble, uint64_t done)
-{
-    return verified(done) + substituted(ensemble, done) * ensemble->sampling.dimensions;
-}
-
-struct ensemble_extra_place ensemble_extra_place(const struct ensemble *ensemble, uint64_t done,
-                                                 uint64_t k)
-{
-    uint64_t checks = verified(done);
-    if (k < checks)
-        return (struct ensemble_extra_place){k * done / checks, SIZE_MAX};
-    uint64_t each = substituted(ensemble, done);
-    uint64_t place = (k - checks) % each;
-    return (struct ensemble_extra_place){place * done / each, (size_t)((k - checks) / each)};
-}
-
 double ensemble_extra(struct ensemble_worker *worker, uint64_t done, uint64_t k)
 {
     const struct ensemble *ensemble = worker->ensemble;
@@ -412,13 +374,4 @@ double ensemble_extra(struct ensemble_worker *worker, uint64_t done, uint64_t k)
         status = solve_values(worker, values, &outcome, NULL);
     }
     return has_result(status) ? outcome.restitution : NAN;
-}
-
-uint64_t ensemble_next_check(const struct ensemble *ensemble, uint64_t done)
-{
-    bool stops = ensemble->spec.half_width > 0.0 || ensemble->spec.quantile_half_width > 0.0;
-    uint64_t next = stops ? FIRST_CHECK : ensemble->count;
-    while (next <= done && next < ensemble->count)
-        next *= 2;
-    return next < ensemble->count ? next : ensemble->count;
 }

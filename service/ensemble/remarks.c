@@ -32,15 +32,33 @@ static void note(struct occurrence *occurrence, uint64_t index)
         occurrence->first = index;
 }
 
-/* In the words of the first of them, which is solved again for that. */
-static void quote(struct ensemble_report *report, struct ensemble_worker *worker,
+/* A sample that is solved again for its words. */
+struct witness {
+    struct ensemble_worker *worker; /* NULL: none was called yet */
+    uint64_t index;
+    struct ensemble_sample sample;
+    struct fault fault;
+};
+
+/* False: out of memory. */
+static bool call(struct witness *witness, const struct ensemble *ensemble, uint64_t index)
+{
+    if (witness->worker && witness->index == index)
+        return true;
+    if (!witness->worker && ensemble_worker_create(&witness->worker, ensemble, NULL))
+        return false;
+    witness->index = index;
+    ensemble_solve(witness->worker, index, &witness->sample, &witness->fault);
+    return true;
+}
+
+/* In the words of the first of them. */
+static void quote(struct ensemble_report *report, const struct witness *witness,
                   const struct occurrence *occurrence, enum warning_kind kind)
 {
-    struct ensemble_sample sample;
-    struct fault fault = {""};
     bool refusal = kind == WARNING_KINDS;
-    ensemble_solve(worker, occurrence->first, &sample, &fault);
-    const char *text = refusal ? fault.text : warnings_text(ensemble_warnings(worker), kind);
+    const char *text =
+        refusal ? witness->fault.text : warnings_text(ensemble_warnings(witness->worker), kind);
     warn(report, "samples: %llu of %llu%s, first %llu: %.256s",
          (unsigned long long)occurrence->count, (unsigned long long)report->done,
          refusal ? " were refused and are left out" : "", (unsigned long long)occurrence->first,
@@ -58,16 +76,17 @@ static bool warn_samples(struct ensemble_report *report, const struct ensemble *
         for (unsigned kinds = samples[i].warnings; kinds; kinds &= kinds - 1)
             note(&found[__builtin_ctz(kinds)], i);
     }
-    struct ensemble_worker *worker = NULL;
-    for (int kind = 0; kind <= WARNING_KINDS; kind++) {
+    struct witness witness = {0};
+    bool good = true;
+    for (int kind = 0; good && kind <= WARNING_KINDS; kind++) {
         if (found[kind].count == 0)
             continue;
-        if (!worker && ensemble_worker_create(&worker, ensemble, NULL))
-            return false;
-        quote(report, worker, &found[kind], (enum warning_kind)kind);
+        good = call(&witness, ensemble, found[kind].first);
+        if (good)
+            quote(report, &witness, &found[kind], (enum warning_kind)kind);
     }
-    ensemble_worker_free(worker);
-    return true;
+    ensemble_worker_free(witness.worker);
+    return good;
 }
 
 /* A table and the closed form differ by some 0.01: not to be taken for a spread of the inputs. */

@@ -4,33 +4,7 @@
 /* An ensemble answers as a query does: the same choice of contact models, and a sample's
  * restitution within the tolerance of what solve() says of that very impact. */
 #include "physics/ensemble_lab.h"
-#include "store/table_store.h"
-
-#define AL_205 ((struct material){"al-205", 70e9, 0.33, 2700.0, 205e6, 0.0})
-#define AL_575 ((struct material){"al-575", 70e9, 0.33, 2700.0, 575e6, 0.0})
-
-static struct table_store *shipped;
-
-static void complain(const struct fault *fault)
-{
-    fail_msg("%s", fault->text);
-}
-
-static int load_shipped(void **state)
-{
-    (void)state;
-    size_t count;
-    struct fault fault;
-    shipped = table_store_create();
-    return table_store_load(shipped, PERCUSS_SOURCE_DIR "/config/tables", complain, &count, &fault);
-}
-
-static int free_shipped(void **state)
-{
-    (void)state;
-    table_store_free(shipped);
-    return 0;
-}
+#include "physics/shipped_tables.h"
 
 /* What a query says, and an ensemble of one sample. */
 struct pair_of_answers {

@@ -4,38 +4,8 @@
 /* Model C: the modal bodies with computed contact tables: the shipped ones of the paper's rods,
  * their energy, another resolution, both methods, repeated blows. */
 #include "contact/plastic.h"
-#include "physics/support.h"
+#include "physics/shipped_tables.h"
 #include "store/table_key.h"
-#include "store/table_store.h"
-
-#define AL_205 ((struct material){"al-205", 70e9, 0.33, 2700.0, 205e6, 0.0})
-#define AL_575 ((struct material){"al-575", 70e9, 0.33, 2700.0, 575e6, 0.0})
-
-static struct table_store *shipped;
-
-static void complain(const struct fault *fault)
-{
-    fail_msg("%s", fault->text);
-}
-
-static int load_shipped(void **state)
-{
-    (void)state;
-    size_t count;
-    struct fault fault;
-    shipped = table_store_create();
-    if (table_store_load(shipped, PERCUSS_SOURCE_DIR "/config/tables", complain, &count, &fault))
-        fail_msg("%s", fault.text);
-    assert_int_equal(count, 2);
-    return 0;
-}
-
-static int free_shipped(void **state)
-{
-    (void)state;
-    table_store_free(shipped);
-    return 0;
-}
 
 static struct lab *rods(void)
 {
