@@ -206,6 +206,9 @@ void service_tick(struct service *service)
                  undelivered - service->reported);
     service->reported = undelivered;
     service_announce(service);
+    struct edition *edition = editions_hold(&service->editions);
+    neighbours_look(&service->neighbours, service->endpoint, edition->set->revision);
+    editions_let_go(&service->editions, edition);
 }
 
 void service_begin_drain(struct service *service)

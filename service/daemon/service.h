@@ -7,6 +7,7 @@
 
 #include "daemon/edition.h"
 #include "daemon/ensembles.h"
+#include "daemon/neighbours.h"
 #include "daemon/queue.h"
 #include "daemon/respond.h"
 #include "daemon/rig.h"
@@ -38,6 +39,7 @@ struct service {
     atomic_ullong answered, refused; /* replies with and without results */
     atomic_ullong undelivered;       /* replies their clients did not take */
     unsigned long long reported;     /* of those, in the log */
+    struct neighbours neighbours;    /* the main thread's */
     pthread_t reader;
     bool reader_runs;
     struct worker *workers; /* see workers.c; the last ones work on the other lanes */

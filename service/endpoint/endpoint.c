@@ -22,6 +22,7 @@ struct endpoint {
     dds_entity_t readers[EXCHANGE_COUNT];
     void *samples[EXCHANGE_COUNT]; /* the one at hand; its memory serves the next one */
     dds_entity_t status_writer, body_writer;
+    dds_entity_t servers; /* the reader of what others announce */
     struct reply_writers *writers;
     struct dents_topic dents;
     atomic_bool stopped;
@@ -122,6 +123,9 @@ struct endpoint *endpoint_create(uint32_t domain, struct fault *fault)
         !create_announcer(endpoint, &percuss_v2_Body_desc, WIRE_TOPIC_BODY, &endpoint->body_writer,
                           fault) ||
         !create_waitset(endpoint, fault))
+        goto failed;
+    endpoint->servers = servers_open(endpoint->participant, fault);
+    if (!endpoint->servers)
         goto failed;
     return endpoint;
 failed:
@@ -297,6 +301,11 @@ void endpoint_announce_dents(struct endpoint *endpoint, const struct dents_notic
 void endpoint_withdraw_dents(struct endpoint *endpoint, const char *specimen)
 {
     dents_topic_withdraw(&endpoint->dents, specimen);
+}
+
+void endpoint_visit_servers(struct endpoint *endpoint, server_visitor *visitor, void *context)
+{
+    servers_visit(endpoint->servers, visitor, context);
 }
 
 void endpoint_announce_status(struct endpoint *endpoint, percuss_v2_ServerStatus *status)

@@ -8,6 +8,7 @@
 
 #include "endpoint/dents_topic.h"
 #include "endpoint/reply_writers.h"
+#include "endpoint/servers.h"
 #include "model/body.h"
 
 struct endpoint;
@@ -62,6 +63,9 @@ bool endpoint_open_dents(struct endpoint *endpoint, struct fault *fault);
 /* Announces a specimen, or that it is no more. Thread-safe. */
 void endpoint_announce_dents(struct endpoint *endpoint, const struct dents_notice *notice);
 void endpoint_withdraw_dents(struct endpoint *endpoint, const char *specimen);
+
+/* Shows the other servers of the domain. One thread at a time. */
+void endpoint_visit_servers(struct endpoint *endpoint, server_visitor *visitor, void *context);
 
 /* Announces the state of the server; fills status->server. */
 void endpoint_announce_status(struct endpoint *endpoint, percuss_v2_ServerStatus *status);

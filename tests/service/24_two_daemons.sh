@@ -24,6 +24,25 @@ has_two() {
     percuss status --json >"$out" 2>"$err" && [ "$(grep -c '"server": "' "$out")" = 2 ]
 }
 
+# both_log TEXT: each daemon logs it of the other
+both_log() {
+    grep -q "warning percussd [0-9a-f]\{8\} (process $others on .*) answers in this domain too, $1" "$log" &&
+        grep -q "warning percussd [0-9a-f]\{8\} (process $daemon on .*) answers in this domain too, $1" \
+            "$work/second.log"
+}
+
+say "a second daemon of the same catalogue: both log it, and that it differs once it is another one"
+cp "$work/catalogue.yaml" "$work/changing.yaml"
+start_second changing.yaml
+wait_for 20 both_log "with the same catalogue" || fail "no warning: $(cat "$work/second.log")"
+sed 's/young: 70e9/young: 80e9/' "$work/catalogue.yaml" >"$work/changing.yaml"
+kill -HUP $others
+wait_for 20 both_log "with ANOTHER CATALOGUE" || fail "no warning: $(cat "$work/second.log")"
+kill -TERM $others
+wait $others || fail "the second daemon failed"
+wait_for 20 logged "percussd [0-9a-f]* (process $others on .*) has gone" || fail "it is not missed"
+others=
+
 stiff=$work/stiff.yaml
 sed 's/young: 70e9/young: 90e9/' "$work/catalogue.yaml" >"$stiff"
 start_second stiff.yaml
