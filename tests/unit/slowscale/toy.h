@@ -81,6 +81,14 @@ struct toy_answer {
     struct percuss_sub_impact subs[TOY_BODIES][TOY_SUBS];
 };
 
+/* Two hits: the first leaves the bodies approaching (e < 0 meanwhile), 5 ms later the second. */
+static const struct toy_answer two_hits = {
+    .window = 6e-3,
+    .count = {2},
+    .subs = {{{.start = 0.0, .compression_end = 1e-4, .end = 2e-4, .impulse = 0.008},
+              {.start = 5e-3, .compression_end = 5.1e-3, .end = 5.2e-3, .impulse = 0.006}}},
+};
+
 struct toy {
     double time;
     double radius;

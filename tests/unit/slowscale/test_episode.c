@@ -1,0 +1,159 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors client/slowscale/episode.c and list.c: impulses at their times, whenever they are
+ * applied, and answers that are revoked because another body hits. */
+#include "unit/slowscale/toy.h"
+
+/* Impulses that belong before the question, between two steps, or after the total was applied: the
+ * bodies end where impulses at the centres of the forces would have brought them. */
+static void impulses_out_of_their_time_move_the_bodies(void **state)
+{
+    (void)state;
+    static const struct toy_answer answer = {
+        .window = 4e-3,
+        .count = {3},
+        .subs = {{{.start = -3e-3, .compression_end = -2.9e-3, .end = -2.8e-3, .impulse = 0.004},
+                  {.start = 1e-3, .compression_end = 1.2e-3, .end = 1.5e-3, .impulse = 0.006},
+                  {.start = 3e-3, .compression_end = 3.1e-3, .end = 3.3e-3, .impulse = 0.005}}},
+    };
+    for (int way = 0; way < 3; way++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        wishes.application = way == 2 ? PERCUSS_SLOW_TOTAL : PERCUSS_SLOW_LIST;
+        wishes.move = toy_shift;
+        struct toy *toy = toy_create(2, &wishes);
+        toy->answers = 1;
+        toy->answer[0] = answer;
+        double right = 0.0, momentum = 0.0;
+        for (uint32_t i = 0; i < 3; i++) {
+            struct percuss_sub_impact sub = answer.subs[0][i];
+            sub.compression_impulse = 0.5 * sub.impulse;
+            double centre = percuss_slow_force_centre(&sub);
+            assert_true(i == 0 ? centre == sub.compression_end : centre > sub.compression_end);
+            right += sub.impulse / 0.1 * (0.02 - centre);
+            momentum += sub.impulse;
+        }
+        toy_step(toy, 0.0);
+        if (way == 0)
+            toy_run(toy, 0.02, 1e-3);
+        for (int i = 0; way > 0 && i < 20; i++)
+            toy_step(toy, 1e-3); /* stops nowhere */
+        near(toy->time, 0.02, 1e-15);
+        near(toy->bodies[1].position[0], 0.02 + right, 1e-15);
+        near(toy->bodies[0].position[0], 0.2 * 0.02 - right, 1e-15);
+        near(toy->applied[0], momentum, 1e-16);
+        assert_string_equal(toy->message, "");
+        toy_free(toy);
+    }
+}
+
+/* A third body comes when half the list is played: the rest is revoked, the vibration of that
+ * moment is asked for, and the new question holds both contacts. */
+static void a_second_hit_revokes_the_list(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(3, &wishes);
+    toy->bodies[2].position[0] += 4e-4;
+    toy->bodies[2].velocity[0] = -0.1;
+    toy->answers = 3;
+    toy->answer[0] = two_hits;
+    toy->answer[1] = (struct toy_answer){.truncated = true, .window = 2.3e-3, .count = {1}};
+    toy->answer[2] = (struct toy_answer){
+        .window = 1e-3,
+        .count = {1, 1},
+        .subs = {{{.start = 5e-4, .end = 7e-4, .compression_end = 6e-4, .impulse = 0.02}},
+                 {{.end = 2e-4, .compression_end = 1e-4, .impulse = 0.03}}}};
+    toy_step(toy, 0.0);
+    while (toy->asked == 1 && toy->time < 5e-3)
+        toy_step(toy, 1e-4);
+    assert_int_equal(toy->asked, 3);
+    near(toy->question[1].options.horizon, toy->time, 1e-12); /* from 0 to now */
+    assert_int_equal(toy->question[1].contact_count, 1);
+    assert_int_equal(toy->question[2].contact_count, 2);
+    assert_string_equal(toy->question[2].bodies[0].state, "token-1-0");
+    near(toy->question[2].bodies[0].elapsed, 0.0, 1e-12);
+    assert_non_null(strstr(toy->message, "1 sub-impacts of the impact at 0 s revoked"));
+    toy_run(toy, 0.02, 1e-4);
+    near(toy->applied[0], 0.028, 1e-17); /* the second hit of the first list never came */
+    near(toy->applied[1], 0.03, 1e-17);
+    assert_true(percuss_slow_counts(toy->slow).preempted == 1);
+    toy_free(toy);
+}
+
+/* The second body hits in the middle of a sub-impact, before or after its impulse was applied: all
+ * is asked about from the start, as it was then, and applied once. */
+static void a_sub_impact_under_way_is_asked_about_again(void **state)
+{
+    (void)state;
+    for (int later = 0; later < 2; later++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        struct toy *toy = toy_create(3, &wishes);
+        double gap = later ? 30e-6 : 11e-6; /* outside group_gap */
+        toy->bodies[2].position[0] += gap;
+        toy->bodies[2].velocity[0] = -0.2; /* there after 0.055 ms, or after 0.13 ms */
+        toy->answers = 2;
+        toy->answer[0] = two_hits;
+        toy->answer[1] = (struct toy_answer){
+            .window = 6e-3,
+            .count = {1, 1},
+            .subs = {{{.compression_end = 1e-4, .end = 2e-4, .impulse = 0.03}},
+                     {{.start = 5e-5, .compression_end = 1.5e-4, .end = 2.5e-4, .impulse = 0.03}}}};
+        toy_step(toy, 0.0);
+        toy_run(toy, 2e-2, 1e-5);
+        assert_int_equal(toy->asked, 2);
+        near(toy->question[1].contacts[0].gap, 0.0, 1e-15);
+        near(toy->question[1].contacts[1].gap, gap, 1e-15);
+        near(toy->question[1].bodies[1].velocity[0], 0.2, 1e-15); /* a of the first contact is s1 */
+        near(toy->applied[0], 0.03, 1e-17);
+        near(toy->applied[1], 0.03, 1e-17);
+        assert_true(percuss_slow_counts(toy->slow).preempted == 0);
+        toy_free(toy);
+    }
+}
+
+/* Asked about again from its start, an impact has all of its impulses taken back, those too that
+ * belong before its start: the new answer has them. */
+static void what_lay_before_the_question_is_taken_back_with_it(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    wishes.move = toy_shift;
+    struct toy *toy = toy_create(3, &wishes);
+    toy->bodies[2].position[0] += 20e-6;
+    toy->bodies[2].velocity[0] = -0.2;
+    toy->answers = 2;
+    toy->answer[0] = (struct toy_answer){
+        .window = 6e-3,
+        .count = {2},
+        .subs = {{{.start = -3e-4, .compression_end = -2e-4, .end = -1e-4, .impulse = 0.001},
+                  {.compression_end = 1e-4, .end = 2e-4, .impulse = 0.013}}}};
+    toy->answer[1] = (struct toy_answer){
+        .window = 6e-3,
+        .count = {2, 1},
+        .subs = {{{.start = -3e-4, .compression_end = -2e-4, .end = -1e-4, .impulse = 0.001},
+                  {.compression_end = 1e-4, .end = 2e-4, .impulse = 0.029}},
+                 {{.start = 5e-5, .compression_end = 1.5e-4, .end = 2.5e-4, .impulse = 0.03}}}};
+    toy_step(toy, 0.0);
+    near(toy->applied[0], 0.001, 1e-17);
+    toy_run(toy, 2e-2, 1e-5);
+    assert_int_equal(toy->asked, 2);
+    near(toy->question[1].bodies[1].velocity[0], 0.2, 1e-15);
+    near(toy->question[1].contacts[0].gap, 0.0, 1e-15);
+    near(toy->question[1].contacts[1].gap, 20e-6, 1e-15);
+    near(toy->applied[0], 0.03, 1e-17);
+    near(toy->bodies[0].position[0], 0.2 * 0.02 - 0.01 * (0.02 + 2e-4) - 0.29 * (0.02 - 1e-4),
+         1e-15);
+    toy_free(toy);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(impulses_out_of_their_time_move_the_bodies),
+        cmocka_unit_test(a_second_hit_revokes_the_list),
+        cmocka_unit_test(a_sub_impact_under_way_is_asked_about_again),
+        cmocka_unit_test(what_lay_before_the_question_is_taken_back_with_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

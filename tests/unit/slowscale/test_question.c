@@ -1,0 +1,181 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors client/slowscale/question.c and impact.c: what is asked again, and what happens without
+ * an answer: with the user's leave the declared restitution, else nothing. */
+#include "unit/slowscale/toy.h"
+
+static void an_unknown_state_is_asked_from_rest(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(2, &wishes);
+    toy->answers = 3;
+    toy->answer[0] = toy->answer[2] = two_hits;
+    toy->answer[1].status = PERCUSS_UNKNOWN_STATE;
+    toy_step(toy, 0.0);
+    toy_run(toy, 0.1, 1e-3);
+    toy->bodies[0].position[0] = toy->bodies[1].position[0] - 0.02 + 1e-12;
+    toy->bodies[0].velocity[0] = toy->bodies[1].velocity[0] + 0.1;
+    toy_step(toy, 0.0);
+    assert_int_equal(toy->asked, 3);
+    assert_string_equal(toy->question[1].bodies[1].state, "token-0-1");
+    assert_string_equal(toy->question[2].bodies[1].state, "");
+    assert_true(toy->service_used);
+    assert_non_null(strstr(toy->message, "without earlier vibration"));
+    toy_free(toy);
+}
+
+static void without_an_answer_the_declared_value_is_used_with_leave(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    wishes.restitution = 0.4;
+    wishes.fall_back = true;
+    struct toy *toy = toy_create(2, &wishes);
+    toy->answers = 4;
+    toy->answer[0].result = PERCUSS_RESULT_TIMEOUT;
+    toy->answer[1].status = PERCUSS_BUSY;
+    toy->answer[2] = toy->answer[3] = two_hits;
+    toy->answer[2].truncated = toy->answer[2].spent = true;
+    for (int i = 0; i < 4; i++) {
+        toy->bodies[0].position[0] = toy->bodies[1].position[0] - 0.02 + 1e-12;
+        toy->bodies[0].velocity[0] = toy->bodies[1].velocity[0] + 0.2;
+        toy_step(toy, 0.0);
+        assert_int_equal(toy->asked, i + 1);
+        assert_true(toy->service_used == (i == 3));
+        assert_true(toy->declared == (uint64_t)(i < 3 ? i + 1 : 3));
+        near(toy->restitution[0], 0.4, 1e-12);
+        if (i < 3)
+            near(toy->bodies[1].velocity[0] - toy->bodies[0].velocity[0], 0.08, 1e-12);
+        if (i == 0)
+            assert_non_null(strstr(toy->message, "no answer: declared restitution 0.4 used"));
+        if (i == 1)
+            assert_non_null(strstr(toy->message, "BUSY"));
+        toy_run(toy, toy->time + 0.05, 1e-3);
+    }
+    assert_true(percuss_slow_counts(toy->slow).declared == 3);
+    toy_free(toy);
+}
+
+static enum percuss_result advance(struct toy *toy)
+{
+    struct percuss_slow_contact contacts[TOY_BODIES];
+    size_t n = toy_contacts(toy, contacts);
+    return percuss_slow_advance(toy->slow, n, contacts);
+}
+
+/* Nobody asked for a declared value: the impact does not happen until there is an answer, whatever
+ * the reason, and then it is the answer it would have been. */
+static void without_an_answer_nothing_happens_and_the_engine_may_try_again(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(2, &wishes);
+    const struct {
+        enum percuss_result result;
+        enum percuss_status status;
+        enum percuss_result expected;
+    } failures[] = {
+        {PERCUSS_RESULT_TIMEOUT, PERCUSS_OK, PERCUSS_RESULT_TIMEOUT},
+        {PERCUSS_RESULT_NO_SERVER, PERCUSS_OK, PERCUSS_RESULT_NO_SERVER},
+        {PERCUSS_RESULT_OK, PERCUSS_BUSY, PERCUSS_RESULT_TIMEOUT},
+        {PERCUSS_RESULT_OK, PERCUSS_UNSUPPORTED_GEOMETRY, PERCUSS_RESULT_INVALID_ARGUMENT},
+    };
+    const size_t count = sizeof failures / sizeof *failures;
+    toy->answers = count + 1;
+    for (size_t i = 0; i < count; i++) {
+        toy->answer[i].result = failures[i].result;
+        toy->answer[i].status = failures[i].status;
+    }
+    toy->answer[count] = two_hits;
+    for (size_t i = 0; i < count; i++) {
+        assert_int_equal(advance(toy), failures[i].expected);
+        assert_non_null(strstr(percuss_slow_error_text(), "impact of s1 and s0 at 0 s: "));
+        assert_non_null(strstr(percuss_slow_error_text(), "config.fall_back"));
+        near(toy->bodies[0].velocity[0], 0.2, 0.0);
+        assert_int_equal(toy->reports, 0);
+    }
+    assert_int_equal(advance(toy), PERCUSS_RESULT_OK);
+    toy_run(toy, 0.1, 1e-3);
+    near(toy->bodies[0].velocity[0], 0.06, 1e-15);
+    struct percuss_slow_counts counts = percuss_slow_counts(toy->slow);
+    assert_true(counts.impacts == 1 && counts.requests == count + 1 && counts.declared == 0);
+    toy_free(toy);
+}
+
+/* The same when a list was already revoked for the question: it is played on, and revoked again. */
+static void a_list_that_could_not_be_replaced_goes_on(void **state)
+{
+    (void)state;
+    double end[2][3];
+    for (int failing = 0; failing < 2; failing++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        struct toy *toy = toy_create(3, &wishes);
+        toy->bodies[2].position[0] += 30e-6; /* there after 0.13 ms, in the middle of a hit */
+        toy->bodies[2].velocity[0] = -0.2;
+        toy->answers = 2 + (size_t)failing;
+        toy->answer[0] = two_hits;
+        toy->answer[1].result = PERCUSS_RESULT_TIMEOUT;
+        toy->answer[1 + failing] = (struct toy_answer){
+            .window = 6e-3,
+            .count = {1, 1},
+            .subs = {{{.compression_end = 1e-4, .end = 2e-4, .impulse = 0.03}},
+                     {{.start = 5e-5, .compression_end = 1.5e-4, .end = 2.5e-4, .impulse = 0.03}}}};
+        struct percuss_slow_contact contacts[TOY_BODIES];
+        size_t failed = 0;
+        toy_step(toy, 0.0);
+        while (toy->time < 0.02) {
+            double before = toy->bodies[0].velocity[0];
+            toy_move(toy, 1e-5);
+            size_t n = toy_contacts(toy, contacts);
+            if (!percuss_slow_advance(toy->slow, n, contacts))
+                continue;
+            failed++;
+            near(toy->bodies[0].velocity[0], before, 1e-15); /* taken back, and applied again */
+            assert_false(isinf(percuss_slow_next(toy->slow)));
+            assert_int_equal(percuss_slow_advance(toy->slow, n, contacts), PERCUSS_RESULT_OK);
+        }
+        assert_int_equal(failed, failing);
+        assert_int_equal(toy->asked, 2 + failing);
+        near(toy->applied[0], 0.03, 1e-17);
+        near(toy->applied[1], 0.03, 1e-17);
+        for (int i = 0; i < 3; i++)
+            end[failing][i] = toy->bodies[i].velocity[0];
+        toy_free(toy);
+    }
+    for (int i = 0; i < 3; i++)
+        near(end[0][i], end[1][i], 1e-15);
+}
+
+/* A cut-off window is asked for again with four times the horizon. */
+static void a_cut_off_window_is_not_final(void **state)
+{
+    (void)state;
+    struct percuss_slow_config wishes = toy_wishes();
+    struct toy *toy = toy_create(2, &wishes);
+    toy->answers = 2;
+    toy->answer[0] = two_hits;
+    toy->answer[0].truncated = true;
+    toy->answer[0].window = 4e-3;
+    toy->answer[0].count[0] = 1;
+    toy->answer[1] = two_hits;
+    toy_step(toy, 0.0);
+    assert_int_equal(toy->asked, 2);
+    near(toy->question[1].options.horizon, 16e-3, 0.0);
+    near(toy->restitution[0], 0.4, 1e-14);
+    assert_string_equal(toy->message, "");
+    toy_free(toy);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_unknown_state_is_asked_from_rest),
+        cmocka_unit_test(without_an_answer_the_declared_value_is_used_with_leave),
+        cmocka_unit_test(without_an_answer_nothing_happens_and_the_engine_may_try_again),
+        cmocka_unit_test(a_list_that_could_not_be_replaced_goes_on),
+        cmocka_unit_test(a_cut_off_window_is_not_final),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
