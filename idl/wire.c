@@ -30,6 +30,14 @@ dds_entity_t wire_participant_create(uint32_t domain)
     return dds_create_participant(domain, NULL, NULL);
 }
 
+const char *wire_participant_problem(dds_return_t code)
+{
+    if (code == DDS_RETCODE_UNSUPPORTED)
+        return "its sockets cannot be closed to other machines: /proc/self/fd and socket filters "
+               "are needed for it, or a configuration in CYCLONEDDS_URI";
+    return dds_strretcode(-code);
+}
+
 dds_qos_t *wire_qos_exchange(const char *partition)
 {
     dds_qos_t *qos = dds_create_qos();

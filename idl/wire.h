@@ -27,9 +27,12 @@ enum { WIRE_PARTITION_SIZE = 35, WIRE_WINDOW = 1024 };
 
 /* A participant in `domain`. Without CYCLONEDDS_URI in the environment it uses a built-in
  * configuration: up to 100 processes of this machine, which hear nobody else (wire_loopback.h),
- * unless the process has the domain already. Returns the entity or a negative DDS return code
- * (dds_strretcode). */
+ * unless the process has the domain already. Returns the entity or a negative DDS return code,
+ * for wire_participant_problem. */
 dds_entity_t wire_participant_create(uint32_t domain);
+
+/* What such a code means, in words. */
+const char *wire_participant_problem(dds_return_t code);
 
 /* A topic whose readers drop every sample that is not a whole one of its type (wire_whole.h) before
  * DDS decodes it. `descriptor`: of an @appendable type with a key. Returns the entity, a child of

@@ -10,7 +10,7 @@
 /* Makes the domain in this process: loopback interface, no multicast, up to 100 processes, and its
  * sockets take nothing that does not come from 127.0.0.0/8. Returns it or a negative DDS return
  * code: DDS_RETCODE_PRECONDITION_NOT_MET when the process has the domain already, which is left as
- * it is; DDS_RETCODE_NOT_ALLOWED_BY_SECURITY when its sockets cannot be closed to others. */
+ * it is; DDS_RETCODE_UNSUPPORTED when its sockets cannot be closed to others. */
 dds_entity_t wire_loopback_create(uint32_t domain);
 
 #endif

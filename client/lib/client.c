@@ -129,7 +129,8 @@ static enum percuss_result create_entities(struct percuss_client *client)
 {
     client->participant = wire_participant_create(client->domain);
     if (client->participant < 0)
-        return error_dds("DDS participant", client->participant);
+        return error_set(PERCUSS_RESULT_TRANSPORT, "DDS participant: %s",
+                         wire_participant_problem(client->participant));
     client->waitset = dds_create_waitset(client->participant);
     if (client->waitset < 0)
         return error_dds("waitset", client->waitset);

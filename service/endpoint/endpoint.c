@@ -114,8 +114,11 @@ struct endpoint *endpoint_create(uint32_t domain, struct fault *fault)
         return NULL;
     }
     endpoint->participant = wire_participant_create(domain);
-    if (!created(endpoint->participant, "participant", fault))
+    if (endpoint->participant < 0) {
+        fault_set(fault, PERCUSS_INTERNAL, "DDS: participant: %s",
+                  wire_participant_problem(endpoint->participant));
         goto failed;
+    }
     endpoint->writers = reply_writers_create(endpoint->participant, fault);
     if (!endpoint->writers || !create_readers(endpoint, fault) ||
         !create_announcer(endpoint, &percuss_v2_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS,

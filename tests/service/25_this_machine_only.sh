@@ -93,6 +93,15 @@ wait_for 10 answered "$port" from_here || fail "port $port: the client does not 
 answered "$port" from_there && fail "port $port: the client answers to another network"
 kill "$client"
 
+say "where the sockets cannot be closed nothing is opened"
+no_proc() {
+    unshare --mount sh -c 'mount -t tmpfs none /proc && exec "$@"' sh "$@"
+}
+expect 1 no_proc "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain"
+says "its sockets cannot be closed to other machines"
+expect 3 no_proc "$bin/percuss" ping --domain "$domain"
+says "its sockets cannot be closed to other machines"
+
 say "whoever brings a configuration may be reached from elsewhere"
 CYCLONEDDS_URI="<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface address=\"127.0.0.1\"/>\
 </Interfaces><AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>\
