@@ -12,7 +12,7 @@ log=$work/log
 : "${HOME:=/root}"
 
 fail() {
-    tail -n 100 "$log" >&2
+    tail -n 1000 "$log" >&2
     echo "fresh: FAILED: $*" >&2
     exit 1
 }
