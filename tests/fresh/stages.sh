@@ -52,8 +52,10 @@ configure_root() {
 }
 
 make_root() {
-    [ ! -e "$root" ] || { umount -R "$root/proc" "$root/dev" && rm -rf --one-file-system "$root"; }
+    [ ! -e "$root" ] || { umount -R "$root" && rm -rf --one-file-system "$root"; }
     mkdir "$root"
+    # what mounts inside (ip netns) wants the root to be a mount itself
+    mount --bind "$root" "$root"
     tar -C "$root" -xf "$work/base.tar"
     configure_root
     mount -t proc proc "$root/proc"
