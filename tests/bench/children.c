@@ -25,7 +25,8 @@ static int count;
 static bool lock_domain(uint32_t domain)
 {
     char path[256];
-    const char *folder = getenv("TMPDIR");
+    const char *folder = getenv("PERCUSS_DOMAIN_LOCKS");
+    folder = folder ? folder : getenv("TMPDIR");
     snprintf(path, sizeof path, "%s/percuss-domain-%u.lock", folder ? folder : "/tmp", domain);
     int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0)

@@ -60,6 +60,9 @@ make_root() {
     configure_root
     mount -t proc proc "$root/proc"
     mount --rbind /dev "$root/dev"
+    # the network is this machine's, and so are the domains that its tests have taken
+    mkdir "$root/run/domains"
+    mount --bind "${PERCUSS_DOMAIN_LOCKS:-${TMPDIR:-/tmp}}" "$root/run/domains"
     mkdir -p "$root$HOME"
     git clone --quiet --no-hardlinks . "$root$HOME/percuss"
 }
@@ -70,6 +73,7 @@ inside() {
     # expanded there; the wrap is several words
     # shellcheck disable=SC2016,SC2086
     $wrap chroot "$root" /usr/bin/env -i HOME="$HOME" LANG=C.UTF-8 PERCUSS_NO_SKIPS=true \
+        PERCUSS_DOMAIN_LOCKS=/run/domains \
         PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
         sh -euc '. /environment; cd ~/percuss; exec "$@"' sh "$@" >>"$log" 2>&1
 }

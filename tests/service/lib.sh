@@ -20,7 +20,7 @@ daemon=
 # the domain is one that the system hands out by itself, and quickstart.sh keeps to 100 and above
 while :; do
     domain=$((20 + $(od -An -N2 -tu2 /dev/urandom) % 80))
-    exec 9>"${TMPDIR:-/tmp}/percuss-domain-$domain.lock"
+    exec 9>"${PERCUSS_DOMAIN_LOCKS:-${TMPDIR:-/tmp}}/percuss-domain-$domain.lock"
     flock -n 9 && break
 done
 
