@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "error.h"
+#include "receive.h"
 
 enum { FIRST_ROOM = 64 };
 
@@ -79,7 +80,9 @@ enum percuss_result announcements_open(struct percuss_client *client, dds_entity
 bool announcements_server(struct percuss_client *client, uint8_t server[16])
 {
     pthread_mutex_lock(&client->lock);
-    bool connected = client->connected;
+    if (client->connected)
+        receive_note_loss(client);
+    bool connected = client->connected && !client->lost;
     memcpy(server, client->server.id, 16);
     pthread_mutex_unlock(&client->lock);
     return connected;

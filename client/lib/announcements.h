@@ -27,7 +27,7 @@ enum percuss_result announcements_read(struct percuss_client *client, dds_entity
                                        struct announcements *all);
 void announcements_release(struct announcements *all);
 
-/* The id of the connected server; false when there is none. */
+/* The id of the connected server; false when there is none, or it has gone. */
 bool announcements_server(struct percuss_client *client, uint8_t server[16]);
 
 /* What the connected server announces of itself. */

@@ -8,6 +8,7 @@
 
 #include "announcements.h"
 #include "error.h"
+#include "exchange.h"
 #include "receive.h"
 #include "servers.h"
 
@@ -165,9 +166,13 @@ enum percuss_result announcements_connected(struct percuss_client *client, doubl
 {
     struct percuss_server_list servers;
     uint8_t id[16];
-    if (!announcements_server(client, id))
-        return error_set(PERCUSS_RESULT_NO_SERVER, "not connected");
-    enum percuss_result result = percuss_servers(client, timeout, &servers);
+    bool connected = announcements_server(client, id);
+    pthread_mutex_lock(&client->lock);
+    enum percuss_result result = exchange_check_connected(client);
+    pthread_mutex_unlock(&client->lock);
+    if (!connected || result != PERCUSS_RESULT_OK)
+        return result;
+    result = percuss_servers(client, timeout, &servers);
     if (result == PERCUSS_RESULT_OK)
         *server = *servers_find(&servers, id);
     percuss_server_list_free(&servers);

@@ -51,6 +51,32 @@ expect 3 query --timeout 3
 says "a server is there, but its replies do not match ours: reliability (policy 11)"
 stop_silent
 
+say "a program's calls name the server that has gone, and ask no other one before it connects again"
+start_daemon
+mkfifo "$work/acts"
+"$peers/lost_client" "$domain" <"$work/acts" >"$work/told" 2>&1 9>&- &
+others=$!
+exec 8>"$work/acts"
+wait_for 40 grep -q "act 1 is over" "$work/told" || fail "$(cat "$work/told")"
+first=$daemon
+stop_daemon
+echo >&8
+wait_for 40 grep -q "act 2 is over" "$work/told" || fail "$(cat "$work/told")"
+start_daemon
+echo >&8
+wait_for 40 grep -q "act 3 is over" "$work/told" || fail "$(cat "$work/told")"
+exec 8>&-
+wait "$others" || fail "the client failed"
+others=
+for call in solve batch ping bodies; do
+    # before it went, and after the second connect; gone, and gone with another one there
+    [ "$(grep -c "^$call: ok$" "$work/told")" = 2 ] || fail "$call: $(cat "$work/told")"
+    [ "$(grep -c "^$call: no server: percussd [0-9a-f]\{8\} (process $first on .*) is gone; connect" "$work/told")" = 2 ] ||
+        fail "$call: $(cat "$work/told")"
+done
+grep -q "^servers: no server: no percussd has announced itself" "$work/told" || fail "$(cat "$work/told")"
+stop_daemon
+
 # ensemble_runs: the daemon computes one
 ensemble_runs() {
     percuss status --json >"$out" 2>"$err" && [ -n "$(field activity)" ]
