@@ -44,7 +44,7 @@ struct indentation_table {
     size_t nodes, newton_steps; /* of the fine solution */
 };
 
-/* Told the part done, 0 ... 1, now and then; false stops the work. */
+/* Told the part done, 0 ... 1, at every Newton step; false stops the work. */
 struct indentation_progress {
     bool (*tell)(void *context, double done);
     void *context;

@@ -9,6 +9,7 @@ struct passage {
     const struct indentation_plan *plan;
     struct indentation_run *run;
     struct region *region;
+    struct pace pace; /* asks whoever is told of the progress, within the region's solutions too */
     double hertz;
     double edge;   /* m, indentation at the last edge */
     double factor; /* between the last two edges */
@@ -125,16 +126,15 @@ static void restart(struct indentation_run *run, double *mesh_error)
     run->rings = 1;
 }
 
-static bool go_on(const struct passage *passage)
+static bool go_on(struct passage *passage)
 {
     const struct indentation_plan *plan = passage->plan;
-    if (!plan->progress)
-        return true;
     /* crossings are equal steps of the logarithm of the indentation */
     double span = log(plan->input.indentation / passage->run->middle[0]);
     double part = span > 0.0 ? log(passage->edge / passage->run->middle[0]) / span : 1.0;
-    return plan->progress->tell(plan->progress->context,
-                                plan->done + plan->share * fmax(0.0, fmin(part, 1.0)));
+    double done = plan->done + plan->share * fmax(0.0, fmin(part, 1.0));
+    region_watch(passage->region, &passage->pace, done);
+    return pace_ask(&passage->pace, done);
 }
 
 static enum percuss_status pass(struct passage *passage)
@@ -182,14 +182,19 @@ static enum percuss_status pass(struct passage *passage)
 enum percuss_status indentation_run(const struct indentation_plan *plan,
                                     struct indentation_run *run, struct fault *fault)
 {
+    struct watch watch = {0};
+    if (plan->progress)
+        watch = (struct watch){plan->progress->tell, plan->progress->context};
     struct passage passage = {.plan = plan,
                               .run = run,
+                              .pace = {.watch = &watch},
                               .hertz = indentation_hertz(&plan->input),
                               .factor = 1.0,
                               .fault = fault};
     run->rings = run->branches = 0;
     enum percuss_status status = region_create(&plan->input, &passage.region, fault);
     if (status == PERCUSS_OK) {
+        region_watch(passage.region, &passage.pace, plan->done);
         status = pass(&passage);
         run->effort = region_effort(passage.region);
     }

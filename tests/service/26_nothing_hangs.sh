@@ -30,6 +30,11 @@ say "a deadline ends every method and the members of a batch"
 expect 0 "$peers/wire_bounds" "$domain" deadlines
 cat "$out"
 
+say "a deadline ends an ensemble whose single impacts outlast it"
+expect 4 timeout 40 "$bin/percuss" ensemble --domain "$domain" --a steel-sphere --b al-beam \
+    --speed uniform:0.1:0.3 --method cvode --tolerance 1e-8 --samples 100 --deadline 1 --json
+[ "$(field status)" = TIMEOUT ] || fail "status $(field status)"
+
 say "a deadline leaves nothing of an impact in the store"
 cat >"$work/request.json" <<EOF
 {"bodies": [{"id": "steel-sphere", "position": [0, 0, 0.025], "velocity": [0, 0, -0.3]},

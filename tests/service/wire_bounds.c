@@ -97,8 +97,13 @@ static void fill_slow(struct scene *scene, int kind)
     case 3:
         fill_complete(scene, 103);
         break;
-    default:
+    case 4: /* a table that is still to be computed */
         fill_complete(scene, 104);
+        snprintf(scene->bodies[1].id, sizeof scene->bodies[1].id, "al-rod-1");
+        options->contact_model = percuss_v2_CONTACT_MODEL_TABLE;
+        break;
+    default:
+        fill_complete(scene, 105);
         options->contact_model = percuss_v2_CONTACT_MODEL_CONCURRENT_FE;
     }
 }
@@ -106,7 +111,7 @@ static void fill_slow(struct scene *scene, int kind)
 /* Whatever is asked, and however: after the deadline there is a TIMEOUT. */
 static void deadlines(struct peer *peer, struct scene *scene)
 {
-    for (int kind = 0; kind < 5; kind++) {
+    for (int kind = 0; kind < 6; kind++) {
         fill_slow(scene, kind);
         double deadline = kind == 0 ? 0.05 : 0.5;
         scene->request.options.deadline = deadline;

@@ -145,7 +145,8 @@ static void tells_progress_and_stops(void **state)
     input.resolution = 6;
     input.indentation = 3e-6;
     assert_int_equal(indentation_table_make(&input, &progress, &table, &fault), PERCUSS_OK);
-    assert_true(told.calls > 10 && told.last == 1.0);
+    /* asked within the solutions too: a node's crossing takes seconds on a fine mesh */
+    assert_true(told.calls >= table.newton_steps && told.last == 1.0);
     indentation_table_free(&table);
     told = (struct told){.stop = 0.2};
     assert_int_equal(indentation_table_make(&input, &progress, &table, &fault), PERCUSS_TIMEOUT);
