@@ -9,6 +9,16 @@
 /* Smaller parts of a unit force are rounding of the pose. */
 static const double NEGLIGIBLE = 1e-9;
 
+static void find_bending(const struct body *body, struct site_load *load)
+{
+    for (int plane = 0; plane < 2; plane++) {
+        const struct beam_load *bending = &load->bending[plane];
+        double arm = fabs(bending->moment) / body_smallest_radius(body);
+        load->acts[FAMILY_BENDING_Y + plane] =
+            fabs(bending->force) > NEGLIGIBLE || arm > NEGLIGIBLE;
+    }
+}
+
 struct site_load site_load_make(const struct body *body, const struct site *site,
                                 const double direction[3])
 {
@@ -27,10 +37,27 @@ struct site_load site_load_make(const struct body *body, const struct site *site
         bending->x = on_end ? copysign(half, site->point[0]) : x;
         bending->force = direction[1 + plane];
         bending->moment = on_end ? -site->point[1 + plane] * direction[0] : 0.0;
-        double arm = fabs(bending->moment) / body_smallest_radius(body);
-        load.acts[FAMILY_BENDING_Y + plane] = fabs(bending->force) > NEGLIGIBLE || arm > NEGLIGIBLE;
     }
+    find_bending(body, &load);
     return load;
+}
+
+bool modal_planes_alike(const struct body *body)
+{
+    bool timoshenko = body->theory == THEORY_TIMOSHENKO;
+    return body->shape == SHAPE_BEAM && body->second_moment[0] == body->second_moment[1] &&
+           (!timoshenko || body->shear_factor[0] == body->shear_factor[1]);
+}
+
+void site_load_turn(const struct body *body, double cosine, double sine, struct site_load *load)
+{
+    const struct beam_load y = load->bending[0];
+    struct beam_load *turned = load->bending;
+    turned[0].force = cosine * y.force - sine * turned[1].force;
+    turned[0].moment = cosine * y.moment - sine * turned[1].moment;
+    turned[1].force = cosine * turned[1].force + sine * y.force;
+    turned[1].moment = cosine * turned[1].moment + sine * y.moment;
+    find_bending(body, load);
 }
 
 struct beam_plane modal_beam_plane(const struct body *body, enum mode_family family)

@@ -29,6 +29,13 @@ struct site_load {
 struct site_load site_load_make(const struct body *body, const struct site *site,
                                 const double direction[3]);
 
+/* Whether a beam bends alike in all planes through its axis: round and square sections. */
+bool modal_planes_alike(const struct body *body);
+
+/* Turns the planes of bending of a load about the body's axis: y becomes cosine y - sine z, z
+ * becomes cosine z + sine y. */
+void site_load_turn(const struct body *body, double cosine, double sine, struct site_load *load);
+
 /* Modes of one family of one body. */
 struct modal_family {
     enum mode_family family;

@@ -248,7 +248,7 @@ bool assemble(struct assembly *assembly, const struct geometry *geometry,
         for (int f = 0; f < FAMILY_COUNT && body_is_flexible(body); f++) {
             struct addition add = {.assembly = assembly,
                                    .geometry = geometry,
-                                   .state = request->bodies[b].state,
+                                   .state = geometry->states[b],
                                    .elapsed = request->bodies[b].elapsed,
                                    .body = b,
                                    .family = (enum mode_family)f,

@@ -273,6 +273,8 @@ enum percuss_status geometry_find(struct geometry *geometry, const struct body_s
     enum percuss_status status = find_bodies(geometry, catalogue, request, arena, fault);
     for (size_t i = 0; !status && i < request->contact_count; i++)
         status = place_contact(geometry, request, i, fault);
+    if (!status && !roll_choose(geometry, request, arena))
+        status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     if (!status)
         status = choose_w(geometry, request, arena, fault);
     if (!status)

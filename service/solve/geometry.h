@@ -9,6 +9,7 @@
 #include "base/arena.h"
 #include "contact/hertz.h"
 #include "model/modal_basis.h"
+#include "solve/roll.h"
 #include "solve/solve.h"
 
 struct contact_model;
@@ -26,14 +27,16 @@ struct geometry {
     size_t body_count, contact_count;
     const struct body *bodies[PERCUSS_MAX_BODIES];
     struct pose poses[PERCUSS_MAX_BODIES];
-    struct contact_side (*sides)[2]; /* [contact]: a, b */
-    struct hertz_contact *hertz;     /* [contact] */
-    double *gap_rate;                /* [contact], rigid, m/s */
-    double (*sliding)[3];            /* [contact]: velocity of a's point against b's along the
-                                        surface, world, m/s; nothing but a warning follows from it */
-    double *service_w;               /* contacts^2, from the bodies */
-    double *w;                       /* the one in use */
-    double *impulse_compression;     /* [contact], Eq. (4) or its complementarity problem, N s */
+    struct roll rolls[PERCUSS_MAX_BODIES];               /* of their planes of bending */
+    const struct body_state *states[PERCUSS_MAX_BODIES]; /* initial, in those planes; NULL: none */
+    struct contact_side (*sides)[2];                     /* [contact]: a, b */
+    struct hertz_contact *hertz;                         /* [contact] */
+    double *gap_rate;                                    /* [contact], rigid, m/s */
+    double (*sliding)[3];        /* [contact]: velocity of a's point against b's along the
+                                    surface, world, m/s; nothing but a warning follows from it */
+    double *service_w;           /* contacts^2, from the bodies */
+    double *w;                   /* the one in use */
+    double *impulse_compression; /* [contact], Eq. (4) or its complementarity problem, N s */
     bool from_client;
     struct contact_model *contact_model; /* the contacts' laws, see contact_model.h */
     struct compliance *compliance;       /* in series with them, see compliance.h; NULL: none */

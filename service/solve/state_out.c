@@ -36,14 +36,15 @@ static void move_freely(const struct body *body, enum mode_family family,
 }
 
 static void fill_modes(const struct assembly *assembly, const struct impact_outcome *outcome,
-                       const struct body *body, const struct solve_body *stated,
-                       struct body_state *state, size_t index)
+                       const struct geometry *geometry, double elapsed, struct body_state *state,
+                       size_t index)
 {
+    const struct body *body = geometry->bodies[index];
+    const struct body_state *before = geometry->states[index];
     for (int f = 0; f < FAMILY_COUNT; f++) {
         double *family = (double *)body_state_family(state, f);
-        if (stated->state && stated->state->count[f])
-            move_freely(body, (enum mode_family)f, stated->state, stated->elapsed + outcome->window,
-                        family);
+        if (before && before->count[f])
+            move_freely(body, (enum mode_family)f, before, elapsed + outcome->window, family);
         for (size_t g = 0; g < assembly->scene.groups; g++) {
             const struct scene_group *group = &assembly->groups[g];
             if (group->body != index || assembly->families[g] != (enum mode_family)f)
@@ -105,13 +106,16 @@ const struct body_state *state_after(const struct assembly *assembly,
     if (!flexible && !sizes.dents)
         return NULL;
     for (int f = 0; flexible && f < FAMILY_COUNT; f++)
-        sizes.count[f] = family_size(assembly, stated->state, body, f);
+        sizes.count[f] = family_size(assembly, geometry->states[body], body, f);
+    roll_size(&geometry->rolls[body], &sizes);
     struct body_state *state = arena_take(arena, 1, body_state_size(&sizes));
     if (!state)
         return NULL;
     *state = sizes;
-    if (flexible)
-        fill_modes(assembly, outcome, geometry->bodies[body], stated, state, body);
+    if (flexible) {
+        fill_modes(assembly, outcome, geometry, stated->elapsed, state, body);
+        roll_back(&geometry->rolls[body], state);
+    }
     if (sizes.dents)
         memcpy((struct dent *)body_state_dents(state), dents, sizes.dents * sizeof *dents);
     return state;
