@@ -17,8 +17,9 @@
 #include "servers.h"
 
 enum { MOST_MATCHES = 64 };
-static const double match_poll = 1e-3;    /* s */
-static const double ping_interval = 5e-3; /* s */
+static const double match_poll = 1e-3;       /* s */
+static const double ping_interval = 5e-3;    /* s */
+static const double discovery_spread = 0.05; /* s between the discovery of one server and another */
 static const double grace = 2.0; /* s until incompatible qualities of service are a verdict */
 
 /* The participant behind a matched endpoint; false when it has just gone. */
@@ -122,7 +123,7 @@ static enum percuss_result check_compatible(struct percuss_client *client)
 struct search {
     struct percuss_client *client;
     double start, deadline;
-    double settled;                                      /* when no further answer is waited for */
+    double heard;                                        /* when the first answer had come */
     struct client_server answering[CLIENT_MOST_SERVERS]; /* a copy */
     size_t count;
     struct percuss_server_list announced;
@@ -217,8 +218,10 @@ static enum percuss_result choose(struct search *search)
         return now - search->start < grace ? PERCUSS_RESULT_PENDING
                : check_compatible(client)  ? PERCUSS_RESULT_INCOMPATIBLE
                                            : PERCUSS_RESULT_PENDING;
-    search->settled = fmin(search->settled, now + SERVERS_SETTLING);
-    if (search->count < servers_reading(client) && now < fmin(search->settled, search->deadline))
+    search->heard = fmin(search->heard, now);
+    bool more = search->count < servers_reading(client);
+    double settled = search->heard + (more ? SERVERS_SETTLING : discovery_spread);
+    if (now < fmin(settled, search->deadline))
         return PERCUSS_RESULT_PENDING;
     if (!client->wanted[0]) {
         settle_on(search, find_first(search));
@@ -264,7 +267,7 @@ static enum percuss_result ping_all(struct search *search)
 
 enum percuss_result percuss_client_connect(struct percuss_client *client, double timeout)
 {
-    struct search search = {.client = client, .start = receive_now(), .settled = INFINITY};
+    struct search search = {.client = client, .start = receive_now(), .heard = INFINITY};
     enum percuss_result result = receive_deadline(timeout, &search.deadline);
     if (result == PERCUSS_RESULT_OK)
         result = servers_open(client);
