@@ -6,6 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+/* Most touches that are gone back to, one after the other. */
+enum { MOST_TOUCHES = 64 };
+
 bool impact_create(struct impact_outcome *outcome, const struct scene *scene, struct arena *arena)
 {
     memset(outcome, 0, sizeof *outcome);
@@ -30,26 +33,61 @@ void impact_begin(struct impact_outcome *outcome, const struct scene *scene)
         track_clear(&outcome->tracks[c]);
 }
 
-enum impact_start impact_find_start(const struct scene *scene, struct rewind *rewind,
-                                    struct motion *motion, double *time_shift)
+/* The earliest of the last touches of the contacts that overlap by more than `allowed`; 0: none
+ * does. `at` is left out and becomes its contact. */
+static enum impact_start find_touch(const struct scene *scene, struct rewind *rewind,
+                                    const struct motion *motion, double allowed, size_t *at,
+                                    double *earliest)
 {
-    double earliest = 0.0;
-    *time_shift = 0.0;
+    size_t left_out = *at;
+    *earliest = 0.0;
     for (size_t c = 0; c < scene->contacts; c++) {
         double d;
         double rate;
         motion_approach(motion, scene, c, &d, &rate);
-        if (d <= 0.0)
+        if (d <= allowed || c == left_out)
             continue;
         double back = rewind_find(rewind, scene, motion, c);
         if (!isfinite(back))
             return isnan(back) ? START_LIMIT : START_NONE;
-        earliest = fmin(earliest, back);
+        if (back < *earliest) {
+            *earliest = back;
+            *at = c;
+        }
     }
-    if (earliest < 0.0)
-        motion_rewind(motion, scene, -earliest);
-    *time_shift = earliest;
     return START_FOUND;
+}
+
+static double deepest_overlap(const struct scene *scene, const struct motion *motion)
+{
+    double deepest = 0.0;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double d;
+        double rate;
+        motion_approach(motion, scene, c, &d, &rate);
+        deepest = fmax(deepest, d);
+    }
+    return deepest;
+}
+
+enum impact_start impact_find_start(const struct scene *scene, struct rewind *rewind,
+                                    struct motion *motion, double *time_shift)
+{
+    /* where one contact touched another one may overlap, from a touch further back; what rounding
+     * leaves of a touch that both share does not count, nor does its energy, with d^(5/2) */
+    double allowed = 1e-6 * deepest_overlap(scene, motion);
+    size_t at = scene->contacts;
+    *time_shift = 0.0;
+    for (int round = 0; round < MOST_TOUCHES; round++) {
+        double earliest;
+        enum impact_start found =
+            find_touch(scene, rewind, motion, round ? allowed : 0.0, &at, &earliest);
+        if (found != START_FOUND || earliest == 0.0)
+            return found;
+        motion_rewind(motion, scene, -earliest);
+        *time_shift += earliest;
+    }
+    return START_NONE;
 }
 
 /* What a step costs, in modes: the modes themselves, and the equations of the contacts. */

@@ -18,8 +18,11 @@ static enum percuss_status refuse_overlap(const struct attempt_context *context,
     return fault_set(
         fault, PERCUSS_BAD_REQUEST,
         "contacts[%zu].gap: %g m: the bodies overlap, and at the stated gap rate (%g m/s), "
-        "acceleration and vibration they never touched before",
-        deepest, contact->gap, context->geometry->gap_rate[deepest]);
+        "acceleration and vibration %s",
+        deepest, contact->gap, context->geometry->gap_rate[deepest],
+        context->geometry->contact_count > 1
+            ? "there was no instant before at which every contact was open"
+            : "they never touched before");
 }
 
 /* d(restitution)/d(speed) of the contact with the largest impulse, by central difference with all

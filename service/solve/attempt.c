@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-/* About a second by the modal method, whose steps cost some 20 ns of that each; CVODE's right-hand
- * sides are many more and cheaper. */
-static const double MAX_WORK = 4e7;
+/* Most of a second by the modal method, whose steps cost some 20 ns of that each; CVODE's
+ * right-hand sides are many more and cheaper. */
+static const double MAX_WORK = 3e7;
 static const double MAX_WORK_CVODE = 4e9;
 /* More of its energy no solution may gain or lose. */
 static const double WORST_DEFECT = 0.01;

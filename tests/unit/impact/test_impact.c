@@ -166,6 +166,31 @@ static void overlaps_go_back_to_their_touch(void **state)
 }
 
 /* The work allowed bounds the effort and is said. */
+/* Where the second contact touched, 1 s before, the first one overlaps again: it is accelerated,
+ * and was open only for the last half second. Begun there, its force would come from nothing. */
+static void contacts_that_were_never_apart_are_refused(void **state)
+{
+    (void)state;
+    struct toy toy;
+    struct impact_outcome outcome;
+    struct impact_settings settings = {.accuracy = 1e-6, .horizon = 10.0, .max_work = 1e6};
+    for (int apart = 0; apart < 2; apart++) {
+        toy_init(&toy, 2);
+        /* d = 0.01 + t + t^2, which is negative from -0.99 to -0.01 s */
+        toy.gap[0] = -0.01;
+        toy.gap_rate[0] = -1.0;
+        toy.gap_acceleration[0] = -2.0;
+        toy.gap[1] = apart ? -0.05 : -0.1;
+        toy.gap_rate[1] = -0.1;
+        assert_true(impact_create(&outcome, &toy.scene, &toy.arena));
+        assert_int_equal(impact_modal(&toy.scene, &settings, &toy.arena, &outcome), PERCUSS_OK);
+        assert_int_equal(outcome.always_overlapped, !apart);
+        if (apart)
+            near("energy", outcome.energy.closure, 0.0, 1e-4);
+        toy_free(&toy);
+    }
+}
+
 static void effort_is_bounded(void **state)
 {
     (void)state;
@@ -193,6 +218,7 @@ int main(void)
         cmocka_unit_test(both_methods_agree_on_toys),
         cmocka_unit_test(scales_follow_from_the_energy),
         cmocka_unit_test(overlaps_go_back_to_their_touch),
+        cmocka_unit_test(contacts_that_were_never_apart_are_refused),
         cmocka_unit_test(effort_is_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
