@@ -10,18 +10,18 @@
 
 #include "percuss_wire.h"
 
-#define WIRE_TOPIC_REQUEST           "percuss/v2/Request"
-#define WIRE_TOPIC_REPLY             "percuss/v2/Reply"
-#define WIRE_TOPIC_BATCH_REQUEST     "percuss/v2/BatchRequest"
-#define WIRE_TOPIC_BATCH_REPLY       "percuss/v2/BatchReply"
-#define WIRE_TOPIC_ENSEMBLE_REQUEST  "percuss/v2/EnsembleRequest"
-#define WIRE_TOPIC_ENSEMBLE_PROGRESS "percuss/v2/EnsembleProgress"
-#define WIRE_TOPIC_ENSEMBLE_SAMPLES  "percuss/v2/EnsembleSamples"
-#define WIRE_TOPIC_ENSEMBLE_REPLY    "percuss/v2/EnsembleReply"
-#define WIRE_TOPIC_TRACE             "percuss/v2/Trace"
-#define WIRE_TOPIC_SERVER_STATUS     "percuss/v2/ServerStatus"
-#define WIRE_TOPIC_BODY              "percuss/v2/Body"
-#define WIRE_TOPIC_DENTS             "percuss/v2/Dents"
+#define WIRE_TOPIC_REQUEST           "percuss/v1/Request"
+#define WIRE_TOPIC_REPLY             "percuss/v1/Reply"
+#define WIRE_TOPIC_BATCH_REQUEST     "percuss/v1/BatchRequest"
+#define WIRE_TOPIC_BATCH_REPLY       "percuss/v1/BatchReply"
+#define WIRE_TOPIC_ENSEMBLE_REQUEST  "percuss/v1/EnsembleRequest"
+#define WIRE_TOPIC_ENSEMBLE_PROGRESS "percuss/v1/EnsembleProgress"
+#define WIRE_TOPIC_ENSEMBLE_SAMPLES  "percuss/v1/EnsembleSamples"
+#define WIRE_TOPIC_ENSEMBLE_REPLY    "percuss/v1/EnsembleReply"
+#define WIRE_TOPIC_TRACE             "percuss/v1/Trace"
+#define WIRE_TOPIC_SERVER_STATUS     "percuss/v1/ServerStatus"
+#define WIRE_TOPIC_BODY              "percuss/v1/Body"
+#define WIRE_TOPIC_DENTS             "percuss/v1/Dents"
 
 enum { WIRE_PARTITION_SIZE = 35, WIRE_WINDOW = 1024 };
 

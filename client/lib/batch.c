@@ -10,7 +10,7 @@
 #include "convert.h"
 #include "error.h"
 
-static enum percuss_result start(struct batch *batch, const percuss_v2_BatchReply *wire)
+static enum percuss_result start(struct batch *batch, const percuss_v1_BatchReply *wire)
 {
     batch->part = calloc(wire->parts, sizeof *batch->part);
     if (!batch->part)
@@ -20,7 +20,7 @@ static enum percuss_result start(struct batch *batch, const percuss_v2_BatchRepl
     return PERCUSS_RESULT_OK;
 }
 
-static enum percuss_result convert_part(const percuss_v2_BatchReply *wire, struct batch_part *part)
+static enum percuss_result convert_part(const percuss_v1_BatchReply *wire, struct batch_part *part)
 {
     uint32_t count = wire->replies._length;
     part->replies = calloc(count ? count : 1, sizeof *part->replies);
@@ -33,7 +33,7 @@ static enum percuss_result convert_part(const percuss_v2_BatchReply *wire, struc
     return PERCUSS_RESULT_OK;
 }
 
-enum percuss_result batch_add_part(struct batch *batch, const percuss_v2_BatchReply *wire)
+enum percuss_result batch_add_part(struct batch *batch, const percuss_v1_BatchReply *wire)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
     if (wire->part >= wire->parts || wire->parts > PERCUSS_MAX_BATCH)

@@ -24,7 +24,7 @@ struct batch {
 };
 
 /* Files one part. PENDING while parts are missing, OK when all have come, NO_MEMORY. */
-enum percuss_result batch_add_part(struct batch *batch, const percuss_v2_BatchReply *wire);
+enum percuss_result batch_add_part(struct batch *batch, const percuss_v1_BatchReply *wire);
 
 /* Moves the replies of a complete batch to `replies` in order. Where the server sent fewer than
  * `count`, each missing one gets the status and message of the whole. */

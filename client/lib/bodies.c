@@ -8,7 +8,7 @@
 #include "error.h"
 #include "receive.h"
 
-static void convert_body(const percuss_v2_Body *wire, struct percuss_body *body)
+static void convert_body(const percuss_v1_Body *wire, struct percuss_body *body)
 {
     *body = (struct percuss_body){
         .mass = wire->mass,
@@ -43,7 +43,7 @@ static enum percuss_result look_at_bodies(struct percuss_client *client, dds_ent
     list->count = 0;
     list->bodies = calloc((size_t)all.count + 1, sizeof *list->bodies);
     for (int i = 0; list->bodies && i < all.count; ++i) {
-        const percuss_v2_Body *wire = all.samples[i];
+        const percuss_v1_Body *wire = all.samples[i];
         if (all.infos[i].valid_data && memcmp(wire->server, server->server, 16) == 0)
             convert_body(wire, &list->bodies[list->count++]);
     }
@@ -67,7 +67,7 @@ enum percuss_result percuss_bodies(struct percuss_client *client, double timeout
     enum percuss_result result = receive_deadline(timeout, &deadline);
     // opened first, so that the copies arrive while we wait for the server's announcement
     if (result == PERCUSS_RESULT_OK)
-        result = announcements_open(client, &client->body_reader, &percuss_v2_Body_desc,
+        result = announcements_open(client, &client->body_reader, &percuss_v1_Body_desc,
                                     WIRE_TOPIC_BODY);
     if (result == PERCUSS_RESULT_OK)
         result = announcements_connected(client, timeout, &server);

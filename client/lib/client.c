@@ -135,7 +135,7 @@ static enum percuss_result create_entities(struct percuss_client *client)
     if (client->waitset < 0)
         return error_dds("waitset", client->waitset);
     client->reply_reader =
-        client_reply_reader_create(client, &percuss_v2_Reply_desc, WIRE_TOPIC_REPLY);
+        client_reply_reader_create(client, &percuss_v1_Reply_desc, WIRE_TOPIC_REPLY);
     if (client->reply_reader < 0)
         return error_dds("reader of " WIRE_TOPIC_REPLY, client->reply_reader);
     // whoever waits is woken when the server goes, too
@@ -144,7 +144,7 @@ static enum percuss_result create_entities(struct percuss_client *client)
     if (code < 0)
         return error_dds("status of the reader of " WIRE_TOPIC_REPLY, code);
     client->request_writer =
-        client_writer_create(client, &percuss_v2_Request_desc, WIRE_TOPIC_REQUEST);
+        client_writer_create(client, &percuss_v1_Request_desc, WIRE_TOPIC_REQUEST);
     if (client->request_writer < 0)
         return error_dds("writer of " WIRE_TOPIC_REQUEST, client->request_writer);
     watch_refusals(client);
@@ -197,7 +197,7 @@ void percuss_client_free(struct percuss_client *client)
         dds_delete(client->participant);
     pending_clear(&client->pending);
     for (int i = 0; i < CLIENT_TAKE_AT_ONCE; ++i)
-        dds_sample_free(&client->taken[i], &percuss_v2_Reply_desc, DDS_FREE_CONTENTS);
+        dds_sample_free(&client->taken[i], &percuss_v1_Reply_desc, DDS_FREE_CONTENTS);
     pthread_cond_destroy(&client->changed);
     pthread_mutex_destroy(&client->lock);
     free(client);

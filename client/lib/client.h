@@ -38,7 +38,7 @@ struct percuss_client {
     pthread_cond_t changed;
     bool leading; /* a thread is in the waitset, see receive.h */
     /* Replies as they came, the leader's: kept, so that their lists need no memory each time. */
-    percuss_v2_Reply taken[CLIENT_TAKE_AT_ONCE];
+    percuss_v1_Reply taken[CLIENT_TAKE_AT_ONCE];
     bool connected;
     bool lost;                   /* the server does not write to us any more */
     struct client_server server; /* whom we stay with; its id is all zero before the first one */

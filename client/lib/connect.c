@@ -241,7 +241,7 @@ static bool is_answered(const struct percuss_client *client, const void *subject
 
 static enum percuss_result write_ping(struct percuss_client *client, const uint8_t *server)
 {
-    percuss_v2_Request ping = {0};
+    percuss_v1_Request ping = {0};
     memcpy(ping.client, client->id, sizeof ping.client);
     if (server)
         memcpy(ping.server, server, sizeof ping.server);

@@ -11,9 +11,9 @@
 
 /* Where a wire request's sequences live while it is written. */
 struct request_storage {
-    percuss_v2_BodyMotion bodies[PERCUSS_MAX_BODIES];
-    percuss_v2_Override overrides[PERCUSS_MAX_BODIES][PERCUSS_PARAMETER_COUNT];
-    percuss_v2_Contact contacts[PERCUSS_MAX_CONTACTS];
+    percuss_v1_BodyMotion bodies[PERCUSS_MAX_BODIES];
+    percuss_v1_Override overrides[PERCUSS_MAX_BODIES][PERCUSS_PARAMETER_COUNT];
+    percuss_v1_Contact contacts[PERCUSS_MAX_CONTACTS];
 };
 
 /* Fills `wire` with pointers into `storage` and to the request's delassus; neither is to be freed
@@ -21,25 +21,25 @@ struct request_storage {
  * does not fit the wire: too many bodies or contacts, unterminated strings. Whether the numbers
  * make sense is the server's judgement. */
 enum percuss_result convert_request(const struct percuss_request *request,
-                                    struct request_storage *storage, percuss_v2_Request *wire);
+                                    struct request_storage *storage, percuss_v1_Request *wire);
 
 /* Copies a wire reply; the arrays share one block, `reply->storage`. NO_MEMORY leaves it empty. */
-enum percuss_result convert_reply(const percuss_v2_Reply *wire, struct percuss_reply *reply);
+enum percuss_result convert_reply(const percuss_v1_Reply *wire, struct percuss_reply *reply);
 
 /* Where a wire ensemble's sequences live while it is written. */
 struct ensemble_storage {
     struct request_storage scene;
-    percuss_v2_EnsembleInput inputs[PERCUSS_MAX_INPUTS];
-    percuss_v2_EnsembleCorrelation correlations[PERCUSS_MAX_CORRELATIONS];
+    percuss_v1_EnsembleInput inputs[PERCUSS_MAX_INPUTS];
+    percuss_v1_EnsembleCorrelation correlations[PERCUSS_MAX_CORRELATIONS];
 };
 
 /* As convert_request; lists and quantiles stay the request's. */
 enum percuss_result convert_ensemble_request(const struct percuss_ensemble_request *request,
                                              struct ensemble_storage *storage,
-                                             percuss_v2_EnsembleRequest *wire);
+                                             percuss_v1_EnsembleRequest *wire);
 
 /* Copies a wire reply, but for the listed samples. NO_MEMORY leaves it empty. */
-enum percuss_result convert_ensemble_reply(const percuss_v2_EnsembleReply *wire,
+enum percuss_result convert_ensemble_reply(const percuss_v1_EnsembleReply *wire,
                                            struct percuss_ensemble_reply *reply);
 
 #endif

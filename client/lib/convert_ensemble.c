@@ -7,14 +7,14 @@
 #include "error.h"
 
 static enum percuss_result convert_input(const struct percuss_input *input, size_t index,
-                                         percuss_v2_EnsembleInput *wire)
+                                         percuss_v1_EnsembleInput *wire)
 {
     if (strnlen(input->name, sizeof input->name) == sizeof input->name ||
         strnlen(input->body, sizeof input->body) == sizeof input->body)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "inputs[%zu]: name or body is not terminated; up to %d bytes are allowed",
                          index, PERCUSS_ID_SIZE - 1);
-    *wire = (percuss_v2_EnsembleInput){
+    *wire = (percuss_v1_EnsembleInput){
         .distribution = input->distribution,
         .first = input->first,
         .second = input->second,
@@ -49,9 +49,9 @@ static enum percuss_result check_counts(const struct percuss_ensemble_request *r
 
 enum percuss_result convert_ensemble_request(const struct percuss_ensemble_request *request,
                                              struct ensemble_storage *storage,
-                                             percuss_v2_EnsembleRequest *wire)
+                                             percuss_v1_EnsembleRequest *wire)
 {
-    *wire = (percuss_v2_EnsembleRequest){
+    *wire = (percuss_v1_EnsembleRequest){
         .sampling = request->sampling,
         .samples = request->samples,
         .seed = request->seed,
@@ -69,7 +69,7 @@ enum percuss_result convert_ensemble_request(const struct percuss_ensemble_reque
     if (result != PERCUSS_RESULT_OK)
         return result;
     for (size_t i = 0; i < request->correlation_count; ++i)
-        storage->correlations[i] = (percuss_v2_EnsembleCorrelation){
+        storage->correlations[i] = (percuss_v1_EnsembleCorrelation){
             .first = request->correlations[i].first,
             .second = request->correlations[i].second,
             .coefficient = request->correlations[i].coefficient,

@@ -68,7 +68,7 @@ static size_t least(uint32_t a, uint32_t b)
 }
 
 static void convert_statistic(struct percuss_ensemble_reply *reply,
-                              const percuss_v2_Statistic *wire, struct percuss_statistic *to,
+                              const percuss_v1_Statistic *wire, struct percuss_statistic *to,
                               bool *good)
 {
     COPY_TEXT(to->quantity, wire->quantity);
@@ -99,7 +99,7 @@ static void convert_statistic(struct percuss_ensemble_reply *reply,
 }
 
 static void convert_sensitivity(struct percuss_ensemble_reply *reply,
-                                const percuss_v2_Sensitivity *wire, struct percuss_sensitivity *to,
+                                const percuss_v1_Sensitivity *wire, struct percuss_sensitivity *to,
                                 bool *good)
 {
     COPY_TEXT(to->input, wire->input);
@@ -115,7 +115,7 @@ static void convert_sensitivity(struct percuss_ensemble_reply *reply,
     to->parts = keep(reply, wire->parts._length, sizeof *to->parts, good);
     to->part_count = to->parts ? wire->parts._length : 0;
     for (size_t k = 0; k < to->part_count; ++k) {
-        const percuss_v2_InputPart *part = &wire->parts._buffer[k];
+        const percuss_v1_InputPart *part = &wire->parts._buffer[k];
         to->parts[k] = (struct percuss_input_part){
             .low = part->low,
             .high = part->high,
@@ -129,12 +129,12 @@ static void convert_sensitivity(struct percuss_ensemble_reply *reply,
 }
 
 static void convert_intervals(struct percuss_ensemble_reply *reply,
-                              const percuss_v2_EnsembleReply *wire, bool *good)
+                              const percuss_v1_EnsembleReply *wire, bool *good)
 {
     reply->intervals = keep(reply, wire->intervals._length, sizeof *reply->intervals, good);
     reply->interval_count = reply->intervals ? wire->intervals._length : 0;
     for (size_t i = 0; i < reply->interval_count; ++i) {
-        const percuss_v2_SigmaInterval *from = &wire->intervals._buffer[i];
+        const percuss_v1_SigmaInterval *from = &wire->intervals._buffer[i];
         reply->intervals[i] = (struct percuss_sigma_interval){
             .sigmas = from->sigmas,
             .low = from->low,
@@ -148,7 +148,7 @@ static void convert_intervals(struct percuss_ensemble_reply *reply,
 }
 
 static void convert_warnings(struct percuss_ensemble_reply *reply,
-                             const percuss_v2_EnsembleReply *wire, bool *good)
+                             const percuss_v1_EnsembleReply *wire, bool *good)
 {
     reply->warnings = keep(reply, wire->warnings._length, sizeof *reply->warnings, good);
     for (uint32_t i = 0; *good && i < wire->warnings._length; ++i) {
@@ -160,7 +160,7 @@ static void convert_warnings(struct percuss_ensemble_reply *reply,
     reply->warning_count = *good ? wire->warnings._length : 0;
 }
 
-static void convert_fit_and_check(const percuss_v2_EnsembleReply *wire,
+static void convert_fit_and_check(const percuss_v1_EnsembleReply *wire,
                                   struct percuss_ensemble_reply *reply)
 {
     reply->beta.low = reply->beta.high = reply->beta.alpha = reply->beta.beta = NAN;
@@ -169,7 +169,7 @@ static void convert_fit_and_check(const percuss_v2_EnsembleReply *wire,
     reply->check.mean_shift_half_width = reply->check.standard_deviation_shift = NAN;
     reply->check.quantile_shift = NAN;
     if (wire->beta._length > 0) {
-        const percuss_v2_BetaFit *beta = &wire->beta._buffer[0];
+        const percuss_v1_BetaFit *beta = &wire->beta._buffer[0];
         reply->beta.low = beta->low;
         reply->beta.high = beta->high;
         reply->beta.alpha = beta->alpha;
@@ -178,7 +178,7 @@ static void convert_fit_and_check(const percuss_v2_EnsembleReply *wire,
         reply->beta.p_value = beta->p_value;
     }
     if (wire->check._length > 0) {
-        const percuss_v2_EnsembleCheck *check = &wire->check._buffer[0];
+        const percuss_v1_EnsembleCheck *check = &wire->check._buffer[0];
         reply->check.count = check->count;
         reply->check.within = check->within;
         reply->check.largest = check->largest;
@@ -189,7 +189,7 @@ static void convert_fit_and_check(const percuss_v2_EnsembleReply *wire,
     }
 }
 
-static void convert_numbers(const percuss_v2_EnsembleReply *wire,
+static void convert_numbers(const percuss_v1_EnsembleReply *wire,
                             struct percuss_ensemble_reply *reply)
 {
     memcpy(reply->client, wire->client, sizeof reply->client);
@@ -214,7 +214,7 @@ static void convert_numbers(const percuss_v2_EnsembleReply *wire,
     reply->timing.solve = wire->timing.solve;
 }
 
-enum percuss_result convert_ensemble_reply(const percuss_v2_EnsembleReply *wire,
+enum percuss_result convert_ensemble_reply(const percuss_v1_EnsembleReply *wire,
                                            struct percuss_ensemble_reply *reply)
 {
     bool good = true;

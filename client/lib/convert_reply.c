@@ -14,7 +14,7 @@
         memcpy(target, source, sizeof(target));                                                    \
     } while (0)
 
-static size_t storage_size(const percuss_v2_Reply *wire)
+static size_t storage_size(const percuss_v1_Reply *wire)
 {
     size_t size = wire->contacts._length * sizeof(struct percuss_contact_result) +
                   wire->velocity_after._length * sizeof(struct percuss_body_velocity) +
@@ -38,7 +38,7 @@ static void *carve(char **cursor, size_t size)
     return start;
 }
 
-static void convert_sub_impact(const percuss_v2_SubImpact *wire, struct percuss_sub_impact *sub)
+static void convert_sub_impact(const percuss_v1_SubImpact *wire, struct percuss_sub_impact *sub)
 {
     *sub = (struct percuss_sub_impact){
         .start = wire->start,
@@ -54,7 +54,7 @@ static void convert_sub_impact(const percuss_v2_SubImpact *wire, struct percuss_
     };
 }
 
-static void convert_contact(const percuss_v2_ContactResult *wire, char **cursor,
+static void convert_contact(const percuss_v1_ContactResult *wire, char **cursor,
                             struct percuss_contact_result *contact)
 {
     *contact = (struct percuss_contact_result){
@@ -73,7 +73,7 @@ static void convert_contact(const percuss_v2_ContactResult *wire, char **cursor,
         convert_sub_impact(&wire->sub_impacts._buffer[i], &contact->sub_impacts[i]);
 }
 
-static void convert_contacts(const percuss_v2_Reply *wire, char **cursor,
+static void convert_contacts(const percuss_v1_Reply *wire, char **cursor,
                              struct percuss_reply *reply)
 {
     reply->contact_count = wire->contacts._length;
@@ -82,14 +82,14 @@ static void convert_contacts(const percuss_v2_Reply *wire, char **cursor,
         convert_contact(&wire->contacts._buffer[i], cursor, &reply->contacts[i]);
 }
 
-static void convert_bodies_after(const percuss_v2_Reply *wire, char **cursor,
+static void convert_bodies_after(const percuss_v1_Reply *wire, char **cursor,
                                  struct percuss_reply *reply)
 {
     reply->velocity_after_count = wire->velocity_after._length;
     reply->velocity_after =
         carve(cursor, reply->velocity_after_count * sizeof *reply->velocity_after);
     for (size_t i = 0; i < reply->velocity_after_count; ++i) {
-        const percuss_v2_BodyVelocity *source = &wire->velocity_after._buffer[i];
+        const percuss_v1_BodyVelocity *source = &wire->velocity_after._buffer[i];
         struct percuss_body_velocity *after = &reply->velocity_after[i];
         COPY_TEXT(after->id, source->id);
         memcpy(after->velocity, source->velocity, sizeof after->velocity);
@@ -103,7 +103,7 @@ static void convert_bodies_after(const percuss_v2_Reply *wire, char **cursor,
     }
 }
 
-static void convert_energy(const percuss_v2_Energy *wire, char **cursor,
+static void convert_energy(const percuss_v1_Energy *wire, char **cursor,
                            struct percuss_energy *energy)
 {
     *energy = (struct percuss_energy){
@@ -122,7 +122,7 @@ static void convert_energy(const percuss_v2_Energy *wire, char **cursor,
     }
 }
 
-static void convert_error(const percuss_v2_ErrorEstimate *wire,
+static void convert_error(const percuss_v1_ErrorEstimate *wire,
                           struct percuss_error_estimate *error)
 {
     *error = (struct percuss_error_estimate){
@@ -135,7 +135,7 @@ static void convert_error(const percuss_v2_ErrorEstimate *wire,
     };
 }
 
-static void convert_model(const percuss_v2_Model *wire, char **cursor, struct percuss_model *model)
+static void convert_model(const percuss_v1_Model *wire, char **cursor, struct percuss_model *model)
 {
     model->contact_model = wire->contact_model;
     model->compliance = wire->compliance;
@@ -145,7 +145,7 @@ static void convert_model(const percuss_v2_Model *wire, char **cursor, struct pe
     model->body_count = wire->bodies._length;
     model->bodies = carve(cursor, model->body_count * sizeof *model->bodies);
     for (size_t i = 0; i < model->body_count; ++i) {
-        const percuss_v2_BodyModel *source = &wire->bodies._buffer[i];
+        const percuss_v1_BodyModel *source = &wire->bodies._buffer[i];
         struct percuss_body_model *body = &model->bodies[i];
         *body = (struct percuss_body_model){
             .modes = source->modes, .rigid = source->rigid, .shear_factor = source->shear_factor};
@@ -154,7 +154,7 @@ static void convert_model(const percuss_v2_Model *wire, char **cursor, struct pe
     }
 }
 
-static void convert_warnings(const percuss_v2_Reply *wire, char **cursor,
+static void convert_warnings(const percuss_v1_Reply *wire, char **cursor,
                              struct percuss_reply *reply)
 {
     reply->warning_count = wire->warnings._length;
@@ -165,7 +165,7 @@ static void convert_warnings(const percuss_v2_Reply *wire, char **cursor,
     }
 }
 
-static void convert_header(const percuss_v2_Reply *wire, struct percuss_reply *reply)
+static void convert_header(const percuss_v1_Reply *wire, struct percuss_reply *reply)
 {
     memcpy(reply->client, wire->client, sizeof reply->client);
     reply->sequence = wire->sequence;
@@ -183,7 +183,7 @@ static void convert_header(const percuss_v2_Reply *wire, struct percuss_reply *r
     reply->timing.solve = wire->timing.solve;
 }
 
-enum percuss_result convert_reply(const percuss_v2_Reply *wire, struct percuss_reply *reply)
+enum percuss_result convert_reply(const percuss_v1_Reply *wire, struct percuss_reply *reply)
 {
     *reply = (struct percuss_reply){0};
     char *cursor = malloc(storage_size(wire) + 1);

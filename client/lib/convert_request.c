@@ -19,7 +19,7 @@ static bool copy_text(char *target, const char *source)
 static enum percuss_result convert_body(const struct percuss_body_motion *body, size_t index,
                                         struct request_storage *storage)
 {
-    percuss_v2_BodyMotion *wire = &storage->bodies[index];
+    percuss_v1_BodyMotion *wire = &storage->bodies[index];
     const char *field = NULL;
     if (!copy_text(wire->id, body->id))
         field = "id";
@@ -37,7 +37,7 @@ static enum percuss_result convert_body(const struct percuss_body_motion *body, 
                          body->override_count, PERCUSS_PARAMETER_COUNT);
     for (uint32_t i = 0; i < body->override_count; ++i)
         storage->overrides[index][i] =
-            (percuss_v2_Override){body->overrides[i].parameter, body->overrides[i].value};
+            (percuss_v1_Override){body->overrides[i].parameter, body->overrides[i].value};
     wire->overrides._buffer = storage->overrides[index];
     wire->overrides._length = wire->overrides._maximum = body->override_count;
     wire->overrides._release = false;
@@ -49,7 +49,7 @@ static enum percuss_result convert_body(const struct percuss_body_motion *body, 
     return PERCUSS_RESULT_OK;
 }
 
-static void convert_contact(const struct percuss_contact *contact, percuss_v2_Contact *wire)
+static void convert_contact(const struct percuss_contact *contact, percuss_v1_Contact *wire)
 {
     wire->a = contact->a;
     wire->b = contact->b;
@@ -59,9 +59,9 @@ static void convert_contact(const struct percuss_contact *contact, percuss_v2_Co
     wire->gap_acceleration = contact->gap_acceleration;
 }
 
-static percuss_v2_Options convert_options(const struct percuss_options *options)
+static percuss_v1_Options convert_options(const struct percuss_options *options)
 {
-    return (percuss_v2_Options){
+    return (percuss_v1_Options){
         .tolerance = options->tolerance,
         .horizon = options->horizon,
         .contact_model = options->contact_model,
@@ -83,7 +83,7 @@ static enum percuss_result check_count(const char *field, size_t count, size_t m
 }
 
 enum percuss_result convert_request(const struct percuss_request *request,
-                                    struct request_storage *storage, percuss_v2_Request *wire)
+                                    struct request_storage *storage, percuss_v1_Request *wire)
 {
     enum percuss_result result = check_count("bodies", request->body_count, PERCUSS_MAX_BODIES);
     if (result == PERCUSS_RESULT_OK)
@@ -96,7 +96,7 @@ enum percuss_result convert_request(const struct percuss_request *request,
         convert_contact(&request->contacts[i], &storage->contacts[i]);
 
     uint32_t contacts = (uint32_t)request->contact_count;
-    *wire = (percuss_v2_Request){.options = convert_options(&request->options)};
+    *wire = (percuss_v1_Request){.options = convert_options(&request->options)};
     wire->bodies._buffer = storage->bodies;
     wire->bodies._length = wire->bodies._maximum = (uint32_t)request->body_count;
     wire->contacts._buffer = storage->contacts;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 void ensemble_exchange_note(struct ensemble_exchange *exchange,
-                            const percuss_v2_EnsembleProgress *wire)
+                            const percuss_v1_EnsembleProgress *wire)
 {
     exchange->heard++;
     exchange->told++;
@@ -35,7 +35,7 @@ static bool grow(struct ensemble_exchange *exchange, size_t numbers)
 }
 
 void ensemble_exchange_add(struct ensemble_exchange *exchange,
-                           const percuss_v2_EnsembleSamples *wire)
+                           const percuss_v1_EnsembleSamples *wire)
 {
     /* reliable and in order: a part that is not the next one is of another asking */
     if (wire->part == 0)

@@ -21,11 +21,11 @@ struct ensemble_exchange {
 
 /* Files a progress sample. */
 void ensemble_exchange_note(struct ensemble_exchange *exchange,
-                            const percuss_v2_EnsembleProgress *wire);
+                            const percuss_v1_EnsembleProgress *wire);
 
 /* Files a part of the listed samples. Without memory it is dropped, and the list never complete. */
 void ensemble_exchange_add(struct ensemble_exchange *exchange,
-                           const percuss_v2_EnsembleSamples *wire);
+                           const percuss_v1_EnsembleSamples *wire);
 
 /* Whether all listed samples of the reply are there. */
 bool ensemble_exchange_is_complete(const struct ensemble_exchange *exchange);

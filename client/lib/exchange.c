@@ -64,7 +64,7 @@ static enum percuss_result send_request(struct percuss_client *client,
                                         struct gather *gather, struct pending **pending)
 {
     struct request_storage storage;
-    percuss_v2_Request wire;
+    percuss_v1_Request wire;
     enum percuss_result result = convert_request(request, &storage, &wire);
     if (result == PERCUSS_RESULT_OK)
         result = exchange_check_connected(client);

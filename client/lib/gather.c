@@ -12,7 +12,7 @@
 enum { COLUMNS = 9 };
 
 /* The same columns on the wire and in a contact's trace. */
-static void list_columns(const percuss_v2_Trace *wire, const dds_sequence_double *lists[COLUMNS])
+static void list_columns(const percuss_v1_Trace *wire, const dds_sequence_double *lists[COLUMNS])
 {
     const dds_sequence_double *all[COLUMNS] = {
         &wire->time,       &wire->force,          &wire->indentation,
@@ -34,7 +34,7 @@ static void place_columns(struct percuss_contact_trace *contact, double *block, 
         *all[i] = block + i * room;
 }
 
-static bool make_room(struct gather *gather, const percuss_v2_Trace *wire)
+static bool make_room(struct gather *gather, const percuss_v1_Trace *wire)
 {
     size_t room = (size_t)wire->parts * wire->time._length;
     double *block = calloc(COLUMNS * room + 1, sizeof *block);
@@ -48,7 +48,7 @@ static bool make_room(struct gather *gather, const percuss_v2_Trace *wire)
     return true;
 }
 
-void gather_add(struct gather *gather, const percuss_v2_Trace *wire)
+void gather_add(struct gather *gather, const percuss_v1_Trace *wire)
 {
     const dds_sequence_double *lists[COLUMNS];
     uint32_t c = wire->contact;

@@ -18,7 +18,7 @@ struct gather {
 };
 
 /* Adds a sample; one that is out of order, repeated or malformed is ignored. */
-void gather_add(struct gather *gather, const percuss_v2_Trace *wire);
+void gather_add(struct gather *gather, const percuss_v1_Trace *wire);
 
 /* Whether the first `contacts` are complete (or never will be, for want of memory). */
 bool gather_is_complete(const struct gather *gather, size_t contacts);

@@ -69,7 +69,7 @@ static void file_reply(struct percuss_client *client, struct percuss_reply *repl
     percuss_reply_free(reply);
 }
 
-static void take_reply(struct percuss_client *client, const percuss_v2_Reply *wire,
+static void take_reply(struct percuss_client *client, const percuss_v1_Reply *wire,
                        dds_instance_handle_t writer)
 {
     struct percuss_reply reply;
@@ -88,7 +88,7 @@ static void take_reply(struct percuss_client *client, const percuss_v2_Reply *wi
 
 static void take_batch_reply(struct percuss_client *client, const void *sample)
 {
-    const percuss_v2_BatchReply *wire = sample;
+    const percuss_v1_BatchReply *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = pending_find(&client->pending, wire->sequence);
     if (is_ours(client, wire->server) && pending && !pending->ready && pending->batch) {
@@ -108,7 +108,7 @@ static struct pending *find_ensemble(struct percuss_client *client, uint64_t seq
 
 static void take_ensemble_reply(struct percuss_client *client, const void *sample)
 {
-    const percuss_v2_EnsembleReply *wire = sample;
+    const percuss_v1_EnsembleReply *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = find_ensemble(client, wire->sequence);
     if (is_ours(client, wire->server) && pending && !pending->ready)
@@ -119,7 +119,7 @@ static void take_ensemble_reply(struct percuss_client *client, const void *sampl
 
 static void take_progress(struct percuss_client *client, const void *sample)
 {
-    const percuss_v2_EnsembleProgress *wire = sample;
+    const percuss_v1_EnsembleProgress *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = find_ensemble(client, wire->sequence);
     if (pending)
@@ -129,7 +129,7 @@ static void take_progress(struct percuss_client *client, const void *sample)
 
 static void take_samples(struct percuss_client *client, const void *sample)
 {
-    const percuss_v2_EnsembleSamples *wire = sample;
+    const percuss_v1_EnsembleSamples *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = find_ensemble(client, wire->sequence);
     if (pending)
@@ -167,7 +167,7 @@ static bool take_one(struct percuss_client *client, dds_entity_t reader, dds_ret
 /* Files one part of a trace. */
 static void take_trace(struct percuss_client *client, const void *sample)
 {
-    const percuss_v2_Trace *wire = sample;
+    const percuss_v1_Trace *wire = sample;
     pthread_mutex_lock(&client->lock);
     struct pending *pending = pending_find(&client->pending, wire->sequence);
     if (pending && pending->gather)

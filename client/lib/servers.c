@@ -12,7 +12,7 @@
 #include "receive.h"
 #include "servers.h"
 
-static void convert_server(const percuss_v2_ServerStatus *wire, struct percuss_server *server)
+static void convert_server(const percuss_v1_ServerStatus *wire, struct percuss_server *server)
 {
     *server = (struct percuss_server){
         .process = wire->process,
@@ -125,7 +125,7 @@ const struct percuss_server *servers_find(const struct percuss_server_list *list
 
 enum percuss_result servers_open(struct percuss_client *client)
 {
-    return announcements_open(client, &client->server_reader, &percuss_v2_ServerStatus_desc,
+    return announcements_open(client, &client->server_reader, &percuss_v1_ServerStatus_desc,
                               WIRE_TOPIC_SERVER_STATUS);
 }
 

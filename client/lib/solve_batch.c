@@ -15,7 +15,7 @@
 
 /* The wire form of a batch. */
 struct batch_sample {
-    percuss_v2_Request requests[PERCUSS_MAX_BATCH];
+    percuss_v1_Request requests[PERCUSS_MAX_BATCH];
     struct request_storage storage[PERCUSS_MAX_BATCH];
 };
 
@@ -25,11 +25,11 @@ static enum percuss_result open_endpoints(struct percuss_client *client)
     if (client->batch_writer)
         return PERCUSS_RESULT_OK;
     dds_entity_t writer =
-        client_writer_create(client, &percuss_v2_BatchRequest_desc, WIRE_TOPIC_BATCH_REQUEST);
+        client_writer_create(client, &percuss_v1_BatchRequest_desc, WIRE_TOPIC_BATCH_REQUEST);
     if (writer < 0)
         return error_dds("writer of " WIRE_TOPIC_BATCH_REQUEST, writer);
     dds_entity_t reader =
-        client_reply_reader_create(client, &percuss_v2_BatchReply_desc, WIRE_TOPIC_BATCH_REPLY);
+        client_reply_reader_create(client, &percuss_v1_BatchReply_desc, WIRE_TOPIC_BATCH_REPLY);
     if (reader < 0) {
         dds_delete(writer);
         return error_dds("reader of " WIRE_TOPIC_BATCH_REPLY, reader);
@@ -68,7 +68,7 @@ static enum percuss_result send_batch(struct percuss_client *client, struct batc
     enum percuss_result result = pending_add(&client->pending, sequence, pending);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    percuss_v2_BatchRequest wire = {.sequence = sequence};
+    percuss_v1_BatchRequest wire = {.sequence = sequence};
     memcpy(wire.client, client->id, sizeof wire.client);
     memcpy(wire.server, client->server.id, sizeof wire.server);
     for (size_t i = 0; i < count; ++i) {

@@ -34,12 +34,12 @@ static enum percuss_result open_endpoints(struct percuss_client *client)
         const dds_topic_descriptor_t *type;
         const char *topic;
     } readers[] = {
-        {&client->samples_reader, &percuss_v2_EnsembleSamples_desc, WIRE_TOPIC_ENSEMBLE_SAMPLES},
-        {&client->progress_reader, &percuss_v2_EnsembleProgress_desc, WIRE_TOPIC_ENSEMBLE_PROGRESS},
-        {&client->ensemble_reader, &percuss_v2_EnsembleReply_desc, WIRE_TOPIC_ENSEMBLE_REPLY},
+        {&client->samples_reader, &percuss_v1_EnsembleSamples_desc, WIRE_TOPIC_ENSEMBLE_SAMPLES},
+        {&client->progress_reader, &percuss_v1_EnsembleProgress_desc, WIRE_TOPIC_ENSEMBLE_PROGRESS},
+        {&client->ensemble_reader, &percuss_v1_EnsembleReply_desc, WIRE_TOPIC_ENSEMBLE_REPLY},
     };
     if (!client->ensemble_writer)
-        client->ensemble_writer = client_writer_create(client, &percuss_v2_EnsembleRequest_desc,
+        client->ensemble_writer = client_writer_create(client, &percuss_v1_EnsembleRequest_desc,
                                                        WIRE_TOPIC_ENSEMBLE_REQUEST);
     if (client->ensemble_writer < 0) {
         dds_entity_t code = client->ensemble_writer;
@@ -74,7 +74,7 @@ static enum percuss_result connect_ensemble(struct percuss_client *client, doubl
 }
 
 /* Enters and writes the request; the lock is held. */
-static enum percuss_result send(struct percuss_client *client, percuss_v2_EnsembleRequest *wire,
+static enum percuss_result send(struct percuss_client *client, percuss_v1_EnsembleRequest *wire,
                                 struct pending **pending)
 {
     uint64_t sequence = wire->sequence;
@@ -100,7 +100,7 @@ static enum percuss_result send(struct percuss_client *client, percuss_v2_Ensemb
 
 static void send_cancel(struct percuss_client *client, uint64_t sequence)
 {
-    percuss_v2_EnsembleRequest wire = {.sequence = sequence, .cancel = true};
+    percuss_v1_EnsembleRequest wire = {.sequence = sequence, .cancel = true};
     memcpy(wire.client, client->id, sizeof wire.client);
     memcpy(wire.server, client->server.id, sizeof wire.server);
     dds_write(client->ensemble_writer, &wire);
@@ -169,7 +169,7 @@ static void hand_over_samples(struct ensemble_exchange *exchange)
 }
 
 static enum percuss_result exchange_ensemble(struct percuss_client *client,
-                                             percuss_v2_EnsembleRequest *wire, double timeout,
+                                             percuss_v1_EnsembleRequest *wire, double timeout,
                                              const struct watcher *watcher,
                                              struct ensemble_exchange *exchange)
 {
@@ -196,7 +196,7 @@ enum percuss_result percuss_solve_ensemble(struct percuss_client *client,
                                            void *context, struct percuss_ensemble_reply *reply)
 {
     double deadline;
-    percuss_v2_EnsembleRequest wire;
+    percuss_v1_EnsembleRequest wire;
     struct watcher watcher = {progress, context};
     struct ensemble_exchange exchange = {0};
     *reply = (struct percuss_ensemble_reply){0};

@@ -19,7 +19,7 @@ static enum percuss_result connect_traces(struct percuss_client *client, double 
     enum percuss_result result = exchange_check_connected(client);
     if (result == PERCUSS_RESULT_OK && !client->trace_reader) {
         dds_entity_t reader =
-            client_reply_reader_create(client, &percuss_v2_Trace_desc, WIRE_TOPIC_TRACE);
+            client_reply_reader_create(client, &percuss_v1_Trace_desc, WIRE_TOPIC_TRACE);
         if (reader < 0)
             result = error_dds("reader of " WIRE_TOPIC_TRACE, reader);
         else

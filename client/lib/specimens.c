@@ -11,7 +11,7 @@
 #include "receive.h"
 
 /* False: no memory. */
-static bool convert_specimen(const percuss_v2_Dents *wire, struct percuss_specimen *specimen)
+static bool convert_specimen(const percuss_v1_Dents *wire, struct percuss_specimen *specimen)
 {
     *specimen = (struct percuss_specimen){
         .impacts = wire->impacts,
@@ -21,7 +21,7 @@ static bool convert_specimen(const percuss_v2_Dents *wire, struct percuss_specim
     memcpy(specimen->body, wire->body, sizeof specimen->body);
     specimen->dents = calloc(specimen->dent_count + 1, sizeof *specimen->dents);
     for (size_t i = 0; specimen->dents && i < specimen->dent_count; ++i) {
-        const percuss_v2_Dent *from = &wire->patches._buffer[i];
+        const percuss_v1_Dent *from = &wire->patches._buffer[i];
         struct percuss_dent *to = &specimen->dents[i];
         memcpy(to->point, from->point, sizeof to->point);
         to->size = from->size;
@@ -46,7 +46,7 @@ static bool collect(const struct announcements *all, const uint8_t server[16],
     list->specimens = calloc((size_t)all->count + 1, sizeof *list->specimens);
     bool good = list->specimens;
     for (int i = 0; good && i < all->count; ++i) {
-        const percuss_v2_Dents *wire = all->samples[i];
+        const percuss_v1_Dents *wire = all->samples[i];
         if (all->infos[i].valid_data && memcmp(wire->server, server, 16) == 0)
             good = convert_specimen(wire, &list->specimens[list->count++]);
     }
@@ -82,7 +82,7 @@ enum percuss_result percuss_specimens(struct percuss_client *client, double time
     enum percuss_result result = receive_deadline(timeout, &deadline);
     // opened first, so that the copies arrive while we wait for the server's announcement
     if (result == PERCUSS_RESULT_OK)
-        result = announcements_open(client, &client->dents_reader, &percuss_v2_Dents_desc,
+        result = announcements_open(client, &client->dents_reader, &percuss_v1_Dents_desc,
                                     WIRE_TOPIC_DENTS);
     while (result == PERCUSS_RESULT_OK) {
         // asked each time: the number changes
@@ -120,7 +120,7 @@ static enum percuss_result open_writer(struct percuss_client *client, double dea
     pthread_mutex_lock(&client->lock);
     if (client->dents_writer <= 0)
         client->dents_writer =
-            client_writer_create(client, &percuss_v2_Dents_desc, WIRE_TOPIC_DENTS);
+            client_writer_create(client, &percuss_v1_Dents_desc, WIRE_TOPIC_DENTS);
     dds_entity_t writer = client->dents_writer, reader = client->reply_reader;
     pthread_mutex_unlock(&client->lock);
     return writer < 0 ? error_dds("writer of " WIRE_TOPIC_DENTS, writer)
@@ -130,7 +130,7 @@ static enum percuss_result open_writer(struct percuss_client *client, double dea
 enum percuss_result percuss_clear_specimen(struct percuss_client *client, const char *name,
                                            double timeout)
 {
-    percuss_v2_Dents wire = {.clear = true};
+    percuss_v1_Dents wire = {.clear = true};
     bool found;
     double deadline;
     enum percuss_result result = receive_deadline(timeout, &deadline);

@@ -39,7 +39,7 @@ struct ensemble_run {
 static void publish(struct service *service, const struct task *task, uint64_t done,
                     uint64_t samples, const struct report_progress *progress)
 {
-    percuss_v2_EnsembleProgress sample = {
+    percuss_v1_EnsembleProgress sample = {
         .sequence = task->sequence,
         .done = done,
         .samples = samples,
@@ -178,7 +178,7 @@ static void publish_samples(struct ensemble_run *run)
         for (uint64_t i = 0; i < count; i++)
             encode_sample(&run->ensemble, first + i, &run->samples[first + i],
                           values + i * columns);
-        percuss_v2_EnsembleSamples sample = {
+        percuss_v1_EnsembleSamples sample = {
             .sequence = run->task->sequence,
             .part = (uint32_t)part,
             .parts = (uint32_t)parts,
@@ -254,7 +254,7 @@ static bool hire(struct ensemble_run *run, struct fault *fault)
 static const struct contact_table_source *find_tables(struct ensemble_run *run)
 {
     struct table_shelf *shelf = &run->service->tables;
-    const percuss_v2_Request *scene = &run->task->requests[0];
+    const percuss_v1_Request *scene = &run->task->requests[0];
     table_maker_init(&run->maker, shelf, true);
     if (scene->options.contact_model != PERCUSS_CONTACT_TABLE)
         return table_store_source(shelf->loaded);

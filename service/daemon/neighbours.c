@@ -22,7 +22,7 @@ static struct neighbour *find(struct neighbours *neighbours, const uint8_t serve
     return i < NEIGHBOURS_MOST ? &neighbours->each[i] : NULL;
 }
 
-static void warn(const struct neighbour *neighbour, const percuss_v2_ServerStatus *status)
+static void warn(const struct neighbour *neighbour, const percuss_v1_ServerStatus *status)
 {
     if (neighbour->alike)
         log_line(LEVEL_WARNING,
@@ -36,7 +36,7 @@ static void warn(const struct neighbour *neighbour, const percuss_v2_ServerStatu
                  neighbour->name, status->catalogue, status->catalogue_revision);
 }
 
-static void note(void *context, const percuss_v2_ServerStatus *status)
+static void note(void *context, const percuss_v1_ServerStatus *status)
 {
     const struct look *look = context;
     struct neighbours *neighbours = look->neighbours;

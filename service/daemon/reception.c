@@ -87,18 +87,18 @@ static bool admit(struct service *service, const struct request_name *name, stru
     return true;
 }
 
-static bool is_at_least(const percuss_v2_Options *options, double tolerance)
+static bool is_at_least(const percuss_v1_Options *options, double tolerance)
 {
     return options->tolerance == 0.0 || options->tolerance >= tolerance;
 }
 
-static bool is_long(const percuss_v2_Options *options)
+static bool is_long(const percuss_v1_Options *options)
 {
     return options->method != PERCUSS_METHOD_MODAL ||
            options->contact_model > PERCUSS_CONTACT_TABLE || !is_at_least(options, short_tolerance);
 }
 
-static bool is_durable(const struct service *service, const percuss_v2_Request *request)
+static bool is_durable(const struct service *service, const percuss_v1_Request *request)
 {
     return service->rig && rig_concerns(request);
 }
@@ -108,7 +108,7 @@ static bool is_durable(const struct service *service, const percuss_v2_Request *
 static enum lane lane_for(const struct service *service, const struct task *task)
 {
     size_t i = 0, count = task->count;
-    const percuss_v2_Request *requests = task->requests;
+    const percuss_v1_Request *requests = task->requests;
     if (task->exchange == EXCHANGE_SINGLE && !task->ensemble && is_durable(service, requests))
         return LANE_SPECIMENS;
     while (i < count && !is_long(&requests[i].options) &&
@@ -141,15 +141,15 @@ static void enqueue(struct service *service, const struct request_name *name, st
 }
 
 static void enqueue_requests(struct service *service, const struct request_name *name,
-                             const percuss_v2_Request *requests, size_t count, double arrival)
+                             const percuss_v1_Request *requests, size_t count, double arrival)
 {
     bool draining = atomic_load(&service->draining);
     enqueue(service, name, draining ? NULL : task_create(name->exchange, requests, count), arrival);
 }
 
-static bool is_cheap(const percuss_v2_Request *request)
+static bool is_cheap(const percuss_v1_Request *request)
 {
-    const percuss_v2_Options *options = &request->options;
+    const percuss_v1_Options *options = &request->options;
     return request->contacts._length <= 1 && options->method == PERCUSS_METHOD_MODAL &&
            options->contact_model <= PERCUSS_CONTACT_CLOSED_FORM && !options->conditioning &&
            !options->trace && is_at_least(options, cheap_tolerance);
@@ -180,7 +180,7 @@ static enum percuss_status is_quick(void *context, struct fault *fault)
 
 /* False: it takes longer than the reading thread has; nothing is answered yet. */
 static bool answer_here(struct service *service, const struct request_name *name,
-                        const percuss_v2_Request *request, double arrival)
+                        const percuss_v1_Request *request, double arrival)
 {
     struct patience patience = {.end = arrival + desk_seconds};
     struct edition *edition = editions_hold(&service->editions);
@@ -200,7 +200,7 @@ static bool answer_here(struct service *service, const struct request_name *name
     return !patience.over;
 }
 
-static void receive_single(void *context, const percuss_v2_Request *request, bool alone)
+static void receive_single(void *context, const percuss_v1_Request *request, bool alone)
 {
     struct service *service = context;
     double arrival = clock_now();
@@ -220,7 +220,7 @@ static void receive_single(void *context, const percuss_v2_Request *request, boo
         enqueue_requests(service, &name, request, 1, arrival);
 }
 
-static void receive_batch(void *context, const percuss_v2_BatchRequest *batch)
+static void receive_batch(void *context, const percuss_v1_BatchRequest *batch)
 {
     struct service *service = context;
     double arrival = clock_now();
@@ -234,7 +234,7 @@ static void receive_batch(void *context, const percuss_v2_BatchRequest *batch)
         enqueue_requests(service, &name, batch->requests._buffer, batch->requests._length, arrival);
 }
 
-static void receive_ensemble(void *context, const percuss_v2_EnsembleRequest *request)
+static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *request)
 {
     struct service *service = context;
     double arrival = clock_now();
@@ -257,7 +257,7 @@ static void receive_ensemble(void *context, const percuss_v2_EnsembleRequest *re
 /* In its turn among the requests; a client that sees no effect asks again. */
 static void receive_clear(void *context, const char *specimen)
 {
-    static const percuss_v2_Request nothing;
+    static const percuss_v1_Request nothing;
     struct service *service = context;
     if (!specimen[0] || atomic_load(&service->draining))
         return;

@@ -6,12 +6,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/hash.h"
 #include "daemon/log.h"
 #include "endpoint/batch.h"
 #include "endpoint/clock.h"
 #include "endpoint/decode.h"
 #include "endpoint/encode.h"
-#include "base/hash.h"
 
 struct seat *seat_create(struct table_shelf *shelf, bool makes)
 {
@@ -55,7 +55,7 @@ struct subject_name {
 static struct token_subject subject_of(const struct question *question, size_t index,
                                        struct subject_name *name)
 {
-    const percuss_v2_BodyMotion *body = &question->request->bodies._buffer[index];
+    const percuss_v1_BodyMotion *body = &question->request->bodies._buffer[index];
     struct hasher hasher = {0};
     for (uint32_t i = 0; i < body->overrides._length; i++) {
         hash_number(&hasher, body->overrides._buffer[i].parameter);
@@ -123,7 +123,7 @@ static enum percuss_status hold_state(struct seat *seat, struct token_store *tok
                                       const struct question *question, size_t index,
                                       struct fault *fault)
 {
-    const percuss_v2_BodyMotion *wire = &question->request->bodies._buffer[index];
+    const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[index];
     const char *token = wire->state;
     struct solve_body *body = &seat->request.bodies[index];
     if (wire->specimen[0])

@@ -28,7 +28,7 @@ void seat_free(struct seat *seat);
 
 /* A request with where it came from. */
 struct question {
-    const percuss_v2_Request *request;
+    const percuss_v1_Request *request;
     const struct body_set *set; /* the catalogue it is answered from */
     struct envelope envelope;   /* of the reply */
     double arrival;             /* monotonic, s */

@@ -73,7 +73,7 @@ size_t rig_count(struct rig *rig)
     return atomic_load(&rig->count);
 }
 
-bool rig_concerns(const percuss_v2_Request *request)
+bool rig_concerns(const percuss_v1_Request *request)
 {
     for (uint32_t i = 0; i < request->bodies._length; i++) {
         if (request->bodies._buffer[i].specimen[0])
@@ -95,7 +95,7 @@ static enum percuss_status load(struct rig *rig, const struct question *question
                                 struct fault *fault)
 {
     for (uint32_t i = 0; i < question->request->bodies._length; i++) {
-        const percuss_v2_BodyMotion *wire = &question->request->bodies._buffer[i];
+        const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[i];
         const struct body *body = body_set_find(question->set, wire->id);
         struct fault reason;
         /* an unknown body is the solver's to refuse */
@@ -117,7 +117,7 @@ static size_t find_changes(const struct question *question, const struct seat *s
     if (question->request->options.dents != PERCUSS_DENTS_KEEP)
         return 0;
     for (uint32_t i = 0; i < question->request->bodies._length; i++) {
-        const percuss_v2_BodyMotion *wire = &question->request->bodies._buffer[i];
+        const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[i];
         if (wire->specimen[0])
             changes[count++] =
                 (struct specimen_change){wire->specimen, body_set_find(question->set, wire->id),

@@ -32,6 +32,6 @@ void rig_clear(struct rig *rig, const char *specimen);
 size_t rig_count(struct rig *rig);
 
 /* Whether a request names a specimen. */
-bool rig_concerns(const percuss_v2_Request *request);
+bool rig_concerns(const percuss_v1_Request *request);
 
 #endif

@@ -167,7 +167,7 @@ static uint32_t waiting(const struct service *service)
 void service_announce(struct service *service)
 {
     struct edition *edition = editions_hold(&service->editions);
-    percuss_v2_ServerStatus status = {
+    percuss_v1_ServerStatus status = {
         .process = (uint32_t)getpid(),
         .workers = service->settings->workers,
         .bodies = (uint32_t)edition->set->count,

@@ -52,13 +52,13 @@ const struct contact_curves *table_shelf_find(const struct table_shelf *shelf,
 }
 
 bool table_shelf_lacks(const struct table_shelf *shelf, const struct body_set *set,
-                       const percuss_v2_Request *request)
+                       const percuss_v1_Request *request)
 {
     size_t bodies = request->bodies._length;
     if (request->options.contact_model != PERCUSS_CONTACT_TABLE)
         return false;
     for (size_t i = 0; i < request->contacts._length; i++) {
-        const percuss_v2_Contact *contact = &request->contacts._buffer[i];
+        const percuss_v1_Contact *contact = &request->contacts._buffer[i];
         if (contact->a >= bodies || contact->b >= bodies)
             continue;
         const struct body *a = body_set_find(set, request->bodies._buffer[contact->a].id);
@@ -161,10 +161,10 @@ static const struct contact_curves *find_only(void *context, const struct contac
                : NULL;
 }
 
-static bool overrides_material(const percuss_v2_Request *request)
+static bool overrides_material(const percuss_v1_Request *request)
 {
     for (size_t b = 0; b < request->bodies._length; b++) {
-        const percuss_v2_BodyMotion *body = &request->bodies._buffer[b];
+        const percuss_v1_BodyMotion *body = &request->bodies._buffer[b];
         for (size_t i = 0; i < body->overrides._length; i++) {
             unsigned parameter = body->overrides._buffer[i].parameter;
             if (parameter == PERCUSS_PARAMETER_YOUNG || parameter == PERCUSS_PARAMETER_POISSON ||
@@ -181,7 +181,7 @@ void table_maker_init(struct table_maker *maker, struct table_shelf *shelf, bool
 }
 
 const struct contact_table_source *
-table_maker_begin(struct table_maker *maker, const percuss_v2_Request *request, double arrival)
+table_maker_begin(struct table_maker *maker, const percuss_v1_Request *request, double arrival)
 {
     maker->request = request;
     maker->arrival = arrival;

@@ -31,16 +31,16 @@ const struct contact_curves *table_shelf_find(const struct table_shelf *shelf,
 
 /* Whether `table` for a request would have to be computed first, as far as its bodies tell. */
 bool table_shelf_lacks(const struct table_shelf *shelf, const struct body_set *set,
-                       const percuss_v2_Request *request);
+                       const percuss_v1_Request *request);
 
 /* What `table` is answered from for one request at a time. */
 struct table_maker {
     struct contact_table_source source;
     struct table_shelf *shelf;
     bool makes;                        /* may take its time: the long lane */
-    const percuss_v2_Request *request; /* being answered, set by who answers it */
+    const percuss_v1_Request *request; /* being answered, set by who answers it */
     double arrival;                    /* of it, monotonic, s */
-    const uint8_t *client;        /* who asks */
+    const uint8_t *client;             /* who asks */
     const atomic_bool *cancelled; /* its client wants no answer any more; NULL: cannot say so */
     enum percuss_status status;   /* why a table could not be had */
     struct fault fault;
@@ -51,6 +51,6 @@ void table_maker_init(struct table_maker *maker, struct table_shelf *shelf, bool
 /* Begins with a request that asks for `table`; what answers it. Tables that are missing are
  * computed, but for materials that `overrides` of the request give: those are nobody else's. */
 const struct contact_table_source *
-table_maker_begin(struct table_maker *maker, const percuss_v2_Request *request, double arrival);
+table_maker_begin(struct table_maker *maker, const percuss_v1_Request *request, double arrival);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "endpoint/question.h"
 
-struct task *task_create(enum exchange exchange, const percuss_v2_Request *requests, size_t count)
+struct task *task_create(enum exchange exchange, const percuss_v1_Request *requests, size_t count)
 {
     struct task *task = calloc(1, sizeof *task);
     if (!task)
@@ -23,7 +23,7 @@ struct task *task_create(enum exchange exchange, const percuss_v2_Request *reque
     return NULL;
 }
 
-struct task *task_create_ensemble(const percuss_v2_EnsembleRequest *request)
+struct task *task_create_ensemble(const percuss_v1_EnsembleRequest *request)
 {
     struct task *task = task_create(EXCHANGE_ENSEMBLE, &request->scene, 1);
     if (!task)

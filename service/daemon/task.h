@@ -18,24 +18,24 @@ struct task {
     uint64_t sequence;
     double arrival; /* monotonic, s */
     struct edition *edition;
-    percuss_v2_Request *requests; /* copies; one, or the members of a batch */
+    percuss_v1_Request *requests; /* copies; one, or the members of a batch */
     size_t count;
     size_t next;             /* first request no worker has taken; the queue's */
     atomic_size_t left;      /* to be answered; whoever answers the last one sends the reply */
     struct answer **answers; /* of the requests */
     atomic_bool abandoned;   /* nobody waits for the reply any more */
-    percuss_v2_EnsembleRequest *ensemble; /* a copy whose scene is requests[0]; NULL: none */
+    percuss_v1_EnsembleRequest *ensemble; /* a copy whose scene is requests[0]; NULL: none */
     atomic_bool cancelled;                /* its client wants no more samples */
     LIST_ENTRY(task) ensembles;
-    char clears[PERCUSS_ID_SIZE];         /* no request: a specimen to be forgotten; empty: a request */
+    char clears[PERCUSS_ID_SIZE]; /* no request: a specimen to be forgotten; empty: a request */
 };
 
 /* A task for copies of `count` >= 1 requests; client, sequence, arrival and edition are the
  * caller's to set. NULL: out of memory. */
-struct task *task_create(enum exchange exchange, const percuss_v2_Request *requests, size_t count);
+struct task *task_create(enum exchange exchange, const percuss_v1_Request *requests, size_t count);
 
 /* A task for a copy of an ensemble, likewise. */
-struct task *task_create_ensemble(const percuss_v2_EnsembleRequest *request);
+struct task *task_create_ensemble(const percuss_v1_EnsembleRequest *request);
 
 /* Releases all but the edition. */
 void task_free(struct task *task);

@@ -45,7 +45,7 @@ void answer_release(struct answer *answer)
     for (size_t i = 0; i < answer->member_count; i++)
         answer_release(answer->members[i]);
     if (answer->decoded)
-        dds_sample_free(answer->decoded, &percuss_v2_Reply_desc, DDS_FREE_ALL);
+        dds_sample_free(answer->decoded, &percuss_v1_Reply_desc, DDS_FREE_ALL);
     free(answer);
 }
 

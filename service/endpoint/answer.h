@@ -28,12 +28,12 @@ struct answer {
     enum exchange exchange;
     bool passing;            /* BUSY and the like: tells of the moment, asked again it may differ */
     size_t bytes;            /* of memory, with all that it keeps alive */
-    percuss_v2_Reply *reply; /* EXCHANGE_SINGLE; EXCHANGE_BATCH: all, side by side */
-    percuss_v2_Reply *decoded;        /* that reply if DDS made it of bytes, see reply_bytes.h */
-    percuss_v2_BatchReply *parts;     /* EXCHANGE_BATCH */
-    percuss_v2_EnsembleReply *report; /* EXCHANGE_ENSEMBLE */
+    percuss_v1_Reply *reply; /* EXCHANGE_SINGLE; EXCHANGE_BATCH: all, side by side */
+    percuss_v1_Reply *decoded;        /* that reply if DDS made it of bytes, see reply_bytes.h */
+    percuss_v1_BatchReply *parts;     /* EXCHANGE_BATCH */
+    percuss_v1_EnsembleReply *report; /* EXCHANGE_ENSEMBLE */
     struct answer **members;          /* of a batch: it points into them */
-    percuss_v2_Trace *traces;         /* EXCHANGE_SINGLE: written before the reply */
+    percuss_v1_Trace *traces;         /* EXCHANGE_SINGLE: written before the reply */
     size_t part_count, member_count, trace_count;
     size_t taken, room; /* of the block behind this structure */
 };

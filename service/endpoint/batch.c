@@ -27,7 +27,7 @@ static size_t text_size(const char *text)
     return 4 + strlen(text) + 1 + 3;
 }
 
-static size_t contacts_size(const percuss_v2_Reply *reply)
+static size_t contacts_size(const percuss_v1_Reply *reply)
 {
     size_t size = 0;
     for (uint32_t i = 0; i < reply->contacts._length; i++)
@@ -35,7 +35,7 @@ static size_t contacts_size(const percuss_v2_Reply *reply)
     return size;
 }
 
-static size_t bodies_size(const percuss_v2_Reply *reply)
+static size_t bodies_size(const percuss_v1_Reply *reply)
 {
     size_t size = 0;
     for (uint32_t i = 0; i < reply->velocity_after._length; i++)
@@ -51,7 +51,7 @@ static size_t bodies_size(const percuss_v2_Reply *reply)
     return size;
 }
 
-size_t batch_reply_size(const percuss_v2_Reply *reply)
+size_t batch_reply_size(const percuss_v1_Reply *reply)
 {
     size_t size = REPLY_FIXED + text_size(reply->message) + text_size(reply->model.reason);
     for (uint32_t i = 0; i < reply->warnings._length; i++)
@@ -124,7 +124,7 @@ struct answer *batch_answer(const struct envelope *envelope, struct answer *cons
     }
     size_t first = 0;
     for (size_t i = 0; i < answer->part_count; i++) {
-        percuss_v2_BatchReply *part = &answer->parts[i];
+        percuss_v1_BatchReply *part = &answer->parts[i];
         size_t fit = fitting(members + first, count - first);
         encode_batch_head(part, envelope, PERCUSS_OK, "");
         part->part = (uint32_t)i;

@@ -12,7 +12,7 @@
 enum { BATCH_PART_BYTES = 64 * 1024, BATCH_SUB_IMPACTS = 16 };
 
 /* At least what a reply takes serialised (XCDR2), within some 10 %. */
-size_t batch_reply_size(const percuss_v2_Reply *reply);
+size_t batch_reply_size(const percuss_v1_Reply *reply);
 
 /* As encode_result, for a member of a batch: lists fewer sub-impacts where a part would not hold
  * the reply otherwise. */

@@ -20,7 +20,7 @@ static const double least_tolerance = 1e-12;   /* of double precision nothing fi
 static const double delassus_asymmetry = 1e-9; /* of the two contacts' own inverse masses */
 
 /* Ranges are the catalogue's, and the solver's to check. */
-static void decode_overrides(struct check *check, const percuss_v2_BodyMotion *wire,
+static void decode_overrides(struct check *check, const percuss_v1_BodyMotion *wire,
                              struct solve_body *body)
 {
     size_t count = wire->overrides._length;
@@ -28,7 +28,7 @@ static void decode_overrides(struct check *check, const percuss_v2_BodyMotion *w
                count, PERCUSS_PARAMETER_COUNT);
     body->variation_count = 0;
     for (size_t i = 0; !check->status && i < count; i++) {
-        const percuss_v2_Override *override = &wire->overrides._buffer[i];
+        const percuss_v1_Override *override = &wire->overrides._buffer[i];
         check_choice(check, "overrides.parameter", override->parameter, PERCUSS_PARAMETER_COUNT,
                      parameter_name);
         body->variations[body->variation_count++] =
@@ -36,7 +36,7 @@ static void decode_overrides(struct check *check, const percuss_v2_BodyMotion *w
     }
 }
 
-static void decode_body(struct check *check, const percuss_v2_BodyMotion *wire,
+static void decode_body(struct check *check, const percuss_v1_BodyMotion *wire,
                         struct solve_body *body)
 {
     check_text(check, "id", wire->id);
@@ -66,7 +66,7 @@ static void check_index(struct check *check, const char *field, unsigned index, 
                count - 1);
 }
 
-static void decode_contact(struct check *check, const percuss_v2_Contact *wire, size_t body_count,
+static void decode_contact(struct check *check, const percuss_v1_Contact *wire, size_t body_count,
                            struct solve_contact *contact)
 {
     check_index(check, "a", wire->a, body_count);
@@ -89,7 +89,7 @@ static const char *dents_name(unsigned number)
     return number == PERCUSS_DENTS_KEEP ? "keep" : "ignore";
 }
 
-static void decode_options(struct check *check, const percuss_v2_Options *wire,
+static void decode_options(struct check *check, const percuss_v1_Options *wire,
                            struct solve_options *options)
 {
     check_range_or_zero(check, "tolerance", wire->tolerance, least_tolerance, 1.0);
@@ -141,7 +141,7 @@ static void check_delassus(struct check *check, const dds_sequence_double *matri
 }
 
 /* An object is in one place at a time. */
-static void check_specimens(struct check *check, const percuss_v2_BodyMotion *bodies, size_t count)
+static void check_specimens(struct check *check, const percuss_v1_BodyMotion *bodies, size_t count)
 {
     for (size_t i = 0; !check->status && i < count; i++) {
         check_enter(check, "bodies", i);
@@ -158,7 +158,7 @@ static void check_count(struct check *check, const char *list, size_t count, siz
                most);
 }
 
-enum percuss_status decode_request(const percuss_v2_Request *wire, struct solve_request *request,
+enum percuss_status decode_request(const percuss_v1_Request *wire, struct solve_request *request,
                                    struct fault *fault)
 {
     struct check check = {.fault = fault};

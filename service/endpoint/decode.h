@@ -12,7 +12,7 @@
  * PERCUSS_BAD_REQUEST with a message like "contacts[0].normal: (0, 0, 2): must be a unit vector
  * (norm within 0.0001 of 1)". `request->delassus` points into `wire`. The states of the bodies are
  * NULL: state tokens and specimens are looked up by whoever has the stores. */
-enum percuss_status decode_request(const percuss_v2_Request *wire, struct solve_request *request,
+enum percuss_status decode_request(const percuss_v1_Request *wire, struct solve_request *request,
                                    struct fault *fault);
 
 #endif

@@ -9,7 +9,7 @@
 #include "endpoint/decode.h"
 
 /* The quantity and whose it is. */
-static void decode_owner(struct check *check, const percuss_v2_EnsembleInput *wire,
+static void decode_owner(struct check *check, const percuss_v1_EnsembleInput *wire,
                          const struct solve_request *request, struct ensemble_input *input)
 {
     check_text(check, "name", wire->name);
@@ -33,7 +33,7 @@ static void decode_owner(struct check *check, const percuss_v2_EnsembleInput *wi
                wire->name);
 }
 
-static void decode_input(struct check *check, const percuss_v2_EnsembleInput *wire,
+static void decode_input(struct check *check, const percuss_v1_EnsembleInput *wire,
                          const struct solve_request *request, struct ensemble_input *input)
 {
     decode_owner(check, wire, request, input);
@@ -49,20 +49,20 @@ static void decode_input(struct check *check, const percuss_v2_EnsembleInput *wi
     input->value_count = wire->values._length;
 }
 
-static void decode_correlations(struct check *check, const percuss_v2_EnsembleRequest *wire,
+static void decode_correlations(struct check *check, const percuss_v1_EnsembleRequest *wire,
                                 struct decoded_ensemble *decoded)
 {
     size_t count = wire->correlations._length;
     check_that(check, count <= DECODE_MAX_CORRELATIONS,
                "correlations: %zu given: must be at most %d", count, DECODE_MAX_CORRELATIONS);
     for (size_t i = 0; !check->status && i < count; i++) {
-        const percuss_v2_EnsembleCorrelation *pair = &wire->correlations._buffer[i];
+        const percuss_v1_EnsembleCorrelation *pair = &wire->correlations._buffer[i];
         decoded->correlations[i] =
             (struct copula_pair){pair->first, pair->second, pair->coefficient};
     }
 }
 
-static void check_scene(struct check *check, const percuss_v2_Request *scene)
+static void check_scene(struct check *check, const percuss_v1_Request *scene)
 {
     for (uint32_t i = 0; i < scene->bodies._length; i++) {
         const char *state = scene->bodies._buffer[i].state;
@@ -79,7 +79,7 @@ static void check_scene(struct check *check, const percuss_v2_Request *scene)
     }
 }
 
-enum percuss_status decode_ensemble(const percuss_v2_EnsembleRequest *wire,
+enum percuss_status decode_ensemble(const percuss_v1_EnsembleRequest *wire,
                                     struct decoded_ensemble *decoded, struct fault *fault)
 {
     struct check check = {.fault = fault};

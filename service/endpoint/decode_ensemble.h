@@ -21,7 +21,7 @@ struct decoded_ensemble {
 /* PERCUSS_OK, or PERCUSS_BAD_REQUEST with the field, its value and what is allowed: what the wire
  * can say wrong. Ranges of the numbers are ensemble_create's to judge. State tokens are refused:
  * they name one instant, not a distribution. */
-enum percuss_status decode_ensemble(const percuss_v2_EnsembleRequest *wire,
+enum percuss_status decode_ensemble(const percuss_v1_EnsembleRequest *wire,
                                     struct decoded_ensemble *decoded, struct fault *fault);
 
 #endif

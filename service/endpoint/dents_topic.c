@@ -13,7 +13,7 @@ bool dents_topic_open(struct dents_topic *topic, dds_entity_t participant, const
                       struct fault *fault)
 {
     memcpy(topic->server, server, sizeof topic->server);
-    dds_entity_t name = wire_topic_create(participant, &percuss_v2_Dents_desc, WIRE_TOPIC_DENTS);
+    dds_entity_t name = wire_topic_create(participant, &percuss_v1_Dents_desc, WIRE_TOPIC_DENTS);
     dds_qos_t *announces = wire_qos_announcement(), *hears = wire_qos_exchange(NULL);
     dds_qset_ignorelocal(hears, DDS_IGNORELOCAL_PARTICIPANT);
     topic->writer = dds_create_writer(participant, name, announces, NULL);
@@ -28,7 +28,7 @@ bool dents_topic_open(struct dents_topic *topic, dds_entity_t participant, const
     return false;
 }
 
-static void fill_patches(percuss_v2_Dent *patches, const struct body_state *state)
+static void fill_patches(percuss_v1_Dent *patches, const struct body_state *state)
 {
     const struct dent *dents = body_state_dents(state);
     for (size_t i = 0; i < state->dents; i++) {
@@ -43,8 +43,8 @@ static void fill_patches(percuss_v2_Dent *patches, const struct body_state *stat
 
 void dents_topic_announce(const struct dents_topic *topic, const struct dents_notice *notice)
 {
-    percuss_v2_Dent patches[BODY_STATE_MAX_DENTS];
-    percuss_v2_Dents wire = {.impacts = notice->impacts};
+    percuss_v1_Dent patches[BODY_STATE_MAX_DENTS];
+    percuss_v1_Dents wire = {.impacts = notice->impacts};
     uint32_t count = notice->state ? (uint32_t)notice->state->dents : 0;
     COPY_TEXT(wire.specimen, notice->specimen);
     COPY_TEXT(wire.body, notice->body);
@@ -58,7 +58,7 @@ void dents_topic_announce(const struct dents_topic *topic, const struct dents_no
 
 void dents_topic_withdraw(const struct dents_topic *topic, const char *specimen)
 {
-    percuss_v2_Dents wire = {0};
+    percuss_v1_Dents wire = {0};
     COPY_TEXT(wire.specimen, specimen);
     memcpy(wire.server, topic->server, sizeof wire.server);
     dds_dispose(topic->writer, &wire);
@@ -72,7 +72,7 @@ void dents_topic_take(const struct dents_topic *topic,
     dds_return_t count;
     while ((count = dds_take(topic->reader, samples, infos, TAKEN_AT_ONCE, TAKEN_AT_ONCE)) > 0) {
         for (dds_return_t i = 0; i < count; i++) {
-            const percuss_v2_Dents *wire = samples[i];
+            const percuss_v1_Dents *wire = samples[i];
             if (infos[i].valid_data && wire->clear &&
                 memcmp(wire->server, topic->server, sizeof wire->server) == 0)
                 clear(context, wire->specimen);

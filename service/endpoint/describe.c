@@ -8,11 +8,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static void add(percuss_v2_Body *wire, const char *format, ...)
+static void add(percuss_v1_Body *wire, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /* One more thing to say, after a comma. */
-static void add(percuss_v2_Body *wire, const char *format, ...)
+static void add(percuss_v1_Body *wire, const char *format, ...)
 {
     size_t used = strlen(wire->description);
     if (used > 0 && used + 3 < sizeof wire->description) {
@@ -25,14 +25,14 @@ static void add(percuss_v2_Body *wire, const char *format, ...)
     va_end(args);
 }
 
-static void set_half_extents(percuss_v2_Body *wire, double x, double y, double z)
+static void set_half_extents(percuss_v1_Body *wire, double x, double y, double z)
 {
     wire->half_extents[0] = x;
     wire->half_extents[1] = y;
     wire->half_extents[2] = z;
 }
 
-static void describe_ends(const struct body *body, percuss_v2_Body *wire)
+static void describe_ends(const struct body *body, percuss_v1_Body *wire)
 {
     static const char *const names[] = {"free", "pinned", "clamped"};
     for (int i = 0; i < 2; i++)
@@ -44,7 +44,7 @@ static void describe_ends(const struct body *body, percuss_v2_Body *wire)
         add(wire, "%u modes", body->modes);
 }
 
-static void describe_rod(const struct body *body, percuss_v2_Body *wire)
+static void describe_rod(const struct body *body, percuss_v1_Body *wire)
 {
     set_half_extents(wire, 0.5 * body->length, body->radius, body->radius);
     wire->tip_radius = body->tip_radius;
@@ -59,7 +59,7 @@ static void describe_rod(const struct body *body, percuss_v2_Body *wire)
     describe_ends(body, wire);
 }
 
-static void describe_beam(const struct body *body, percuss_v2_Body *wire)
+static void describe_beam(const struct body *body, percuss_v1_Body *wire)
 {
     add(wire, "length %g m", body->length);
     if (body->radius > 0.0) {
@@ -75,7 +75,7 @@ static void describe_beam(const struct body *body, percuss_v2_Body *wire)
     describe_ends(body, wire);
 }
 
-static void describe_compact(const struct body *body, percuss_v2_Body *wire)
+static void describe_compact(const struct body *body, percuss_v1_Body *wire)
 {
     if (body->shape == SHAPE_SPHERE) {
         set_half_extents(wire, body->radius, body->radius, body->radius);
@@ -92,9 +92,9 @@ static void describe_compact(const struct body *body, percuss_v2_Body *wire)
     }
 }
 
-void describe_body(const struct body *body, percuss_v2_Body *wire)
+void describe_body(const struct body *body, percuss_v1_Body *wire)
 {
-    *wire = (percuss_v2_Body){.mass = body->mass, .radius = body->radius};
+    *wire = (percuss_v1_Body){.mass = body->mass, .radius = body->radius};
     for (int i = 0; i < PERCUSS_PARAMETER_COUNT; i++)
         wire->parameters[i] = body_parameter(body, i);
     snprintf(wire->id, sizeof wire->id, "%s", body->id);

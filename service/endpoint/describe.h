@@ -9,6 +9,6 @@
 #include "wire.h"
 
 /* Fills everything but the server. */
-void describe_body(const struct body *body, percuss_v2_Body *wire);
+void describe_body(const struct body *body, percuss_v1_Body *wire);
 
 #endif

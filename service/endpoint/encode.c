@@ -42,13 +42,13 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-static void fill_undefined(percuss_v2_Reply *reply)
+static void fill_undefined(percuss_v1_Reply *reply)
 {
     reply->window = reply->time_shift = NAN;
-    percuss_v2_Energy *energy = &reply->energy;
+    percuss_v1_Energy *energy = &reply->energy;
     energy->available = energy->rigid_after = energy->damping = NAN;
     energy->plastic = energy->stored = energy->closure = NAN;
-    percuss_v2_ErrorEstimate *error = &reply->error;
+    percuss_v1_ErrorEstimate *error = &reply->error;
     error->restitution_time = error->restitution_modes = NAN;
     error->impulse_time = error->impulse_modes = error->restitution_by_speed = NAN;
     reply->model.omitted_error = NAN;
@@ -78,7 +78,7 @@ struct answer *encode_refusal(const struct envelope *envelope, enum percuss_stat
     return answer;
 }
 
-void encode_batch_head(percuss_v2_BatchReply *part, const struct envelope *envelope,
+void encode_batch_head(percuss_v1_BatchReply *part, const struct envelope *envelope,
                        enum percuss_status status, const char *message)
 {
     FILL_ENVELOPE(part, envelope);
@@ -113,18 +113,18 @@ struct answer *encode_ensemble_refusal(const struct envelope *envelope, enum per
     answer->report->status = status;
     answer->passing = encode_status_is_passing(status);
     COPY_TEXT(answer->report->message, message);
-    percuss_v2_EnsembleReply *report = answer->report;
+    percuss_v1_EnsembleReply *report = answer->report;
     report->possible_low = report->possible_high = report->cut = report->step_accuracy = NAN;
     return answer;
 }
 
 static void fill_sub_impacts(struct answer *answer, const struct solve_contact_result *from,
-                             percuss_v2_ContactResult *to, size_t count)
+                             percuss_v1_ContactResult *to, size_t count)
 {
-    percuss_v2_SubImpact *list = answer_take(answer, count, sizeof *list);
+    percuss_v1_SubImpact *list = answer_take(answer, count, sizeof *list);
     for (size_t i = 0; i < count; i++) {
         const struct sub_impact *sub = &from->sub_impacts[i];
-        list[i] = (percuss_v2_SubImpact){
+        list[i] = (percuss_v1_SubImpact){
             .start = sub->start,
             .compression_end = sub->compression_end,
             .end = sub->end,
@@ -142,7 +142,7 @@ static void fill_sub_impacts(struct answer *answer, const struct solve_contact_r
 
 static void fill_contacts(struct answer *answer, const struct solve_result *result, size_t listed)
 {
-    percuss_v2_ContactResult *list = answer_take(answer, result->contact_count, sizeof *list);
+    percuss_v1_ContactResult *list = answer_take(answer, result->contact_count, sizeof *list);
     for (size_t i = 0; i < result->contact_count; i++) {
         const struct solve_contact_result *from = &result->contacts[i];
         list[i].impulse = from->impulse;
@@ -159,7 +159,7 @@ static void fill_contacts(struct answer *answer, const struct solve_result *resu
 
 static void fill_velocities(struct answer *answer, const struct solve_result *result)
 {
-    percuss_v2_BodyVelocity *list = answer_take(answer, result->body_count, sizeof *list);
+    percuss_v1_BodyVelocity *list = answer_take(answer, result->body_count, sizeof *list);
     for (size_t i = 0; i < result->body_count; i++) {
         const struct solve_body_result *from = &result->bodies[i];
         COPY_TEXT(list[i].id, from->id);
@@ -173,9 +173,9 @@ static void fill_bodies(struct answer *answer, const struct solve_result *result
                         const char (*tokens)[PERCUSS_ID_SIZE])
 {
     size_t count = result->body_count;
-    percuss_v2_BodyState *states = answer_take(answer, count, sizeof *states);
-    percuss_v2_BodyEnergy *energies = answer_take(answer, count, sizeof *energies);
-    percuss_v2_BodyModel *models = answer_take(answer, count, sizeof *models);
+    percuss_v1_BodyState *states = answer_take(answer, count, sizeof *states);
+    percuss_v1_BodyEnergy *energies = answer_take(answer, count, sizeof *energies);
+    percuss_v1_BodyModel *models = answer_take(answer, count, sizeof *models);
     for (size_t i = 0; i < count; i++) {
         const struct solve_body_result *from = &result->bodies[i];
         COPY_TEXT(states[i].id, from->id);
@@ -203,28 +203,28 @@ static void fill_warnings(struct answer *answer, const struct solve_result *resu
     FILL_SEQUENCE(answer->reply->warnings, list, result->warning_count);
 }
 
-static void fill_numbers(percuss_v2_Reply *reply, const struct solve_result *result)
+static void fill_numbers(percuss_v1_Reply *reply, const struct solve_result *result)
 {
     reply->complete = result->complete;
     reply->end_reason = result->end_reason;
     reply->window = result->window;
     reply->delassus_source = result->delassus_source;
     reply->time_shift = result->time_shift;
-    percuss_v2_Energy *energy = &reply->energy;
+    percuss_v1_Energy *energy = &reply->energy;
     energy->available = result->energy.available;
     energy->rigid_after = result->energy.rigid_after;
     energy->damping = result->energy.damping;
     energy->plastic = result->energy.plastic;
     energy->stored = result->energy.stored;
     energy->closure = result->energy.closure;
-    percuss_v2_ErrorEstimate *error = &reply->error;
+    percuss_v1_ErrorEstimate *error = &reply->error;
     error->restitution_time = result->restitution_time;
     error->restitution_modes = result->restitution_modes;
     error->impulse_time = result->impulse_time;
     error->impulse_modes = result->impulse_modes;
     error->restitution_by_speed = result->restitution_by_speed;
     error->tolerance_met = result->tolerance_met;
-    percuss_v2_Model *model = &reply->model;
+    percuss_v1_Model *model = &reply->model;
     model->contact_model = result->contact_model;
     model->compliance = result->compliance;
     model->method = result->method;
@@ -236,16 +236,16 @@ static void fill_numbers(percuss_v2_Reply *reply, const struct solve_result *res
 static size_t lists_room(const struct solve_result *result, size_t listed)
 {
     size_t bodies = result->body_count, warnings = result->warning_count;
-    size_t room = answer_room(result->contact_count, sizeof(percuss_v2_ContactResult)) +
-                  answer_room(bodies, sizeof(percuss_v2_BodyVelocity)) +
-                  answer_room(bodies, sizeof(percuss_v2_BodyState)) +
-                  answer_room(bodies, sizeof(percuss_v2_BodyEnergy)) +
-                  answer_room(bodies, sizeof(percuss_v2_BodyModel)) +
+    size_t room = answer_room(result->contact_count, sizeof(percuss_v1_ContactResult)) +
+                  answer_room(bodies, sizeof(percuss_v1_BodyVelocity)) +
+                  answer_room(bodies, sizeof(percuss_v1_BodyState)) +
+                  answer_room(bodies, sizeof(percuss_v1_BodyEnergy)) +
+                  answer_room(bodies, sizeof(percuss_v1_BodyModel)) +
                   answer_room(warnings, sizeof(char *)) +
                   warnings * answer_room(1, sizeof result->warnings[0]);
     for (size_t i = 0; i < result->contact_count; i++)
         room += answer_room(least(result->contacts[i].sub_impacts_listed, listed),
-                            sizeof(percuss_v2_SubImpact));
+                            sizeof(percuss_v1_SubImpact));
     return room;
 }
 

@@ -19,7 +19,7 @@ struct answer *encode_refusal(const struct envelope *envelope, enum percuss_stat
                               const char *message);
 
 /* What stands in every part of a batch's reply, and in a refused one that is all. */
-void encode_batch_head(percuss_v2_BatchReply *part, const struct envelope *envelope,
+void encode_batch_head(percuss_v1_BatchReply *part, const struct envelope *envelope,
                        enum percuss_status status, const char *message);
 
 /* Refusals on the other topics of replies. */

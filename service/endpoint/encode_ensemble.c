@@ -35,24 +35,24 @@ static size_t statistic_room(const struct report_quantity *quantity)
 
 static size_t all_room(const struct ensemble_report *report)
 {
-    size_t room = answer_room(1, sizeof(percuss_v2_EnsembleReply)) +
-                  answer_room(REPORT_QUANTITIES, sizeof(percuss_v2_Statistic)) +
+    size_t room = answer_room(1, sizeof(percuss_v1_EnsembleReply)) +
+                  answer_room(REPORT_QUANTITIES, sizeof(percuss_v1_Statistic)) +
                   2 * answer_room(report->count_length, sizeof(uint64_t)) +
-                  answer_room(report->input_count, sizeof(percuss_v2_Sensitivity)) +
-                  answer_room(REPORT_INTERVALS, sizeof(percuss_v2_SigmaInterval)) +
-                  answer_room(1, sizeof(percuss_v2_BetaFit)) +
-                  answer_room(1, sizeof(percuss_v2_EnsembleCheck)) +
+                  answer_room(report->input_count, sizeof(percuss_v1_Sensitivity)) +
+                  answer_room(REPORT_INTERVALS, sizeof(percuss_v1_SigmaInterval)) +
+                  answer_room(1, sizeof(percuss_v1_BetaFit)) +
+                  answer_room(1, sizeof(percuss_v1_EnsembleCheck)) +
                   answer_room(report->warning_count, sizeof(char *)) +
                   report->warning_count * answer_room(1, sizeof report->warnings[0]);
     for (int q = 0; q < REPORT_QUANTITIES; q++)
         room += statistic_room(&report->quantities[q]);
     for (size_t i = 0; i < report->input_count; i++)
-        room += answer_room(report->inputs[i].part_count, sizeof(percuss_v2_InputPart));
+        room += answer_room(report->inputs[i].part_count, sizeof(percuss_v1_InputPart));
     return room;
 }
 
 static void fill_statistic(struct answer *answer, const struct report_quantity *from,
-                           percuss_v2_Statistic *to)
+                           percuss_v1_Statistic *to)
 {
     size_t n = from->quantile_count;
     COPY_TEXT(to->quantity, from->name);
@@ -77,7 +77,7 @@ static void fill_statistic(struct answer *answer, const struct report_quantity *
 }
 
 static void fill_sensitivity(struct answer *answer, const struct ensemble_spec *spec,
-                             const struct report_input *from, percuss_v2_Sensitivity *to)
+                             const struct report_input *from, percuss_v1_Sensitivity *to)
 {
     const struct ensemble_input *input = &spec->inputs[from->input];
     COPY_TEXT(to->input, input_quantity_name(input->quantity));
@@ -94,7 +94,7 @@ static void fill_sensitivity(struct answer *answer, const struct ensemble_spec *
     TAKE_LIST(answer, to->parts, from->part_count);
     for (size_t k = 0; k < from->part_count; k++) {
         const struct influence_part *part = &from->parts[k];
-        to->parts._buffer[k] = (percuss_v2_InputPart){
+        to->parts._buffer[k] = (percuss_v1_InputPart){
             .low = part->low,
             .high = part->high,
             .count = part->count,
@@ -108,14 +108,14 @@ static void fill_sensitivity(struct answer *answer, const struct ensemble_spec *
 
 static void fill_shape(struct answer *answer, const struct ensemble_report *report)
 {
-    percuss_v2_EnsembleReply *reply = answer->report;
+    percuss_v1_EnsembleReply *reply = answer->report;
     const struct beta_fit *beta = &report->beta;
     reply->possible_low = report->range.low;
     reply->possible_high = report->range.high;
     TAKE_LIST(answer, reply->intervals, REPORT_INTERVALS);
     for (int i = 0; i < REPORT_INTERVALS; i++) {
         const struct sigma_interval *from = &report->intervals[i];
-        reply->intervals._buffer[i] = (percuss_v2_SigmaInterval){
+        reply->intervals._buffer[i] = (percuss_v1_SigmaInterval){
             .sigmas = from->sigmas,
             .low = from->low,
             .high = from->high,
@@ -126,7 +126,7 @@ static void fill_shape(struct answer *answer, const struct ensemble_report *repo
         };
     }
     TAKE_LIST(answer, reply->beta, 1);
-    reply->beta._buffer[0] = (percuss_v2_BetaFit){
+    reply->beta._buffer[0] = (percuss_v1_BetaFit){
         .low = beta->low,
         .high = beta->high,
         .alpha = beta->alpha,
@@ -139,9 +139,9 @@ static void fill_shape(struct answer *answer, const struct ensemble_report *repo
 static void fill_model(struct answer *answer, const struct ensemble *ensemble,
                        const struct report_verification *check)
 {
-    percuss_v2_EnsembleReply *reply = answer->report;
+    percuss_v1_EnsembleReply *reply = answer->report;
     TAKE_LIST(answer, reply->check, 1);
-    reply->check._buffer[0] = (percuss_v2_EnsembleCheck){
+    reply->check._buffer[0] = (percuss_v1_EnsembleCheck){
         .count = check->count,
         .within = check->within,
         .largest = check->largest,
@@ -156,7 +156,7 @@ static void fill_model(struct answer *answer, const struct ensemble *ensemble,
     reply->agreeing = ensemble->model.agreeing;
 }
 
-static void fill_head(percuss_v2_EnsembleReply *reply, const struct envelope *envelope,
+static void fill_head(percuss_v1_EnsembleReply *reply, const struct envelope *envelope,
                       const struct ensemble_ending *ending)
 {
     memcpy(reply->client, envelope->client, sizeof reply->client);
@@ -172,7 +172,7 @@ static void fill_head(percuss_v2_EnsembleReply *reply, const struct envelope *en
 static void fill_lists(struct answer *answer, const struct ensemble *ensemble,
                        const struct ensemble_report *report)
 {
-    percuss_v2_EnsembleReply *reply = answer->report;
+    percuss_v1_EnsembleReply *reply = answer->report;
     TAKE_LIST(answer, reply->statistics, REPORT_QUANTITIES);
     for (int q = 0; q < REPORT_QUANTITIES; q++)
         fill_statistic(answer, &report->quantities[q], &reply->statistics._buffer[q]);
@@ -197,7 +197,7 @@ struct answer *encode_ensemble(const struct envelope *envelope, const struct ens
     if (!answer)
         return NULL;
     answer->report = answer_take(answer, 1, sizeof *answer->report);
-    percuss_v2_EnsembleReply *reply = answer->report;
+    percuss_v1_EnsembleReply *reply = answer->report;
     fill_head(reply, envelope, ending);
     reply->samples = report->done;
     reply->requested = ensemble->count;

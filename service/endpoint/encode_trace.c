@@ -16,7 +16,7 @@ size_t encode_trace_room(const struct trace *trace)
 {
     if (!trace)
         return 0;
-    return answer_room(trace->contacts * parts_of(trace), sizeof(percuss_v2_Trace)) +
+    return answer_room(trace->contacts * parts_of(trace), sizeof(percuss_v1_Trace)) +
            trace->contacts * COLUMNS * answer_room(trace->count, sizeof(double));
 }
 
@@ -29,7 +29,7 @@ static void fill_column(struct answer *answer, const struct trace *trace, const 
     for (size_t part = 0; part < parts_of(trace); part++) {
         /* the same member of the next sample */
         dds_sequence_double *list =
-            (dds_sequence_double *)((char *)first + part * sizeof(percuss_v2_Trace));
+            (dds_sequence_double *)((char *)first + part * sizeof(percuss_v1_Trace));
         size_t start = part * TRACE_PART_INSTANTS;
         size_t left = trace->count - start;
         list->_buffer = copy + start;
@@ -48,7 +48,7 @@ void encode_trace(struct answer *answer, const struct envelope *envelope, const 
     answer->traces = answer_take(answer, answer->trace_count, sizeof *answer->traces);
     for (size_t c = 0; c < trace->contacts; c++) {
         const struct trace_contact *contact = &trace->contact[c];
-        percuss_v2_Trace *first = &answer->traces[c * parts];
+        percuss_v1_Trace *first = &answer->traces[c * parts];
         for (size_t part = 0; part < parts; part++) {
             memcpy(first[part].client, envelope->client, sizeof first[part].client);
             first[part].sequence = envelope->sequence;

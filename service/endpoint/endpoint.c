@@ -33,9 +33,9 @@ static const struct {
     const char *topic;
     const dds_topic_descriptor_t *type;
 } requests[EXCHANGE_COUNT] = {
-    [EXCHANGE_SINGLE] = {WIRE_TOPIC_REQUEST, &percuss_v2_Request_desc},
-    [EXCHANGE_BATCH] = {WIRE_TOPIC_BATCH_REQUEST, &percuss_v2_BatchRequest_desc},
-    [EXCHANGE_ENSEMBLE] = {WIRE_TOPIC_ENSEMBLE_REQUEST, &percuss_v2_EnsembleRequest_desc},
+    [EXCHANGE_SINGLE] = {WIRE_TOPIC_REQUEST, &percuss_v1_Request_desc},
+    [EXCHANGE_BATCH] = {WIRE_TOPIC_BATCH_REQUEST, &percuss_v1_BatchRequest_desc},
+    [EXCHANGE_ENSEMBLE] = {WIRE_TOPIC_ENSEMBLE_REQUEST, &percuss_v1_EnsembleRequest_desc},
 };
 
 /* The entity, or a fault that says what it was for. */
@@ -121,9 +121,9 @@ struct endpoint *endpoint_create(uint32_t domain, struct fault *fault)
     }
     endpoint->writers = reply_writers_create(endpoint->participant, fault);
     if (!endpoint->writers || !create_readers(endpoint, fault) ||
-        !create_announcer(endpoint, &percuss_v2_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS,
+        !create_announcer(endpoint, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS,
                           &endpoint->status_writer, fault) ||
-        !create_announcer(endpoint, &percuss_v2_Body_desc, WIRE_TOPIC_BODY, &endpoint->body_writer,
+        !create_announcer(endpoint, &percuss_v1_Body_desc, WIRE_TOPIC_BODY, &endpoint->body_writer,
                           fault) ||
         !create_waitset(endpoint, fault))
         goto failed;
@@ -161,11 +161,11 @@ static bool is_ours(const struct endpoint *endpoint, enum exchange exchange)
 {
     static const uint8_t anybody[16];
     const void *sample = endpoint->samples[exchange];
-    const uint8_t *server = ((const percuss_v2_Request *)sample)->server;
+    const uint8_t *server = ((const percuss_v1_Request *)sample)->server;
     if (exchange == EXCHANGE_BATCH)
-        server = ((const percuss_v2_BatchRequest *)sample)->server;
+        server = ((const percuss_v1_BatchRequest *)sample)->server;
     else if (exchange == EXCHANGE_ENSEMBLE)
-        server = ((const percuss_v2_EnsembleRequest *)sample)->server;
+        server = ((const percuss_v1_EnsembleRequest *)sample)->server;
     return memcmp(server, anybody, sizeof anybody) == 0 ||
            memcmp(server, endpoint->server, sizeof endpoint->server) == 0;
 }
@@ -269,7 +269,7 @@ bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *
                               const struct body_set *before)
 {
     bool good = true;
-    percuss_v2_Body body;
+    percuss_v1_Body body;
     for (size_t i = 0; before && i < before->count; i++) {
         if (body_set_find(set, before->bodies[i].id))
             continue;
@@ -311,7 +311,7 @@ void endpoint_visit_servers(struct endpoint *endpoint, server_visitor *visitor, 
     servers_visit(endpoint->servers, visitor, context);
 }
 
-void endpoint_announce_status(struct endpoint *endpoint, percuss_v2_ServerStatus *status)
+void endpoint_announce_status(struct endpoint *endpoint, percuss_v1_ServerStatus *status)
 {
     memcpy(status->server, endpoint->server, sizeof status->server);
     dds_write(endpoint->status_writer, status);

@@ -26,9 +26,9 @@ const uint8_t *endpoint_server(const struct endpoint *endpoint);
  * `alone`: no other request came with this one, so there is time to answer it on the spot. */
 struct endpoint_handler {
     void *context;
-    void (*single)(void *context, const percuss_v2_Request *request, bool alone);
-    void (*batch)(void *context, const percuss_v2_BatchRequest *batch);
-    void (*ensemble)(void *context, const percuss_v2_EnsembleRequest *request);
+    void (*single)(void *context, const percuss_v1_Request *request, bool alone);
+    void (*batch)(void *context, const percuss_v1_BatchRequest *batch);
+    void (*ensemble)(void *context, const percuss_v1_EnsembleRequest *request);
     void (*clear)(void *context,
                   const char *specimen); /* of this server; see endpoint_open_dents */
     presence_function *presence;
@@ -68,6 +68,6 @@ void endpoint_withdraw_dents(struct endpoint *endpoint, const char *specimen);
 void endpoint_visit_servers(struct endpoint *endpoint, server_visitor *visitor, void *context);
 
 /* Announces the state of the server; fills status->server. */
-void endpoint_announce_status(struct endpoint *endpoint, percuss_v2_ServerStatus *status);
+void endpoint_announce_status(struct endpoint *endpoint, percuss_v1_ServerStatus *status);
 
 #endif

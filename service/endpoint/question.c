@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void hash_body(struct hasher *hasher, const percuss_v2_BodyMotion *body)
+static void hash_body(struct hasher *hasher, const percuss_v1_BodyMotion *body)
 {
     hash_text(hasher, body->id);
     hash_bytes(hasher, body->position, sizeof body->position);
@@ -24,7 +24,7 @@ static void hash_body(struct hasher *hasher, const percuss_v2_BodyMotion *body)
     }
 }
 
-static void hash_contact(struct hasher *hasher, const percuss_v2_Contact *contact)
+static void hash_contact(struct hasher *hasher, const percuss_v1_Contact *contact)
 {
     hash_number(hasher, contact->a);
     hash_number(hasher, contact->b);
@@ -34,7 +34,7 @@ static void hash_contact(struct hasher *hasher, const percuss_v2_Contact *contac
     hash_bytes(hasher, &contact->gap_acceleration, sizeof contact->gap_acceleration);
 }
 
-static void hash_options(struct hasher *hasher, const percuss_v2_Options *options)
+static void hash_options(struct hasher *hasher, const percuss_v1_Options *options)
 {
     hash_bytes(hasher, &options->tolerance, sizeof options->tolerance);
     hash_bytes(hasher, &options->horizon, sizeof options->horizon);
@@ -47,7 +47,7 @@ static void hash_options(struct hasher *hasher, const percuss_v2_Options *option
     hash_bytes(hasher, &options->deadline, sizeof options->deadline);
 }
 
-static void hash_request(struct hasher *hasher, const percuss_v2_Request *request)
+static void hash_request(struct hasher *hasher, const percuss_v1_Request *request)
 {
     hash_number(hasher, request->bodies._length);
     for (uint32_t i = 0; i < request->bodies._length; i++)
@@ -59,14 +59,14 @@ static void hash_request(struct hasher *hasher, const percuss_v2_Request *reques
     hash_options(hasher, &request->options);
 }
 
-struct digest question_digest_single(const percuss_v2_Request *request)
+struct digest question_digest_single(const percuss_v1_Request *request)
 {
     struct hasher hasher = {0};
     hash_request(&hasher, request);
     return hash_digest(&hasher);
 }
 
-struct digest question_digest_batch(const percuss_v2_BatchRequest *batch)
+struct digest question_digest_batch(const percuss_v1_BatchRequest *batch)
 {
     struct hasher hasher = {0};
     for (uint32_t i = 0; i < batch->requests._length; i++) {
@@ -76,7 +76,7 @@ struct digest question_digest_batch(const percuss_v2_BatchRequest *batch)
     return hash_digest(&hasher);
 }
 
-static void hash_input(struct hasher *hasher, const percuss_v2_EnsembleInput *input)
+static void hash_input(struct hasher *hasher, const percuss_v1_EnsembleInput *input)
 {
     hash_text(hasher, input->name);
     hash_text(hasher, input->body);
@@ -86,7 +86,7 @@ static void hash_input(struct hasher *hasher, const percuss_v2_EnsembleInput *in
     hash_bytes(hasher, input->values._buffer, input->values._length * sizeof(double));
 }
 
-struct digest question_digest_ensemble(const percuss_v2_EnsembleRequest *request)
+struct digest question_digest_ensemble(const percuss_v1_EnsembleRequest *request)
 {
     struct hasher hasher = {0};
     hash_request(&hasher, &request->scene);
@@ -95,7 +95,7 @@ struct digest question_digest_ensemble(const percuss_v2_EnsembleRequest *request
         hash_input(&hasher, &request->inputs._buffer[i]);
     hash_number(&hasher, request->correlations._length);
     for (uint32_t i = 0; i < request->correlations._length; i++) {
-        const percuss_v2_EnsembleCorrelation *pair = &request->correlations._buffer[i];
+        const percuss_v1_EnsembleCorrelation *pair = &request->correlations._buffer[i];
         hash_number(&hasher, pair->first);
         hash_number(&hasher, pair->second);
         hash_bytes(&hasher, &pair->coefficient, sizeof pair->coefficient);
@@ -135,7 +135,7 @@ static char *copy_list(char *at, const void *list, size_t bytes)
 
 #define LIST_BYTES(sequence) ((sequence)._length * sizeof *(sequence)._buffer)
 
-static size_t lists_size(const percuss_v2_Request *request)
+static size_t lists_size(const percuss_v1_Request *request)
 {
     size_t size = round_up(LIST_BYTES(request->bodies)) + round_up(LIST_BYTES(request->contacts)) +
                   round_up(LIST_BYTES(request->delassus));
@@ -145,19 +145,19 @@ static size_t lists_size(const percuss_v2_Request *request)
 }
 
 /* Copies the lists within the bodies of a copied request to `at` and returns the place behind. */
-static char *copy_overrides(percuss_v2_Request *copy, const percuss_v2_Request *request, char *at)
+static char *copy_overrides(percuss_v1_Request *copy, const percuss_v1_Request *request, char *at)
 {
     for (uint32_t i = 0; i < request->bodies._length; i++)
         COPY_SEQUENCE(&copy->bodies._buffer[i], &request->bodies._buffer[i], overrides, at);
     return at;
 }
 
-percuss_v2_Request *question_copy(const percuss_v2_Request *requests, size_t count)
+percuss_v1_Request *question_copy(const percuss_v1_Request *requests, size_t count)
 {
     size_t size = round_up(count * sizeof *requests);
     for (size_t i = 0; i < count; i++)
         size += lists_size(&requests[i]);
-    percuss_v2_Request *copies = malloc(size);
+    percuss_v1_Request *copies = malloc(size);
     if (!copies)
         return NULL;
     memcpy(copies, requests, count * sizeof *requests);
@@ -171,14 +171,14 @@ percuss_v2_Request *question_copy(const percuss_v2_Request *requests, size_t cou
     return copies;
 }
 
-percuss_v2_EnsembleRequest *question_copy_ensemble(const percuss_v2_EnsembleRequest *request)
+percuss_v1_EnsembleRequest *question_copy_ensemble(const percuss_v1_EnsembleRequest *request)
 {
     size_t size = round_up(sizeof *request) + round_up(LIST_BYTES(request->inputs)) +
                   round_up(LIST_BYTES(request->correlations)) +
                   round_up(LIST_BYTES(request->quantiles));
     for (uint32_t i = 0; i < request->inputs._length; i++)
         size += round_up(LIST_BYTES(request->inputs._buffer[i].values));
-    percuss_v2_EnsembleRequest *copy = malloc(size);
+    percuss_v1_EnsembleRequest *copy = malloc(size);
     if (!copy)
         return NULL;
     *copy = *request;

@@ -9,14 +9,14 @@
 #include "base/hash.h"
 #include "wire.h"
 
-struct digest question_digest_single(const percuss_v2_Request *request);
-struct digest question_digest_batch(const percuss_v2_BatchRequest *batch);
-struct digest question_digest_ensemble(const percuss_v2_EnsembleRequest *request);
+struct digest question_digest_single(const percuss_v1_Request *request);
+struct digest question_digest_batch(const percuss_v1_BatchRequest *batch);
+struct digest question_digest_ensemble(const percuss_v1_EnsembleRequest *request);
 
 /* A copy of `count` requests in one block of memory for free(); NULL: out of memory. */
-percuss_v2_Request *question_copy(const percuss_v2_Request *requests, size_t count);
+percuss_v1_Request *question_copy(const percuss_v1_Request *requests, size_t count);
 
 /* The same of an ensemble, but for its scene, whose lists stay the sample's. */
-percuss_v2_EnsembleRequest *question_copy_ensemble(const percuss_v2_EnsembleRequest *request);
+percuss_v1_EnsembleRequest *question_copy_ensemble(const percuss_v1_EnsembleRequest *request);
 
 #endif

@@ -18,7 +18,7 @@ void *reply_bytes_write(const struct answer *answer, size_t *size)
     dds_ostreamLE_t stream;
     dds_ostreamLE_init(&stream, FIRST_ROOM, XCDR2);
     const uint32_t *end =
-        dds_stream_writeLE(&stream, (const char *)answer->reply, percuss_v2_Reply_desc.m_ops);
+        dds_stream_writeLE(&stream, (const char *)answer->reply, percuss_v1_Reply_desc.m_ops);
     *size = stream.x.m_index;
     void *bytes = end ? malloc(*size) : NULL;
     if (bytes)
@@ -28,15 +28,15 @@ void *reply_bytes_write(const struct answer *answer, size_t *size)
 }
 
 /* Checks the bytes, turns them into this machine's order, and decodes them into a zeroed reply. */
-static bool decode(char *bytes, uint32_t size, percuss_v2_Reply *reply)
+static bool decode(char *bytes, uint32_t size, percuss_v1_Reply *reply)
 {
     uint32_t used = 0;
-    if (!wire_whole(percuss_v2_Reply_desc.m_ops, bytes, size, swapped) ||
-        !dds_stream_normalize_data(bytes, &used, size, swapped, XCDR2, percuss_v2_Reply_desc.m_ops))
+    if (!wire_whole(percuss_v1_Reply_desc.m_ops, bytes, size, swapped) ||
+        !dds_stream_normalize_data(bytes, &used, size, swapped, XCDR2, percuss_v1_Reply_desc.m_ops))
         return false;
     dds_istream_t stream;
     dds_istream_init(&stream, size, bytes, XCDR2);
-    dds_stream_read(&stream, (char *)reply, percuss_v2_Reply_desc.m_ops);
+    dds_stream_read(&stream, (char *)reply, percuss_v1_Reply_desc.m_ops);
     dds_istream_fini(&stream);
     return true;
 }

@@ -49,12 +49,12 @@ static const struct {
     const char *topic;
     const dds_topic_descriptor_t *type;
 } replies[CHANNEL_COUNT] = {
-    [EXCHANGE_SINGLE] = {WIRE_TOPIC_REPLY, &percuss_v2_Reply_desc},
-    [EXCHANGE_BATCH] = {WIRE_TOPIC_BATCH_REPLY, &percuss_v2_BatchReply_desc},
-    [EXCHANGE_ENSEMBLE] = {WIRE_TOPIC_ENSEMBLE_REPLY, &percuss_v2_EnsembleReply_desc},
-    [CHANNEL_PROGRESS] = {WIRE_TOPIC_ENSEMBLE_PROGRESS, &percuss_v2_EnsembleProgress_desc},
-    [CHANNEL_TRACE] = {WIRE_TOPIC_TRACE, &percuss_v2_Trace_desc},
-    [CHANNEL_SAMPLES] = {WIRE_TOPIC_ENSEMBLE_SAMPLES, &percuss_v2_EnsembleSamples_desc},
+    [EXCHANGE_SINGLE] = {WIRE_TOPIC_REPLY, &percuss_v1_Reply_desc},
+    [EXCHANGE_BATCH] = {WIRE_TOPIC_BATCH_REPLY, &percuss_v1_BatchReply_desc},
+    [EXCHANGE_ENSEMBLE] = {WIRE_TOPIC_ENSEMBLE_REPLY, &percuss_v1_EnsembleReply_desc},
+    [CHANNEL_PROGRESS] = {WIRE_TOPIC_ENSEMBLE_PROGRESS, &percuss_v1_EnsembleProgress_desc},
+    [CHANNEL_TRACE] = {WIRE_TOPIC_TRACE, &percuss_v1_Trace_desc},
+    [CHANNEL_SAMPLES] = {WIRE_TOPIC_ENSEMBLE_SAMPLES, &percuss_v1_EnsembleSamples_desc},
 };
 
 static bool create_entities(struct reply_writers *writers, struct fault *fault)

@@ -11,7 +11,7 @@ dds_entity_t servers_open(dds_entity_t participant, struct fault *fault)
     dds_qos_t *qos = wire_qos_announcement();
     dds_qset_ignorelocal(qos, DDS_IGNORELOCAL_PARTICIPANT);
     dds_entity_t reader =
-        wire_topic_create(participant, &percuss_v2_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS);
+        wire_topic_create(participant, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS);
     if (reader > 0)
         reader = dds_create_reader(participant, reader, qos, NULL);
     dds_delete_qos(qos);

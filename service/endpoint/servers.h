@@ -12,7 +12,7 @@
 dds_entity_t servers_open(dds_entity_t participant, struct fault *fault);
 
 /* Borrowed during the visit. */
-typedef void server_visitor(void *context, const percuss_v2_ServerStatus *status);
+typedef void server_visitor(void *context, const percuss_v1_ServerStatus *status);
 
 /* Shows each of them that is there. One thread at a time. */
 void servers_visit(dds_entity_t reader, server_visitor *visitor, void *context);

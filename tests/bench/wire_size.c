@@ -59,9 +59,9 @@ bool wire_size_find(uint32_t domain, struct percuss_client *client, const struct
     wire_partition_name(id, partition);
     dds_entity_t participant = wire_participant_create(domain);
     dds_entity_t requests =
-        create_reader(participant, &percuss_v2_Request_desc, WIRE_TOPIC_REQUEST, NULL);
+        create_reader(participant, &percuss_v1_Request_desc, WIRE_TOPIC_REQUEST, NULL);
     dds_entity_t replies =
-        create_reader(participant, &percuss_v2_Reply_desc, WIRE_TOPIC_REPLY, partition);
+        create_reader(participant, &percuss_v1_Reply_desc, WIRE_TOPIC_REPLY, partition);
     *size = (struct wire_size){0};
     double end = samples_now() + patience;
     /* again until both readers are matched */

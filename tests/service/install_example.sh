@@ -46,7 +46,7 @@ say "nothing but percuss_ leaves the libraries, and their headers do not need th
 libraries=$prefix/lib
 for library in libpercuss libpercuss-slowscale; do
     if nm -D --defined-only "$libraries/$library.so" | awk '{print $3}' | grep -v '^percuss_' ||
-        nm -D --defined-only "$libraries/$library.so" | grep ' percuss_v2_'; then
+        nm -D --defined-only "$libraries/$library.so" | grep ' percuss_v1_'; then
         fail "$library exports symbols of its inside"
     fi
 done

@@ -16,11 +16,11 @@ static const struct {
     const char *request, *reply;
     const dds_topic_descriptor_t *request_type, *reply_type;
 } topics[PEER_TOPICS] = {
-    {WIRE_TOPIC_REQUEST, WIRE_TOPIC_REPLY, &percuss_v2_Request_desc, &percuss_v2_Reply_desc},
-    {WIRE_TOPIC_BATCH_REQUEST, WIRE_TOPIC_BATCH_REPLY, &percuss_v2_BatchRequest_desc,
-     &percuss_v2_BatchReply_desc},
-    {WIRE_TOPIC_ENSEMBLE_REQUEST, WIRE_TOPIC_ENSEMBLE_REPLY, &percuss_v2_EnsembleRequest_desc,
-     &percuss_v2_EnsembleReply_desc},
+    {WIRE_TOPIC_REQUEST, WIRE_TOPIC_REPLY, &percuss_v1_Request_desc, &percuss_v1_Reply_desc},
+    {WIRE_TOPIC_BATCH_REQUEST, WIRE_TOPIC_BATCH_REPLY, &percuss_v1_BatchRequest_desc,
+     &percuss_v1_BatchReply_desc},
+    {WIRE_TOPIC_ENSEMBLE_REQUEST, WIRE_TOPIC_ENSEMBLE_REPLY, &percuss_v1_EnsembleRequest_desc,
+     &percuss_v1_EnsembleReply_desc},
 };
 
 _Noreturn void peer_fail(const char *file, int line, const char *format, ...)
@@ -93,7 +93,7 @@ void peer_open_as(struct peer *peer, uint32_t domain)
         REQUIRE(peer_now() < end, "no server in domain %u", domain);
         dds_sleepfor(DDS_MSECS(2));
     }
-    percuss_v2_Request ping = {.sequence = 0};
+    percuss_v1_Request ping = {.sequence = 0};
     do {
         REQUIRE(peer_now() < end, "no answer to a ping");
         peer_send(peer, &ping);
@@ -114,19 +114,19 @@ static void send(struct peer *peer, enum peer_topic topic, const void *sample)
     REQUIRE(result == DDS_RETCODE_OK, "write: %s", dds_strretcode(result));
 }
 
-void peer_send(struct peer *peer, percuss_v2_Request *request)
+void peer_send(struct peer *peer, percuss_v1_Request *request)
 {
     memcpy(request->client, peer->client, sizeof request->client);
     send(peer, PEER_SINGLE, request);
 }
 
-void peer_send_batch(struct peer *peer, percuss_v2_BatchRequest *batch)
+void peer_send_batch(struct peer *peer, percuss_v1_BatchRequest *batch)
 {
     memcpy(batch->client, peer->client, sizeof batch->client);
     send(peer, PEER_BATCH, batch);
 }
 
-void peer_send_ensemble(struct peer *peer, percuss_v2_EnsembleRequest *ensemble)
+void peer_send_ensemble(struct peer *peer, percuss_v1_EnsembleRequest *ensemble)
 {
     memcpy(ensemble->client, peer->client, sizeof ensemble->client);
     send(peer, PEER_ENSEMBLE, ensemble);
@@ -173,9 +173,9 @@ bool peer_hears(struct peer *peer, enum peer_topic topic, double seconds)
     return sample != NULL;
 }
 
-static void fill_body(percuss_v2_BodyMotion *body, const char *id, double z, double speed)
+static void fill_body(percuss_v1_BodyMotion *body, const char *id, double z, double speed)
 {
-    *body = (percuss_v2_BodyMotion){
+    *body = (percuss_v1_BodyMotion){
         .position = {0, 0, z}, .orientation = {1, 0, 0, 0}, .velocity = {0, 0, -speed}};
     snprintf(body->id, sizeof body->id, "%s", id);
 }
@@ -185,8 +185,8 @@ void scene_fill(struct scene *scene, uint64_t sequence, double speed)
     fill_body(&scene->bodies[0], "steel-sphere", 0.025, speed);
     fill_body(&scene->bodies[1], "al-beam", 0.0, 0.0);
     scene->contacts[0] =
-        (percuss_v2_Contact){.a = 0, .b = 1, .point = {0, 0, 0.010}, .normal = {0, 0, 1}};
-    scene->request = (percuss_v2_Request){
+        (percuss_v1_Contact){.a = 0, .b = 1, .point = {0, 0, 0.010}, .normal = {0, 0, 1}};
+    scene->request = (percuss_v1_Request){
         .sequence = sequence,
         .bodies = {._buffer = scene->bodies, ._length = 2, ._maximum = 64},
         .contacts = {._buffer = scene->contacts, ._length = 1, ._maximum = 64},

@@ -28,9 +28,9 @@ void peer_open_as(struct peer *peer, uint32_t domain);
 void peer_close(struct peer *peer);
 
 /* Sends; fills in the client. */
-void peer_send(struct peer *peer, percuss_v2_Request *request);
-void peer_send_batch(struct peer *peer, percuss_v2_BatchRequest *batch);
-void peer_send_ensemble(struct peer *peer, percuss_v2_EnsembleRequest *ensemble);
+void peer_send(struct peer *peer, percuss_v1_Request *request);
+void peer_send_batch(struct peer *peer, percuss_v1_BatchRequest *batch);
+void peer_send_ensemble(struct peer *peer, percuss_v1_EnsembleRequest *ensemble);
 
 /* The next reply on that topic, to be given back by peer_return; ends the program if there is none
  * for `seconds`. */
@@ -42,10 +42,10 @@ bool peer_hears(struct peer *peer, enum peer_topic topic, double seconds);
 
 /* The contract's example: a steel sphere falls on the middle of an aluminium beam. */
 struct scene {
-    percuss_v2_BodyMotion bodies[64];
-    percuss_v2_Contact contacts[64];
+    percuss_v1_BodyMotion bodies[64];
+    percuss_v1_Contact contacts[64];
     double delassus[4096];
-    percuss_v2_Request request;
+    percuss_v1_Request request;
 };
 void scene_fill(struct scene *scene, uint64_t sequence, double speed);
 

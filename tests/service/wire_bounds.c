@@ -30,7 +30,7 @@ static void fill_complete(struct scene *scene, uint64_t sequence)
     scene->bodies[1].position[2] = 0.010 - 0.5;
     scene->bodies[1].orientation[0] = sqrt(0.5);
     scene->bodies[1].orientation[2] = -sqrt(0.5);
-    scene->request.options.contact_model = percuss_v2_CONTACT_MODEL_COMPLETE_FE;
+    scene->request.options.contact_model = percuss_v1_CONTACT_MODEL_COMPLETE_FE;
     scene->request.options.tolerance = 1e-9;
 }
 
@@ -38,7 +38,7 @@ static void fill_complete(struct scene *scene, uint64_t sequence)
 static void pings(struct peer *peer, struct scene *scene)
 {
     enum { WANTED = 20 };
-    percuss_v2_Request ping = {.sequence = 0};
+    percuss_v1_Request ping = {.sequence = 0};
     int answered = 0;
     bool solved = false;
     /* whoever asks for the first time counts as one of several; the next one is asked alone, which
@@ -52,7 +52,7 @@ static void pings(struct peer *peer, struct scene *scene)
     dds_sleepfor(DDS_MSECS(20));
     peer_send(peer, &ping);
     while (!solved) {
-        const percuss_v2_Reply *reply = peer_receive(peer, PEER_SINGLE, patience);
+        const percuss_v1_Reply *reply = peer_receive(peer, PEER_SINGLE, patience);
         solved = reply->sequence == 1;
         if (solved)
             printf("%d pings within the %.3g s of a hard request\n", answered, reply->timing.solve);
@@ -80,17 +80,17 @@ static void hammer(struct peer *peer, struct scene *scene)
 static void fill_slow(struct scene *scene, int kind)
 {
     scene_fill(scene, 100 + (uint64_t)kind, 0.2);
-    percuss_v2_Options *options = &scene->request.options;
+    percuss_v1_Options *options = &scene->request.options;
     switch (kind) {
     case 0: /* within the second that a modal solve may take */
         fill_hard(scene, 100);
         break;
     case 1:
-        options->method = percuss_v2_METHOD_CVODE;
+        options->method = percuss_v1_METHOD_CVODE;
         options->tolerance = 1e-9;
         break;
     case 2:
-        options->method = percuss_v2_METHOD_CVODE;
+        options->method = percuss_v1_METHOD_CVODE;
         options->tolerance = 1e-8;
         options->trace = options->conditioning = true;
         break;
@@ -100,11 +100,11 @@ static void fill_slow(struct scene *scene, int kind)
     case 4: /* a table that is still to be computed */
         fill_complete(scene, 104);
         snprintf(scene->bodies[1].id, sizeof scene->bodies[1].id, "al-rod-1");
-        options->contact_model = percuss_v2_CONTACT_MODEL_TABLE;
+        options->contact_model = percuss_v1_CONTACT_MODEL_TABLE;
         break;
     default:
         fill_complete(scene, 105);
-        options->contact_model = percuss_v2_CONTACT_MODEL_CONCURRENT_FE;
+        options->contact_model = percuss_v1_CONTACT_MODEL_CONCURRENT_FE;
     }
 }
 
@@ -117,9 +117,9 @@ static void deadlines(struct peer *peer, struct scene *scene)
         scene->request.options.deadline = deadline;
         double start = peer_now();
         peer_send(peer, &scene->request);
-        const percuss_v2_Reply *reply = peer_receive(peer, PEER_SINGLE, patience);
+        const percuss_v1_Reply *reply = peer_receive(peer, PEER_SINGLE, patience);
         double taken = peer_now() - start;
-        REQUIRE(reply->status == percuss_v2_STATUS_TIMEOUT && strstr(reply->message, "deadline"),
+        REQUIRE(reply->status == percuss_v1_STATUS_TIMEOUT && strstr(reply->message, "deadline"),
                 "kind %d: status %u: %s", kind, reply->status, reply->message);
         printf("kind %d: deadline %g s, answered after %.3f s: %s\n", kind, deadline, taken,
                reply->message);
@@ -134,22 +134,22 @@ static void batch_deadline(struct peer *peer)
 {
     enum { MEMBERS = 64 };
     static struct scene members[MEMBERS];
-    static percuss_v2_Request requests[MEMBERS];
+    static percuss_v1_Request requests[MEMBERS];
     for (uint64_t i = 0; i < MEMBERS; i++) {
         fill_hard(&members[i], 1000 + i);
         members[i].bodies[0].velocity[2] -= 1e-9 * (double)i;
         members[i].request.options.deadline = 0.3;
         requests[i] = members[i].request;
     }
-    percuss_v2_BatchRequest batch = {
+    percuss_v1_BatchRequest batch = {
         .sequence = 5, .requests = {._buffer = requests, ._length = MEMBERS, ._maximum = MEMBERS}};
     uint32_t answered = 0, late = 0;
     double start = peer_now();
     peer_send_batch(peer, &batch);
     while (answered < MEMBERS) {
-        const percuss_v2_BatchReply *reply = peer_receive(peer, PEER_BATCH, patience);
+        const percuss_v1_BatchReply *reply = peer_receive(peer, PEER_BATCH, patience);
         for (uint32_t i = 0; i < reply->replies._length; i++)
-            late += reply->replies._buffer[i].status == percuss_v2_STATUS_TIMEOUT;
+            late += reply->replies._buffer[i].status == percuss_v1_STATUS_TIMEOUT;
         answered += reply->replies._length;
         peer_return(peer, PEER_BATCH, reply);
     }
@@ -171,12 +171,12 @@ static void leave(struct peer *peer, struct scene *scene, uint32_t domain)
     peer_close(peer);
     peer_open(&next, domain);
     scene_fill(scene, 1, 0.3);
-    scene->request.options.method = percuss_v2_METHOD_CVODE;
+    scene->request.options.method = percuss_v1_METHOD_CVODE;
     scene->request.options.tolerance = 1e-2;
     double start = peer_now();
     peer_send(&next, &scene->request);
-    const percuss_v2_Reply *reply = peer_receive(&next, PEER_SINGLE, patience);
-    REQUIRE(reply->status == percuss_v2_STATUS_OK, "status %u: %s", reply->status, reply->message);
+    const percuss_v1_Reply *reply = peer_receive(&next, PEER_SINGLE, patience);
+    REQUIRE(reply->status == percuss_v1_STATUS_OK, "status %u: %s", reply->status, reply->message);
     printf("the next one in the lane was answered after %.3f s\n", peer_now() - start);
     peer_return(&next, PEER_SINGLE, reply);
     peer_close(&next);
@@ -189,9 +189,9 @@ static void wait_for_end(struct peer *peer, struct scene *scene)
     peer_send(peer, &scene->request);
     puts("asked");
     fflush(stdout);
-    const percuss_v2_Reply *reply = peer_receive(peer, PEER_SINGLE, patience);
+    const percuss_v1_Reply *reply = peer_receive(peer, PEER_SINGLE, patience);
     printf("status %u: %s\n", reply->status, reply->message);
-    REQUIRE(reply->status == percuss_v2_STATUS_BUSY && strstr(reply->message, "shutting down"),
+    REQUIRE(reply->status == percuss_v1_STATUS_BUSY && strstr(reply->message, "shutting down"),
             "status %u: %s", reply->status, reply->message);
     peer_return(peer, PEER_SINGLE, reply);
 }

@@ -26,15 +26,15 @@ static double speed_of(unsigned client, uint64_t sequence)
 }
 
 /* The server computes 1/m and m v: their product tells whose question it answered. */
-static void check_reply(const struct peer *peer, const percuss_v2_Reply *reply, double speed)
+static void check_reply(const struct peer *peer, const percuss_v1_Reply *reply, double speed)
 {
     REQUIRE(memcmp(reply->client, peer->client, sizeof reply->client) == 0,
             "a reply for somebody else");
-    REQUIRE(reply->status == percuss_v2_STATUS_OK, "sequence %llu: status %u: %s",
+    REQUIRE(reply->status == percuss_v1_STATUS_OK, "sequence %llu: status %u: %s",
             (unsigned long long)reply->sequence, reply->status, reply->message);
     REQUIRE(reply->contacts._length == 1, "one contact asked, %u answered",
             reply->contacts._length);
-    const percuss_v2_ContactResult *contact = &reply->contacts._buffer[0];
+    const percuss_v1_ContactResult *contact = &reply->contacts._buffer[0];
     double told = contact->impulse_compression * contact->inverse_effective_mass;
     REQUIRE(fabs(told - speed) < 1e-9 * speed, "asked at %.12g m/s, answered at %.12g", speed,
             told);
@@ -58,11 +58,11 @@ static void *ask_many(void *argument)
     for (unsigned done = 0; done < REQUESTS;) {
         for (; sent < REQUESTS && sent - done < WINDOW; sent++)
             send_numbered(&peer, scene, load->index, sent + 1);
-        const percuss_v2_Reply *reply = peer_receive(&peer, PEER_SINGLE, 20.0);
+        const percuss_v1_Reply *reply = peer_receive(&peer, PEER_SINGLE, 20.0);
         uint64_t sequence = reply->sequence;
         REQUIRE(sequence >= 1 && sequence <= sent && !answered[sequence],
                 "sequence %llu: never sent, or answered before", (unsigned long long)sequence);
-        if (reply->status == percuss_v2_STATUS_BUSY) {
+        if (reply->status == percuss_v1_STATUS_BUSY) {
             load->busy++;
             dds_sleepfor(DDS_MSECS(1));
             send_numbered(&peer, scene, load->index, sequence);

@@ -15,24 +15,24 @@ static uint64_t sequence;
 
 /* An ensemble of the example with two inputs. */
 struct ensemble {
-    percuss_v2_EnsembleInput inputs[2];
-    percuss_v2_EnsembleCorrelation correlation;
+    percuss_v1_EnsembleInput inputs[2];
+    percuss_v1_EnsembleCorrelation correlation;
     double quantile, values[2];
-    percuss_v2_EnsembleRequest request;
+    percuss_v1_EnsembleRequest request;
 };
 
 static struct ensemble good(void)
 {
     struct ensemble e = {
         .inputs = {{.name = "speed",
-                    .distribution = percuss_v2_DISTRIBUTION_UNIFORM,
+                    .distribution = percuss_v1_DISTRIBUTION_UNIFORM,
                     .first = 0.1,
                     .second = 0.4,
                     .lower = NAN,
                     .upper = NAN},
                    {.name = "young",
                     .body = "al-beam",
-                    .distribution = percuss_v2_DISTRIBUTION_NORMAL,
+                    .distribution = percuss_v1_DISTRIBUTION_NORMAL,
                     .first = 70e9,
                     .second = 1e9,
                     .lower = NAN,
@@ -46,9 +46,9 @@ static struct ensemble good(void)
 }
 
 /* Sends it and returns the reply, to be given back. */
-static const percuss_v2_EnsembleReply *ask(struct peer *peer, struct ensemble *e)
+static const percuss_v1_EnsembleReply *ask(struct peer *peer, struct ensemble *e)
 {
-    percuss_v2_EnsembleRequest *request = &e->request;
+    percuss_v1_EnsembleRequest *request = &e->request;
     request->scene = scene.request;
     request->inputs._buffer = e->inputs;
     request->inputs._length = request->inputs._maximum = 2;
@@ -63,8 +63,8 @@ static const percuss_v2_EnsembleReply *ask(struct peer *peer, struct ensemble *e
 static void refused(struct peer *peer, struct ensemble e, const char *words)
 {
     e.request.sequence = ++sequence;
-    const percuss_v2_EnsembleReply *reply = ask(peer, &e);
-    REQUIRE(reply->sequence == sequence && reply->status == percuss_v2_STATUS_BAD_REQUEST &&
+    const percuss_v1_EnsembleReply *reply = ask(peer, &e);
+    REQUIRE(reply->sequence == sequence && reply->status == percuss_v1_STATUS_BAD_REQUEST &&
                 strstr(reply->message, words) && reply->statistics._length == 0,
             "'%s' expected; status %u: %s", words, reply->status, reply->message);
     peer_return(peer, PEER_ENSEMBLE, reply);
@@ -96,7 +96,7 @@ static void bad_inputs(struct peer *peer)
     e.inputs[1].second = 1.0;
     refused(peer, e, "truncation");
     e = good();
-    e.inputs[0].distribution = percuss_v2_DISTRIBUTION_LIST;
+    e.inputs[0].distribution = percuss_v1_DISTRIBUTION_LIST;
     refused(peer, e, "inputs[0].values: none given");
     e = good();
     strcpy(e.inputs[1].body, "steel-sphere");
@@ -133,7 +133,7 @@ static void bad_numbers(struct peer *peer)
     e.request.correlations._length = e.request.correlations._maximum = 1;
     e.correlation.coefficient = 2.0;
     refused(peer, e, "correlations[0].coefficient: 2");
-    e.correlation = (percuss_v2_EnsembleCorrelation){0, 900, 0.5};
+    e.correlation = (percuss_v1_EnsembleCorrelation){0, 900, 0.5};
     refused(peer, e, "correlations[0]: inputs 0 and 900");
     scene.request.options.tolerance = -1.0;
     refused(peer, good(), "options.tolerance: -1");
@@ -151,8 +151,8 @@ static void answered(struct peer *peer)
     struct ensemble e = good();
     e.request.sequence = ++sequence;
     e.request.correlations._length = e.request.correlations._maximum = 1;
-    const percuss_v2_EnsembleReply *reply = ask(peer, &e);
-    REQUIRE(reply->status == percuss_v2_STATUS_OK && reply->complete && reply->samples == 20 &&
+    const percuss_v1_EnsembleReply *reply = ask(peer, &e);
+    REQUIRE(reply->status == percuss_v1_STATUS_OK && reply->complete && reply->samples == 20 &&
                 reply->statistics._length == 4 && reply->sensitivities._length == 2,
             "status %u: %s", reply->status, reply->message);
     double mean = reply->statistics._buffer[0].mean, solve = reply->timing.solve;
@@ -166,7 +166,7 @@ static void answered(struct peer *peer)
     /* the number is taken */
     e.request.seed = 6;
     reply = ask(peer, &e);
-    REQUIRE(reply->status == percuss_v2_STATUS_BAD_REQUEST &&
+    REQUIRE(reply->status == percuss_v1_STATUS_BAD_REQUEST &&
                 strstr(reply->message, "was used for another request"),
             "status %u: %s", reply->status, reply->message);
     peer_return(peer, PEER_ENSEMBLE, reply);

@@ -10,7 +10,7 @@
 
 #include "peer.h"
 
-static const percuss_v2_Reply *ask(struct peer *peer, struct scene *scene)
+static const percuss_v1_Reply *ask(struct peer *peer, struct scene *scene)
 {
     peer_send(peer, &scene->request);
     return peer_receive(peer, PEER_SINGLE, 10.0);
@@ -22,13 +22,13 @@ static bool equal(double a, double b)
 }
 
 /* The numbers of a reply, to the last bit, without timing. */
-static void require_same(const percuss_v2_Reply *a, const percuss_v2_Reply *b)
+static void require_same(const percuss_v1_Reply *a, const percuss_v1_Reply *b)
 {
     REQUIRE(a->status == b->status && strcmp(a->message, b->message) == 0, "%u %s, %u %s",
             a->status, a->message, b->status, b->message);
     REQUIRE(a->contacts._length == b->contacts._length, "number of contacts");
     for (uint32_t i = 0; i < a->contacts._length; i++) {
-        const percuss_v2_ContactResult *x = &a->contacts._buffer[i], *y = &b->contacts._buffer[i];
+        const percuss_v1_ContactResult *x = &a->contacts._buffer[i], *y = &b->contacts._buffer[i];
         REQUIRE(equal(x->impulse, y->impulse) && equal(x->restitution, y->restitution) &&
                     equal(x->end_time, y->end_time) && x->sub_impact_count == y->sub_impact_count,
                 "contact %u: impulse %.17g, %.17g", i, x->impulse, y->impulse);
@@ -46,18 +46,18 @@ static void require_same(const percuss_v2_Reply *a, const percuss_v2_Reply *b)
 static void repeats(struct peer *peer, struct scene *scene)
 {
     scene_fill(scene, 1, 0.3);
-    const percuss_v2_Reply *first = ask(peer, scene), *again = ask(peer, scene);
-    REQUIRE(first->status == percuss_v2_STATUS_OK, "%s", first->message);
+    const percuss_v1_Reply *first = ask(peer, scene), *again = ask(peer, scene);
+    REQUIRE(first->status == percuss_v1_STATUS_OK, "%s", first->message);
     require_same(first, again);
     REQUIRE(equal(first->timing.solve, again->timing.solve), "the reply was computed anew");
     scene->bodies[0].velocity[2] = -0.4;
-    const percuss_v2_Reply *other = ask(peer, scene);
-    REQUIRE(other->status == percuss_v2_STATUS_BAD_REQUEST &&
+    const percuss_v1_Reply *other = ask(peer, scene);
+    REQUIRE(other->status == percuss_v1_STATUS_BAD_REQUEST &&
                 strstr(other->message, "sequence: 1:"),
             "status %u: %s", other->status, other->message);
     /* under a new number the same question has the same numbers */
     scene_fill(scene, 2, 0.3);
-    const percuss_v2_Reply *renamed = ask(peer, scene);
+    const percuss_v1_Reply *renamed = ask(peer, scene);
     require_same(first, renamed);
     peer_return(peer, PEER_SINGLE, first);
     peer_return(peer, PEER_SINGLE, again);
@@ -68,22 +68,22 @@ static void repeats(struct peer *peer, struct scene *scene)
 static void states(struct peer *peer, struct scene *scene)
 {
     scene_fill(scene, 10, 0.3);
-    const percuss_v2_Reply *first = ask(peer, scene);
+    const percuss_v1_Reply *first = ask(peer, scene);
     const char *token = first->states_after._buffer[1].state;
     REQUIRE(strlen(token) == 32, "no token of the beam: \"%s\"", token);
     scene_fill(scene, 11, 0.3);
     snprintf(scene->bodies[1].state, sizeof scene->bodies[1].state, "%s", token);
     scene->bodies[1].elapsed = 1e-3;
-    const percuss_v2_Reply *ringing = ask(peer, scene);
-    REQUIRE(ringing->status == percuss_v2_STATUS_OK ||
-                ringing->status == percuss_v2_STATUS_TRUNCATED,
+    const percuss_v1_Reply *ringing = ask(peer, scene);
+    REQUIRE(ringing->status == percuss_v1_STATUS_OK ||
+                ringing->status == percuss_v1_STATUS_TRUNCATED,
             "%s", ringing->message);
     REQUIRE(strcmp(ringing->states_after._buffer[1].state, token) != 0, "the state did not change");
     /* a state of the beam is none of the sphere */
     scene_fill(scene, 12, 0.3);
     snprintf(scene->bodies[0].state, sizeof scene->bodies[0].state, "%s", token);
-    const percuss_v2_Reply *wrong = ask(peer, scene);
-    REQUIRE(wrong->status == percuss_v2_STATUS_UNKNOWN_STATE &&
+    const percuss_v1_Reply *wrong = ask(peer, scene);
+    REQUIRE(wrong->status == percuss_v1_STATUS_UNKNOWN_STATE &&
                 strstr(wrong->message, "is a state of al-beam"),
             "status %u: %s", wrong->status, wrong->message);
     peer_return(peer, PEER_SINGLE, first);
@@ -96,16 +96,16 @@ static void deadlines(struct peer *peer, struct scene *scene)
     scene_fill(scene, 20, 0.3);
     scene->request.options.deadline = 1e-9;
     for (int i = 0; i < 2; i++) {
-        const percuss_v2_Reply *late = ask(peer, scene);
-        REQUIRE(late->status == percuss_v2_STATUS_TIMEOUT &&
+        const percuss_v1_Reply *late = ask(peer, scene);
+        REQUIRE(late->status == percuss_v1_STATUS_TIMEOUT &&
                     strstr(late->message, "options.deadline: 1e-09"),
                 "status %u: %s", late->status, late->message);
         peer_return(peer, PEER_SINGLE, late);
     }
     scene_fill(scene, 21, 0.3);
     scene->request.options.deadline = 60.0;
-    const percuss_v2_Reply *soon = ask(peer, scene);
-    REQUIRE(soon->status == percuss_v2_STATUS_OK, "status %u: %s", soon->status, soon->message);
+    const percuss_v1_Reply *soon = ask(peer, scene);
+    REQUIRE(soon->status == percuss_v1_STATUS_OK, "status %u: %s", soon->status, soon->message);
     peer_return(peer, PEER_SINGLE, soon);
 }
 
@@ -115,12 +115,12 @@ static struct scene members[MEMBERS];
 
 static void send_members(struct peer *peer, uint64_t sequence)
 {
-    static percuss_v2_Request requests[MEMBERS];
+    static percuss_v1_Request requests[MEMBERS];
     for (uint64_t i = 0; i < MEMBERS; i++) {
         scene_fill(&members[i], 1000 + i, 0.1 + 1e-3 * (double)i);
         requests[i] = members[i].request;
     }
-    percuss_v2_BatchRequest batch = {
+    percuss_v1_BatchRequest batch = {
         .sequence = sequence,
         .requests = {._buffer = requests, ._length = MEMBERS, ._maximum = MEMBERS}};
     peer_send_batch(peer, &batch);
@@ -133,16 +133,16 @@ static void batches(struct peer *peer)
     uint64_t seen = 0;
     uint32_t parts = 1;
     for (uint32_t part = 0; part < parts; part++) {
-        const percuss_v2_BatchReply *reply = peer_receive(peer, PEER_BATCH, 20.0);
-        REQUIRE(reply->status == percuss_v2_STATUS_OK, "%s", reply->message);
+        const percuss_v1_BatchReply *reply = peer_receive(peer, PEER_BATCH, 20.0);
+        REQUIRE(reply->status == percuss_v1_STATUS_OK, "%s", reply->message);
         REQUIRE(reply->part == part, "part %u comes as number %u", reply->part, part);
         parts = reply->parts;
         for (uint32_t i = 0; i < reply->replies._length; i++, seen++) {
-            const percuss_v2_Reply *member = &reply->replies._buffer[i];
+            const percuss_v1_Reply *member = &reply->replies._buffer[i];
             REQUIRE(member->sequence == 1000 + seen, "out of order");
             if (seen % 16 > 0)
                 continue;
-            const percuss_v2_Reply *single = ask(peer, &members[seen]);
+            const percuss_v1_Reply *single = ask(peer, &members[seen]);
             require_same(member, single);
             peer_return(peer, PEER_SINGLE, single);
         }

@@ -17,12 +17,12 @@ static uint64_t sequence;
 static void expect(struct peer *peer, unsigned status, const char *fragment)
 {
     peer_send(peer, &scene.request);
-    const percuss_v2_Reply *reply = peer_receive(peer, PEER_SINGLE, 5.0);
+    const percuss_v1_Reply *reply = peer_receive(peer, PEER_SINGLE, 5.0);
     REQUIRE(reply->sequence == sequence, "another reply");
     REQUIRE(reply->status == status && strstr(reply->message, fragment),
             "status %u: \"%s\"; expected %u with \"%s\"", reply->status, reply->message, status,
             fragment);
-    if (status != percuss_v2_STATUS_OK) {
+    if (status != percuss_v1_STATUS_OK) {
         REQUIRE(reply->contacts._length == 0 && reply->states_after._length == 0,
                 "a refusal with lists");
         REQUIRE(isnan(reply->energy.available) && isnan(reply->error.restitution_time) &&
@@ -36,7 +36,7 @@ static void expect(struct peer *peer, unsigned status, const char *fragment)
 #define BAD(lvalue, value, fragment)                                                               \
     do {                                                                                           \
         scene.lvalue = (value);                                                                    \
-        expect(peer, percuss_v2_STATUS_BAD_REQUEST, fragment);                                     \
+        expect(peer, percuss_v1_STATUS_BAD_REQUEST, fragment);                                     \
     } while (0)
 
 static void bad_bodies(struct peer *peer)
@@ -52,9 +52,9 @@ static void bad_bodies(struct peer *peer)
     BAD(bodies[0].elapsed, -1.0, "bodies[0].elapsed: -1");
     BAD(bodies[0].specimen[0], 's', "bodies[0].specimen: s");
     snprintf(scene.bodies[1].id, sizeof scene.bodies[1].id, "no-such-body");
-    expect(peer, percuss_v2_STATUS_UNKNOWN_BODY, "no-such-body");
+    expect(peer, percuss_v1_STATUS_UNKNOWN_BODY, "no-such-body");
     snprintf(scene.bodies[1].state, sizeof scene.bodies[1].state, "no-such-state");
-    expect(peer, percuss_v2_STATUS_UNKNOWN_STATE, "bodies[1].state: no-such-state");
+    expect(peer, percuss_v1_STATUS_UNKNOWN_STATE, "bodies[1].state: no-such-state");
 }
 
 static void bad_contacts(struct peer *peer)
@@ -70,7 +70,7 @@ static void bad_contacts(struct peer *peer)
     BAD(contacts[0].gap_acceleration, INFINITY, "contacts[0].gap_acceleration: inf");
     BAD(contacts[0].normal[2], -1.0, "normal");
     scene.bodies[0].velocity[2] = 0.3;
-    expect(peer, percuss_v2_STATUS_NOT_APPROACHING, "");
+    expect(peer, percuss_v1_STATUS_NOT_APPROACHING, "");
 }
 
 static void bad_options(struct peer *peer)
@@ -99,11 +99,11 @@ static void bad_delassus(struct peer *peer)
 static void bad_batches(struct peer *peer)
 {
     static struct scene scenes[4];
-    percuss_v2_Request requests[4];
-    percuss_v2_BatchRequest batch = {.sequence = 1, .requests = {._buffer = requests}};
+    percuss_v1_Request requests[4];
+    percuss_v1_BatchRequest batch = {.sequence = 1, .requests = {._buffer = requests}};
     peer_send_batch(peer, &batch);
-    const percuss_v2_BatchReply *reply = peer_receive(peer, PEER_BATCH, 5.0);
-    REQUIRE(reply->status == percuss_v2_STATUS_BAD_REQUEST && strstr(reply->message, "requests:") &&
+    const percuss_v1_BatchReply *reply = peer_receive(peer, PEER_BATCH, 5.0);
+    REQUIRE(reply->status == percuss_v1_STATUS_BAD_REQUEST && strstr(reply->message, "requests:") &&
                 reply->part == 0 && reply->parts == 1 && reply->replies._length == 0,
             "an empty batch: status %u: %s", reply->status, reply->message);
     peer_return(peer, PEER_BATCH, reply);
@@ -117,10 +117,10 @@ static void bad_batches(struct peer *peer)
     batch.requests._length = batch.requests._maximum = 4;
     peer_send_batch(peer, &batch);
     reply = peer_receive(peer, PEER_BATCH, 5.0);
-    REQUIRE(reply->status == percuss_v2_STATUS_OK && reply->replies._length == 4,
+    REQUIRE(reply->status == percuss_v1_STATUS_OK && reply->replies._length == 4,
             "status %u, %u replies", reply->status, reply->replies._length);
-    const unsigned expected[] = {percuss_v2_STATUS_OK, percuss_v2_STATUS_BAD_REQUEST,
-                                 percuss_v2_STATUS_OK, percuss_v2_STATUS_BAD_REQUEST};
+    const unsigned expected[] = {percuss_v1_STATUS_OK, percuss_v1_STATUS_BAD_REQUEST,
+                                 percuss_v1_STATUS_OK, percuss_v1_STATUS_BAD_REQUEST};
     for (uint64_t i = 0; i < 4; i++)
         REQUIRE(reply->replies._buffer[i].status == expected[i] &&
                     reply->replies._buffer[i].sequence == 100 + i,
@@ -144,7 +144,7 @@ int main(int argc, char **argv)
     bad_options(&peer);
     bad_delassus(&peer);
     bad_batches(&peer);
-    expect(&peer, percuss_v2_STATUS_OK, "");
+    expect(&peer, percuss_v1_STATUS_OK, "");
     peer_close(&peer);
     printf("%llu requests got the status they should\n", (unsigned long long)sequence - 1);
     return EXIT_SUCCESS;

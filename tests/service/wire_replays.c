@@ -17,7 +17,7 @@ enum { OTHERS = 3000, OWN = 1000, WINDOW = 64, TRIALS = 40, REPLAYS = 400 };
 struct raw {
     size_t size;
     unsigned char *bytes;
-    percuss_v2_Reply reply;
+    percuss_v1_Reply reply;
 };
 
 static struct raw receive_raw(struct peer *peer)
@@ -43,7 +43,7 @@ static struct raw receive_raw(struct peer *peer)
 static void free_raw(struct raw *raw)
 {
     free(raw->bytes);
-    dds_sample_free(&raw->reply, &percuss_v2_Reply_desc, DDS_FREE_CONTENTS);
+    dds_sample_free(&raw->reply, &percuss_v1_Reply_desc, DDS_FREE_CONTENTS);
 }
 
 static void require_same_bytes(const struct raw *a, const struct raw *b)
@@ -69,7 +69,7 @@ static void ask_many(struct peer *peer, struct scene *scene, uint64_t first, uns
             peer_send(peer, &scene->request);
         }
         struct raw raw = receive_raw(peer);
-        REQUIRE(raw.reply.status == percuss_v2_STATUS_OK, "%s", raw.reply.message);
+        REQUIRE(raw.reply.status == percuss_v1_STATUS_OK, "%s", raw.reply.message);
         free_raw(&raw);
     }
 }
@@ -88,8 +88,8 @@ static void remembers(struct peer *peer, struct peer *stranger, struct scene *sc
     ask_many(peer, scene, 2 + OWN, OWN);
     scene_fill(scene, 1, 0.3);
     again = ask(peer, scene);
-    const percuss_v2_ContactResult *x = &first.reply.contacts._buffer[0];
-    const percuss_v2_ContactResult *y = &again.reply.contacts._buffer[0];
+    const percuss_v1_ContactResult *x = &first.reply.contacts._buffer[0];
+    const percuss_v1_ContactResult *y = &again.reply.contacts._buffer[0];
     REQUIRE(memcmp(&x->impulse, &y->impulse, sizeof x->impulse) == 0 &&
                 memcmp(x->sub_impacts._buffer, y->sub_impacts._buffer,
                        x->sub_impacts._length * sizeof *x->sub_impacts._buffer) == 0 &&
@@ -113,7 +113,7 @@ static void fill_trial(struct scene *scene, unsigned number, const char *state)
 static void check(struct raw *known, struct raw raw)
 {
     uint64_t number = raw.reply.sequence - 10000;
-    REQUIRE(number < TRIALS && raw.reply.status == percuss_v2_STATUS_OK, "%s", raw.reply.message);
+    REQUIRE(number < TRIALS && raw.reply.status == percuss_v1_STATUS_OK, "%s", raw.reply.message);
     if (!known[number].size) {
         known[number] = raw;
         return;

@@ -21,9 +21,9 @@ struct names {
 static struct names find_names(struct peer *peer)
 {
     struct names names;
-    percuss_v2_Request ping = {.sequence = 0};
+    percuss_v1_Request ping = {.sequence = 0};
     peer_send(peer, &ping);
-    const percuss_v2_Reply *reply = peer_receive(peer, PEER_SINGLE, patience);
+    const percuss_v1_Reply *reply = peer_receive(peer, PEER_SINGLE, patience);
     memcpy(names.it, reply->server, sizeof names.it);
     memcpy(names.another, reply->server, sizeof names.another);
     names.another[15] ^= 1;
@@ -44,7 +44,7 @@ static void ask_single(struct peer *peer, const struct names *names, struct scen
     scene_fill(scene, TO_IT, 0.3);
     memcpy(scene->request.server, names->it, sizeof names->it);
     peer_send(peer, &scene->request);
-    const percuss_v2_Reply *reply = peer_receive(peer, PEER_SINGLE, patience);
+    const percuss_v1_Reply *reply = peer_receive(peer, PEER_SINGLE, patience);
     require_it(reply->sequence, "Request");
     peer_return(peer, PEER_SINGLE, reply);
 }
@@ -52,7 +52,7 @@ static void ask_single(struct peer *peer, const struct names *names, struct scen
 static void ask_batch(struct peer *peer, const struct names *names, struct scene *scene)
 {
     scene_fill(scene, TO_IT, 0.3);
-    percuss_v2_BatchRequest batch = {
+    percuss_v1_BatchRequest batch = {
         .sequence = TO_ANOTHER,
         .requests = {._buffer = &scene->request, ._length = 1, ._maximum = 1},
     };
@@ -61,7 +61,7 @@ static void ask_batch(struct peer *peer, const struct names *names, struct scene
     batch.sequence = TO_IT;
     memcpy(batch.server, names->it, sizeof names->it);
     peer_send_batch(peer, &batch);
-    const percuss_v2_BatchReply *reply = peer_receive(peer, PEER_BATCH, patience);
+    const percuss_v1_BatchReply *reply = peer_receive(peer, PEER_BATCH, patience);
     require_it(reply->sequence, "BatchRequest");
     peer_return(peer, PEER_BATCH, reply);
 }
@@ -70,14 +70,14 @@ static void ask_batch(struct peer *peer, const struct names *names, struct scene
 static void ask_ensemble(struct peer *peer, const struct names *names, struct scene *scene)
 {
     scene_fill(scene, TO_IT, 0.3);
-    percuss_v2_EnsembleRequest ensemble = {
+    percuss_v1_EnsembleRequest ensemble = {
         .sequence = TO_ANOTHER, .scene = scene->request, .samples = 1};
     memcpy(ensemble.server, names->another, sizeof names->another);
     peer_send_ensemble(peer, &ensemble);
     ensemble.sequence = TO_IT;
     memcpy(ensemble.server, names->it, sizeof names->it);
     peer_send_ensemble(peer, &ensemble);
-    const percuss_v2_EnsembleReply *reply = peer_receive(peer, PEER_ENSEMBLE, patience);
+    const percuss_v1_EnsembleReply *reply = peer_receive(peer, PEER_ENSEMBLE, patience);
     require_it(reply->sequence, "EnsembleRequest");
     peer_return(peer, PEER_ENSEMBLE, reply);
 }

@@ -25,7 +25,7 @@ static void read_requests(dds_entity_t participant)
 {
     dds_qos_t *qos = wire_qos_exchange(NULL);
     dds_entity_t topic = checked(
-        dds_create_topic(participant, &percuss_v2_Request_desc, WIRE_TOPIC_REQUEST, NULL, NULL));
+        dds_create_topic(participant, &percuss_v1_Request_desc, WIRE_TOPIC_REQUEST, NULL, NULL));
     checked(dds_create_reader(participant, topic, qos, NULL));
     dds_delete_qos(qos);
 }
@@ -39,18 +39,18 @@ static void write_replies(dds_entity_t participant, bool reliable)
     if (!reliable)
         dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
     dds_entity_t topic = checked(
-        dds_create_topic(participant, &percuss_v2_Reply_desc, WIRE_TOPIC_REPLY, NULL, NULL));
+        dds_create_topic(participant, &percuss_v1_Reply_desc, WIRE_TOPIC_REPLY, NULL, NULL));
     checked(dds_create_writer(participant, topic, qos, NULL));
     dds_delete_qos(qos);
 }
 
 static void announce(dds_entity_t participant)
 {
-    percuss_v2_ServerStatus status = {.process = (uint32_t)getpid(), .host = "here"};
+    percuss_v1_ServerStatus status = {.process = (uint32_t)getpid(), .host = "here"};
     memset(status.server, 0x5e, sizeof status.server);
     strcpy(status.state, "ready");
     dds_qos_t *qos = wire_qos_announcement();
-    dds_entity_t topic = checked(dds_create_topic(participant, &percuss_v2_ServerStatus_desc,
+    dds_entity_t topic = checked(dds_create_topic(participant, &percuss_v1_ServerStatus_desc,
                                                   WIRE_TOPIC_SERVER_STATUS, NULL, NULL));
     dds_entity_t writer = checked(dds_create_writer(participant, topic, qos, NULL));
     dds_delete_qos(qos);

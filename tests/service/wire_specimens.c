@@ -49,7 +49,7 @@ static void send_all(struct rig *rig)
     static struct scene scene;
     for (unsigned i = 1; i <= rig->count; i++) {
         scene_fill(&scene, i, 0.3);
-        percuss_v2_BodyMotion *sphere = &scene.bodies[0], *rod = &scene.bodies[1];
+        percuss_v1_BodyMotion *sphere = &scene.bodies[0], *rod = &scene.bodies[1];
         memset(sphere->position, 0, sizeof sphere->position);
         memset(sphere->velocity, 0, sizeof sphere->velocity);
         sphere->position[0] = 0.515;
@@ -57,21 +57,21 @@ static void send_all(struct rig *rig)
         snprintf(rod->id, sizeof rod->id, "al-rod-1");
         snprintf(rod->specimen, sizeof rod->specimen, "%s", rig->specimen);
         scene.contacts[0] =
-            (percuss_v2_Contact){.a = 0, .b = 1, .point = {0.5, 0, 0}, .normal = {1, 0, 0}};
-        scene.request.options.contact_model = percuss_v2_CONTACT_MODEL_CLOSED_FORM;
-        scene.request.options.compliance = percuss_v2_COMPLIANCE_HALF_SPACE;
+            (percuss_v1_Contact){.a = 0, .b = 1, .point = {0.5, 0, 0}, .normal = {1, 0, 0}};
+        scene.request.options.contact_model = percuss_v1_CONTACT_MODEL_CLOSED_FORM;
+        scene.request.options.compliance = percuss_v1_COMPLIANCE_HALF_SPACE;
         peer_send(&rig->peer, &scene.request);
     }
 }
 
 /* "NUMBER RESTITUTION BYTES\n" */
-static void describe(const percuss_v2_Reply *reply, struct ddsi_serdata *serdata, char *line)
+static void describe(const percuss_v1_Reply *reply, struct ddsi_serdata *serdata, char *line)
 {
     ddsrt_iovec_t data;
     struct ddsi_serdata *held =
         ddsi_serdata_to_ser_ref(serdata, 0, ddsi_serdata_size(serdata), &data);
     REQUIRE(2 * data.iov_len + 64 < LINE, "a reply of %zu bytes", (size_t)data.iov_len);
-    REQUIRE(reply->status == percuss_v2_STATUS_OK && reply->contacts._length == 1, "%s",
+    REQUIRE(reply->status == percuss_v1_STATUS_OK && reply->contacts._length == 1, "%s",
             reply->message);
     char *end = line + sprintf(line, "%llu %.17g ", (unsigned long long)reply->sequence,
                                reply->contacts._buffer[0].restitution);
@@ -84,7 +84,7 @@ static void describe(const percuss_v2_Reply *reply, struct ddsi_serdata *serdata
 static void note(struct rig *rig, struct ddsi_serdata *serdata)
 {
     static char line[LINE];
-    percuss_v2_Reply *reply = dds_alloc(sizeof *reply);
+    percuss_v1_Reply *reply = dds_alloc(sizeof *reply);
     memset(reply, 0, sizeof *reply);
     REQUIRE(ddsi_serdata_to_sample(serdata, reply, NULL, NULL), "a reply cannot be decoded");
     unsigned number = (unsigned)reply->sequence;
@@ -103,7 +103,7 @@ static void note(struct rig *rig, struct ddsi_serdata *serdata)
             rig->held++;
         }
     }
-    dds_sample_free(reply, &percuss_v2_Reply_desc, DDS_FREE_ALL);
+    dds_sample_free(reply, &percuss_v1_Reply_desc, DDS_FREE_ALL);
 }
 
 static void receive_all(struct rig *rig)

@@ -51,7 +51,7 @@ struct percuss_options {
     enum percuss_compliance compliance;
     enum percuss_dents dents;
     bool conditioning; /* also report d(restitution)/d(speed) */
-    bool trace;        /* the server also writes time histories on topic percuss/v2/Trace, see
+    bool trace;        /* the server also writes time histories on topic percuss/v1/Trace, see
                           percuss_solve_traced */
     double deadline;   /* s from arrival until the server gives up; 0: none */
 };

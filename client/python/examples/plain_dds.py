@@ -33,7 +33,7 @@ def zeros(count):
 @dataclass
 @appendable
 @nested
-class BodyMotion(IdlStruct, typename="percuss::v2::BodyMotion"):
+class BodyMotion(IdlStruct, typename="percuss::v1::BodyMotion"):
     id: Name = ""
     position: Vector = zeros(3)
     orientation: array[float64, 4] = field(default_factory=lambda: [1.0, 0.0, 0.0, 0.0])
@@ -47,7 +47,7 @@ class BodyMotion(IdlStruct, typename="percuss::v2::BodyMotion"):
 @dataclass
 @appendable
 @nested
-class Contact(IdlStruct, typename="percuss::v2::Contact"):
+class Contact(IdlStruct, typename="percuss::v1::Contact"):
     a: uint32 = 0
     b: uint32 = 0
     point: Vector = zeros(3)
@@ -59,7 +59,7 @@ class Contact(IdlStruct, typename="percuss::v2::Contact"):
 @dataclass
 @appendable
 @nested
-class Options(IdlStruct, typename="percuss::v2::Options"):
+class Options(IdlStruct, typename="percuss::v1::Options"):
     tolerance: float64 = 0.0
     horizon: float64 = 0.0
     contact_model: uint32 = 0
@@ -73,7 +73,7 @@ class Options(IdlStruct, typename="percuss::v2::Options"):
 
 @dataclass
 @appendable
-class Request(IdlStruct, typename="percuss::v2::Request"):
+class Request(IdlStruct, typename="percuss::v1::Request"):
     client: Octets
     key("client")
     sequence: uint64
@@ -86,7 +86,7 @@ class Request(IdlStruct, typename="percuss::v2::Request"):
 @dataclass
 @appendable
 @nested
-class SubImpact(IdlStruct, typename="percuss::v2::SubImpact"):
+class SubImpact(IdlStruct, typename="percuss::v1::SubImpact"):
     start: float64
     compression_end: float64
     end: float64
@@ -102,7 +102,7 @@ class SubImpact(IdlStruct, typename="percuss::v2::SubImpact"):
 @dataclass
 @appendable
 @nested
-class ContactResult(IdlStruct, typename="percuss::v2::ContactResult"):
+class ContactResult(IdlStruct, typename="percuss::v1::ContactResult"):
     impulse: float64
     impulse_vector: Vector
     impulse_compression: float64
@@ -116,7 +116,7 @@ class ContactResult(IdlStruct, typename="percuss::v2::ContactResult"):
 @dataclass
 @appendable
 @nested
-class BodyVelocity(IdlStruct, typename="percuss::v2::BodyVelocity"):
+class BodyVelocity(IdlStruct, typename="percuss::v1::BodyVelocity"):
     id: Name
     velocity: Vector
     angular_velocity: Vector
@@ -125,7 +125,7 @@ class BodyVelocity(IdlStruct, typename="percuss::v2::BodyVelocity"):
 @dataclass
 @appendable
 @nested
-class BodyState(IdlStruct, typename="percuss::v2::BodyState"):
+class BodyState(IdlStruct, typename="percuss::v1::BodyState"):
     id: Name
     state: Name
 
@@ -133,7 +133,7 @@ class BodyState(IdlStruct, typename="percuss::v2::BodyState"):
 @dataclass
 @appendable
 @nested
-class BodyEnergy(IdlStruct, typename="percuss::v2::BodyEnergy"):
+class BodyEnergy(IdlStruct, typename="percuss::v1::BodyEnergy"):
     id: Name
     energy: float64
 
@@ -141,7 +141,7 @@ class BodyEnergy(IdlStruct, typename="percuss::v2::BodyEnergy"):
 @dataclass
 @appendable
 @nested
-class Energy(IdlStruct, typename="percuss::v2::Energy"):
+class Energy(IdlStruct, typename="percuss::v1::Energy"):
     available: float64
     rigid_after: float64
     vibration: sequence[BodyEnergy, 64]
@@ -154,7 +154,7 @@ class Energy(IdlStruct, typename="percuss::v2::Energy"):
 @dataclass
 @appendable
 @nested
-class ErrorEstimate(IdlStruct, typename="percuss::v2::ErrorEstimate"):
+class ErrorEstimate(IdlStruct, typename="percuss::v1::ErrorEstimate"):
     restitution_time: float64
     restitution_modes: float64
     impulse_time: float64
@@ -166,7 +166,7 @@ class ErrorEstimate(IdlStruct, typename="percuss::v2::ErrorEstimate"):
 @dataclass
 @appendable
 @nested
-class BodyModel(IdlStruct, typename="percuss::v2::BodyModel"):
+class BodyModel(IdlStruct, typename="percuss::v1::BodyModel"):
     id: Name
     modes: uint32
     rigid: bool
@@ -177,7 +177,7 @@ class BodyModel(IdlStruct, typename="percuss::v2::BodyModel"):
 @dataclass
 @appendable
 @nested
-class Model(IdlStruct, typename="percuss::v2::Model"):
+class Model(IdlStruct, typename="percuss::v1::Model"):
     bodies: sequence[BodyModel, 64]
     contact_model: uint32
     compliance: uint32
@@ -189,14 +189,14 @@ class Model(IdlStruct, typename="percuss::v2::Model"):
 @dataclass
 @appendable
 @nested
-class Timing(IdlStruct, typename="percuss::v2::Timing"):
+class Timing(IdlStruct, typename="percuss::v1::Timing"):
     queue: float64
     solve: float64
 
 
 @dataclass
 @appendable
-class Reply(IdlStruct, typename="percuss::v2::Reply"):
+class Reply(IdlStruct, typename="percuss::v1::Reply"):
     client: Octets
     key("client")
     sequence: uint64
@@ -248,8 +248,8 @@ class Client:
         participant = DomainParticipant(domain)
         # replies come in a partition of our own: the daemon sees this reader and makes its writer there
         ours = Subscriber(participant, qos=Qos(Policy.Partition([f"c_{self.id.hex()}"])))
-        self._replies = DataReader(ours, Topic(participant, "percuss/v2/Reply", Reply), qos=Qos(*EXCHANGE))
-        requests = Topic(participant, "percuss/v2/Request", Request)
+        self._replies = DataReader(ours, Topic(participant, "percuss/v1/Reply", Reply), qos=Qos(*EXCHANGE))
+        requests = Topic(participant, "percuss/v1/Request", Request)
         self._requests = DataWriter(participant, requests, qos=Qos(*EXCHANGE))
 
     def connect(self, timeout=5.0):

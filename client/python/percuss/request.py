@@ -103,7 +103,7 @@ class Options:
     conditioning: bool = False
     """Also report d(restitution)/d(speed)."""
     trace: bool = False
-    """The server also writes the force history on topic percuss/v2/Trace."""
+    """The server also writes the force history on topic percuss/v1/Trace."""
     deadline: float = 0.0
     """s from arrival until the server gives up; 0: none."""
 

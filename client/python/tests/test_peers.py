@@ -31,7 +31,7 @@ DOMAIN = int(os.environ["PERCUSS_DOMAIN"])
 
 @dataclass
 @appendable
-class Uint8Request(IdlStruct, typename="percuss::v2::Request"):
+class Uint8Request(IdlStruct, typename="percuss::v1::Request"):
     """The same bytes, but a member type that Cyclone DDS 0.10.2 does not know."""
 
     client: array[uint8, 16]
@@ -45,7 +45,7 @@ class Uint8Request(IdlStruct, typename="percuss::v2::Request"):
 
 @dataclass
 @appendable
-class NewerRequest(IdlStruct, typename="percuss::v2::Request"):
+class NewerRequest(IdlStruct, typename="percuss::v1::Request"):
     """With a member that this daemon does not know."""
 
     client: array[byte, 16]
@@ -61,7 +61,7 @@ class NewerRequest(IdlStruct, typename="percuss::v2::Request"):
 
 @dataclass
 @appendable
-class OlderRequest(IdlStruct, typename="percuss::v2::Request"):
+class OlderRequest(IdlStruct, typename="percuss::v1::Request"):
     """Ends before the options, a struct: there is no default for that."""
 
     client: array[byte, 16]
@@ -71,7 +71,7 @@ class OlderRequest(IdlStruct, typename="percuss::v2::Request"):
 
 @dataclass
 @appendable
-class OlderBatch(IdlStruct, typename="percuss::v2::BatchRequest"):
+class OlderBatch(IdlStruct, typename="percuss::v1::BatchRequest"):
     """A batch of such."""
 
     client: array[byte, 16]
@@ -82,7 +82,7 @@ class OlderBatch(IdlStruct, typename="percuss::v2::BatchRequest"):
 
 @dataclass
 @appendable
-class OlderEnsemble(IdlStruct, typename="percuss::v2::EnsembleRequest"):
+class OlderEnsemble(IdlStruct, typename="percuss::v1::EnsembleRequest"):
     """An ensemble of such."""
 
     client: array[byte, 16]
@@ -93,7 +93,7 @@ class OlderEnsemble(IdlStruct, typename="percuss::v2::EnsembleRequest"):
 
 @dataclass
 @final
-class FinalRequest(IdlStruct, typename="percuss::v2::Request"):
+class FinalRequest(IdlStruct, typename="percuss::v1::Request"):
     """Encoded in another way, and with other contents."""
 
     client: array[byte, 16]
@@ -125,7 +125,7 @@ class Peers(unittest.TestCase):
     def test_older_inside(self):
         for sample_type in (OlderBatch, OlderEnsemble):
             participant = DomainParticipant(DOMAIN)
-            topic = Topic(participant, "percuss/v2/" + sample_type.__idl_typename__.split("::")[-1], sample_type)
+            topic = Topic(participant, "percuss/v1/" + sample_type.__idl_typename__.split("::")[-1], sample_type)
             writer = DataWriter(participant, topic, qos=Qos(*plain_dds.EXCHANGE))
             end = time.monotonic() + 10
             while not writer.get_matched_subscriptions():

@@ -13,12 +13,12 @@
 #include "batch.h"
 
 /* Part number `part` of 3 with two replies, of sequences 10 part and 10 part + 1. */
-static percuss_v2_BatchReply part_of_three(uint32_t part, uint8_t server)
+static percuss_v1_BatchReply part_of_three(uint32_t part, uint8_t server)
 {
-    static percuss_v2_Reply replies[2];
-    replies[0] = (percuss_v2_Reply){.sequence = 10 * part};
-    replies[1] = (percuss_v2_Reply){.sequence = 10 * part + 1};
-    percuss_v2_BatchReply wire = {.part = part, .parts = 3, .server = {server}};
+    static percuss_v1_Reply replies[2];
+    replies[0] = (percuss_v1_Reply){.sequence = 10 * part};
+    replies[1] = (percuss_v1_Reply){.sequence = 10 * part + 1};
+    percuss_v1_BatchReply wire = {.part = part, .parts = 3, .server = {server}};
     wire.replies._buffer = replies;
     wire.replies._length = 2;
     return wire;
@@ -26,7 +26,7 @@ static percuss_v2_BatchReply part_of_three(uint32_t part, uint8_t server)
 
 static enum percuss_result add(struct batch *batch, uint32_t part, uint8_t server)
 {
-    percuss_v2_BatchReply wire = part_of_three(part, server);
+    percuss_v1_BatchReply wire = part_of_three(part, server);
     return batch_add_part(batch, &wire);
 }
 
@@ -69,8 +69,8 @@ static void a_refused_batch_refuses_every_question(void **state)
     (void)state;
     struct batch batch = {0};
     struct percuss_reply replies[2];
-    percuss_v2_BatchReply wire = {
-        .parts = 1, .status = percuss_v2_STATUS_BUSY, .message = "queue full"};
+    percuss_v1_BatchReply wire = {
+        .parts = 1, .status = percuss_v1_STATUS_BUSY, .message = "queue full"};
     assert_int_equal(batch_add_part(&batch, &wire), PERCUSS_RESULT_OK);
     batch_collect(&batch, replies, 2);
     for (int i = 0; i < 2; ++i) {
@@ -84,10 +84,10 @@ static void drops_impossible_parts(void **state)
 {
     (void)state;
     struct batch batch = {0};
-    percuss_v2_BatchReply none = {.part = 0, .parts = 0};
-    percuss_v2_BatchReply beyond = {.part = 3, .parts = 3};
-    percuss_v2_BatchReply many = {.part = 0, .parts = UINT32_MAX};
-    percuss_v2_BatchReply other = {.part = 0, .parts = 2, .server = {7}};
+    percuss_v1_BatchReply none = {.part = 0, .parts = 0};
+    percuss_v1_BatchReply beyond = {.part = 3, .parts = 3};
+    percuss_v1_BatchReply many = {.part = 0, .parts = UINT32_MAX};
+    percuss_v1_BatchReply other = {.part = 0, .parts = 2, .server = {7}};
     assert_int_equal(batch_add_part(&batch, &none), PERCUSS_RESULT_PENDING);
     assert_int_equal(batch_add_part(&batch, &beyond), PERCUSS_RESULT_PENDING);
     assert_int_equal(batch_add_part(&batch, &many), PERCUSS_RESULT_PENDING);

@@ -17,7 +17,7 @@ static struct percuss_reply reply;
 static int convert(void **state)
 {
     (void)state;
-    percuss_v2_Reply wire = wire_reply();
+    percuss_v1_Reply wire = wire_reply();
     return convert_reply(&wire, &reply) != PERCUSS_RESULT_OK;
 }
 
@@ -110,7 +110,7 @@ static void warnings(void **state)
 static void an_empty_reply(void **state)
 {
     (void)state;
-    percuss_v2_Reply wire = {.status = percuss_v2_STATUS_BUSY};
+    percuss_v1_Reply wire = {.status = percuss_v1_STATUS_BUSY};
     struct percuss_reply empty;
     assert_int_equal(convert_reply(&wire, &empty), PERCUSS_RESULT_OK);
     assert_int_equal(empty.status, PERCUSS_BUSY);

@@ -15,7 +15,7 @@
 
 static struct percuss_request request;
 static struct request_storage storage;
-static percuss_v2_Request wire;
+static percuss_v1_Request wire;
 
 static void fill(void)
 {
@@ -43,7 +43,7 @@ static void converts_bodies_and_contacts(void **state)
     fill();
     assert_int_equal(convert_request(&request, &storage, &wire), PERCUSS_RESULT_OK);
     assert_int_equal(wire.bodies._length, 2);
-    const percuss_v2_BodyMotion *body = wire.bodies._buffer;
+    const percuss_v1_BodyMotion *body = wire.bodies._buffer;
     assert_string_equal(body[0].id, "sphere");
     assert_true(body[0].position[2] == 1 && body[0].velocity[0] == 2);
     assert_true(body[0].angular_velocity[1] == 3 && body[0].elapsed == 4);
@@ -55,7 +55,7 @@ static void converts_bodies_and_contacts(void **state)
     assert_int_equal(body[1].overrides._length, 0);
     assert_true(body[1].orientation[0] == 1 && body[1].elapsed == 0);
     assert_int_equal(wire.contacts._length, 1);
-    const percuss_v2_Contact *contact = wire.contacts._buffer;
+    const percuss_v1_Contact *contact = wire.contacts._buffer;
     assert_int_equal(contact->b, 1);
     assert_true(contact->point[0] == 5 && contact->normal[2] == 6);
     assert_true(contact->gap == 7 && contact->gap_acceleration == 8);
@@ -81,10 +81,10 @@ static void converts_options_and_delassus(void **state)
     assert_int_equal(wire.delassus._length, 1);
     assert_true(wire.delassus._buffer[0] == 9);
     assert_true(wire.options.tolerance == 1e-6 && wire.options.horizon == 0.1);
-    assert_int_equal(wire.options.contact_model, percuss_v2_CONTACT_MODEL_TABLE);
-    assert_int_equal(wire.options.method, percuss_v2_METHOD_CVODE);
-    assert_int_equal(wire.options.compliance, percuss_v2_COMPLIANCE_MATCHED);
-    assert_int_equal(wire.options.dents, percuss_v2_DENTS_IGNORE);
+    assert_int_equal(wire.options.contact_model, percuss_v1_CONTACT_MODEL_TABLE);
+    assert_int_equal(wire.options.method, percuss_v1_METHOD_CVODE);
+    assert_int_equal(wire.options.compliance, percuss_v1_COMPLIANCE_MATCHED);
+    assert_int_equal(wire.options.dents, percuss_v1_DENTS_IGNORE);
     assert_true(wire.options.conditioning && wire.options.trace && wire.options.deadline == 2);
 }
 

@@ -19,9 +19,9 @@ static dds_sequence_double list(uint32_t first, uint32_t length)
     return (dds_sequence_double){length, length, numbers + first, false};
 }
 
-static percuss_v2_Trace part_of(uint32_t contact, uint32_t part, uint32_t parts, uint32_t length)
+static percuss_v1_Trace part_of(uint32_t contact, uint32_t part, uint32_t parts, uint32_t length)
 {
-    percuss_v2_Trace wire = {.contact = contact, .part = part, .parts = parts};
+    percuss_v1_Trace wire = {.contact = contact, .part = part, .parts = parts};
     wire.time = list(part, length);
     wire.force = list(1 + part, length);
     wire.indentation = wire.gap = wire.gap_rate = list(0, length);
@@ -36,9 +36,9 @@ static void puts_parts_together(void **state)
     (void)state;
     static struct gather gather;
     struct percuss_trace trace;
-    percuss_v2_Trace second = part_of(1, 1, 2, 1), first = part_of(1, 0, 2, 3);
-    percuss_v2_Trace other = part_of(0, 0, 1, 2), foreign = part_of(64, 0, 1, 2);
-    percuss_v2_Trace longer = part_of(1, 1, 2, 7);
+    percuss_v1_Trace second = part_of(1, 1, 2, 1), first = part_of(1, 0, 2, 3);
+    percuss_v1_Trace other = part_of(0, 0, 1, 2), foreign = part_of(64, 0, 1, 2);
+    percuss_v1_Trace longer = part_of(1, 1, 2, 7);
     gather_add(&gather, &second); // too early
     gather_add(&gather, &foreign);
     assert_false(gather_is_complete(&gather, 2));

@@ -21,7 +21,7 @@ static int convert(void **state)
 {
     (void)state;
     struct percuss_reply reply;
-    percuss_v2_Reply wire = wire_reply();
+    percuss_v1_Reply wire = wire_reply();
     if (convert_reply(&wire, &reply) != PERCUSS_RESULT_OK)
         return 1;
     root = reply_to_json(&reply);

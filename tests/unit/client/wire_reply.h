@@ -19,33 +19,33 @@
     } while (0)
 
 /* One contact with two sub-impacts, one without any. Valid until the next call. */
-static inline percuss_v2_Reply wire_reply(void)
+static inline percuss_v1_Reply wire_reply(void)
 {
-    static percuss_v2_SubImpact subs[2] = {
+    static percuss_v1_SubImpact subs[2] = {
         {.start = 1, .compression_end = 2, .end = 3, .impulse = 4, .compression_impulse = 5},
         {.peak_force = 6, .max_indentation = 7, .gap_rate_before = 8, .gap_rate_after = 9},
     };
-    static percuss_v2_ContactResult contacts[2] = {
+    static percuss_v1_ContactResult contacts[2] = {
         {.impulse = 10, .impulse_vector = {11, 12, 13}, .impulse_compression = 14},
         {.inverse_effective_mass = 15, .end_time = 16},
     };
-    static percuss_v2_BodyVelocity velocities[1] = {
+    static percuss_v1_BodyVelocity velocities[1] = {
         {.id = "sphere", .velocity = {17, 18, 19}, .angular_velocity = {20, 21, 22}}};
-    static percuss_v2_BodyState states[2] = {{.id = "sphere", .state = "t1"},
+    static percuss_v1_BodyState states[2] = {{.id = "sphere", .state = "t1"},
                                              {.id = "beam", .state = "t2"}};
-    static percuss_v2_BodyEnergy vibration[1] = {{.id = "beam", .energy = 23}};
-    static percuss_v2_BodyModel models[1] = {
+    static percuss_v1_BodyEnergy vibration[1] = {{.id = "beam", .energy = 23}};
+    static percuss_v1_BodyModel models[1] = {
         {.id = "beam", .modes = 24, .rigid = false, .theory = "timoshenko", .shear_factor = 0.89}};
     static char *warnings[2] = {"one", "another"};
-    percuss_v2_Reply wire = {.sequence = 25,
+    percuss_v1_Reply wire = {.sequence = 25,
                              .catalogue_revision = "r",
                              .version = "v",
-                             .status = percuss_v2_STATUS_TRUNCATED,
+                             .status = percuss_v1_STATUS_TRUNCATED,
                              .message = "m",
                              .complete = true,
-                             .end_reason = percuss_v2_END_REASON_HORIZON,
+                             .end_reason = percuss_v1_END_REASON_HORIZON,
                              .window = NAN,
-                             .delassus_source = percuss_v2_DELASSUS_SOURCE_CLIENT,
+                             .delassus_source = percuss_v1_DELASSUS_SOURCE_CLIENT,
                              .time_shift = 26,
                              .timing = {27, 28}};
     subs[1].negligible = true;
@@ -56,18 +56,18 @@ static inline percuss_v2_Reply wire_reply(void)
     FILL(wire.contacts, contacts);
     FILL(wire.velocity_after, velocities);
     FILL(wire.states_after, states);
-    wire.energy = (percuss_v2_Energy){.available = 29,
+    wire.energy = (percuss_v1_Energy){.available = 29,
                                       .rigid_after = 30,
                                       .damping = 31,
                                       .plastic = 32,
                                       .stored = 33,
                                       .closure = 34};
     FILL(wire.energy.vibration, vibration);
-    wire.error = (percuss_v2_ErrorEstimate){35, 36, 37, 38, NAN, true};
+    wire.error = (percuss_v1_ErrorEstimate){35, 36, 37, 38, NAN, true};
     FILL(wire.model.bodies, models);
-    wire.model.contact_model = percuss_v2_CONTACT_MODEL_HERTZ;
-    wire.model.compliance = percuss_v2_COMPLIANCE_HALF_SPACE;
-    wire.model.method = percuss_v2_METHOD_CVODE;
+    wire.model.contact_model = percuss_v1_CONTACT_MODEL_HERTZ;
+    wire.model.compliance = percuss_v1_COMPLIANCE_HALF_SPACE;
+    wire.model.method = percuss_v1_METHOD_CVODE;
     strcpy(wire.model.reason, "because");
     wire.model.omitted_error = 39;
     FILL(wire.warnings, warnings);

@@ -20,10 +20,10 @@
 
 /* A good request on the wire with room for the largest one. */
 struct sample {
-    percuss_v2_BodyMotion bodies[PERCUSS_MAX_BODIES];
-    percuss_v2_Contact contacts[PERCUSS_MAX_CONTACTS];
+    percuss_v1_BodyMotion bodies[PERCUSS_MAX_BODIES];
+    percuss_v1_Contact contacts[PERCUSS_MAX_CONTACTS];
     double delassus[PERCUSS_MAX_CONTACTS * PERCUSS_MAX_CONTACTS];
-    percuss_v2_Request wire;
+    percuss_v1_Request wire;
 };
 
 /* Two bodies, two contacts, a delassus matrix. */
@@ -31,12 +31,12 @@ static inline void sample_fill(struct sample *sample)
 {
     memset(sample, 0, sizeof *sample);
     for (int i = 0; i < 2; i++) {
-        percuss_v2_BodyMotion *body = &sample->bodies[i];
+        percuss_v1_BodyMotion *body = &sample->bodies[i];
         snprintf(body->id, sizeof body->id, "body-%d", i);
         body->orientation[0] = 1.0;
         body->position[2] = 0.25 * i;
         body->velocity[2] = -0.5 * i;
-        percuss_v2_Contact *contact = &sample->contacts[i];
+        percuss_v1_Contact *contact = &sample->contacts[i];
         contact->a = (uint32_t)i;
         contact->b = (uint32_t)(1 - i);
         contact->normal[2] = 1.0;

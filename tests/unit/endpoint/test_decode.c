@@ -18,7 +18,7 @@ static void converts_a_good_request(void **state)
     struct fault fault;
     sample_fill(&sample);
     sample.bodies[1].elapsed = 0.5;
-    sample.wire.options = (percuss_v2_Options){.tolerance = 1e-6,
+    sample.wire.options = (percuss_v1_Options){.tolerance = 1e-6,
                                                .horizon = 0.02,
                                                .contact_model = 1,
                                                .method = 1,
@@ -50,7 +50,7 @@ static void converts_overrides(void **state)
 {
     (void)state;
     struct fault fault;
-    percuss_v2_Override overrides[] = {{PERCUSS_PARAMETER_YOUNG, 71e9},
+    percuss_v1_Override overrides[] = {{PERCUSS_PARAMETER_YOUNG, 71e9},
                                        {PERCUSS_PARAMETER_DAMPING, 0.0}};
     sample_fill(&sample);
     sample.bodies[1].overrides._buffer = overrides;

@@ -11,7 +11,7 @@
 static void described(const struct body *body, const char *shape, const char *description,
                       const double half_extents[3])
 {
-    percuss_v2_Body wire;
+    percuss_v1_Body wire;
     describe_body(body, &wire);
     assert_string_equal(wire.id, body->id);
     assert_string_equal(wire.shape, shape);

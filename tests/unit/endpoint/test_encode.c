@@ -18,7 +18,7 @@ static void copies_a_result(void **state)
     struct envelope envelope = sample_envelope(42);
     struct solve_result *result = sample_result(2, 3);
     struct answer *answer = encode_result(&envelope, result, sample_tokens, 256);
-    const percuss_v2_Reply *reply = answer->reply;
+    const percuss_v1_Reply *reply = answer->reply;
     assert_memory_equal(reply->client, sample_client, 16);
     assert_memory_equal(reply->server, sample_server, 16);
     assert_true(reply->sequence == 42);
@@ -55,10 +55,10 @@ static void leaves_velocities_out_that_are_not_known(void **state)
     free(result);
 }
 
-static void all_undefined(const percuss_v2_Reply *reply)
+static void all_undefined(const percuss_v1_Reply *reply)
 {
-    const percuss_v2_Energy *energy = &reply->energy;
-    const percuss_v2_ErrorEstimate *error = &reply->error;
+    const percuss_v1_Energy *energy = &reply->energy;
+    const percuss_v1_ErrorEstimate *error = &reply->error;
     const double numbers[] = {
         reply->window,
         reply->time_shift,
@@ -137,7 +137,7 @@ static void bounds_the_size_of_a_reply(void **state)
         for (size_t k = 0; k < 5; k++) {
             struct solve_result *result = sample_result(counts[i], lists[k]);
             struct answer *answer = encode_result(&envelope, result, sample_tokens, lists[k]);
-            size_t real = serialised(answer->reply, &percuss_v2_Reply_desc);
+            size_t real = serialised(answer->reply, &percuss_v1_Reply_desc);
             size_t bound = batch_reply_size(answer->reply);
             assert_in_range(real, 1, bound);
             assert_true((double)bound < 1.1 * (double)real + 300.0);
@@ -152,11 +152,11 @@ static void check_parts(const struct answer *batch, size_t count)
 {
     size_t seen = 0;
     for (size_t i = 0; i < batch->part_count; i++) {
-        const percuss_v2_BatchReply *part = &batch->parts[i];
+        const percuss_v1_BatchReply *part = &batch->parts[i];
         assert_int_equal(part->part, i);
         assert_int_equal(part->parts, batch->part_count);
         assert_true(part->sequence == 99);
-        assert_in_range(serialised(part, &percuss_v2_BatchReply_desc), 1, BATCH_PART_BYTES);
+        assert_in_range(serialised(part, &percuss_v1_BatchReply_desc), 1, BATCH_PART_BYTES);
         for (uint32_t k = 0; k < part->replies._length; k++)
             assert_true(part->replies._buffer[k].sequence == seen++);
     }
@@ -214,7 +214,7 @@ static void cuts_histories_into_parts(void **state)
     struct answer *answer = encode_result(&envelope, result, sample_tokens, 16);
     assert_int_equal(answer->trace_count, 3 * CONTACTS);
     for (uint32_t i = 0; i < answer->trace_count; i++) {
-        const percuss_v2_Trace *part = &answer->traces[i];
+        const percuss_v1_Trace *part = &answer->traces[i];
         uint32_t first = part->part * TRACE_PART_INSTANTS;
         assert_int_equal(part->contact, i / 3);
         assert_int_equal(part->part, i % 3);
@@ -224,7 +224,7 @@ static void cuts_histories_into_parts(void **state)
         assert_true(part->time._buffer[0] == first);
         assert_true(part->displacement_a._buffer[6] == 5e4 + 6 + first);
         assert_true(part->velocity_b._buffer[6] == 8e4 + 6 + first);
-        assert_in_range(serialised(part, &percuss_v2_Trace_desc), 1, BATCH_PART_BYTES);
+        assert_in_range(serialised(part, &percuss_v1_Trace_desc), 1, BATCH_PART_BYTES);
     }
     answer_release(answer);
     free(result);

@@ -84,9 +84,9 @@ static void encodes_all(void **state)
     struct ensemble_ending ending = {PERCUSS_TRUNCATED, "cancelled"};
     struct answer *answer = encode_ensemble(&envelope, &e->ensemble, &e->report, &ending);
     assert_non_null(answer);
-    const percuss_v2_EnsembleReply *reply = answer->report;
+    const percuss_v1_EnsembleReply *reply = answer->report;
     assert_int_equal(reply->sequence, 9);
-    assert_int_equal(reply->status, percuss_v2_STATUS_TRUNCATED);
+    assert_int_equal(reply->status, percuss_v1_STATUS_TRUNCATED);
     assert_string_equal(reply->message, "cancelled");
     assert_false(reply->complete);
     assert_int_equal(reply->samples, 7);
@@ -112,9 +112,9 @@ static void copies_are_deep(void **state)
 {
     (void)state;
     double values[] = {0.1, 0.2}, quantile = 0.5;
-    percuss_v2_EnsembleInput inputs[2] = {{.name = "speed"}, {.name = "site", .body = "beam"}};
-    percuss_v2_EnsembleCorrelation pair = {0, 1, 0.3};
-    percuss_v2_EnsembleRequest request = {.samples = 5, .seed = 3};
+    percuss_v1_EnsembleInput inputs[2] = {{.name = "speed"}, {.name = "site", .body = "beam"}};
+    percuss_v1_EnsembleCorrelation pair = {0, 1, 0.3};
+    percuss_v1_EnsembleRequest request = {.samples = 5, .seed = 3};
     inputs[0].values._buffer = values;
     inputs[0].values._length = 2;
     request.inputs._buffer = inputs;
@@ -124,7 +124,7 @@ static void copies_are_deep(void **state)
     request.quantiles._buffer = &quantile;
     request.quantiles._length = 1;
     struct digest before = question_digest_ensemble(&request);
-    percuss_v2_EnsembleRequest *copy = question_copy_ensemble(&request);
+    percuss_v1_EnsembleRequest *copy = question_copy_ensemble(&request);
     assert_non_null(copy);
     values[1] = 9.0;
     pair.coefficient = 0.9;
@@ -141,9 +141,9 @@ static void copies_are_deep(void **state)
 static void digests_tell_apart(void **state)
 {
     (void)state;
-    percuss_v2_EnsembleInput input = {.name = "speed"};
-    percuss_v2_EnsembleRequest one = {.samples = 5, .inputs = {._buffer = &input, ._length = 1}};
-    percuss_v2_EnsembleRequest others[7];
+    percuss_v1_EnsembleInput input = {.name = "speed"};
+    percuss_v1_EnsembleRequest one = {.samples = 5, .inputs = {._buffer = &input, ._length = 1}};
+    percuss_v1_EnsembleRequest others[7];
     for (int i = 0; i < 7; i++)
         others[i] = one;
     others[0].samples = 6;

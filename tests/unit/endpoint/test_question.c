@@ -73,13 +73,13 @@ static void heeds_everything_that_is_asked(void **state)
 static void copies_outlive_their_sample(void **state)
 {
     (void)state;
-    percuss_v2_Request both[2];
+    percuss_v1_Request both[2];
     struct digest digest = fresh_digest();
     both[0] = both[1] = sample.wire;
     both[1].delassus._length = 0;
     both[1].delassus._buffer = NULL;
-    percuss_v2_Override override = {PERCUSS_PARAMETER_YOUNG, 71e9};
-    percuss_v2_BodyMotion varied[2];
+    percuss_v1_Override override = {PERCUSS_PARAMETER_YOUNG, 71e9};
+    percuss_v1_BodyMotion varied[2];
     memcpy(varied, sample.bodies, sizeof varied);
     varied[1].overrides._buffer = &override;
     varied[1].overrides._length = 1;
@@ -87,7 +87,7 @@ static void copies_outlive_their_sample(void **state)
     struct digest with_override = question_digest_single(&both[1]);
     override.value = 72e9;
     assert_false(same(question_digest_single(&both[1]), with_override));
-    percuss_v2_Request *copies = question_copy(both, 2);
+    percuss_v1_Request *copies = question_copy(both, 2);
     memset(&sample, 0xff, sizeof sample);
     memset(varied, 0xff, sizeof varied);
     override.value = 0.0;

@@ -6,17 +6,17 @@
 
 #include "model/body.h"
 
-#define STATUS(name, text) assert_int_equal(PERCUSS_##name, percuss_v2_STATUS_##name);
-#define END(name, text)    assert_int_equal(PERCUSS_END_##name, percuss_v2_END_REASON_##name);
-#define MODEL(name, text)  assert_int_equal(PERCUSS_CONTACT_##name, percuss_v2_CONTACT_MODEL_##name);
-#define METHOD(name, text) assert_int_equal(PERCUSS_METHOD_##name, percuss_v2_METHOD_##name);
+#define STATUS(name, text) assert_int_equal(PERCUSS_##name, percuss_v1_STATUS_##name);
+#define END(name, text)    assert_int_equal(PERCUSS_END_##name, percuss_v1_END_REASON_##name);
+#define MODEL(name, text)  assert_int_equal(PERCUSS_CONTACT_##name, percuss_v1_CONTACT_MODEL_##name);
+#define METHOD(name, text) assert_int_equal(PERCUSS_METHOD_##name, percuss_v1_METHOD_##name);
 #define YIELDING(name, text)                                                                       \
-    assert_int_equal(PERCUSS_COMPLIANCE_##name, percuss_v2_COMPLIANCE_##name);
-#define DENTS(name, text) assert_int_equal(PERCUSS_DENTS_##name, percuss_v2_DENTS_##name);
+    assert_int_equal(PERCUSS_COMPLIANCE_##name, percuss_v1_COMPLIANCE_##name);
+#define DENTS(name, text) assert_int_equal(PERCUSS_DENTS_##name, percuss_v1_DENTS_##name);
 #define PARAMETER(name, text)                                                                      \
-    assert_int_equal(PERCUSS_PARAMETER_##name, percuss_v2_PARAMETER_##name);
+    assert_int_equal(PERCUSS_PARAMETER_##name, percuss_v1_PARAMETER_##name);
 #define SOURCE(name, text)                                                                         \
-    assert_int_equal(PERCUSS_DELASSUS_##name, percuss_v2_DELASSUS_SOURCE_##name);
+    assert_int_equal(PERCUSS_DELASSUS_##name, percuss_v1_DELASSUS_SOURCE_##name);
 
 static void numbers_are_those_of_the_wire(void **state)
 {
@@ -29,20 +29,20 @@ static void numbers_are_those_of_the_wire(void **state)
     PERCUSS_DENTS_LIST(DENTS)
     PERCUSS_PARAMETER_LIST(PARAMETER)
     PERCUSS_DELASSUS_SOURCE_LIST(SOURCE)
-    assert_int_equal(SUPPORT_FREE, percuss_v2_SUPPORT_FREE);
-    assert_int_equal(SUPPORT_PINNED, percuss_v2_SUPPORT_PINNED);
-    assert_int_equal(SUPPORT_CLAMPED, percuss_v2_SUPPORT_CLAMPED);
+    assert_int_equal(SUPPORT_FREE, percuss_v1_SUPPORT_FREE);
+    assert_int_equal(SUPPORT_PINNED, percuss_v1_SUPPORT_PINNED);
+    assert_int_equal(SUPPORT_CLAMPED, percuss_v1_SUPPORT_CLAMPED);
 }
 
 static void sizes_are_those_of_the_wire(void **state)
 {
     (void)state;
-    assert_int_equal(PERCUSS_ID_SIZE, sizeof((percuss_v2_BodyMotion *)NULL)->id);
-    assert_int_equal(PERCUSS_ID_SIZE, sizeof((percuss_v2_BodyState *)NULL)->state);
+    assert_int_equal(PERCUSS_ID_SIZE, sizeof((percuss_v1_BodyMotion *)NULL)->id);
+    assert_int_equal(PERCUSS_ID_SIZE, sizeof((percuss_v1_BodyState *)NULL)->state);
     assert_int_equal(sizeof((struct solve_result *)NULL)->reason,
-                     sizeof((percuss_v2_Model *)NULL)->reason);
+                     sizeof((percuss_v1_Model *)NULL)->reason);
     /* what the solver says must fit */
-    assert_true(sizeof(struct fault) <= sizeof((percuss_v2_Reply *)NULL)->message);
+    assert_true(sizeof(struct fault) <= sizeof((percuss_v1_Reply *)NULL)->message);
 }
 
 /* The lists say how many constants there are; one more in the IDL alone would be missed otherwise.

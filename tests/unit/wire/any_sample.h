@@ -18,18 +18,18 @@ static const struct {
     const dds_topic_descriptor_t *type;
     const char *topic;
 } any_types[] = {
-    {&percuss_v2_Request_desc, WIRE_TOPIC_REQUEST},
-    {&percuss_v2_Reply_desc, WIRE_TOPIC_REPLY},
-    {&percuss_v2_BatchRequest_desc, WIRE_TOPIC_BATCH_REQUEST},
-    {&percuss_v2_BatchReply_desc, WIRE_TOPIC_BATCH_REPLY},
-    {&percuss_v2_EnsembleRequest_desc, WIRE_TOPIC_ENSEMBLE_REQUEST},
-    {&percuss_v2_EnsembleProgress_desc, WIRE_TOPIC_ENSEMBLE_PROGRESS},
-    {&percuss_v2_EnsembleSamples_desc, WIRE_TOPIC_ENSEMBLE_SAMPLES},
-    {&percuss_v2_EnsembleReply_desc, WIRE_TOPIC_ENSEMBLE_REPLY},
-    {&percuss_v2_Trace_desc, WIRE_TOPIC_TRACE},
-    {&percuss_v2_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS},
-    {&percuss_v2_Body_desc, WIRE_TOPIC_BODY},
-    {&percuss_v2_Dents_desc, WIRE_TOPIC_DENTS},
+    {&percuss_v1_Request_desc, WIRE_TOPIC_REQUEST},
+    {&percuss_v1_Reply_desc, WIRE_TOPIC_REPLY},
+    {&percuss_v1_BatchRequest_desc, WIRE_TOPIC_BATCH_REQUEST},
+    {&percuss_v1_BatchReply_desc, WIRE_TOPIC_BATCH_REPLY},
+    {&percuss_v1_EnsembleRequest_desc, WIRE_TOPIC_ENSEMBLE_REQUEST},
+    {&percuss_v1_EnsembleProgress_desc, WIRE_TOPIC_ENSEMBLE_PROGRESS},
+    {&percuss_v1_EnsembleSamples_desc, WIRE_TOPIC_ENSEMBLE_SAMPLES},
+    {&percuss_v1_EnsembleReply_desc, WIRE_TOPIC_ENSEMBLE_REPLY},
+    {&percuss_v1_Trace_desc, WIRE_TOPIC_TRACE},
+    {&percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS},
+    {&percuss_v1_Body_desc, WIRE_TOPIC_BODY},
+    {&percuss_v1_Dents_desc, WIRE_TOPIC_DENTS},
 };
 enum { ANY_TYPES = sizeof any_types / sizeof *any_types };
 

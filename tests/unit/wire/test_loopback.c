@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* idl/wire_loopback.c: whose sockets get a filter. That it keeps others out is shown in
- * tests/service/25_this_machine_only.sh. */
+ * tests/service/28_this_machine_only.sh. */
 
 #include <setjmp.h>
 #include <stdarg.h>

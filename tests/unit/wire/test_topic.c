@@ -121,22 +121,22 @@ static void headers_of_other_representations_are_dropped(void **state)
 static void a_disposed_instance_keeps_its_key(void **state)
 {
     (void)state;
-    dds_entity_t topic = wire_topic_create(participant, &percuss_v2_Body_desc, WIRE_TOPIC_BODY);
+    dds_entity_t topic = wire_topic_create(participant, &percuss_v1_Body_desc, WIRE_TOPIC_BODY);
     dds_entity_t reader = dds_create_reader(participant, topic, NULL, NULL);
     dds_entity_t writer = dds_create_writer(participant, topic, NULL, NULL);
     assert_true(reader > 0 && writer > 0);
     for (int i = 0; i < 2; i++) {
-        percuss_v2_Body body = {.mass = i};
+        percuss_v1_Body body = {.mass = i};
         strcpy(body.id, i ? "rod" : "sphere");
         assert_int_equal(dds_write(writer, &body), DDS_RETCODE_OK);
     }
-    percuss_v2_Body gone = {.id = "sphere"};
+    percuss_v1_Body gone = {.id = "sphere"};
     assert_int_equal(dds_dispose(writer, &gone), DDS_RETCODE_OK);
     void *samples[4] = {NULL};
     dds_sample_info_t infos[4];
     assert_int_equal(dds_take(reader, samples, infos, 4, 4), 2);
     for (int i = 0; i < 2; i++) {
-        const percuss_v2_Body *body = samples[i];
+        const percuss_v1_Body *body = samples[i];
         bool disposed = infos[i].instance_state == DDS_IST_NOT_ALIVE_DISPOSED;
         assert_string_equal(body->id, disposed ? "sphere" : "rod");
     }
@@ -147,7 +147,7 @@ static void types_without_a_size_in_front_are_refused(void **state)
 {
     (void)state;
     static const uint32_t ops[] = {DDS_OP_RTS};
-    dds_topic_descriptor_t descriptor = percuss_v2_Body_desc;
+    dds_topic_descriptor_t descriptor = percuss_v1_Body_desc;
     descriptor.m_ops = ops;
     assert_true(wire_topic_create(participant, &descriptor, "final") == DDS_RETCODE_BAD_PARAMETER);
 }

@@ -139,13 +139,13 @@ static void damaged_samples_pass_only_where_dds_stays_inside(void **state)
 static void a_missing_struct_is_refused(void **state)
 {
     (void)state;
-    struct any_bytes bytes = any_sample(&percuss_v2_Request_desc, false);
+    struct any_bytes bytes = any_sample(&percuss_v1_Request_desc, false);
     size_t whole = bytes.size, server = 16;
     any_put(bytes.data, whole - server - 4, false);
-    assert_true(passes(&percuss_v2_Request_desc, &bytes, whole - server, false));
+    assert_true(passes(&percuss_v1_Request_desc, &bytes, whole - server, false));
     for (size_t size = 4; size < whole - server; size++) {
         any_put(bytes.data, size - 4, false);
-        assert_false(passes(&percuss_v2_Request_desc, &bytes, size, false));
+        assert_false(passes(&percuss_v1_Request_desc, &bytes, size, false));
     }
     free(bytes.data);
 }
@@ -160,14 +160,14 @@ static void more_elements_than_the_bound_are_refused(void **state)
     any_put(data, sizeof data - 4, false);
     any_put(data + 28, sizeof data - 32, false);
     any_put(data + 32, 2000, false);
-    assert_false(passes(&percuss_v2_BatchRequest_desc, &bytes, bytes.size, false));
+    assert_false(passes(&percuss_v1_BatchRequest_desc, &bytes, bytes.size, false));
 }
 
 /* Elements that have left out all their members, 4 bytes each. */
 static void a_list_that_would_swell_is_refused(void **state)
 {
     (void)state;
-    const size_t before = 44, room = (64 << 20) / sizeof(percuss_v2_Dent);
+    const size_t before = 44, room = (64 << 20) / sizeof(percuss_v1_Dent);
     struct any_bytes bytes = {calloc(1, before + 4 * (room + 1)), before + 4 * (room + 1)};
     assert_non_null(bytes.data);
     // specimen and body, empty, around the server; then the size of the list and how many
@@ -178,7 +178,7 @@ static void a_list_that_would_swell_is_refused(void **state)
         any_put(bytes.data, size - 4, false);
         any_put(bytes.data + 36, size - 40, false);
         any_put(bytes.data + 40, count, false);
-        assert_int_equal(passes(&percuss_v2_Dents_desc, &bytes, size, false), count == room);
+        assert_int_equal(passes(&percuss_v1_Dents_desc, &bytes, size, false), count == room);
     }
     free(bytes.data);
 }

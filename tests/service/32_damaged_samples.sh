@@ -45,7 +45,7 @@ while [ "$rounds" -lt 3 ] || { [ "$reached" -eq 0 ] && [ "$rounds" -lt 30 ]; }; 
     ask_everything "meanwhile"
     same_answers "meanwhile"
     expect 0 query --timeout 20
-    reached=$((reached + $(grep -c "deserialization percuss/v2" "$err" || true)))
+    reached=$((reached + $(grep -c "deserialization percuss/v1" "$err" || true)))
 done
 kill "$attacker" 2>/dev/null || fail "the attacker ended by itself"
 say "$reached of them reached a client that only asked for one answer"
