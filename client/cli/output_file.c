@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,20 +14,43 @@
 
 #include "cli.h"
 
+static bool can_write(const char *file);
+
+/* Whether the file can be written where a link that leads nowhere yet points to. */
+static bool can_write_behind(const char *link)
+{
+    char target[PATH_MAX], path[2 * PATH_MAX];
+    const char *slash = strrchr(link, '/');
+    ssize_t length = readlink(link, target, sizeof target - 1);
+    if (length < 0)
+        return false;
+    target[length] = '\0';
+    size_t folder = slash && target[0] != '/' ? (size_t)(slash + 1 - link) : 0;
+    snprintf(path, sizeof path, "%.*s%s", (int)folder, link, target);
+    return can_write(path);
+}
+
+/* A trial leaves what is there, and takes away only what it has made itself. */
 static bool can_write(const char *file)
 {
     struct stat there;
-    bool is_new = stat(file, &there) != 0;
-    /* the reader of a pipe would take a trial for its end */
-    if (!is_new && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode))
-        return access(file, W_OK) == 0;
-    int trial = open(file, is_new ? O_WRONLY | O_CREAT : O_WRONLY, 0666);
-    if (trial < 0)
-        return false;
-    close(trial);
-    if (is_new)
+    int trial = open(file, O_WRONLY | O_CREAT | O_EXCL, 0666);
+    if (trial >= 0) {
+        close(trial);
         unlink(file);
-    return true;
+        return true;
+    }
+    if (errno != EEXIST)
+        return false;
+    if (stat(file, &there) != 0)
+        return errno == ENOENT && can_write_behind(file);
+    /* the reader of a pipe would take a trial for its end */
+    if (!S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode))
+        return access(file, W_OK) == 0;
+    trial = open(file, O_WRONLY);
+    if (trial >= 0)
+        close(trial);
+    return trial >= 0;
 }
 
 void output_file_check(const char *option, const char *file, struct argp_state *state)

@@ -40,6 +40,19 @@ expect 0 query --plot "$work/old.png" --trace "$work/trace.csv"
 [ "$(od -An -tx1 -N8 "$work/old.png" | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "no PNG"
 [ "$(wc -l <"$work/trace.csv")" -gt 100 ] || fail "no histories"
 
+say "a link that leads nowhere yet stays one, and the file comes into being at its end"
+mkdir "$work/pictures"
+ln -s pictures/later.png "$work/link.png"
+ln -s link.png "$work/chain.png"
+expect 5 percuss query --a steel-sphere --b nothing --speed 0.3 --plot "$work/chain.png"
+[ -L "$work/chain.png" ] && [ -L "$work/link.png" ] || fail "the link is gone"
+[ -z "$(ls "$work/pictures")" ] || fail "an empty file is left"
+expect 0 query --plot "$work/chain.png"
+[ -L "$work/link.png" ] && [ -s "$work/pictures/later.png" ] || fail "no picture where the link leads"
+ln -s none/later.csv "$work/nowhere.csv"
+refuses --trace "$work/nowhere.csv" "$missing" query $pair --speed 0.3
+[ -L "$work/nowhere.csv" ] || fail "the link is gone"
+
 say "a full disk is said"
 ln -s /dev/full "$work/full.png"
 expect 1 query --plot "$work/full.png" --json
