@@ -166,17 +166,25 @@ enum percuss_result announcements_connected(struct percuss_client *client, doubl
 {
     struct percuss_server_list servers;
     uint8_t id[16];
-    bool connected = announcements_server(client, id);
+    char name[SERVERS_NAME_SIZE];
+    const bool connected = announcements_server(client, id);
     pthread_mutex_lock(&client->lock);
     enum percuss_result result = exchange_check_connected(client);
+    memcpy(name, client->server_name, sizeof name);
     pthread_mutex_unlock(&client->lock);
-    if (!connected || result != PERCUSS_RESULT_OK)
-        return result;
-    result = percuss_servers(client, timeout, &servers);
+    // another thread may have connected again in between
+    if (!connected && result == PERCUSS_RESULT_OK)
+        result = error_lost(name);
     if (result == PERCUSS_RESULT_OK)
-        *server = *servers_find(&servers, id);
+        result = percuss_servers(client, timeout, &servers);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    // it may have gone meanwhile, while others are there
+    const struct percuss_server *ours = servers_find(&servers, id);
+    if (ours)
+        *server = *ours;
     percuss_server_list_free(&servers);
-    return result;
+    return ours ? PERCUSS_RESULT_OK : error_lost(name);
 }
 
 void percuss_server_list_free(struct percuss_server_list *list)
