@@ -245,7 +245,8 @@ static int run_calibration(struct run *run)
     /* what is to be said of the twins is said of those that came out best */
     int code = ask_twins(run, calibration.fit.x, 1.0);
     if (code != EXIT_ANSWERED)
-        return code;
+        complain("asked once more with the values that came out, the model did not answer: what it "
+                 "warns of there is not known");
     struct calibrate_report report = {calibrate->parameters, calibrate->count, &calibration,
                                       run->set.count, &run->twins.warnings};
     for (size_t i = 0; i < calibrate->count; ++i) {
@@ -259,7 +260,10 @@ static int run_calibration(struct run *run)
         calibrate_print_table(&report);
     if (!calibrate->common->json)
         tally_complain(&run->twins.warnings);
-    return calibrate_warn(&report) ? EXIT_ANSWERED_WITH_WARNING : EXIT_ANSWERED;
+    bool warned = calibrate_warn(&report);
+    if (code != EXIT_ANSWERED)
+        return code;
+    return warned ? EXIT_ANSWERED_WITH_WARNING : EXIT_ANSWERED;
 }
 
 static int prepare(struct run *run)
