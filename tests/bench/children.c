@@ -3,49 +3,26 @@
 
 #include "children.h"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/prctl.h>
-#include <sys/random.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
-enum { MOST_CHILDREN = 4, ATTEMPTS = 1000 };
+#include "domain.h"
+
+enum { MOST_CHILDREN = 4 };
 
 static pid_t children[MOST_CHILDREN];
 static int count;
 
-/* Domains 20 to 99 and the lock files are those of tests/service/lib.sh. */
-static bool lock_domain(uint32_t domain)
-{
-    char path[256];
-    const char *folder = getenv("PERCUSS_DOMAIN_LOCKS");
-    folder = folder ? folder : getenv("TMPDIR");
-    snprintf(path, sizeof path, "%s/percuss-domain-%u.lock", folder ? folder : "/tmp", domain);
-    int file = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0)
-        return true;
-    if (file >= 0)
-        close(file);
-    return false;
-}
-
 uint32_t children_domain(void)
 {
     unsetenv("CYCLONEDDS_URI");
-    for (int i = 0; i < ATTEMPTS; i++) {
-        uint16_t drawn = 0;
-        if (getrandom(&drawn, sizeof drawn, 0) == sizeof drawn && lock_domain(20 + drawn % 80))
-            return 20 + drawn % 80;
-    }
-    fprintf(stderr, "no free DDS domain from 20 to 99\n");
-    exit(EXIT_FAILURE);
+    return domain_draw();
 }
 
 pid_t children_start(char *const arguments[])

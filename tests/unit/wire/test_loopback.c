@@ -13,10 +13,10 @@
 #include <cmocka.h>
 
 #include <netinet/in.h>
-#include <sys/random.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "domain.h"
 #include "wire.h"
 #include "wire_loopback.h"
 
@@ -26,9 +26,8 @@ static uint32_t domain;
 
 static int choose_domain(void **state)
 {
-    uint8_t number = 0;
     (void)state;
-    domain = getrandom(&number, 1, 0) == 1 ? 20 + number % 80 : 20;
+    domain = domain_draw();
     return 0;
 }
 
@@ -73,7 +72,7 @@ static void participants_share_it(void **state)
     assert_true(first > 0 && second > 0);
     assert_int_equal(dds_get_parent(first), dds_get_parent(second));
     assert_int_equal(count_filtered(), 2);
-    dds_entity_t elsewhere = wire_participant_create(domain + 1);
+    dds_entity_t elsewhere = wire_participant_create(domain_draw());
     assert_true(elsewhere > 0);
     assert_int_equal(count_filtered(), 4);
     dds_delete(dds_get_parent(elsewhere));

@@ -9,23 +9,21 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/random.h>
 
 #include <cmocka.h>
 
 #include <dds/ddsi/ddsi_serdata.h>
 
 #include "any_sample.h"
+#include "domain.h"
 #include "wire_topic.h"
 
 static dds_entity_t participant;
 
 static int open_domain(void **state)
 {
-    uint8_t number = 0;
     (void)state;
-    assert_true(getrandom(&number, 1, 0) == 1);
-    participant = wire_participant_create(20 + number % 80);
+    participant = wire_participant_create(domain_draw());
     return participant < 0;
 }
 
