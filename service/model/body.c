@@ -10,6 +10,7 @@
 #include "model/beam.h"
 #include "model/body_check.h"
 #include "model/limits.h"
+#include "model/torsion.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -67,6 +68,8 @@ static void complete_beam(struct body *body)
         second[1] = w * h * h * h / 12.0;
     }
     body->mass = body->material.density * body->area * length;
+    body->torsion_constant = torsion_constant(body);
+    body->warping_constant = torsion_warping_constant(body);
 
     /* Euler-Bernoulli's sections carry no rotatory inertia in bending */
     bool rotatory = body->theory == THEORY_TIMOSHENKO;

@@ -41,6 +41,8 @@ struct body {
         inertia[3]; /* principal, about the centre of mass; a Timoshenko beam's M(L^2/12 + r^2/4) */
     double area;    /* rod, beam: of the section */
     double second_moment[2]; /* beam: of the section for bending along y, along z */
+    double torsion_constant; /* beam: of the section, m^4 */
+    double warping_constant; /* beam: of the section, m^6 */
     double shear_factor[2];  /* beam: for bending along y, along z; NAN for Euler-Bernoulli */
 };
 

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "model/torsion.h"
+
 /* Smaller parts of a unit force are rounding of the pose. */
 static const double NEGLIGIBLE = 1e-9;
 
@@ -39,6 +41,9 @@ struct site_load site_load_make(const struct body *body, const struct site *site
         bending->moment = on_end ? -site->point[1 + plane] * direction[0] : 0.0;
     }
     find_bending(body, &load);
+    if (body->shape == SHAPE_BEAM && body->radius == 0.0 && !on_end)
+        load.torque = site->point[1] * direction[2] - site->point[2] * direction[1];
+    load.acts[FAMILY_TORSION] = fabs(load.torque) > NEGLIGIBLE * body_smallest_radius(body);
     return load;
 }
 
@@ -121,6 +126,19 @@ static void bending_modes(const struct body *body, struct modal_family *modes)
     }
 }
 
+static void torsion_modes(const struct body *body, struct modal_family *modes)
+{
+    for (size_t k = 0; k < modes->count; k++) {
+        modes->omega[k] = torsion_frequency(body, k);
+        modes->odd[k] = torsion_is_odd(body, k);
+    }
+}
+
+static bool is_bending(enum mode_family family)
+{
+    return family == FAMILY_BENDING_Y || family == FAMILY_BENDING_Z;
+}
+
 struct modal_family *modal_family_create(const struct body *body, enum mode_family family,
                                          size_t count)
 {
@@ -131,14 +149,16 @@ struct modal_family *modal_family_create(const struct body *body, enum mode_fami
     modes->count = count;
     modes->omega = calloc(count + 1, sizeof *modes->omega);
     modes->odd = calloc(count + 1, sizeof *modes->odd);
-    if (family != FAMILY_AXIAL)
+    if (is_bending(family))
         modes->beam = calloc(count + 1, sizeof *modes->beam);
-    if (!modes->omega || !modes->odd || (family != FAMILY_AXIAL && !modes->beam)) {
+    if (!modes->omega || !modes->odd || (is_bending(family) && !modes->beam)) {
         modal_family_free(modes);
         return NULL;
     }
     if (family == FAMILY_AXIAL)
         axial_modes(body, modes);
+    else if (family == FAMILY_TORSION)
+        torsion_modes(body, modes);
     else
         bending_modes(body, modes);
     return modes;
@@ -171,6 +191,8 @@ double modal_participation(const struct body *body, const struct modal_family *m
 {
     if (modes->family == FAMILY_AXIAL)
         return axial_participation(body, k, load);
+    if (modes->family == FAMILY_TORSION)
+        return load->torque * torsion_shape(body, k, modes->omega[k], load->bending[0].x);
     const struct beam_load *bending = &load->bending[modes->family - FAMILY_BENDING_Y];
     struct beam_plane plane = modal_beam_plane(body, modes->family);
     double w;
@@ -200,6 +222,8 @@ double modal_compliance(const struct body *body, enum mode_family family, const 
         return 0.0;
     if (family == FAMILY_AXIAL)
         return axial_compliance(body, i, j);
+    if (family == FAMILY_TORSION)
+        return i->torque * j->torque * torsion_compliance(body, i->bending[0].x, j->bending[0].x);
     struct beam_plane plane = modal_beam_plane(body, family);
     return beam_compliance(&plane, &i->bending[family - FAMILY_BENDING_Y],
                            &j->bending[family - FAMILY_BENDING_Y]);

@@ -12,8 +12,8 @@
 #include "model/body.h"
 #include "model/site.h"
 
-/* Longitudinal along x; transverse along y; transverse along z. */
-enum mode_family { FAMILY_AXIAL, FAMILY_BENDING_Y, FAMILY_BENDING_Z, FAMILY_COUNT };
+/* Longitudinal along x; transverse along y; transverse along z; twist about x. */
+enum mode_family { FAMILY_AXIAL, FAMILY_BENDING_Y, FAMILY_BENDING_Z, FAMILY_TORSION, FAMILY_COUNT };
 
 /* What one newton at a contact does to the families of a body. */
 struct site_load {
@@ -21,11 +21,14 @@ struct site_load {
     double axial;                /* force along x, at the end `end` */
     int end;                     /* 0: x = -length/2, 1: +length/2 */
     struct beam_load bending[2]; /* along y, along z */
+    double torque;               /* about x, at x = bending[].x, N m */
 };
 
 /* The load of a unit force along `direction` (body frame) at a site. Parts below 1e-9 of the force
  * count as zero (rounding of the pose). A hit on the side drives no longitudinal waves here: within
- * the angle allowed between stated and true normal that part is not the contact's. */
+ * the angle allowed between stated and true normal that part is not the contact's. A hit on the
+ * side of a rectangular section twists it about the axis; without friction one on a round section
+ * or on an end face does not. */
 struct site_load site_load_make(const struct body *body, const struct site *site,
                                 const double direction[3]);
 
@@ -42,7 +45,7 @@ struct modal_family {
     size_t count;
     double *omega;      /* [count], ascending */
     unsigned char *odd; /* [count]: shape odd about the middle; all 0 unless supports are alike */
-    struct beam_mode *beam; /* [count]; NULL for the longitudinal family */
+    struct beam_mode *beam; /* [count]; NULL for families of other waves */
 };
 
 /* The first `count` modes; NULL: out of memory. Rods: omega_k = k pi c/L (free-free),

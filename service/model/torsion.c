@@ -1,0 +1,263 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "model/torsion.h"
+
+#include <math.h>
+
+#include "model/material.h"
+
+/* J = a b^3/3 (1 - 192 b/(pi^5 a) sum tanh(n pi a/(2b))/n^5), n odd, a >= b. The sum of 1/n^5 is
+ * 31/32 zeta(5), and 1 - tanh z = 2/(exp(2z) + 1) falls geometrically. */
+double torsion_constant(const struct body *body)
+{
+    static const double zeta5 = 1.03692775514336992633;
+    if (body->radius > 0.0)
+        return 0.5 * M_PI * pow(body->radius, 4.0);
+    double a = fmax(body->width, body->height), b = fmin(body->width, body->height);
+    double sum = 31.0 / 32.0 * zeta5;
+    for (int n = 1; n < 40; n += 2)
+        sum -= 2.0 / ((exp(n * M_PI * a / b) + 1.0) * pow(n, 5.0));
+    return a * b * b * b / 3.0 * (1.0 - 192.0 * b / (pow(M_PI, 5.0) * a) * sum);
+}
+
+/* The warping function is y z - sum C_n sin(k z) sinh(k y)/cosh(k a/2) with k = n pi/b, n odd,
+ * |C_n| = 8 b^2/(pi n)^3; the terms' squares and products with y z are integrated one by one. */
+double torsion_warping_constant(const struct body *body)
+{
+    if (body->radius > 0.0)
+        return 0.0;
+    double a = fmax(body->width, body->height), b = fmin(body->width, body->height);
+    double sum = 0.0;
+    for (int n = 199; n > 0; n -= 2) {
+        double k = n * M_PI / b, c = 8.0 * b * b / pow(M_PI * n, 3.0);
+        double t = tanh(0.5 * k * a);
+        double with_yz = c * 4.0 / (k * k) * (0.5 * a / k - t / (k * k));
+        double square = c * c * 0.5 * b * (t / k - 0.5 * a * (1.0 - t * t));
+        sum += square - 2.0 * with_yz;
+    }
+    return pow(a * b, 3.0) / 144.0 + sum;
+}
+
+/* A bar with both ends free. Between held ends shapes are sines; one held end is the middle of a
+ * free bar of twice the length, whose odd shapes are those. */
+struct bar {
+    double length;
+    double stiffness, inertia;                 /* G J, rho I_p */
+    double warping_stiffness, warping_inertia; /* E Gamma, rho Gamma */
+    int held;
+};
+
+static struct bar bar_of(const struct body *body)
+{
+    double gamma = body->warping_constant;
+    int held = (body->supports[0] != SUPPORT_FREE) + (body->supports[1] != SUPPORT_FREE);
+    double polar = body->second_moment[0] + body->second_moment[1];
+    return (struct bar){
+        .length = held == 1 ? 2.0 * body->length : body->length,
+        .stiffness = material_shear_modulus(&body->material) * body->torsion_constant,
+        .inertia = body->material.density * polar,
+        .warping_stiffness = body->material.young * gamma,
+        .warping_inertia = body->material.density * gamma,
+        .held = held,
+    };
+}
+
+/* Half waves of mode k. Those of a bar held at one end count in the double length: odd ones. */
+static double half_waves(const struct bar *bar, size_t k)
+{
+    return bar->held == 1 ? 2.0 * (double)k + 1.0 : (double)k + 1.0;
+}
+
+static bool is_odd_class(const struct bar *bar, size_t k)
+{
+    return bar->held == 1 || k % 2 == 0;
+}
+
+/* omega^2 of waves with the wave number beta. */
+static double frequency_squared(const struct bar *bar, double beta)
+{
+    double b2 = beta * beta;
+    return b2 * (bar->stiffness + bar->warping_stiffness * b2) /
+           (bar->inertia + bar->warping_inertia * b2);
+}
+
+/* Decay of the other solution, from alpha^2 beta^2 = rho I_p omega^2/(E Gamma). */
+static double decay(const struct bar *bar, double beta, double omega_squared)
+{
+    return sqrt(bar->inertia * omega_squared / bar->warping_stiffness) / beta;
+}
+
+/* A free end (theta'' = 0, E Gamma theta''' = (G J - rho Gamma omega^2) theta') reflects waves with
+ * a phase: beta L = n pi - 2 atan((beta/alpha)^3 tanh(alpha L/2)), for odd shapes coth. The right
+ * side less the left falls with beta, from above 0 at 0 to below at n pi. */
+static double phase_defect(const struct bar *bar, double waves, bool odd, double beta)
+{
+    double alpha = decay(bar, beta, frequency_squared(bar, beta));
+    double t = tanh(0.5 * alpha * bar->length);
+    double ratio = beta / alpha;
+    double turn = atan(ratio * ratio * ratio * (odd ? 1.0 / t : t));
+    return waves * M_PI - 2.0 * turn - beta * bar->length;
+}
+
+/* Halving: 1e-16 of n pi in at most 60 steps. */
+static double wave_number(const struct bar *bar, size_t k)
+{
+    double waves = half_waves(bar, k);
+    double high = waves * M_PI / bar->length;
+    double low = 0.0;
+    if (bar->held == 2 || bar->warping_stiffness == 0.0)
+        return high;
+    low = fmax(0.0, (waves - 1.0) * M_PI / bar->length); /* the phase is below pi */
+    for (;;) {
+        double middle = 0.5 * (low + high);
+        if (!(middle > low && middle < high))
+            return middle;
+        if (phase_defect(bar, waves, is_odd_class(bar, k), middle) > 0.0)
+            low = middle;
+        else
+            high = middle;
+    }
+}
+
+double torsion_frequency(const struct body *body, size_t k)
+{
+    struct bar bar = bar_of(body);
+    return sqrt(frequency_squared(&bar, wave_number(&bar, k)));
+}
+
+/* beta of a frequency: the positive root of E Gamma b^4 + T b^2 = rho I_p omega^2, with
+ * T = G J - rho Gamma omega^2, without cancellation. */
+static double wave_number_of(const struct bar *bar, double omega)
+{
+    double squared = omega * omega;
+    double tension = bar->stiffness - bar->warping_inertia * squared;
+    double product = bar->inertia * squared;
+    double root = sqrt(tension * tension + 4.0 * bar->warping_stiffness * product);
+    return tension >= 0.0 ? sqrt(2.0 * product / (tension + root))
+                          : sqrt(0.5 * (root - tension) / bar->warping_stiffness);
+}
+
+/* Integrals over the bar of products of cos(beta x), sin(beta x), and the hyperbolic functions of
+ * alpha x over cosh(alpha L/2). */
+struct products {
+    double cos_cos, sin_sin, cosh_cosh, sinh_sinh, cos_cosh, sin_sinh;
+};
+
+static struct products products_of(double half, double beta, double alpha)
+{
+    double t = tanh(alpha * half), c = cos(beta * half), s = sin(beta * half);
+    double share = half * (1.0 - t * t), sum = 2.0 / (alpha * alpha + beta * beta);
+    return (struct products){
+        .cos_cos = half + s * c / beta,
+        .sin_sin = half - s * c / beta,
+        .cosh_cosh = t / alpha + share,
+        .sinh_sinh = t / alpha - share,
+        .cos_cosh = sum * (alpha * t * c + beta * s),
+        .sin_sinh = sum * (alpha * s - beta * t * c),
+    };
+}
+
+/* cos(beta x) + r cosh(alpha x)/cosh(alpha L/2), or the sines; theta'' = 0 at the ends gives r. */
+static double free_shape(const struct bar *bar, bool odd, double omega, double x)
+{
+    double beta = wave_number_of(bar, omega), half = 0.5 * bar->length;
+    double alpha = decay(bar, beta, omega * omega);
+    struct products p = products_of(half, beta, alpha);
+    double t = tanh(alpha * half), q = beta * beta / (alpha * alpha);
+    double r = odd ? q * sin(beta * half) / t : q * cos(beta * half);
+    double ab = 2.0 * r * alpha * beta, b2 = beta * beta, r2 = r * r, a2 = alpha * alpha;
+    double even_part = p.cos_cos + 2.0 * r * p.cos_cosh + r2 * p.cosh_cosh;
+    double odd_part = p.sin_sin + 2.0 * r * p.sin_sinh + r2 * p.sinh_sinh;
+    double even_slope = b2 * p.sin_sin - ab * p.sin_sinh + r2 * a2 * p.sinh_sinh;
+    double odd_slope = b2 * p.cos_cos + ab * p.cos_cosh + r2 * a2 * p.cosh_cosh;
+    double mass = bar->inertia * (odd ? odd_part : even_part) +
+                  bar->warping_inertia * (odd ? odd_slope : even_slope);
+    /* cosh and sinh over cosh at the end, without overflow */
+    double up = exp(alpha * (x - half)), down = exp(-alpha * (x + half));
+    double scale = 1.0 / (1.0 + exp(-2.0 * alpha * half));
+    double w =
+        odd ? sin(beta * x) + r * scale * (up - down) : cos(beta * x) + r * scale * (up + down);
+    return w / sqrt(mass);
+}
+
+double torsion_shape(const struct body *body, size_t k, double omega, double x)
+{
+    struct bar bar = bar_of(body);
+    bool odd = is_odd_class(&bar, k);
+    if (bar.held == 1) /* from the held end; the double bar has half the amplitude squared */
+        x = body->supports[0] == SUPPORT_FREE ? 0.5 * body->length - x : x + 0.5 * body->length;
+    if (bar.held == 2 || bar.warping_stiffness == 0.0) {
+        double beta = half_waves(&bar, k) * M_PI / bar.length;
+        double mass = 0.5 * bar.length * (bar.inertia + bar.warping_inertia * beta * beta);
+        if (bar.held == 2)
+            return sin(beta * (x + 0.5 * bar.length)) / sqrt(mass);
+        return (bar.held == 1 ? M_SQRT2 : 1.0) * (odd ? sin(beta * x) : cos(beta * x)) / sqrt(mass);
+    }
+    return (bar.held == 1 ? M_SQRT2 : 1.0) * free_shape(&bar, odd, omega, x);
+}
+
+bool torsion_is_odd(const struct body *body, size_t k)
+{
+    struct bar bar = bar_of(body);
+    return bar.held == 1 ? false : bar.held == 0 ? k % 2 == 0 : k % 2 == 1;
+}
+
+/* sinh(a) sinh(b)/sinh(c) with c >= a + b, all >= 0, without overflow. */
+static double sinh_quotient(double a, double b, double c)
+{
+    return c > 0.0 ? 0.5 * exp(a + b - c) * expm1(-2.0 * a) * expm1(-2.0 * b) / -expm1(-2.0 * c)
+                   : 0.0;
+}
+
+/* Solution of phi - lambda^2 phi'' = lambda delta(x - x_j) that vanishes at the ends. */
+static double screened(double half, double lambda, double i, double j)
+{
+    double low = fmin(i, j), high = fmax(i, j);
+    return sinh_quotient((half + low) / lambda, (half - high) / lambda, 2.0 * half / lambda);
+}
+
+/* 1 - cosh(x/lambda)/cosh(half/lambda) */
+static double plateau(double half, double lambda, double x)
+{
+    double up = exp((x - half) / lambda), down = exp(-(x + half) / lambda);
+    return 1.0 - (up + down) / (1.0 + exp(-2.0 * half / lambda));
+}
+
+/* Free: Saint-Venant's 1/3 - max + (i^2 + j^2)/2 less what warping takes. With G J theta'' -
+ * E Gamma theta'''' = 1/L - delta and lambda^2 = E Gamma/(G J) the difference phi solves
+ * phi - lambda^2 phi'' = (lambda^2/G J)(delta - 1/L) and is 0 at free ends (theta'' = 0 there);
+ * its mean is taken off. In L/(G J). */
+static double free_share(const struct bar *bar, double i, double j)
+{
+    double length = bar->length, half = 0.5 * length;
+    double from_i = i / length + 0.5, from_j = j / length + 0.5;
+    double share = 1.0 / 3.0 - fmax(from_i, from_j) + 0.5 * (from_i * from_i + from_j * from_j);
+    double lambda = sqrt(bar->warping_stiffness / bar->stiffness);
+    if (lambda == 0.0)
+        return share;
+    double ratio = lambda / length;
+    double mean = 1.0 - 2.0 * ratio * tanh(half / lambda);
+    double plateaus = plateau(half, lambda, i) + plateau(half, lambda, j) - mean;
+    return share - ratio * (screened(half, lambda, i, j) - ratio * plateaus);
+}
+
+double torsion_compliance(const struct body *body, double x_i, double x_j)
+{
+    struct bar bar = bar_of(body);
+    double half = 0.5 * body->length, share;
+    double lambda = sqrt(bar.warping_stiffness / bar.stiffness);
+    if (bar.held == 2) {
+        double low = fmin(x_i, x_j) + half, high = half - fmax(x_i, x_j);
+        share = low * high / (bar.length * bar.length);
+        if (lambda > 0.0)
+            share -= lambda / bar.length * screened(half, lambda, x_i, x_j);
+    } else if (bar.held == 1) {
+        bool left_free = body->supports[0] == SUPPORT_FREE;
+        double i = left_free ? half - x_i : x_i + half, j = left_free ? half - x_j : x_j + half;
+        share = free_share(&bar, i, j) - free_share(&bar, i, -j);
+    } else {
+        share = free_share(&bar, x_i, x_j);
+    }
+    return share * bar.length / bar.stiffness;
+}

@@ -1,0 +1,41 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Twist theta of a straight uniform beam about its axis, with warping of its section (Vlasov 1961):
+ *   rho I_p theta_tt - rho Gamma theta_xxtt = G J theta_xx - E Gamma theta_xxxx.
+ * Gamma = 0, a round section, is Saint-Venant's bar. A support, pinned or clamped, holds the twist
+ * and leaves the section free to warp. x runs from -length/2 to +length/2. */
+#ifndef PERCUSS_MODEL_TORSION_H
+#define PERCUSS_MODEL_TORSION_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "model/body.h"
+
+/* Two constants of the section, which body_complete keeps; the rest takes a completed body. */
+
+/* Saint-Venant's torsion constant J of the section, m^4: pi r^4/2 of a circle, the series for a
+ * rectangle (Timoshenko and Goodier, Theory of Elasticity, section 109), relative error 1e-15. */
+double torsion_constant(const struct body *body);
+
+/* Warping constant Gamma = integral over the section of the squared warping function of that
+ * solution, m^6: 0 of a circle, w^3 h^3/144 of a thin rectangle. */
+double torsion_warping_constant(const struct body *body);
+
+/* Frequency (rad/s) of elastic mode k = 0, 1, ..., ascending. */
+double torsion_frequency(const struct body *body, size_t k);
+
+/* Rotation (rad) at x for unit modal coordinate of mode k, whose frequency is `omega`;
+ * mass-normalised: integral of rho I_p theta^2 + rho Gamma theta'^2 = 1. */
+double torsion_shape(const struct body *body, size_t k, double omega, double x);
+
+/* Whether the shape is odd about the middle; never between unlike supports. */
+bool torsion_is_odd(const struct body *body, size_t k);
+
+/* Static rotation at x_i due to a unit torque at x_j, rad/(N m); of a free beam with the torque
+ * balanced by the inertia of its rigid rotation and that rotation taken off: the sum of
+ * shape_i shape_j/omega^2 over all modes. */
+double torsion_compliance(const struct body *body, double x_i, double x_j);
+
+#endif
