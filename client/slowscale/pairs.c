@@ -36,7 +36,7 @@ static struct pair *add(struct percuss_slow *slow)
         slow->pair_capacity = capacity;
     }
     struct pair *pair = &slow->pairs[slow->pair_count++];
-    *pair = (struct pair){.latch = LATCH_ARMED};
+    *pair = (struct pair){.latch = LATCH_ARMED, .when = NAN};
     return pair;
 }
 
@@ -55,9 +55,14 @@ bool pairs_take(struct percuss_slow *slow, size_t count,
         pair->seen = true;
     }
     size_t kept = 0;
-    for (size_t i = 0; i < slow->pair_count; i++)
-        if (slow->pairs[i].seen || slow->pairs[i].latch == LATCH_PLAYING)
-            slow->pairs[kept++] = slow->pairs[i];
+    for (size_t i = 0; i < slow->pair_count; i++) {
+        if (!slow->pairs[i].seen && slow->pairs[i].latch != LATCH_PLAYING)
+            continue;
+        slow->pairs[kept] = slow->pairs[i];
+        if (!slow->pairs[kept].seen) /* impulses may change its rate meanwhile */
+            slow->pairs[kept].when = NAN;
+        kept++;
+    }
     slow->pair_count = kept;
     return true;
 }
@@ -67,8 +72,8 @@ void pairs_observe(struct percuss_slow *slow, size_t count,
 {
     for (size_t i = 0; i < count; i++) {
         struct pair *pair = pairs_find(slow, &contacts[i]);
-        if (pair->known && now > slow->time)
-            pair->acceleration = (gap_rate[i] - pair->gap_rate) / (now - slow->time);
+        if (now > pair->when) /* never, if that is unknown */
+            pair->acceleration = (gap_rate[i] - pair->gap_rate) / (now - pair->when);
     }
 }
 
@@ -135,7 +140,6 @@ void pairs_settle(struct percuss_slow *slow, double now)
         bool touches = pair->seen && pair->contact.gap <= lying_gap(slow, pair, now - slow->time);
         pair->lies = touches && pair->latch == LATCH_ARMED && pair->gap_rate >= -slow_enough;
         /* above the touch the engine's own contact could not act yet */
-        pair->known = pair->seen;
         pair->had = pair->contact.gap > 0.0 ? fmax(0.0, -pair->gap_rate) : 0.0;
         pair->rests =
             touches && pair->latch != LATCH_PLAYING && fabs(pair->gap_rate) <= slow_enough;

@@ -21,8 +21,8 @@ struct pair *pairs_find(const struct percuss_slow *slow,
 bool pairs_take(struct percuss_slow *slow, size_t count,
                 const struct percuss_slow_contact *contacts);
 
-/* Sees how the gaps accelerated since the last call, by the rates before any impulse of this one.
- */
+/* Sees how the gaps accelerated since their rates were last seen, whether that call ended well or
+ * not, by the rates before any impulse of this one. */
 void pairs_observe(struct percuss_slow *slow, size_t count,
                    const struct percuss_slow_contact *contacts, const double *gap_rate, double now);
 

@@ -178,8 +178,11 @@ static enum percuss_result see_rates(struct percuss_slow *slow, struct group *gr
                                      double now)
 {
     enum percuss_result result = changed ? group_probe(slow, group, false) : PERCUSS_RESULT_OK;
-    for (size_t i = 0; !result && i < group->count; i++)
-        pairs_find(slow, &group->contacts[i])->gap_rate = group->gap_rate[i];
+    for (size_t i = 0; !result && i < group->count; i++) {
+        struct pair *pair = pairs_find(slow, &group->contacts[i]);
+        pair->gap_rate = group->gap_rate[i];
+        pair->when = now;
+    }
     pairs_give_gaps(slow, group->count, group->contacts);
     if (!result)
         pairs_update(slow, now);

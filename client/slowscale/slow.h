@@ -15,12 +15,12 @@ enum latch {
 
 struct pair {
     struct percuss_slow_contact contact; /* as last seen */
-    double gap_rate;
+    double gap_rate;                     /* m/s, at `when` */
+    double when; /* s; NAN: not seen at the last call, and unknown since then */
     enum latch latch;
     double until;        /* s: end of PLAYING */
     double over;         /* s: end of WAITING: what the answer says ends here */
     bool seen;           /* in the present call */
-    bool known;          /* at the end of the last call */
     bool lies;           /* touched and did not approach as an impact at the end of the last call */
     double acceleration; /* m/s^2, of the gap in the last step without an impulse */
     double had;          /* m/s: approach then, if it lay above the touch */

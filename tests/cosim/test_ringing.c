@@ -117,9 +117,13 @@ static void total_without_moving_is_refused(void **state)
             loop_fly(loop, 1e-3);
             result = percuss_slow_advance(loop->slow, loop->pair_count, loop->pairs);
         }
-        assert_int_equal(result, PERCUSS_RESULT_INVALID_ARGUMENT);
-        assert_non_null(strstr(percuss_slow_error_text(), "application: total: the gap of ball and "
-                                                          "beam accelerates with -9.81 m/s^2"));
+        for (int again = 0; again < 2; again++) { /* asking twice changes nothing */
+            assert_int_equal(result, PERCUSS_RESULT_INVALID_ARGUMENT);
+            assert_non_null(strstr(percuss_slow_error_text(),
+                                   "application: total: the gap of ball and "
+                                   "beam accelerates with -9.81 m/s^2"));
+            result = percuss_slow_advance(loop->slow, loop->pair_count, loop->pairs);
+        }
         /* nothing was applied */
         measured("speed", loop->bodies[0].velocity[2], -gravity * loop->time, 1e-12);
         loop_free(loop);
