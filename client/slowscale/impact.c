@@ -136,6 +136,22 @@ static enum percuss_result report(const struct percuss_slow *slow, struct group 
     return PERCUSS_RESULT_OK;
 }
 
+/* Other bodies under the same names change the results: another server, or a catalogue that was
+ * read again, is not gone over to without a word. */
+static void compare_catalogue(const struct percuss_slow *slow, struct group *group)
+{
+    const char *revision = group->answer.catalogue_revision;
+    if (slow->catalogue[0] && revision[0] && strcmp(revision, slow->catalogue) != 0)
+        group_note(group, "answered with another catalogue (%.8s) than before (%.8s)", revision,
+                   slow->catalogue);
+}
+
+static void keep_catalogue(struct percuss_slow *slow, const struct percuss_reply *reply)
+{
+    if (reply->catalogue_revision[0])
+        snprintf(slow->catalogue, sizeof slow->catalogue, "%s", reply->catalogue_revision);
+}
+
 /* Asks about the group. OK with group->reply NULL: the declared restitution is to be used, which
  * takes the user's leave. */
 static enum percuss_result ask(struct percuss_slow *slow, struct group *group,
@@ -151,6 +167,7 @@ static enum percuss_result ask(struct percuss_slow *slow, struct group *group,
                  group->count);
     if (!result) {
         group->reply = &group->answer;
+        compare_catalogue(slow, group);
         for (size_t i = 0; i < group->count; i++)
             group->impulse[i] = group->answer.contacts[i].impulse;
         return PERCUSS_RESULT_OK;
@@ -170,11 +187,13 @@ static enum percuss_result begin(struct percuss_slow *slow, struct group *group,
     slow->counts.impacts++;
     slow->counts.declared += !group->reply;
     episodes_drop_revoked(slow);
-    if (group->reply)
+    if (group->reply) {
+        keep_catalogue(slow, group->reply);
         tokens_keep(slow, group->contacts, request, group->reply,
                     group->start + group->reply->window);
-    else
+    } else {
         tokens_forget(slow, group->count, group->contacts);
+    }
     enum percuss_result result = episode_begin(slow, group, request);
     if (!result)
         result = report(slow, group);

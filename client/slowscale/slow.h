@@ -61,6 +61,7 @@ struct percuss_slow {
     char (*ids)[PERCUSS_ID_SIZE]; /* [body] */
     struct percuss_slow_body *bodies;
     struct token *tokens; /* [body] */
+    char catalogue[64];   /* revision that the last impact was answered with; "": none yet */
     size_t pair_count, pair_capacity;
     struct pair *pairs;
     struct episode *episodes;

@@ -3,7 +3,8 @@
 
 /* A sphere that hits a free beam again and again, slow scale and libpercuss together: one line an
  * impact, then it waits for a line on stdin. Without an answer it says so, and tries again after
- * another line; or goes on with the declared restitution. Checks what must hold of every impact by
+ * another line; or goes on with the declared restitution. A number in a line is how many seconds it
+ * looks for a server from then on; at first 60. Checks what must hold of every impact by
  * itself: momentum, energy, one question each, and e as the bodies' velocities show it. */
 #include <math.h>
 #include <percuss/slow_link.h>
@@ -28,6 +29,7 @@ struct engine {
     struct percuss_body_motion bodies[BODIES];
     struct percuss_slow_inertia inertias[BODIES];
     struct percuss_slow *slow;
+    struct percuss_slow_link link;
     double vibration; /* J, in the beam, as the last reply said */
     double spent;     /* and what it may at most give back */
     bool answered;
@@ -115,13 +117,24 @@ static void momentum(const struct engine *engine, double sums[2])
     }
 }
 
+/* False: there is none any more. */
+static bool next_line(struct engine *engine)
+{
+    char line[32];
+    if (!fgets(line, sizeof line, stdin))
+        return false;
+    if (line[0] != '\n')
+        engine->link.reconnect = strtod(line, NULL);
+    return true;
+}
+
 static void advance(struct engine *engine)
 {
     struct percuss_slow_contact contact = contact_now(engine);
     while (percuss_slow_advance(engine->slow, 1, &contact)) {
         printf("error %s\n", percuss_slow_error_text());
         fflush(stdout);
-        REQUIRE(getchar() != EOF, "%s\n", percuss_slow_error_text());
+        REQUIRE(next_line(engine), "%s\n", percuss_slow_error_text());
     }
 }
 
@@ -179,14 +192,13 @@ int main(int argc, char **argv)
     struct percuss_client *client;
     client_config.domain = (uint32_t)strtoul(argv[1], NULL, 10);
     REQUIRE(!percuss_client_create(&client_config, &client), "%s\n", percuss_error_text());
-    struct percuss_slow_link link = percuss_slow_link_default(client);
-    if (falls_back)
-        link.reconnect = 2.0;
+    engine.link = percuss_slow_link_default(client);
+    engine.link.reconnect = 60.0; /* only ends what would hang */
     struct percuss_slow_config config = percuss_slow_config_default();
     config.body_count = BODIES;
     config.bodies = (struct percuss_slow_body[]){{"steel-sphere", false}, {"al-beam", false}};
     config.engine = (struct percuss_slow_engine){&engine, probe, apply, now};
-    config.service = percuss_slow_link_service(&link);
+    config.service = percuss_slow_link_service(&engine.link);
     config.options.tolerance = 1e-5;
     config.restitution = 0.45;
     config.fall_back = falls_back;
@@ -205,7 +217,7 @@ int main(int argc, char **argv)
         engine.bodies[i].orientation[0] = 1.0;
     int impacts = atoi(argv[3]);
     for (int i = 0; i < impacts; i++) {
-        if (i > 0 && getchar() == EOF)
+        if (i > 0 && !next_line(&engine))
             break;
         impact(&engine, 0.2 + 0.01 * i);
     }

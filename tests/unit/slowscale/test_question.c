@@ -5,6 +5,54 @@
  * an answer: with the user's leave the declared restitution, else nothing. */
 #include "unit/slowscale/toy.h"
 
+/* The bodies fly apart and meet again: the next impact. */
+static void meet_again(struct toy *toy)
+{
+    toy_run(toy, toy->time + 0.1, 1e-3);
+    toy->bodies[0].position[0] = toy->bodies[1].position[0] - 0.02 + 1e-12;
+    toy->bodies[0].velocity[0] = toy->bodies[1].velocity[0] + 0.1;
+    toy_step(toy, 0.0);
+}
+
+/* Nobody's change goes unseen: not after an impact without an answer, nor after one that did not
+ * say; the same catalogue again is worth no word. */
+static void another_catalogue_is_reported(void **state)
+{
+    (void)state;
+    static const char soft[] = "70707070aaaaaaaa", stiff[] = "90909090bbbbbbbb";
+    static const struct {
+        const char *revision, *message;
+        bool lost;
+    } impacts[] = {
+        {soft, "", false},
+        {soft, "", false},
+        {NULL, "no answer: declared restitution 0.5 used", true},
+        {stiff, "answered with another catalogue (90909090) than before (70707070)", false},
+        {stiff, "", false},
+        {NULL, "", false},
+        {soft, "answered with another catalogue (70707070) than before (90909090)", false},
+    };
+    enum { COUNT = sizeof impacts / sizeof *impacts };
+    struct percuss_slow_config wishes = toy_wishes();
+    wishes.fall_back = true;
+    struct toy *toy = toy_create(2, &wishes);
+    toy->answers = COUNT;
+    for (size_t i = 0; i < COUNT; i++) {
+        toy->answer[i] = two_hits;
+        toy->answer[i].revision = impacts[i].revision;
+        toy->answer[i].result = impacts[i].lost ? PERCUSS_RESULT_NO_SERVER : PERCUSS_RESULT_OK;
+    }
+    for (size_t i = 0; i < COUNT; i++) {
+        if (i == 0)
+            toy_step(toy, 0.0);
+        else
+            meet_again(toy);
+        assert_int_equal(toy->reports, i + 1);
+        assert_string_equal(toy->message, impacts[i].message);
+    }
+    toy_free(toy);
+}
+
 static void an_unknown_state_is_asked_from_rest(void **state)
 {
     (void)state;
@@ -14,10 +62,7 @@ static void an_unknown_state_is_asked_from_rest(void **state)
     toy->answer[0] = toy->answer[2] = two_hits;
     toy->answer[1].status = PERCUSS_UNKNOWN_STATE;
     toy_step(toy, 0.0);
-    toy_run(toy, 0.1, 1e-3);
-    toy->bodies[0].position[0] = toy->bodies[1].position[0] - 0.02 + 1e-12;
-    toy->bodies[0].velocity[0] = toy->bodies[1].velocity[0] + 0.1;
-    toy_step(toy, 0.0);
+    meet_again(toy);
     assert_int_equal(toy->asked, 3);
     assert_string_equal(toy->question[1].bodies[1].state, "token-0-1");
     assert_string_equal(toy->question[2].bodies[1].state, "");
@@ -171,6 +216,7 @@ static void a_cut_off_window_is_not_final(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(another_catalogue_is_reported),
         cmocka_unit_test(an_unknown_state_is_asked_from_rest),
         cmocka_unit_test(without_an_answer_the_declared_value_is_used_with_leave),
         cmocka_unit_test(without_an_answer_nothing_happens_and_the_engine_may_try_again),

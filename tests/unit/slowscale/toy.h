@@ -77,6 +77,7 @@ struct toy_answer {
     enum percuss_status status;
     bool truncated, spent; /* at the horizon; for the effort */
     double window;
+    const char *revision; /* of its catalogue; NULL: not said */
     uint32_t count[TOY_BODIES];
     struct percuss_sub_impact subs[TOY_BODIES][TOY_SUBS];
 };
@@ -187,6 +188,9 @@ static inline void toy_fill(const struct toy_answer *answer, const struct percus
     reply->states_after = calloc(request->body_count, sizeof *reply->states_after);
     reply->states_after_count = request->body_count;
     reply->window = answer->window;
+    if (answer->revision)
+        snprintf(reply->catalogue_revision, sizeof reply->catalogue_revision, "%s",
+                 answer->revision);
     reply->complete = !answer->truncated;
     reply->end_reason = answer->spent       ? PERCUSS_END_LIMIT
                         : answer->truncated ? PERCUSS_END_HORIZON
