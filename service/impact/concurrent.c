@@ -308,9 +308,10 @@ enum percuss_status impact_concurrent(const struct scene *scene, struct region *
     run.flight.pace = settings->pace;
     run.flight.cost = impact_step_cost(scene);
     motion_start(run.motion, scene);
-    struct rewind rewind = {settings->horizon, MAX_STEPS, arena, settings->pace};
+    struct rewind rewind = {settings->horizon, MAX_STEPS, arena, settings->pace, false};
     enum impact_start start = impact_find_start(scene, &rewind, run.motion, &outcome->time_shift);
     outcome->always_overlapped = start == START_NONE;
+    outcome->beyond_horizon = rewind.beyond;
     if (outcome->always_overlapped)
         return PERCUSS_OK;
     if (start == START_LIMIT)

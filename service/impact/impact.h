@@ -27,6 +27,7 @@ struct impact_outcome {
     enum percuss_end_reason end_reason;
     double window;            /* s: the end of the fast scale */
     bool always_overlapped;   /* no touch behind an overlap: nothing was solved */
+    bool beyond_horizon;      /* ... within the horizon, further back nobody looked */
     bool too_stiff;           /* a law became stiffer than its series compliance bears: cut off */
     double time_shift;        /* the touch before (< 0) or after the stated instant, s */
     struct track *tracks;     /* [contact] */
@@ -67,7 +68,7 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
 
 enum impact_start {
     START_FOUND,
-    START_NONE, /* the bodies overlap and never touched before */
+    START_NONE, /* the bodies overlap and never touched before, see rewind.beyond */
     START_LIMIT /* the search was given up, see rewind_find */
 };
 

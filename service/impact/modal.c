@@ -330,8 +330,10 @@ static enum percuss_end_reason fly(struct modal_run *run)
     size_t contact = 0;
     unsigned long before = run->flight.intervals;
     double allowed = run->settings->horizon - run->motion->time;
-    enum flight_end end = flight_find(&run->flight, run->scene, run->motion, allowed,
-                                      run->max_steps - run->used, &time, &contact);
+    /* the last step of a contact phase may have taken more than was left */
+    unsigned long left = run->used < run->max_steps ? run->max_steps - run->used : 0;
+    enum flight_end end =
+        flight_find(&run->flight, run->scene, run->motion, allowed, left, &time, &contact);
     run->used += run->flight.intervals - before;
     if (end == FLIGHT_LIMIT || run->used > run->max_steps)
         return PERCUSS_END_LIMIT;
@@ -393,9 +395,10 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
     run.max_steps = impact_max_steps(scene, settings);
     run.step_cost = run.flight.cost = impact_step_cost(scene);
     run.flight.pace = run.step.pace = settings->pace;
-    struct rewind rewind = {settings->horizon, run.max_steps, arena, settings->pace};
+    struct rewind rewind = {settings->horizon, run.max_steps, arena, settings->pace, false};
     enum impact_start start = impact_find_start(scene, &rewind, run.motion, &outcome->time_shift);
     outcome->always_overlapped = start == START_NONE;
+    outcome->beyond_horizon = rewind.beyond;
     if (outcome->always_overlapped)
         return PERCUSS_OK;
     run.used = run.max_steps - rewind.intervals;

@@ -326,9 +326,10 @@ static enum impact_start start(struct reference *run, const struct impact_settin
 {
     const struct scene *scene = run->scene;
     struct rewind rewind = {settings->horizon, impact_max_steps(scene, settings), arena,
-                            settings->pace};
+                            settings->pace, false};
     motion_start(&run->motion, scene);
     enum impact_start found = impact_find_start(scene, &rewind, &run->motion, &outcome->time_shift);
+    outcome->beyond_horizon = rewind.beyond;
     if (found == START_NONE)
         return found;
     set_absolute(run, 0.01 * settings->accuracy);

@@ -84,6 +84,7 @@ static double find_ringing(struct rewind *rewind, const struct scene *scene,
         flight.intervals < rewind->intervals ? flight.intervals : rewind->intervals;
     if (end == FLIGHT_LIMIT)
         return NAN;
+    rewind->beyond = rewind->beyond || end == FLIGHT_TIMEOUT;
     return end == FLIGHT_TOUCH ? -time : -INFINITY;
 }
 

@@ -6,25 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-/* No touch lies behind an overlap: the request contradicts itself. */
-static enum percuss_status refuse_overlap(const struct attempt_context *context,
-                                          struct fault *fault)
-{
-    size_t deepest = 0;
-    for (size_t c = 1; c < context->geometry->contact_count; c++)
-        if (context->request->contacts[c].gap < context->request->contacts[deepest].gap)
-            deepest = c;
-    const struct solve_contact *contact = &context->request->contacts[deepest];
-    return fault_set(
-        fault, PERCUSS_BAD_REQUEST,
-        "contacts[%zu].gap: %g m: the bodies overlap, and at the stated gap rate (%g m/s), "
-        "acceleration and vibration %s",
-        deepest, contact->gap, context->geometry->gap_rate[deepest],
-        context->geometry->contact_count > 1
-            ? "there was no instant before at which every contact was open"
-            : "they never touched before");
-}
-
 /* d(restitution)/d(speed) of the contact with the largest impulse, by central difference with all
  * gap rates scaled. */
 static enum percuss_status find_conditioning(struct attempt_context *context,
@@ -96,7 +77,8 @@ enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geome
     accuracy->restitution_by_speed = NAN;
     enum percuss_status status = mode_search(&context, &best, &accuracy->modes);
     if (!status && best.outcome.always_overlapped)
-        return refuse_overlap(&context, fault);
+        return attempt_refuse_overlap(&context, &best,
+                                      attempt_horizon(request, &best.assembly->scene), fault);
     if (!status)
         status = step_search(&context, &best, accuracy->modes.amplification, &accuracy->steps);
     if (!status && options->conditioning)

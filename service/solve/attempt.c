@@ -4,6 +4,7 @@
 #include "solve/attempt.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* Most of a second by the modal method, whose steps cost some 20 ns of that each; CVODE's
  * right-hand sides are many more and cheaper. */
@@ -76,6 +77,28 @@ double attempt_restitution(const struct geometry *geometry, const struct impact_
 {
     double compression = geometry->impulse_compression[contact];
     return compression > 0.0 ? outcome->tracks[contact].impulse / compression - 1.0 : NAN;
+}
+
+enum percuss_status attempt_refuse_overlap(const struct attempt_context *context,
+                                           const struct attempt *attempt, double horizon,
+                                           struct fault *fault)
+{
+    const struct geometry *geometry = context->geometry;
+    bool group = geometry->contact_count > 1;
+    size_t deepest = 0;
+    for (size_t c = 1; c < geometry->contact_count; c++)
+        if (context->request->contacts[c].gap < context->request->contacts[deepest].gap)
+            deepest = c;
+    char within[96] = "";
+    if (attempt->outcome.beyond_horizon)
+        snprintf(within, sizeof within, " within options.horizon (%g s) before: raise it", horizon);
+    return fault_set(
+        fault, PERCUSS_BAD_REQUEST,
+        "contacts[%zu].gap: %g m: the bodies overlap, and at the stated gap rate (%g m/s), "
+        "acceleration and vibration %s%s",
+        deepest, context->request->contacts[deepest].gap, geometry->gap_rate[deepest],
+        group ? "there was no instant at which every contact was open" : "they never touched",
+        within[0] ? within : " before");
 }
 
 struct attempt_difference attempt_compare(const struct attempt_context *context,

@@ -51,6 +51,12 @@ enum percuss_status attempt_run_scaled(struct attempt_context *context, struct a
 double attempt_restitution(const struct geometry *geometry, const struct impact_outcome *outcome,
                            size_t contact);
 
+/* PERCUSS_BAD_REQUEST: no touch lies behind an overlap (outcome.always_overlapped), or none within
+ * the horizon; the request contradicts itself. */
+enum percuss_status attempt_refuse_overlap(const struct attempt_context *context,
+                                           const struct attempt *attempt, double horizon,
+                                           struct fault *fault);
+
 /* Largest differences between two solutions over the contacts. */
 struct attempt_difference {
     double restitution, impulse;

@@ -187,8 +187,8 @@ static enum percuss_status run_scene(struct repeat *repeat, const struct solve_r
         if (status)
             return pace_fault(fault, status);
         if (attempt->outcome.always_overlapped)
-            return fault_set(fault, PERCUSS_BAD_REQUEST,
-                             "contacts[].gap: the bodies overlap and never touched before");
+            return attempt_refuse_overlap(&context, attempt,
+                                          attempt_horizon(request, &repeat->scene), fault);
         if (!models_revise(repeat->geometry, request, &repeat->scene, &attempt->outcome))
             return PERCUSS_OK;
         /* what this blow decided is not for the next one */

@@ -153,7 +153,7 @@ static void overlaps_go_back_to_their_touch(void **state)
     toy.gap_rate[1] = -2.0;
     assert_true(motion_create(&motion, &toy.scene, &toy.arena));
     motion_start(&motion, &toy.scene);
-    struct rewind rewind = {1.0, 1000, &toy.arena, NULL};
+    struct rewind rewind = {1.0, 1000, &toy.arena, NULL, false};
     assert_int_equal(impact_find_start(&toy.scene, &rewind, &motion, &shift), START_FOUND);
     near("shift", shift, -0.15, 1e-16);
     near("gap", motion.gap[0], 0.05, 1e-16);
@@ -165,7 +165,6 @@ static void overlaps_go_back_to_their_touch(void **state)
     toy_free(&toy);
 }
 
-/* The work allowed bounds the effort and is said. */
 /* Where the second contact touched, 1 s before, the first one overlaps again: it is accelerated,
  * and was open only for the last half second. Begun there, its force would come from nothing. */
 static void contacts_that_were_never_apart_are_refused(void **state)
@@ -191,6 +190,7 @@ static void contacts_that_were_never_apart_are_refused(void **state)
     }
 }
 
+/* The work allowed bounds the effort and is said. */
 static void effort_is_bounded(void **state)
 {
     (void)state;
@@ -210,6 +210,52 @@ static void effort_is_bounded(void **state)
     toy_free(&toy);
 }
 
+static double between(uint64_t *seed, double low, double high)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return low + (high - low) * (double)(*seed >> 11) * 0x1p-53;
+}
+
+/* Two coupled contacts, whose steps may take many iterations, and a third one that a body rings
+ * before without ever reaching it, for as long as anybody looks. */
+static void ring_before_a_group(struct toy *toy, uint64_t *seed)
+{
+    static const double omega[] = {1.0, M_SQRT2}, shapes[] = {0.0, 0.0, 0.0, 0.0, 1.0, 1.0};
+    static const double q[] = {0.6, 0.6}, v[] = {0.0, 0.0};
+    toy_init(toy, 3);
+    for (size_t c = 0; c < 2; c++) {
+        toy->gap_rate[c] = -pow(10.0, between(seed, -1.0, 1.0));
+        toy->laws[c] = contact_law_hertz(pow(10.0, between(seed, 2.0, 12.0)));
+    }
+    toy->gap[1] = between(seed, 0.0, 1e-3);
+    toy->w[1] = toy->w[3] = between(seed, -0.9, 0.9);
+    toy->gap[2] = 1.2 - 1e-9;
+    toy_ring(toy, toy_add(toy, 1, 2, omega, 0.0, shapes), q, v);
+}
+
+/* Wherever the work allowed runs out: in a contact phase, with its last step, in a flight. */
+static void no_flight_goes_on_when_the_work_is_spent(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    for (int scene = 0; scene < 100; scene++) {
+        struct toy toy;
+        ring_before_a_group(&toy, &seed);
+        double cost = impact_step_cost(&toy.scene);
+        for (unsigned long most = 1; most < 150; most++) {
+            struct impact_outcome outcome;
+            struct impact_settings settings = {
+                .accuracy = 1e-3, .horizon = 1e4, .max_work = cost * ((double)most + 0.5)};
+            assert_true(impact_create(&outcome, &toy.scene, &toy.arena));
+            assert_int_equal(impact_modal(&toy.scene, &settings, &toy.arena, &outcome), PERCUSS_OK);
+            /* a step that does not converge counts as several, when it is done */
+            if (outcome.effort > most + 16)
+                fail_msg("scene %d: %lu steps allowed, %lu taken", scene, most, outcome.effort);
+        }
+        toy_free(&toy);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -220,6 +266,7 @@ int main(void)
         cmocka_unit_test(overlaps_go_back_to_their_touch),
         cmocka_unit_test(contacts_that_were_never_apart_are_refused),
         cmocka_unit_test(effort_is_bounded),
+        cmocka_unit_test(no_flight_goes_on_when_the_work_is_spent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

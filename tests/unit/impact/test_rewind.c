@@ -33,7 +33,7 @@ enum { AMPLE = 1000000 };
 
 static double back(struct toy *toy, const struct motion *motion, double longest)
 {
-    struct rewind rewind = {longest, AMPLE, &toy->arena, NULL};
+    struct rewind rewind = {longest, AMPLE, &toy->arena, NULL, false};
     return rewind_find(&rewind, &toy->scene, motion, 0);
 }
 
@@ -121,7 +121,7 @@ static void many_modes_are_passed_by_bounds(void **state)
         start(&toy, &motion);
         motion_approach(&motion, &toy.scene, 0, &d, &rate);
         toy.gap[0] = motion.gap[0] = d - 1e-6 * (1 + trial); /* overlaps by so much */
-        struct rewind rewind = {0.02, AMPLE, &toy.arena, NULL};
+        struct rewind rewind = {0.02, AMPLE, &toy.arena, NULL, false};
         double touch = rewind_find(&rewind, &toy.scene, &motion, 0);
         for (d = 1.0; d > 0.0 && t > -0.02; t -= 1e-7)
             motion_approach_at(&motion, &toy.scene, 0, t - 1e-7, &d, &rate);
@@ -135,7 +135,7 @@ static void many_modes_are_passed_by_bounds(void **state)
         unsigned long taken = AMPLE - rewind.intervals;
         most = taken > most ? taken : most;
         /* the way is not cut short without saying so */
-        struct rewind poor = {0.02, taken > 1 ? taken / 2 : 1, &toy.arena, NULL};
+        struct rewind poor = {0.02, taken > 1 ? taken / 2 : 1, &toy.arena, NULL, false};
         if (taken > 2)
             assert_true(isnan(rewind_find(&poor, &toy.scene, &motion, 0)));
         toy_free(&toy);
