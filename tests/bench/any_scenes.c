@@ -9,7 +9,8 @@
  * what the requests ended in, and the worst ones by number; with --save those are written as files
  * (any_scene_save). --list prints each answer.
  * Exit 1: a request hung (--patience, processor time), crashed, took more than --limit or --work,
- * or was refused or cut off without words. */
+ * or was refused or cut off without words; or fewer than half were answered, or to the tolerance.
+ * Exit 2: usage, or the tables cannot be read. */
 #include <getopt.h>
 
 #include "any_scene.h"
@@ -203,19 +204,28 @@ static void complain(const struct fault *fault)
     fprintf(stderr, "any_scenes: %s\n", fault->text);
 }
 
+/* The tables that come with percuss; NULL, and said why: they cannot be read. */
+static struct table_store *load_tables(void)
+{
+    struct table_store *store = table_store_create();
+    struct fault fault = {.text = "out of memory"};
+    size_t count;
+    if (store &&
+        !table_store_load(store, PERCUSS_SOURCE_DIR "/config/tables", complain, &count, &fault))
+        return store;
+    complain(&fault);
+    table_store_free(store);
+    return NULL;
+}
+
 /* In the child. */
 static void work(void *context, struct guarded_place *place, uint64_t end)
 {
     struct run *run = context;
-    struct table_store *store = table_store_create();
-    struct fault fault;
-    size_t count;
+    struct table_store *store = load_tables();
     run->lab = lab_create();
-    if (!store ||
-        table_store_load(store, PERCUSS_SOURCE_DIR "/config/tables", complain, &count, &fault)) {
-        complain(&fault);
+    if (!store)
         abort();
-    }
     solve_workspace_set_tables(run->lab->workspace, table_store_source(store));
     solve_workspace_watch(run->lab->workspace, (struct watch){count_asking, &run->asked});
     for (uint64_t n = place->resume; n < end; n++) {
@@ -295,6 +305,13 @@ static bool print_lost(const struct run *run, const struct guarded *guarded)
     return guarded->lost_count > 0;
 }
 
+/* Whoever refuses everything is never late. */
+static bool answers_most(const struct figures *figures)
+{
+    uint64_t half = figures->seconds.count / 2;
+    return figures->answered >= half && figures->met >= half;
+}
+
 int main(int count, char **words)
 {
     static const struct option options[] = {
@@ -331,6 +348,10 @@ int main(int count, char **words)
             return 2;
         }
     }
+    struct table_store *store = load_tables();
+    if (!store)
+        return 2;
+    table_store_free(store);
     run.figures = guarded_memory(sizeof *run.figures);
     run.figures->seconds.unit = 1e-6;
     run.figures->work.unit = PACE_WORK;
@@ -339,5 +360,9 @@ int main(int count, char **words)
     print_figures(&run);
     bool failed = print_lost(&run, &guarded);
     lab_free(run.lab);
+    if (!answers_most(run.figures)) {
+        printf("fewer than half of the requests were answered to their tolerance\n");
+        failed = true;
+    }
     return failed || run.figures->late || run.figures->heavy || run.figures->wrongs;
 }

@@ -66,6 +66,7 @@ void guarded_run(struct guarded *guarded, uint64_t first, uint64_t end)
     while (place->resume < end) {
         fflush(NULL);
         place->started = 0.0;
+        place->job = place->resume; /* a child that does not even start has lost the next job */
         pid_t child = fork();
         if (child == 0) {
             guarded->work(guarded->context, place, end);
