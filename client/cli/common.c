@@ -23,7 +23,7 @@ static const struct argp_option common_options[] = {
      "seconds to wait for the server and then for the answer (default 3 and 30)", 90},
     {"server", OPTION_SERVER, "ID", 0,
      "the server to ask: how its id begins, as percuss status shows it (default: the one up "
-     "longest)",
+     "longest of those found within a moment)",
      90},
     {"json", OPTION_JSON, NULL, 0, "print one JSON object", 90},
     {0},
@@ -174,10 +174,10 @@ int open_client(const struct common *common, const uint8_t *id, struct percuss_c
     int code = make_client(common, id, client);
     if (code == EXIT_ANSWERED)
         code = connect_client(common, *client);
-    if (code == EXIT_ANSWERED) {
-        others_warn(common, *client);
+    if (code == EXIT_ANSWERED)
+        code = others_settle(common, *client);
+    if (code == EXIT_ANSWERED)
         return code;
-    }
     percuss_client_free(*client);
     *client = NULL;
     return code;

@@ -21,21 +21,36 @@ static void warn(const struct percuss_server *other, const struct percuss_server
                  id, other->process, other->host, our_id);
 }
 
-void others_warn(const struct common *common, struct percuss_client *client)
+/* The one of the list that the client stays with; NULL: it is not there. */
+static const struct percuss_server *find_ours(const struct percuss_server_list *list,
+                                              struct percuss_client *client)
 {
     uint8_t server[16];
+    percuss_client_server(client, server);
+    for (size_t i = 0; i < list->count; ++i)
+        if (memcmp(list->servers[i].server, server, sizeof server) == 0)
+            return &list->servers[i];
+    return NULL;
+}
+
+int others_settle(const struct common *common, struct percuss_client *client)
+{
     struct percuss_server_list list;
-    if (common->server[0] || !percuss_client_server(client, server) ||
+    if (common->server[0] ||
         percuss_servers(client, common_patience(common), &list) != PERCUSS_RESULT_OK)
-        return;
-    const struct percuss_server *ours = NULL;
-    for (size_t i = 0; i < list.count; ++i)
-        if (memcmp(list.servers[i].server, server, sizeof server) == 0)
-            ours = &list.servers[i];
-    for (size_t i = 0; ours && i < list.count; ++i)
+        return EXIT_ANSWERED;
+    const struct percuss_server *ours = find_ours(&list, client);
+    int code = EXIT_ANSWERED;
+    // the first one has come to light while we stayed with another
+    if (ours && ours != list.servers && strcmp(list.servers[0].state, "ready") == 0) {
+        code = connect_client(common, client);
+        ours = find_ours(&list, client);
+    }
+    for (size_t i = 0; code == EXIT_ANSWERED && ours && i < list.count; ++i)
         if (&list.servers[i] != ours)
             warn(&list.servers[i], ours);
     percuss_server_list_free(&list);
+    return code;
 }
 
 void print_server_line(const uint8_t server[16], const char *catalogue_revision)

@@ -7,9 +7,10 @@
 
 #include "cli.h"
 
-/* Warns on standard error of each server beside the one that the connected client stays with,
- * unless the user has chosen that one. */
-void others_warn(const struct common *common, struct percuss_client *client);
+/* Lets a connected client stay with the server up longest of all that are there by now, and warns
+ * on standard error of each other one; does nothing where the user has chosen. EXIT_ANSWERED, or
+ * the exit code of a second connection that failed. */
+int others_settle(const struct common *common, struct percuss_client *client);
 
 /* The line of a table that says who answered. */
 void print_server_line(const uint8_t server[16], const char *catalogue_revision);

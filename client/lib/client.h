@@ -18,6 +18,7 @@ enum { CLIENT_TAKE_AT_ONCE = 4, CLIENT_MOST_SERVERS = 16, SERVERS_NAME_SIZE = 12
 struct client_server {
     uint8_t id[16];
     dds_instance_handle_t writer; /* of its replies to us */
+    dds_guid_t participant;       /* of the one that we stay with */
 };
 
 struct percuss_client {

@@ -13,50 +13,14 @@
 
 #include "error.h"
 #include "exchange.h"
+#include "matched.h"
 #include "receive.h"
 #include "servers.h"
 
-enum { MOST_MATCHES = 64 };
 static const double match_poll = 1e-3;       /* s */
 static const double ping_interval = 5e-3;    /* s */
 static const double discovery_spread = 0.05; /* s between the discovery of one server and another */
 static const double grace = 2.0; /* s until incompatible qualities of service are a verdict */
-
-/* The participant behind a matched endpoint; false when it has just gone. */
-typedef dds_builtintopic_endpoint_t *matched_data(dds_entity_t, dds_instance_handle_t);
-
-static bool participant_of(matched_data *data, dds_entity_t endpoint, dds_instance_handle_t match,
-                           dds_guid_t *participant)
-{
-    dds_builtintopic_endpoint_t *remote = data(endpoint, match);
-    if (!remote)
-        return false;
-    *participant = remote->participant_key;
-    dds_builtintopic_free_endpoint(remote);
-    return true;
-}
-
-/* Whether one of `count` matches of an endpoint is that participant's. */
-static bool is_among(matched_data *data, dds_entity_t endpoint,
-                     const dds_instance_handle_t *matches, int count, const dds_guid_t *participant)
-{
-    dds_guid_t other;
-    for (int i = 0; i < count && i < MOST_MATCHES; ++i)
-        if (participant_of(data, endpoint, matches[i], &other) &&
-            memcmp(&other, participant, sizeof other) == 0)
-            return true;
-    return false;
-}
-
-/* Whether the participant reads what `writer` writes and writes what `reader` reads. */
-static bool is_matched(dds_entity_t writer, dds_entity_t reader, const dds_guid_t *participant)
-{
-    dds_instance_handle_t takers[MOST_MATCHES], givers[MOST_MATCHES];
-    int taker_count = dds_get_matched_subscriptions(writer, takers, MOST_MATCHES);
-    int giver_count = dds_get_matched_publications(reader, givers, MOST_MATCHES);
-    return is_among(dds_get_matched_subscription_data, writer, takers, taker_count, participant) &&
-           is_among(dds_get_matched_publication_data, reader, givers, giver_count, participant);
-}
 
 static enum percuss_result unanswered(const char *server, double start)
 {
@@ -74,9 +38,9 @@ enum percuss_result connect_match(struct percuss_client *client, dds_entity_t wr
     dds_instance_handle_t replies = client->server.writer;
     memcpy(name, client->server_name, sizeof name);
     pthread_mutex_unlock(&client->lock);
-    while (participant_of(dds_get_matched_publication_data, client->reply_reader, replies,
-                          &participant)) {
-        if (is_matched(writer, reader, &participant))
+    while (matched_participant(dds_get_matched_publication_data, client->reply_reader, replies,
+                               &participant)) {
+        if (matched_both(writer, reader, &participant))
             return PERCUSS_RESULT_OK;
         if (receive_now() >= deadline)
             return unanswered(name, start);
@@ -202,10 +166,24 @@ static void settle_on(const struct search *search, const struct client_server *s
     struct percuss_client *client = search->client;
     pthread_mutex_lock(&client->lock);
     client->server = *server;
+    // false when it has gone already, which receive_note_loss sees too
+    matched_participant(dds_get_matched_publication_data, client->reply_reader, server->writer,
+                        &client->server.participant);
     servers_describe(server->id, servers_find(&search->announced, server->id), client->server_name);
     client->connected = true;
     receive_note_loss(client);
     pthread_mutex_unlock(&client->lock);
+}
+
+/* Whether somebody may be there who would be chosen: one who reads requests or has announced
+ * himself but has not answered, or has answered and not said yet since when he is up. */
+static bool may_be_more(const struct search *search)
+{
+    bool more =
+        search->count < servers_reading(search->client) || search->count < search->announced.count;
+    for (size_t k = 0; k < search->count; ++k)
+        more = more || !servers_find(&search->announced, search->answering[k].id);
+    return more;
 }
 
 /* PENDING: nobody can be chosen yet. */
@@ -219,8 +197,7 @@ static enum percuss_result choose(struct search *search)
                : check_compatible(client)  ? PERCUSS_RESULT_INCOMPATIBLE
                                            : PERCUSS_RESULT_PENDING;
     search->heard = fmin(search->heard, now);
-    bool more = search->count < servers_reading(client);
-    double settled = search->heard + (more ? SERVERS_SETTLING : discovery_spread);
+    double settled = search->heard + (may_be_more(search) ? SERVERS_SETTLING : discovery_spread);
     if (now < fmin(settled, search->deadline))
         return PERCUSS_RESULT_PENDING;
     if (!client->wanted[0]) {

@@ -13,6 +13,7 @@
 #include "ensemble_exchange.h"
 #include "error.h"
 #include "gather.h"
+#include "matched.h"
 
 static const double longest_wait = 1e6; /* s; so that infinity fits nanoseconds and a timespec */
 
@@ -150,6 +151,21 @@ static bool take_replies(struct percuss_client *client, dds_entity_t reader, dds
     return *count == CLIENT_TAKE_AT_ONCE;
 }
 
+/* Whether a writer is not of the server that we stay with: one that does not know `server` in
+ * requests answers those to others too, and not all that it writes says whose it is. Of a writer
+ * that has gone nobody can say: the server's last words count. */
+static bool is_of_another(struct percuss_client *client, dds_entity_t reader,
+                          dds_instance_handle_t writer)
+{
+    dds_guid_t from;
+    if (!matched_participant(dds_get_matched_publication_data, reader, writer, &from))
+        return false;
+    pthread_mutex_lock(&client->lock);
+    bool another = memcmp(&from, &client->server.participant, sizeof from) != 0;
+    pthread_mutex_unlock(&client->lock);
+    return another;
+}
+
 /* Takes one sample, lent by the reader, and files it. */
 static bool take_one(struct percuss_client *client, dds_entity_t reader, dds_return_t *count,
                      void (*file)(struct percuss_client *, const void *))
@@ -157,7 +173,7 @@ static bool take_one(struct percuss_client *client, dds_entity_t reader, dds_ret
     void *sample[1] = {NULL};
     dds_sample_info_t info;
     *count = dds_take(reader, sample, &info, 1, 1);
-    if (*count == 1 && info.valid_data)
+    if (*count == 1 && info.valid_data && !is_of_another(client, reader, info.publication_handle))
         file(client, sample[0]);
     if (*count == 1)
         dds_return_loan(reader, sample, 1);

@@ -95,8 +95,8 @@ class Client:
         return bytes(octets) if _library.percuss_client_server(self._open, octets) else None
 
     def connect(self, timeout: float = 3.0) -> None:
-        """Waits until a server answers and stays with it; of several, with the one that has been up
-        longest or the one that was named. NoServer: none within the time; AnswerTimeout: one is there
+        """Waits until a server answers and stays with it; of several found within a moment, with the one
+        that has been up longest or the one that was named. NoServer: none within the time; AnswerTimeout: one is there
         but has not answered; InvalidArgument: several have ids that begin as named; Incompatible: one is
         there but a quality of service does not fit. When that server goes, what waits for it raises
         NoServer. To be called again then, and after a restart; what was outstanding is lost then and
