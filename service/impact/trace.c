@@ -28,6 +28,7 @@ struct tracer {
     int finer;
     struct pace *pace;
     double cost; /* of a step */
+    double left; /* work that steps may still take */
 };
 
 static bool create(struct tracer *tracer, struct arena *arena)
@@ -171,14 +172,15 @@ static void push_rigid(struct tracer *tracer, double (*const force)[NODES], doub
     }
 }
 
-/* A step of a level with these forces at its nodes. False: out of memory, or stopped. */
+/* A step of a level with these forces at its nodes. False: out of memory or work, or stopped. */
 static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
 {
     const struct scene *scene = tracer->scene;
     const struct motion *now = &tracer->now;
     struct motion *next = &tracer->next;
     double h = step_length(level);
-    if (!pace_keeps(tracer->pace, tracer->cost))
+    tracer->left -= tracer->cost;
+    if (tracer->left < 0.0 || !pace_keeps(tracer->pace, tracer->cost))
         return false;
     next->time = now->time + h;
     for (size_t c = 0; c < scene->contacts; c++) {
@@ -254,7 +256,7 @@ static bool show_flight(struct tracer *tracer, double end, double phase)
     return true;
 }
 
-/* Goes through the log. False: out of memory, or stopped. */
+/* Goes through the log. False: out of memory or work, or stopped. */
 static bool follow(struct tracer *tracer, const struct force_log *log, double end)
 {
     double phase_start = tracer->now.time;
@@ -282,7 +284,8 @@ enum percuss_status trace_make(const struct trace_task *task, struct arena *aren
                             .trace = trace,
                             .stride = 1,
                             .pace = task->pace,
-                            .cost = impact_step_cost(task->scene)};
+                            .cost = impact_step_cost(task->scene),
+                            .left = task->max_work};
     if (!task->log->complete || !create(&tracer, arena))
         return PERCUSS_INTERNAL;
     for (tracer.finer = FINER; tracer.finer > 0; tracer.finer--)
@@ -292,7 +295,7 @@ enum percuss_status trace_make(const struct trace_task *task, struct arena *aren
     if (task->shift < 0.0)
         motion_rewind(&tracer.now, task->scene, -task->shift);
     sample(&tracer, tracer.none, tracer.none);
-    if (follow(&tracer, task->log, task->end))
+    if (follow(&tracer, task->log, task->end) || tracer.left < 0.0)
         return PERCUSS_OK;
     return pace_status(task->pace) ? PERCUSS_TIMEOUT : PERCUSS_INTERNAL;
 }

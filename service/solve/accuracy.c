@@ -69,7 +69,7 @@ enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geome
         .arena = means->arena,
         .pace = means->pace,
         .tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3,
-        .work = attempt_work_allowed(request),
+        .work = attempt_work_allowed(request->options.method),
     };
     bool sequence = mode_search_expects_sequence(geometry);
     struct attempt best = {.accuracy = step_search_first_accuracy(context.tolerance, sequence)};

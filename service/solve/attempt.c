@@ -13,9 +13,9 @@ static const double MAX_WORK_CVODE = 4e9;
 /* More of its energy no solution may gain or lose. */
 static const double WORST_DEFECT = 0.01;
 
-double attempt_work_allowed(const struct solve_request *request)
+double attempt_work_allowed(enum percuss_method method)
 {
-    return request->options.method == PERCUSS_METHOD_CVODE ? MAX_WORK_CVODE : MAX_WORK;
+    return method == PERCUSS_METHOD_CVODE ? MAX_WORK_CVODE : MAX_WORK;
 }
 
 double attempt_horizon(const struct solve_request *request, const struct scene *scene)

@@ -64,8 +64,8 @@ struct attempt_difference {
 struct attempt_difference attempt_compare(const struct attempt_context *context,
                                           const struct attempt *a, const struct attempt *b);
 
-/* Work (impact.h) that all solutions of a request with one contact model may take. */
-double attempt_work_allowed(const struct solve_request *request);
+/* Work (impact.h) that all solutions by a method with one contact model may take. */
+double attempt_work_allowed(enum percuss_method method);
 
 /* Share of the energy that a solution gains or loses. What acceleration takes may leave next to
  * nothing available: the approach counts too. */

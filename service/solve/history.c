@@ -11,9 +11,6 @@
 #include "solve/compliance.h"
 #include "solve/report.h"
 
-/* Bounds a solution whose cost is known already. */
-static const double AMPLE_WORK = 1e9;
-
 /* Compliance between two contacts of one body that no mode of the scene holds. */
 static double residual_of_side(const struct geometry *geometry, const struct assembly *assembly,
                                const struct contact_side *i, const struct contact_side *j,
@@ -108,12 +105,34 @@ static double difference(const struct geometry *geometry, const struct accuracy 
     return worst;
 }
 
-/* What a solution that came to its end takes once more; one that was cut off is cut off again. */
+/* What any solution may take; one that was cut off is cut off again. */
 static double work_of(const struct accuracy *accuracy)
 {
-    return accuracy->outcome.end_reason == PERCUSS_END_LIMIT
-               ? impact_work(&accuracy->assembly->scene, &accuracy->outcome)
-               : AMPLE_WORK;
+    double allowed = attempt_work_allowed(PERCUSS_METHOD_MODAL);
+    double taken = impact_work(&accuracy->assembly->scene, &accuracy->outcome);
+    return accuracy->outcome.end_reason == PERCUSS_END_LIMIT ? fmin(taken, allowed) : allowed;
+}
+
+/* Where the effort did not do for all of it, and where the answer came from another method. */
+static void warn(const struct geometry *geometry, const struct accuracy *accuracy,
+                 const struct impact_outcome *again, struct solve_result *result)
+{
+    const struct trace *trace = result->trace;
+    double last = trace->time[trace->count - 1];
+    /* the last instant that is kept may lie a little before the end */
+    if (last < result->window - 0.01 * fabs(result->window)) {
+        report_warn(result,
+                    "options.trace: the histories end at %g s of %g s: the effort allowed for them "
+                    "was spent",
+                    last, result->window);
+        return;
+    }
+    double off = difference(geometry, accuracy, again);
+    if (off > 1e-9)
+        report_warn(result,
+                    "options.trace: the histories are the modal method's, whose restitution "
+                    "differs by %.2g from the answer",
+                    off);
 }
 
 enum percuss_status history_make(const struct geometry *geometry,
@@ -141,18 +160,14 @@ enum percuss_status history_make(const struct geometry *geometry,
         status = impact_modal(scene, &settings, arena, &again);
     if (!status)
         status = trace_make(
-            &(struct trace_task){scene, &log, &sides, again.time_shift, again.window, means->pace},
+            &(struct trace_task){scene, &log, &sides, again.time_shift, again.window,
+                                 attempt_work_allowed(PERCUSS_METHOD_MODAL), means->pace},
             arena, trace);
     if (status) {
         result->status = pace_fault(&result->fault, status);
         return result->status;
     }
     result->trace = trace;
-    double off = difference(geometry, accuracy, &again);
-    if (off > 1e-9)
-        report_warn(result,
-                    "options.trace: the histories are the modal method's, whose restitution "
-                    "differs by %.2g from the answer",
-                    off);
+    warn(geometry, accuracy, &again, result);
     return result->status;
 }

@@ -179,7 +179,7 @@ static enum percuss_status run_scene(struct repeat *repeat, const struct solve_r
         .request = request,
         .arena = &repeat->run_memory,
         .pace = &pace,
-        .work = attempt_work_allowed(request),
+        .work = attempt_work_allowed(request->options.method),
     };
     attempt->accuracy = model->accuracy;
     for (;;) {

@@ -243,10 +243,56 @@ static void an_overlap_is_shown_without_end(void **state)
     lab_free(lab);
 }
 
+static bool count_asking(void *context, double done)
+{
+    (void)done;
+    ++*(unsigned *)context;
+    return true;
+}
+
+/* A heavy ball on a light beam of many modes, which meet hundreds of times: the histories take no
+ * more than twice what an answer may, and show the impact from its start as far as that goes. */
+static void histories_have_their_bounds(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_of_three();
+    struct body beam =
+        make_supported(make_bar(SHAPE_BEAM, ALUMINIUM, 0.001, 0.5), SUPPORT_PINNED, SUPPORT_PINNED);
+    double work[2];
+    beam.modes = 100;
+    lab_add(lab, "light", beam);
+    struct solve_request request =
+        strike(sphere_spot("sphere", 0.015), side_spot("light", 0.06, 0.001, 0.0), 0.05);
+    request.options.horizon = 1.0;
+    request.options.tolerance = 1e-2;
+    for (int traced = 0; traced < 2; traced++) {
+        unsigned asked = 0;
+        request.options.trace = traced;
+        solve_workspace_watch(lab->workspace, (struct watch){count_asking, &asked});
+        enum percuss_status status = solve(lab->workspace, &lab->set, &request, &result);
+        assert_true(status == PERCUSS_OK || status == PERCUSS_TRUNCATED);
+        work[traced] = asked * PACE_WORK;
+    }
+    if (getenv("PERCUSS_MEASURE"))
+        print_message("    work %g, traced %g, %zu sub-impacts, until %g of %g s\n", work[0],
+                      work[1], result.contacts[0].sub_impact_count,
+                      result.trace->time[result.trace->count - 1], result.window);
+    /* 3e7 each (docs/accuracy.md), and what is counted after it is done */
+    assert_true(work[1] - work[0] < 6.6e7);
+    /* they are cut short here, and that is said */
+    bool said = false;
+    for (size_t i = 0; i < result.warning_count; i++)
+        said = said || strstr(result.warnings[i], "options.trace: the histories end at");
+    assert_true(said && result.trace->count > 1);
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_overlap_is_shown_without_end),
+        cmocka_unit_test(histories_have_their_bounds),
         cmocka_unit_test(a_beam_shows_all_sub_impacts),
         cmocka_unit_test(a_rod_a_wall_and_a_ringing_beam),
         cmocka_unit_test(other_methods_and_masses_are_told),
