@@ -25,6 +25,21 @@ static struct bounds_text bounds_of(double low, double high)
     return bounds;
 }
 
+/* One sample, or many that are equal: a value, and no distribution. */
+static bool varies(const struct percuss_statistic *e)
+{
+    return e->standard_deviation > 0.0;
+}
+
+static void print_value(const struct percuss_statistic *e)
+{
+    printf("  restitution %.4f ", e->mean);
+    if (e->count == 1)
+        printf("from a single sample\n");
+    else
+        printf("from each of %llu samples: it does not vary\n", (unsigned long long)e->count);
+}
+
 static void print_restitution(const struct percuss_statistic *e)
 {
     printf("  restitution         95 %% confidence\n");
@@ -152,6 +167,23 @@ static void print_model(const struct percuss_ensemble_reply *reply)
                reply->check.mean_shift, reply->check.mean_shift_half_width);
 }
 
+static void print_distribution(const struct percuss_ensemble_reply *reply)
+{
+    const struct percuss_statistic *e = &reply->statistics[0];
+    if (varies(e)) {
+        print_restitution(e);
+        print_histogram(e);
+    } else {
+        print_value(e);
+    }
+    print_sub_impacts(reply);
+    print_others(reply);
+    if (!varies(e))
+        return;
+    print_intervals(reply);
+    print_sensitivities(reply);
+}
+
 void ensemble_print_table(const struct percuss_ensemble_request *request,
                           const struct percuss_ensemble_reply *reply)
 {
@@ -159,12 +191,7 @@ void ensemble_print_table(const struct percuss_ensemble_request *request,
         const struct percuss_contact *contact = &request->scene.contacts[request->contact];
         printf("%s on %s, %s sampling\n", request->scene.bodies[contact->a].id,
                request->scene.bodies[contact->b].id, percuss_sampling_name(request->sampling));
-        print_restitution(&reply->statistics[0]);
-        print_histogram(&reply->statistics[0]);
-        print_sub_impacts(reply);
-        print_others(reply);
-        print_intervals(reply);
-        print_sensitivities(reply);
+        print_distribution(reply);
         print_model(reply);
         print_server_line(reply->server, reply->catalogue_revision);
     }

@@ -56,10 +56,12 @@ static bool fill_quantity(struct ensemble_report *report, const struct ensemble 
                           struct report_quantity *quantity, struct interval_sample *sample)
 {
     quantiles_of(&ensemble->spec, &quantity->probabilities, &quantity->quantile_count);
+    quantity->moments = summary_moments(sample->values, sample->count);
     quantity->bins = ensemble->spec.bins ? ensemble->spec.bins : summary_bins(sample->kept);
+    if (!summary_varies(&quantity->moments))
+        quantity->bins = 0; /* they would have no width */
     if (!take_quantity(quantity, &report->memory))
         return false;
-    quantity->moments = summary_moments(sample->values, sample->count);
     quantity->mean = interval_mean(sample, &quantity->moments);
     quantity->deviation = interval_deviation(sample, &quantity->moments);
     for (size_t i = 0; i < quantity->quantile_count; i++) {
@@ -201,6 +203,7 @@ static bool fill_inputs(struct ensemble_report *report, const struct ensemble *e
     double *column = malloc((n + 1) * sizeof *column);
     report->inputs = arena_take(&report->memory, spec->input_count, sizeof *report->inputs);
     bool good = pairs && column && report->inputs;
+    bool varies = summary_varies(&report->quantities[0].moments);
     size_t dimension = 0;
     for (size_t i = 0; good && i < spec->input_count; i++) {
         if (!is_uncertain(spec, i))
@@ -217,7 +220,8 @@ static bool fill_inputs(struct ensemble_report *report, const struct ensemble *e
         out->total = spec_is_drawn(spec, i)
                          ? total_index(report, ensemble, samples, extras, dimension++)
                          : NAN;
-        good = fill_input(out, pairs, influence_sort(pairs, n), &report->memory);
+        /* where nothing varies there is nothing to explain */
+        good = fill_input(out, pairs, varies ? influence_sort(pairs, n) : 0, &report->memory);
     }
     free(pairs);
     free(column);

@@ -28,7 +28,7 @@ struct report_quantity {
     size_t quantile_count;
     const double *probabilities;
     double *quantiles, *quantiles_low, *quantiles_high;
-    size_t bins;
+    size_t bins; /* 0: the values do not vary */
     double *edges;
     uint64_t *counts;
     size_t curve_count; /* the distribution function: all values where they are few, else quantiles

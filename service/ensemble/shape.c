@@ -30,6 +30,8 @@ struct sigma_interval shape_sigma_interval(const double *sorted, const struct mo
     };
     interval.covered = summary_share(sorted, n, interval.high) -
                        summary_share(sorted, n, nextafter(interval.low, -INFINITY));
+    if (half == 0.0) /* all lie there, but for rounding */
+        interval.covered = 1.0;
     interval.unphysical =
         half > 0.0 ? length_outside(interval.low, interval.high, range) / (2.0 * half) : 0.0;
     return interval;

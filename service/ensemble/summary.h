@@ -5,6 +5,7 @@
 #ifndef PERCUSS_ENSEMBLE_SUMMARY_H
 #define PERCUSS_ENSEMBLE_SUMMARY_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -18,8 +19,12 @@ struct moments {
 };
 
 /* Two passes in the order of the array, so that equal arrays give equal bits. NAN where there are
- * too few values (skewness needs three). */
+ * too few values (skewness needs three). Values that are equal but for rounding have no deviation,
+ * and no skewness: NAN. */
 struct moments summary_moments(const double *values, size_t count);
+
+/* Whether the values differ by more than rounding. False for less than two. */
+bool summary_varies(const struct moments *moments);
 
 /* The finite values, ascending, in `sorted` (room for `count`). Returns how many they are. */
 size_t summary_sort(const double *values, size_t count, double *sorted);

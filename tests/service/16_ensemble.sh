@@ -45,6 +45,20 @@ grep -q '</svg>' "$work/one.svg" || fail "no SVG"
 expect 2 ensemble --plot "$work/ensemble.jpg"
 says ".png or .svg"
 
+say "what does not vary is a value, not a distribution"
+expect 0 percuss ensemble --a steel-sphere --b al-rod-1 --speed 0.3 --samples 16
+grep -q '^  restitution 0\.[0-9]* from each of 16 samples: it does not vary$' "$out" || fail "no value"
+grep -q 'skewness\|nan\|inf\|Beta\|deviations\|#' "$out" && fail "nonsense about no spread"
+expect 0 percuss ensemble --a steel-sphere --b al-rod-1 --speed 0.3 --samples 16 --json
+[ "$(field skewness)" = null ] || fail "skewness $(field skewness)"
+[ "$(field standard_deviation)" = 0.0 ] || fail "deviation $(field standard_deviation)"
+[ "$(field lowest)" = "$(field mean)" ] || fail "the mean $(field mean) is not the value $(field lowest)"
+grep -q '"bin_counts": \[\]' "$out" || fail "bins without a width"
+expect 0 percuss ensemble --a steel-sphere --b al-rod-1 --speed 0.3 --samples 16 --plot "$work/equal.svg"
+grep -q '</svg>' "$work/equal.svg" || fail "no SVG"
+expect 0 ensemble --samples 1
+shows "from a single sample"
+
 say "wrong inputs are explained"
 expect 2 ensemble --input young=normal:1
 says "normal:MEAN:DEVIATION"

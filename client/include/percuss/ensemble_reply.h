@@ -16,7 +16,8 @@ struct percuss_statistic {
     double skewness, lowest, highest;
     size_t quantile_count;
     double *probabilities, *quantiles, *quantiles_low, *quantiles_high;
-    size_t bin_count;
+    size_t bin_count;  /* 0: all samples are equal, but for rounding; their deviation is 0 then, and
+                          the skewness undefined */
     double *bin_edges; /* bin_count + 1 */
     uint64_t *bin_counts;
     size_t curve_count; /* the distribution function */

@@ -59,6 +59,26 @@ static void moments_of_few(void **state)
     assert_true(isnan(m.mean) && isnan(m.lowest));
 }
 
+/* What rounding leaves in a sum of equal values is no spread, and has no skewness; a
+ * difference of a billionth is one. */
+static void moments_of_equal_values(void **state)
+{
+    (void)state;
+    double values[16];
+    for (int i = 0; i < 16; i++)
+        values[i] = 0.43077217;
+    for (int pass = 0; pass < 2; pass++) {
+        struct moments m = summary_moments(values, 16);
+        assert_false(summary_varies(&m));
+        assert_true(m.mean >= m.lowest && m.mean <= m.highest);
+        assert_true(m.deviation == 0.0 && m.fourth == 0.0 && isnan(m.skewness));
+        values[3] = nextafter(values[3], 1.0); /* equal but for rounding */
+    }
+    values[3] = values[0] * (1.0 + 1e-9);
+    struct moments m = summary_moments(values, 16);
+    assert_true(summary_varies(&m) && m.deviation > 0.0 && m.skewness > 3.0);
+}
+
 static void quantiles(void **state)
 {
     (void)state;
@@ -97,8 +117,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(moments),        cmocka_unit_test(moments_of_an_offset),
-        cmocka_unit_test(moments_of_few), cmocka_unit_test(quantiles),
-        cmocka_unit_test(histogram),
+        cmocka_unit_test(moments_of_few), cmocka_unit_test(moments_of_equal_values),
+        cmocka_unit_test(quantiles),      cmocka_unit_test(histogram),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
