@@ -81,6 +81,7 @@ class Request(IdlStruct, typename="percuss::v1::Request"):
     contacts: sequence[Contact, 64] = field(default_factory=list)
     delassus: sequence[float64, 4096] = field(default_factory=list)
     options: Options = field(default_factory=Options)
+    server: Octets = bytes(16)  # everybody
 
 
 @dataclass
@@ -244,6 +245,7 @@ class Client:
 
     def __init__(self, domain):
         self.id = os.urandom(16)
+        self.server = bytes(16)
         self._domain = Domain(domain, LOOPBACK) if not os.environ.get("CYCLONEDDS_URI") else None
         participant = DomainParticipant(domain)
         # replies come in a partition of our own: the daemon sees this reader and makes its writer there
@@ -253,11 +255,14 @@ class Client:
         self._requests = DataWriter(participant, requests, qos=Qos(*EXCHANGE))
 
     def connect(self, timeout=5.0):
-        """Waits for a match in both directions, then until a ping is answered."""
+        """Waits for a match in both directions, then until a ping is answered. Who answered is `server`: a
+        request that names it is answered by no other."""
         end = time.monotonic() + timeout
         while time.monotonic() < end:
             matched = self._requests.get_matched_subscriptions() and self._replies.get_matched_publications()
-            if matched and self.ask(Request(self.id, 0), 0.01):
+            reply = self.ask(Request(self.id, 0), 0.01) if matched else None
+            if reply:
+                self.server = reply.server
                 return
             time.sleep(0.005)
         raise TimeoutError("no percussd answers")
@@ -280,7 +285,7 @@ def main():
     # a sphere of 15 mm just touches the top of a beam of 10 mm radius, half-way along it
     sphere = BodyMotion("steel-sphere", position=[0.0, 0.0, 0.025], velocity=[0.0, 0.0, -0.2])
     touch = Contact(0, 1, point=[0.0, 0.0, 0.010], normal=[0.0, 0.0, 1.0])
-    reply = client.ask(Request(client.id, 1, [sphere, BodyMotion("al-beam")], [touch]))
+    reply = client.ask(Request(client.id, 1, [sphere, BodyMotion("al-beam")], [touch], server=client.server))
     if reply is None or reply.status != 0:
         sys.exit(f"refused: {reply.message}" if reply else "no answer")
     for contact in reply.contacts:
@@ -289,7 +294,7 @@ def main():
         for one in contact.sub_impacts:
             print(f"  from {1e3 * one.start:.4f} to {1e3 * one.end:.4f} ms: {one.impulse:.7f} N s")
     # what is refused is an answer too
-    refused = client.ask(Request(client.id, 2, [sphere, BodyMotion("nothing")], [touch]))
+    refused = client.ask(Request(client.id, 2, [sphere, BodyMotion("nothing")], [touch], server=client.server))
     print(refused.message if refused else "no answer")
 
 

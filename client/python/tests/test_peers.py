@@ -55,7 +55,7 @@ class NewerRequest(IdlStruct, typename="percuss::v1::Request"):
     contacts: sequence[plain_dds.Contact, 64] = field(default_factory=list)
     delassus: sequence[float64, 4096] = field(default_factory=list)
     options: plain_dds.Options = field(default_factory=plain_dds.Options)
-    server: array[byte, 16] = field(default_factory=lambda: bytes(16))
+    server: array[byte, 16] = bytes(16)
     more: float64 = 1.0
 
 
@@ -109,10 +109,15 @@ class Peers(unittest.TestCase):
 
     def connect(self, request_type, timeout=10.0):
         with mock.patch.object(plain_dds, "Request", request_type):
-            plain_dds.Client(DOMAIN).connect(timeout)
+            client = plain_dds.Client(DOMAIN)
+            client.connect(timeout)
+        return client
 
     def test_uint8_for_octet(self):
-        self.connect(Uint8Request)
+        """It names no server, as in version 0.1.0, and is answered."""
+        client = self.connect(Uint8Request)
+        reply = client.ask(Uint8Request(client.id, 1, [plain_dds.BodyMotion("nothing")]))
+        self.assertEqual(reply.server, client.server)
 
     def test_newer(self):
         self.connect(NewerRequest)
