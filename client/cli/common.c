@@ -62,16 +62,13 @@ static void parse_server(const char *text, char server[PERCUSS_SERVER_ID_SIZE],
 
 uint32_t environment_domain(void)
 {
-    const char *text = getenv("PERCUSS_DOMAIN");
-    if (!text || !*text)
-        return 0;
-    char *end;
-    unsigned long domain = strtoul(text, &end, 10);
-    if (!isdigit((unsigned char)*text) || *end || domain > HIGHEST_DOMAIN) {
-        complain("PERCUSS_DOMAIN: '%s' is not a whole number of 0..%d", text, HIGHEST_DOMAIN);
+    uint32_t domain = percuss_client_config_default().domain;
+    if (domain > HIGHEST_DOMAIN) {
+        complain("PERCUSS_DOMAIN: '%s' is not a whole number of 0..%d", getenv("PERCUSS_DOMAIN"),
+                 HIGHEST_DOMAIN);
         exit(EXIT_USAGE);
     }
-    return (uint32_t)domain;
+    return domain;
 }
 
 static error_t parse_common(int key, char *text, struct argp_state *state)

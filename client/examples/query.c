@@ -50,7 +50,8 @@ static void print(const struct percuss_reply *reply)
 int main(int argc, char **argv)
 {
     struct percuss_client_config config = percuss_client_config_default();
-    config.domain = argc > 1 ? (uint32_t)atoi(argv[1]) : 0;
+    if (argc > 1) // else what PERCUSS_DOMAIN says, or 0
+        config.domain = (uint32_t)atoi(argv[1]);
     struct percuss_client *client;
     struct percuss_request request;
     struct percuss_reply reply;

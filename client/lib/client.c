@@ -3,6 +3,7 @@
 
 #include "client.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,13 +13,33 @@
 
 enum { DEFAULT_WINDOW = 256, HIGHEST_DOMAIN = 230 };
 
+/* What stands in PERCUSS_DOMAIN is no domain: kept until somebody can be told. */
+static const uint32_t not_a_domain = UINT32_MAX;
+
+static uint32_t environment_domain(void)
+{
+    const char *text = getenv("PERCUSS_DOMAIN");
+    if (!text || !*text)
+        return 0;
+    char *end;
+    unsigned long domain = strtoul(text, &end, 10);
+    bool good = isdigit((unsigned char)*text) && !*end && domain <= HIGHEST_DOMAIN;
+    return good ? (uint32_t)domain : not_a_domain;
+}
+
 struct percuss_client_config percuss_client_config_default(void)
 {
-    return (struct percuss_client_config){.first_sequence = 1, .window = DEFAULT_WINDOW};
+    return (struct percuss_client_config){
+        .domain = environment_domain(), .first_sequence = 1, .window = DEFAULT_WINDOW};
 }
 
 static enum percuss_result check_config(const struct percuss_client_config *config)
 {
+    const char *domain = getenv("PERCUSS_DOMAIN");
+    if (config->domain == not_a_domain && domain)
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                         "PERCUSS_DOMAIN: '%s' is not a whole number of 0..%d", domain,
+                         HIGHEST_DOMAIN);
     if (config->domain > HIGHEST_DOMAIN)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "domain: %u: 0..%d is allowed",
                          config->domain, HIGHEST_DOMAIN);

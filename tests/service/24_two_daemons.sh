@@ -143,6 +143,9 @@ says "--server: 'xyz' is not 1 to 32 hexadecimal digits"
 
 say "the domain may come from the environment"
 expect 0 env PERCUSS_DOMAIN="$domain" "$bin/percuss" ping
+expect 0 env PERCUSS_DOMAIN="$domain" "$build/client/examples/query"
+expect 1 env PERCUSS_DOMAIN=300 "$build/client/examples/query"
+says "PERCUSS_DOMAIN: '300' is not a whole number of 0..230"
 expect 2 env PERCUSS_DOMAIN=300 "$bin/percuss" ping
 says "PERCUSS_DOMAIN: '300' is not a whole number of 0..230"
 expect 2 env PERCUSS_DOMAIN=300 "$bin/percussd" --config "$work/percussd.yaml"

@@ -41,7 +41,9 @@ struct percuss_client_config {
                                             stay with begins; empty: any */
 };
 
-/* Domain 0, random id, first sequence 1, window 256, any server. */
+/* The domain that PERCUSS_DOMAIN in the environment names, or else 0; random id, first sequence 1,
+ * window 256, any server. Where PERCUSS_DOMAIN is no domain and no other one is put in,
+ * percuss_client_create says so (INVALID_ARGUMENT). */
 PERCUSS_API struct percuss_client_config percuss_client_config_default(void);
 
 /* Makes a client; NULL config: the default. The caller frees it. INVALID_ARGUMENT, NO_MEMORY or

@@ -249,7 +249,7 @@ def hinged_bar(answer: Answer, speed: float = 0.2) -> Simulation:
 
 
 def main() -> None:
-    with percuss.connect(int(sys.argv[1]) if len(sys.argv) > 1 else 0) as client:
+    with percuss.connect(int(sys.argv[1]) if len(sys.argv) > 1 else None) as client:
         simulation = hinged_bar(client.solve)
         simulation.run(3.0)
     print("    time/s  speed/(m/s)        e  sub-impacts  impulse/(N s)  vibration left/uJ")

@@ -9,7 +9,6 @@
 # its pictures into FOLDER.
 
 # %%
-import os
 import sys
 from pathlib import Path
 
@@ -17,7 +16,7 @@ import numpy as np
 
 import percuss
 
-client = percuss.connect(int(os.environ.get("PERCUSS_DOMAIN", "0")))
+client = percuss.connect()
 bodies = client.bodies()
 sphere, beam = bodies["steel-sphere"], bodies["al-beam"]
 print(f"{sphere.id}: {sphere.mass:.4f} kg, {sphere.description}")

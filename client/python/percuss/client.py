@@ -27,21 +27,21 @@ class Client:
 
     def __init__(
         self,
-        domain: int = 0,
+        domain: int | None = None,
         id: bytes | None = None,
         first_sequence: int = 1,
         window: int = 256,
         server: str = "",
     ) -> None:
-        """domain: 0..230. id: 16 octets, not all zero; None: random; a kept one lets a restarted client
-        repeat requests. first_sequence: of the first request, > 0; a kept id goes on where it stopped.
-        window: most outstanding requests, 1..1024. server: hexadecimal digits with which the id of the
+        """domain: 0..230; None: what PERCUSS_DOMAIN in the environment says, or else 0. id: 16 octets,
+        not all zero; None: random; a kept one lets a restarted client repeat requests. first_sequence: of
+        the first request, > 0; a kept id goes on where it stopped. window: most outstanding requests, 1..1024. server: hexadecimal digits with which the id of the
         server to stay with begins (as in Server.server.hex()); empty: any."""
         self._handle = ctypes.c_void_p()
         if id is not None and (len(id) != 16 or not any(id)):
             raise ValueError(f"id: {id!r}: 16 octets, not all zero, are allowed")
         for name, number, most in (
-            ("domain", domain, 230),
+            ("domain", domain or 0, 230),
             ("first_sequence", first_sequence, 2**64 - 1),
             ("window", window, 1024),
         ):
@@ -51,6 +51,8 @@ class Client:
         octets = (ctypes.c_uint8 * 16)(*(id or bytes(16)))
         if len(server) > 32:
             raise ValueError(f"server: {server!r}: up to 32 hexadecimal digits are allowed")
+        if domain is None:
+            domain = _library.percuss_client_config_default().domain
         config = _abi.ClientConfig(domain, octets, first_sequence, window, server.lower().encode())
         check(_library.percuss_client_create(ctypes.byref(config), ctypes.byref(self._handle)))
 
@@ -215,7 +217,7 @@ def _take(answer: _abi.Reply) -> Reply:
 
 
 def connect(
-    domain: int = 0,
+    domain: int | None = None,
     timeout: float = 3.0,
     id: bytes | None = None,
     first_sequence: int = 1,

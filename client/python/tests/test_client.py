@@ -12,6 +12,7 @@ import threading
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import numpy as np
 
@@ -263,6 +264,16 @@ class Mistakes(Beside):
             with self.subTest(name), self.assertRaises(ValueError):
                 percuss.Client(DOMAIN, server=name)
         self.assertIsNone(percuss.Client(DOMAIN).server)
+
+    def test_domain_of_the_environment(self) -> None:
+        # that of this test's daemon
+        with percuss.connect(timeout=10.0) as client:
+            self.assertEqual(client.server, self.client.server)
+        for text in ("231", "-1", "one"):
+            with self.subTest(text), mock.patch.dict(os.environ, PERCUSS_DOMAIN=text):
+                with self.assertRaisesRegex(percuss.InvalidArgument, f"PERCUSS_DOMAIN: '{text}' is not"):
+                    percuss.Client()
+                percuss.Client(DOMAIN).close()
 
     def test_no_server(self) -> None:
         # no story's domain: tests/service/lib.sh keeps below 100
