@@ -35,8 +35,9 @@ class Client:
     ) -> None:
         """domain: 0..230; None: what PERCUSS_DOMAIN in the environment says, or else 0. id: 16 octets,
         not all zero; None: random; a kept one lets a restarted client repeat requests. first_sequence: of
-        the first request, > 0; a kept id goes on where it stopped. window: most outstanding requests, 1..1024. server: hexadecimal digits with which the id of the
-        server to stay with begins (as in Server.server.hex()); empty: any."""
+        the first request, > 0; a kept id goes on where it stopped. window: most outstanding requests,
+        1..1024. server: hexadecimal digits with which the id of the server to stay with begins (as in
+        Server.server.hex()); empty: any."""
         self._handle = ctypes.c_void_p()
         if id is not None and (len(id) != 16 or not any(id)):
             raise ValueError(f"id: {id!r}: 16 octets, not all zero, are allowed")
