@@ -74,7 +74,6 @@ static struct token_subject subject_of(const struct question *question, size_t i
 struct vigil {
     const struct question *question;
     enum percuss_status status;
-    bool unwanted; /* nobody waits: the refusal is not to be kept */
     struct fault fault;
 };
 
@@ -82,11 +81,9 @@ static bool vigil_look(struct vigil *vigil, const char *when)
 {
     const struct question *question = vigil->question;
     vigil->status = check_deadline(question, when, &vigil->fault);
-    if (vigil->status || !question->still_wanted)
-        return !vigil->status;
-    vigil->status = question->still_wanted(question->context, &vigil->fault);
-    vigil->unwanted = vigil->status != PERCUSS_OK;
-    return !vigil->unwanted;
+    if (!vigil->status && question->still_wanted)
+        vigil->status = question->still_wanted(question->context, &vigil->fault);
+    return vigil->status == PERCUSS_OK;
 }
 
 /* What a solve asks now and then. */
@@ -98,11 +95,7 @@ static bool goes_on(void *context, double done)
 
 static struct answer *refuse(const struct vigil *vigil)
 {
-    struct answer *answer =
-        encode_refusal(&vigil->question->envelope, vigil->status, vigil->fault.text);
-    if (answer)
-        answer->passing = vigil->unwanted;
-    return answer;
+    return encode_refusal(&vigil->question->envelope, vigil->status, vigil->fault.text);
 }
 
 /* What keeps a specimen outlives the solve. */
