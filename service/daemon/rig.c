@@ -191,6 +191,15 @@ static struct answer *refuse_damaged(const struct question *question, const char
         "number");
 }
 
+/* Whether there is a reply nobody knows now. */
+static struct answer *refuse_for_now(const struct question *question, const char *problem)
+{
+    log_line(LEVEL_ERROR, "%s", problem);
+    return encode_refusal(&question->envelope, PERCUSS_INTERNAL,
+                          "the store of specimens cannot be read (the server's log says why): "
+                          "nothing has changed, ask again with the same number");
+}
+
 /* The stored reply, if it is one to this request. */
 static struct answer *recall(const struct question *question, const struct stored_reply *reply,
                              struct digest content)
@@ -219,7 +228,8 @@ struct answer *rig_respond(struct rig *rig, struct seat *seat, struct token_stor
     memcpy(kept.client, reply.client, sizeof kept.client);
     enum percuss_status status = specimen_store_find(rig->store, &kept, &fault);
     if (status == PERCUSS_INTERNAL)
-        return refuse_damaged(question, fault.text);
+        return kept.damaged ? refuse_damaged(question, fault.text)
+                            : refuse_for_now(question, fault.text);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
     struct answer *answer = kept.bytes ? recall(question, &kept, content)

@@ -316,7 +316,14 @@ enum percuss_status specimen_store_commit(struct specimen_store *store,
     return status;
 }
 
-/* Whether the row is what was kept. */
+/* Whether the row has the sizes of a reply. */
+static bool is_shaped(sqlite3_stmt *row, const struct stored_reply *reply)
+{
+    return sqlite3_column_bytes(row, 0) == sizeof reply->content &&
+           sqlite3_column_bytes(row, 1) > 0;
+}
+
+/* Whether the row, copied to the reply, is what was kept. */
 static bool is_intact(sqlite3_stmt *row, const struct stored_reply *reply)
 {
     if (sqlite3_column_type(row, 2) == SQLITE_NULL)
@@ -332,24 +339,28 @@ static enum percuss_status refuse_damaged(struct specimen_store *store, struct s
 {
     free(reply->bytes);
     reply->bytes = NULL;
-    return fault_set(fault, PERCUSS_INTERNAL,
-                     "%s: the stored reply to request %llu is damaged: its checksum differs",
-                     store->database.path, (unsigned long long)reply->sequence);
+    reply->damaged = true;
+    return fault_set(
+        fault, PERCUSS_INTERNAL,
+        "%s: the stored reply to request %llu is damaged: its size or checksum differs",
+        store->database.path, (unsigned long long)reply->sequence);
 }
 
-/* Copies the row to the reply. */
-static bool copy_reply(sqlite3_stmt *row, struct stored_reply *reply)
+/* Copies the row to the reply, if it is what was kept. What a row says is in memory: taking it does
+ * not read the file. */
+static enum percuss_status take_reply(struct specimen_store *store, sqlite3_stmt *row,
+                                      struct stored_reply *reply, struct fault *fault)
 {
-    const void *content = sqlite3_column_blob(row, 0), *bytes = sqlite3_column_blob(row, 1);
+    if (!is_shaped(row, reply))
+        return refuse_damaged(store, reply, fault);
     reply->size = (size_t)sqlite3_column_bytes(row, 1);
-    if (!bytes || sqlite3_column_bytes(row, 0) != sizeof reply->content)
-        return false;
     reply->bytes = malloc(reply->size);
     if (!reply->bytes)
-        return false;
-    memcpy(reply->content, content, sizeof reply->content);
-    memcpy(reply->bytes, bytes, reply->size);
-    return true;
+        return fault_set(fault, PERCUSS_INTERNAL, "%s: stored replies: out of memory",
+                         store->database.path);
+    memcpy(reply->content, sqlite3_column_blob(row, 0), sizeof reply->content);
+    memcpy(reply->bytes, sqlite3_column_blob(row, 1), reply->size);
+    return is_intact(row, reply) ? PERCUSS_OK : refuse_damaged(store, reply, fault);
 }
 
 enum percuss_status specimen_store_find(struct specimen_store *store, struct stored_reply *reply,
@@ -358,18 +369,19 @@ enum percuss_status specimen_store_find(struct specimen_store *store, struct sto
     uint64_t mark;
     sqlite3_stmt *statement = database_statement(&store->database, STATEMENT_REPLY);
     reply->bytes = NULL;
+    reply->damaged = false;
     sqlite3_bind_blob(statement, 1, reply->client, sizeof reply->client, SQLITE_STATIC);
     sqlite3_bind_int64(statement, 2, (int64_t)reply->sequence);
     int found = sqlite3_step(statement);
-    bool good = found == SQLITE_ROW ? copy_reply(statement, reply) : found == SQLITE_DONE;
-    good = good && (found == SQLITE_ROW || read_mark(store, reply->client, &mark));
-    if (!good)
+    if (found == SQLITE_ROW) {
+        enum percuss_status status = take_reply(store, statement, reply, fault);
+        sqlite3_reset(statement);
+        return status;
+    }
+    if (found != SQLITE_DONE || !read_mark(store, reply->client, &mark))
         return database_fault(&store->database, "stored replies", fault);
-    bool intact = found != SQLITE_ROW || is_intact(statement, reply);
     sqlite3_reset(statement);
-    if (!intact)
-        return refuse_damaged(store, reply, fault);
-    if (found == SQLITE_ROW || reply->sequence > mark)
+    if (reply->sequence > mark)
         return PERCUSS_OK;
     return fault_set(fault, PERCUSS_BAD_REQUEST,
                      "sequence: %llu: replies up to %llu of this client are no longer kept: must "

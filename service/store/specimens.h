@@ -7,6 +7,7 @@
 #ifndef PERCUSS_STORE_SPECIMENS_H
 #define PERCUSS_STORE_SPECIMENS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base/fault.h"
@@ -45,7 +46,8 @@ struct stored_reply {
     uint64_t sequence;
     uint64_t content[2]; /* hash of the request */
     size_t size;
-    void *bytes; /* in the form the caller chose */
+    void *bytes;  /* in the form the caller chose */
+    bool damaged; /* found, but not what was kept */
 };
 
 /* Makes the changes and the reply durable, in one transaction. After PERCUSS_INTERNAL nothing has
@@ -57,7 +59,8 @@ enum percuss_status specimen_store_commit(struct specimen_store *store,
 /* The reply kept under reply->client and ->sequence: fills in the rest, and the caller free()s
  * ->bytes; NULL: there was no such request. PERCUSS_BAD_REQUEST: replies of that client with
  * numbers as high are no longer kept, so that nobody knows whether there was one. PERCUSS_INTERNAL:
- * the file cannot be read, or what it holds is not what was kept: its checksum differs. */
+ * with ->damaged what the file holds is not what was kept: its size or checksum differs; without,
+ * it cannot be read now, and nobody knows what it holds. */
 enum percuss_status specimen_store_find(struct specimen_store *store, struct stored_reply *reply,
                                         struct fault *fault);
 

@@ -321,7 +321,8 @@ static void is_damaged(uint8_t client, uint64_t sequence)
     struct specimen_store *store = open_store(10);
     assert_int_equal(specimen_store_find(store, &reply, &fault), PERCUSS_INTERNAL);
     assert_null(reply.bytes);
-    assert_non_null(strstr(fault.text, "request 1 is damaged: its checksum differs"));
+    assert_true(reply.damaged);
+    assert_non_null(strstr(fault.text, "request 1 is damaged: its size or checksum differs"));
     finds(store, 1, 2, "reply 1 2");
     specimen_store_close(store);
 }
@@ -346,6 +347,37 @@ static void tells_a_damaged_reply(void **state)
     is_damaged(1, 1);
     execute("UPDATE replies SET checksum = x'00' WHERE sequence = 1");
     is_damaged(1, 1);
+    execute("UPDATE replies SET content = x'00' WHERE sequence = 1");
+    is_damaged(1, 1);
+    execute("UPDATE replies SET reply = x'' WHERE sequence = 1");
+    is_damaged(1, 1);
+}
+
+/* Here for want of memory: says nothing of the reply, which is found when there is some. */
+static void what_cannot_be_read_now_is_not_damaged(void **state)
+{
+    (void)state;
+    struct fault fault;
+    struct stored_reply reply = {.client = {1}, .sequence = 1};
+    enum { LENGTH = 1 << 20 };
+    char *text = malloc(LENGTH + 1);
+    memset(text, 'x', LENGTH);
+    text[LENGTH] = '\0';
+    struct specimen_store *store = open_store(10);
+    struct stored_reply kept = reply_of(1, 1, text);
+    assert_int_equal(specimen_store_commit(store, NULL, 0, &kept, &fault), PERCUSS_OK);
+    specimen_store_close(store);
+    store = open_store(10);
+    /* room for pages, not for the reply */
+    sqlite3_hard_heap_limit64(sqlite3_memory_used() + LENGTH / 2);
+    assert_int_equal(specimen_store_find(store, &reply, &fault), PERCUSS_INTERNAL);
+    assert_null(reply.bytes);
+    assert_false(reply.damaged);
+    assert_non_null(strstr(fault.text, "stored replies: out of memory"));
+    sqlite3_hard_heap_limit64(0);
+    finds(store, 1, 1, text);
+    specimen_store_close(store);
+    free(text);
 }
 
 /* Version 1 had no checksums: what it kept is found, what comes on top has them. */
@@ -381,11 +413,16 @@ static void refuses_a_second_process(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(keeps_to_the_last_bit),       WITH_FOLDER(survives_a_kill),
-        WITH_FOLDER(refuses_another_body),        WITH_FOLDER(keeps_the_last_replies),
-        WITH_FOLDER(refuses_other_files),         WITH_FOLDER(refuses_a_damaged_file),
-        WITH_FOLDER(refuses_a_second_process),    WITH_FOLDER(tells_a_damaged_reply),
+        WITH_FOLDER(keeps_to_the_last_bit),
+        WITH_FOLDER(survives_a_kill),
+        WITH_FOLDER(refuses_another_body),
+        WITH_FOLDER(keeps_the_last_replies),
+        WITH_FOLDER(refuses_other_files),
+        WITH_FOLDER(refuses_a_damaged_file),
+        WITH_FOLDER(refuses_a_second_process),
+        WITH_FOLDER(tells_a_damaged_reply),
         WITH_FOLDER(brings_version_1_up_to_date),
+        WITH_FOLDER(what_cannot_be_read_now_is_not_damaged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
