@@ -234,6 +234,8 @@ static bool hire(struct ensemble_run *run, struct fault *fault)
     const struct watch watch = {goes_on, run};
     unsigned wanted = run->service->settings->workers;
     wanted = wanted < MOST_WORKERS ? wanted : MOST_WORKERS;
+    /* computing one is for a single thread */
+    table_maker_only_finds(&run->maker);
     run->samples = calloc(run->ensemble.count, sizeof *run->samples);
     if (!run->samples) {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
@@ -249,8 +251,8 @@ static bool hire(struct ensemble_run *run, struct fault *fault)
 }
 
 /* The same as for a single request: who leaves the choice takes the tables that are there, who
- * insists has them computed, which happens when the impact as it is stated is tried; no input
- * changes a material then, so that the workers only look them up. */
+ * insists has them computed, which happens when the impact as it is stated is tried. No input
+ * changes a material then: the workers only look them up. */
 static const struct contact_table_source *find_tables(struct ensemble_run *run)
 {
     struct table_shelf *shelf = &run->service->tables;
@@ -259,8 +261,7 @@ static const struct contact_table_source *find_tables(struct ensemble_run *run)
     if (scene->options.contact_model != PERCUSS_CONTACT_TABLE)
         return table_store_source(shelf->loaded);
     const struct contact_table_source *source =
-        table_maker_begin(&run->maker, scene, run->task->arrival);
-    run->maker.client = run->task->client;
+        table_maker_begin(&run->maker, scene, run->task->client, run->task->arrival);
     run->maker.cancelled = &run->task->cancelled;
     return source;
 }

@@ -179,8 +179,8 @@ static void name_states(struct seat *seat, struct token_store *tokens,
 static void use_tables(struct seat *seat, const struct question *question)
 {
     bool insists = seat->request.options.contact_model == PERCUSS_CONTACT_TABLE;
-    const struct contact_table_source *made =
-        table_maker_begin(&seat->maker, question->request, question->arrival);
+    const struct contact_table_source *made = table_maker_begin(
+        &seat->maker, question->request, question->envelope.client, question->arrival);
     solve_workspace_set_tables(seat->workspace,
                                insists ? made : table_store_source(seat->maker.shelf->loaded));
 }

@@ -84,7 +84,7 @@ static bool go_on(void *context, double done)
             fault_set(&maker->fault, PERCUSS_TIMEOUT,
                       "cancelled with %.0f %% of the contact table computed", 100.0 * done);
     else if (reply_store_is_gone(maker->shelf->replies, maker->client))
-        maker->status = fault_set(&maker->fault, PERCUSS_TIMEOUT, "the client is gone");
+        maker->status = fault_set(&maker->fault, PERCUSS_TIMEOUT, "the client had gone: ask again");
     else if (deadline > 0.0 && clock_now() - maker->arrival > deadline)
         maker->status = fault_set(
             &maker->fault, PERCUSS_TIMEOUT,
@@ -180,14 +180,20 @@ void table_maker_init(struct table_maker *maker, struct table_shelf *shelf, bool
     *maker = (struct table_maker){.source.context = maker, .shelf = shelf, .makes = makes};
 }
 
-const struct contact_table_source *
-table_maker_begin(struct table_maker *maker, const percuss_v1_Request *request, double arrival)
+const struct contact_table_source *table_maker_begin(struct table_maker *maker,
+                                                     const percuss_v1_Request *request,
+                                                     const uint8_t *client, double arrival)
 {
     maker->request = request;
     maker->arrival = arrival;
-    maker->client = request->client;
+    maker->client = client;
     maker->cancelled = NULL;
     maker->status = PERCUSS_OK;
     maker->source.find = overrides_material(request) ? find_only : find_or_make;
     return &maker->source;
+}
+
+void table_maker_only_finds(struct table_maker *maker)
+{
+    maker->source.find = find_only;
 }

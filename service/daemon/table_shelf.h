@@ -48,9 +48,14 @@ struct table_maker {
 
 void table_maker_init(struct table_maker *maker, struct table_shelf *shelf, bool makes);
 
-/* Begins with a request that asks for `table`; what answers it. Tables that are missing are
- * computed, but for materials that `overrides` of the request give: those are nobody else's. */
-const struct contact_table_source *
-table_maker_begin(struct table_maker *maker, const percuss_v1_Request *request, double arrival);
+/* Begins with a request that asks for `table`, of a client (16 octets; a member of a batch need not
+ * name him); what answers it. Tables that are missing are computed, but for materials that
+ * `overrides` of the request give: those are nobody else's. */
+const struct contact_table_source *table_maker_begin(struct table_maker *maker,
+                                                     const percuss_v1_Request *request,
+                                                     const uint8_t *client, double arrival);
+
+/* From now on the tables that are there are all: several threads may look them up. */
+void table_maker_only_finds(struct table_maker *maker);
 
 #endif

@@ -172,19 +172,21 @@ static enum percuss_status check_correlations(const struct ensemble_spec *spec, 
     return PERCUSS_OK;
 }
 
-/* Whether a contact of the body leaves dents, in it or its partner. What is no contact of two known
- * bodies is solve()'s to refuse. */
-static bool yields(const struct ensemble_spec *spec, size_t body)
+/* Whether a contact of a body of that id, which inputs change wherever it stands, leaves dents, in
+ * it or its partner. What is no contact of two known bodies is solve()'s to refuse. */
+static bool yields(const struct ensemble_spec *spec, const char *id)
 {
     const struct solve_request *request = spec->request;
     bool yields = false;
     for (size_t c = 0; c < request->contact_count && c < PERCUSS_MAX_CONTACTS; c++) {
         const struct solve_contact *contact = &request->contacts[c];
-        if (contact->a >= PERCUSS_MAX_BODIES || contact->b >= PERCUSS_MAX_BODIES ||
-            (contact->a != body && contact->b != body))
+        if (contact->a >= request->body_count || contact->b >= request->body_count)
             continue;
-        const struct body *a = body_set_find(spec->catalogue, request->bodies[contact->a].id);
-        const struct body *b = body_set_find(spec->catalogue, request->bodies[contact->b].id);
+        const char *ids[] = {request->bodies[contact->a].id, request->bodies[contact->b].id};
+        if (strcmp(ids[0], id) != 0 && strcmp(ids[1], id) != 0)
+            continue;
+        const struct body *a = body_set_find(spec->catalogue, ids[0]);
+        const struct body *b = body_set_find(spec->catalogue, ids[1]);
         yields = yields || (a && b && closed_form_softer(&a->material, &b->material) >= 0);
     }
     return yields;
@@ -196,7 +198,8 @@ enum percuss_status spec_check_tables(const struct ensemble_spec *spec, struct f
     for (size_t i = 0; insists && i < spec->input_count; i++) {
         enum input_quantity quantity = spec->inputs[i].quantity;
         bool material = quantity == INPUT_YOUNG || quantity == INPUT_POISSON;
-        if (quantity == INPUT_YIELD || (material && yields(spec, spec->inputs[i].body)))
+        if (quantity == INPUT_YIELD ||
+            (material && yields(spec, spec->request->bodies[spec->inputs[i].body].id)))
             return fault_set(fault, PERCUSS_BAD_REQUEST,
                              "inputs[%zu].name: %s: must be another one with options.contact_model "
                              "table: a table is of one material only (auto or closed-form do "

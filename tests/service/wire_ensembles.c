@@ -106,6 +106,26 @@ static void bad_inputs(struct peer *peer)
     refused(peer, e, "steel-sphere: must be a beam");
 }
 
+/* Inputs change every body of their id: with one that stands idle also the one that is struck. */
+static void tables_of_twins(struct peer *peer)
+{
+    struct ensemble e = good();
+    scene_fill(&scene, 1, 0.3);
+    percuss_v1_BodyMotion *idle = &scene.bodies[1], *struck = &scene.bodies[2];
+    snprintf(idle->id, sizeof idle->id, "al-rod-1");
+    idle->position[2] = 0.010 - 0.5;
+    idle->orientation[0] = sqrt(0.5);
+    idle->orientation[2] = -sqrt(0.5);
+    *struck = *idle;
+    idle->position[0] = 1.0;
+    scene.contacts[0].b = 2;
+    scene.request.bodies._length = 3;
+    scene.request.options.contact_model = percuss_v1_CONTACT_MODEL_TABLE;
+    strcpy(e.inputs[1].body, "al-rod-1");
+    refused(peer, e, "inputs[1].name: young: must be another one with options.contact_model table");
+    scene_fill(&scene, 1, 0.3);
+}
+
 static void bad_numbers(struct peer *peer)
 {
     struct ensemble e = good();
@@ -186,6 +206,7 @@ int main(int argc, char **argv)
     peer_open(&peer, (uint32_t)strtoul(argv[1], NULL, 10));
     scene_fill(&scene, 1, 0.3);
     bad_inputs(&peer);
+    tables_of_twins(&peer);
     bad_numbers(&peer);
     answered(&peer);
     peer_close(&peer);
