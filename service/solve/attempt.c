@@ -72,6 +72,14 @@ enum percuss_status attempt_run_scaled(struct attempt_context *context, struct a
     return status;
 }
 
+bool attempt_is_unsolved(const struct geometry *geometry, const struct impact_outcome *outcome)
+{
+    bool touched = false;
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        touched = touched || outcome->tracks[c].impulse > 0.0;
+    return outcome->end_reason == PERCUSS_END_LIMIT && !touched;
+}
+
 double attempt_restitution(const struct geometry *geometry, const struct impact_outcome *outcome,
                            size_t contact)
 {

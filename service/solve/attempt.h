@@ -47,7 +47,11 @@ enum percuss_status attempt_assemble(struct attempt_context *context, struct att
 enum percuss_status attempt_run_scaled(struct attempt_context *context, struct attempt *attempt,
                                        double factor);
 
-/* Restitution of a contact, NAN where the compression impulse is 0: Eq. (6). */
+/* Whether nothing was solved: the effort was spent before any force. */
+bool attempt_is_unsolved(const struct geometry *geometry, const struct impact_outcome *outcome);
+
+/* Restitution of a contact, which of what is unsolved says nothing; NAN where the compression
+ * impulse is 0: Eq. (6). */
 double attempt_restitution(const struct geometry *geometry, const struct impact_outcome *outcome,
                            size_t contact);
 

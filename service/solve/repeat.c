@@ -68,8 +68,9 @@ static void read_track(const struct geometry *geometry, const struct impact_outc
                        size_t contact, struct repeat_outcome *outcome)
 {
     const struct track *track = &solved->tracks[contact];
+    bool unsolved = attempt_is_unsolved(geometry, solved);
     *outcome = (struct repeat_outcome){
-        .restitution = attempt_restitution(geometry, solved, contact),
+        .restitution = unsolved ? NAN : attempt_restitution(geometry, solved, contact),
         .impulse = track->impulse,
         .end_time = track->end_time,
         .sub_impacts = (unsigned)track->count,

@@ -19,7 +19,7 @@ struct repeat_model {
 /* One contact of one impact. */
 struct repeat_outcome {
     enum percuss_status status; /* OK, TRUNCATED, a refusal, or TIMEOUT: stopped */
-    double restitution;         /* NAN where the contact does not approach */
+    double restitution;         /* NAN where the contact does not approach, or nothing was solved */
     double impulse;
     double end_time;                          /* of the last sub-impact; 0 without any */
     double peak_force;                        /* largest of all sub-impacts */

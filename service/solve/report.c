@@ -32,20 +32,11 @@ void report_warnings(const struct warnings *warnings, struct solve_result *resul
         report_warn(result, "%s", warnings->text[i]);
 }
 
-/* Nothing was solved: the effort was spent before any force. */
-static bool is_unsolved(const struct geometry *geometry, const struct impact_outcome *outcome)
-{
-    bool touched = false;
-    for (size_t c = 0; c < geometry->contact_count; c++)
-        touched = touched || outcome->tracks[c].impulse > 0.0;
-    return outcome->end_reason == PERCUSS_END_LIMIT && !touched;
-}
-
 static void fill_contacts(const struct geometry *geometry, const struct solve_request *request,
                           const struct accuracy *accuracy, struct solve_result *result)
 {
     size_t n = geometry->contact_count;
-    bool unsolved = is_unsolved(geometry, &accuracy->outcome);
+    bool unsolved = attempt_is_unsolved(geometry, &accuracy->outcome);
     result->contact_count = n;
     for (size_t c = 0; c < n; c++) {
         const struct track *track = &accuracy->outcome.tracks[c];
