@@ -17,6 +17,8 @@
 /* Listed samples: parts of about this size, but no more of them than the writer keeps. */
 enum { PART_BYTES = 64 * 1024, MOST_PARTS = 1000, PATIENCE = 20, MOST_WORKERS = 64 };
 
+static const char client_had_gone[] = "the client had gone: ask again";
+
 struct ensemble_run {
     struct service *service;
     struct task *task;
@@ -205,22 +207,36 @@ static struct answer *refuse(const struct envelope *envelope, enum percuss_statu
     return answer;
 }
 
+/* While samples are solved again for the words of the warnings. */
+static bool words_last(void *context, double done)
+{
+    struct ensemble_run *run = context;
+    (void)done;
+    if (clock_now() >= run->told + 1.0)
+        publish_progress(run, run->done);
+    return is_wanted(run);
+}
+
 /* The reply on what was solved. */
 static struct answer *report(struct ensemble_run *run, const struct envelope *envelope)
 {
-    bool cut = run->message[0];
     if (run->done == 0)
         return refuse(envelope,
                       atomic_load(&run->task->cancelled) ? PERCUSS_TRUNCATED : PERCUSS_TIMEOUT,
-                      cut ? run->message : "no thread could be started");
+                      run->message[0] ? run->message : "no thread could be started");
+    const struct watch watch = {words_last, run};
+    const struct report_material material = {run->done, run->samples, run->extras};
+    struct ensemble_report results;
+    bool good = report_create(&results, &run->ensemble, &material, &watch);
+    /* that too may have been cut short */
+    bool cut = run->message[0];
     char message[256] = "";
     if (cut)
         snprintf(message, sizeof message, "%s: %llu of %llu samples were solved", run->message,
                  (unsigned long long)run->done, (unsigned long long)run->ensemble.count);
     struct ensemble_ending ending = {cut ? PERCUSS_TRUNCATED : PERCUSS_OK, message};
-    struct ensemble_report results;
     struct answer *answer = NULL;
-    if (report_create(&results, &run->ensemble, run->samples, run->done, run->extras))
+    if (good)
         answer = encode_ensemble(envelope, &run->ensemble, &results, &ending);
     if (answer)
         answer->passing = cut; /* asked again there may be more */
@@ -281,14 +297,15 @@ static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault
     run->decoded->spec.catalogue = task->edition->set;
     run->decoded->spec.tables = find_tables(run);
     const struct watch watch = {lasts, run};
-    if (is_wanted(run))
-        status = ensemble_create(&run->ensemble, &run->decoded->spec, &watch, fault);
-    else
-        status = fault_set(fault, PERCUSS_TIMEOUT, "the client had gone: ask again");
+    status = is_wanted(run) ? ensemble_create(&run->ensemble, &run->decoded->spec, &watch, fault)
+                            : PERCUSS_TIMEOUT;
+    if (run->maker.status)
+        return fault_set(fault, run->maker.status, "%s", run->maker.fault.text);
     if (run->message[0])
-        status = fault_set(fault, PERCUSS_TIMEOUT, "%s before the first sample", run->message);
-    return run->maker.status ? fault_set(fault, run->maker.status, "%s", run->maker.fault.text)
-                             : status;
+        return fault_set(fault, PERCUSS_TIMEOUT, "%s before the first sample", run->message);
+    if (status == PERCUSS_TIMEOUT && atomic_load(&task->abandoned))
+        return fault_set(fault, PERCUSS_TIMEOUT, "%s", client_had_gone);
+    return status;
 }
 
 static void release(struct ensemble_run *run)
@@ -303,6 +320,7 @@ static void release(struct ensemble_run *run)
     free(run);
 }
 
+/* Who has come back meanwhile hears of his leaving; nobody else does. */
 static struct answer *carry_out(struct ensemble_run *run, const struct envelope *envelope)
 {
     struct fault fault = {""};
@@ -314,11 +332,14 @@ static struct answer *carry_out(struct ensemble_run *run, const struct envelope 
     publish_progress(run, 0);
     solve_samples(run);
     solve_extras(run);
-    if (atomic_load(&run->task->abandoned))
-        return NULL;
+    struct answer *answer = atomic_load(&run->task->abandoned) ? NULL : report(run, envelope);
+    if (atomic_load(&run->task->abandoned)) {
+        answer_release(answer);
+        return refuse(envelope, PERCUSS_TIMEOUT, client_had_gone);
+    }
     if (run->task->ensemble->list_samples)
         publish_samples(run);
-    return report(run, envelope);
+    return answer;
 }
 
 struct answer *ensemble_respond(struct service *service, struct task *task)

@@ -34,6 +34,8 @@ static void note(struct occurrence *occurrence, uint64_t index)
 
 /* A sample that is solved again for its words. */
 struct witness {
+    const struct ensemble *ensemble;
+    const struct watch *watch;      /* NULL: nobody */
     struct ensemble_worker *worker; /* NULL: none was called yet */
     uint64_t index;
     struct ensemble_sample sample;
@@ -41,15 +43,31 @@ struct witness {
 };
 
 /* False: out of memory. */
-static bool call(struct witness *witness, const struct ensemble *ensemble, uint64_t index)
+static bool call(struct witness *witness, uint64_t index)
 {
     if (witness->worker && witness->index == index)
         return true;
-    if (!witness->worker && ensemble_worker_create(&witness->worker, ensemble, NULL))
-        return false;
+    if (!witness->worker) {
+        if (ensemble_worker_create(&witness->worker, witness->ensemble, NULL))
+            return false;
+        if (witness->watch)
+            ensemble_worker_watch(witness->worker, *witness->watch);
+    }
     witness->index = index;
     ensemble_solve(witness->worker, index, &witness->sample, &witness->fault);
     return true;
+}
+
+/* What it says to a kind of warning, or with WARNING_KINDS to its refusal. */
+static const char *words_of(const struct witness *witness, enum warning_kind kind)
+{
+    /* what the worker has in mind then is another sample */
+    if (witness->sample.status == PERCUSS_TIMEOUT)
+        return "(no time was left to say why)";
+    const char *text = kind == WARNING_KINDS
+                           ? witness->fault.text
+                           : warnings_text(ensemble_warnings(witness->worker), kind);
+    return text ? text : "";
 }
 
 /* In the words of the first of them. */
@@ -57,16 +75,14 @@ static void quote(struct ensemble_report *report, const struct witness *witness,
                   const struct occurrence *occurrence, enum warning_kind kind)
 {
     bool refusal = kind == WARNING_KINDS;
-    const char *text =
-        refusal ? witness->fault.text : warnings_text(ensemble_warnings(witness->worker), kind);
     warn(report, "samples: %llu of %llu%s, first %llu: %.256s",
          (unsigned long long)occurrence->count, (unsigned long long)report->done,
          refusal ? " were refused and are left out" : "", (unsigned long long)occurrence->first,
-         text ? text : "");
+         words_of(witness, kind));
 }
 
 /* Every kind of warning once, and the refusals. False: out of memory. */
-static bool warn_samples(struct ensemble_report *report, const struct ensemble *ensemble,
+static bool warn_samples(struct ensemble_report *report, struct witness *witness,
                          const struct ensemble_sample *samples)
 {
     struct occurrence found[WARNING_KINDS + 1] = {0};
@@ -76,16 +92,14 @@ static bool warn_samples(struct ensemble_report *report, const struct ensemble *
         for (unsigned kinds = samples[i].warnings; kinds; kinds &= kinds - 1)
             note(&found[__builtin_ctz(kinds)], i);
     }
-    struct witness witness = {0};
     bool good = true;
     for (int kind = 0; good && kind <= WARNING_KINDS; kind++) {
         if (found[kind].count == 0)
             continue;
-        good = call(&witness, ensemble, found[kind].first);
+        good = call(witness, found[kind].first);
         if (good)
-            quote(report, &witness, &found[kind], (enum warning_kind)kind);
+            quote(report, witness, &found[kind], (enum warning_kind)kind);
     }
-    ensemble_worker_free(witness.worker);
     return good;
 }
 
@@ -134,9 +148,12 @@ static void warn_numbers(struct ensemble_report *report, const struct ensemble *
 }
 
 bool remarks_fill(struct ensemble_report *report, const struct ensemble *ensemble,
-                  const struct ensemble_sample *samples)
+                  const struct ensemble_sample *samples, const struct watch *watch)
 {
-    if (!warn_samples(report, ensemble, samples))
+    struct witness witness = {.ensemble = ensemble, .watch = watch};
+    bool good = warn_samples(report, &witness, samples);
+    ensemble_worker_free(witness.worker);
+    if (!good)
         return false;
     warn_models(report, ensemble, samples);
     warn_numbers(report, ensemble);

@@ -8,8 +8,9 @@
 #include "ensemble/report.h"
 
 /* Fills report->warnings, when all else is filled, from samples 0 .. report->done - 1 in their
- * order: the same for any number of workers. False: out of memory. */
+ * order: the same for any number of workers. What is quoted is solved again: where the watch (NULL:
+ * nobody) stops that, the words are left out. False: out of memory. */
 bool remarks_fill(struct ensemble_report *report, const struct ensemble *ensemble,
-                  const struct ensemble_sample *samples);
+                  const struct ensemble_sample *samples, const struct watch *watch);
 
 #endif

@@ -277,14 +277,16 @@ static bool fill_verification(struct ensemble_report *report, const struct ensem
 }
 
 bool report_create(struct ensemble_report *report, const struct ensemble *ensemble,
-                   const struct ensemble_sample *samples, uint64_t done, const double *extras)
+                   const struct report_material *material, const struct watch *watch)
 {
+    const struct ensemble_sample *samples = material->samples;
+    const double *extras = material->extras;
     memset(report, 0, sizeof *report);
-    report->done = done;
+    report->done = material->done;
     bool good = fill_counts(report, samples) && fill_quantities(report, ensemble, samples) &&
                 fill_inputs(report, ensemble, samples, extras) &&
                 (!extras || fill_verification(report, ensemble, samples, extras));
-    return good && remarks_fill(report, ensemble, samples);
+    return good && remarks_fill(report, ensemble, samples, watch);
 }
 
 void report_release(struct ensemble_report *report)

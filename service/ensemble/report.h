@@ -75,10 +75,17 @@ struct ensemble_report {
     char warnings[REPORT_WARNINGS][REPORT_WARNING_SIZE];
 };
 
-/* The report on samples 0 .. done - 1 and the extras that belong to them (NULL: none were solved).
- * False: out of memory. Release it all the same. */
+/* Samples 0 .. done - 1 and the extras that belong to them. Borrowed. */
+struct report_material {
+    uint64_t done;
+    const struct ensemble_sample *samples;
+    const double *extras; /* NULL: none were solved */
+};
+
+/* The report on them. What its warnings quote is solved again, watched by `watch` (NULL: nobody),
+ * see remarks.h. False: out of memory. Release it all the same. */
 bool report_create(struct ensemble_report *report, const struct ensemble *ensemble,
-                   const struct ensemble_sample *samples, uint64_t done, const double *extras);
+                   const struct report_material *material, const struct watch *watch);
 void report_release(struct ensemble_report *report);
 
 /* Mean of the restitution so far, for progress and for stopping. */

@@ -72,7 +72,8 @@ static inline void ensemble_lab_run(struct ensemble_lab *e, bool extras)
         ensemble_solve(worker, i, &e->samples[i], &fault);
     for (uint64_t k = 0; extras && k < more; k++)
         extra[k] = ensemble_extra(worker, count, k);
-    assert_true(report_create(&e->report, &e->ensemble, e->samples, count, extra));
+    struct report_material material = {count, e->samples, extra};
+    assert_true(report_create(&e->report, &e->ensemble, &material, NULL));
     free(extra);
     ensemble_worker_free(worker);
 }

@@ -89,7 +89,8 @@ static void order_and_workers_do_not_matter(void **state)
         assert_int_equal(ensemble_worker_create(&workers[w], &e.ensemble, &fault), PERCUSS_OK);
     for (unsigned i = 60; i-- > 0;)
         ensemble_solve(workers[i % 3 == 0], i, &samples[i], NULL);
-    assert_true(report_create(&other, &e.ensemble, samples, 60, NULL));
+    struct report_material material = {60, samples, NULL};
+    assert_true(report_create(&other, &e.ensemble, &material, NULL));
     is_same(&e.report, &other);
     report_release(&other);
     for (int w = 0; w < 2; w++)
@@ -117,12 +118,46 @@ static void quiet_and_refused(void **state)
     ensemble_lab_close(&e);
 }
 
+static bool never(void *context, double done)
+{
+    (void)done;
+    ++*(unsigned *)context;
+    return false;
+}
+
+/* Told of a deadline, a cancel or the end of the daemon at once. CVODE takes long enough to ask. */
+static void what_is_quoted_can_be_stopped(void **state)
+{
+    (void)state;
+    struct ensemble_lab e;
+    struct ensemble_report stopped;
+    unsigned asked = 0;
+    const struct watch watch = {never, &asked};
+    ensemble_lab_open(&e);
+    e.spec.samples = 4;
+    e.inputs[0] = uncertain(INPUT_SPEED, 0, DISTRIBUTION_IS_UNIFORM, 0.2, 0.3);
+    e.request.options.method = PERCUSS_METHOD_CVODE;
+    e.request.options.tolerance = 1e-2;
+    e.request.bodies[0].velocity[0] = 0.25; /* slides */
+    ensemble_lab_run(&e, false);
+    assert_true(warns(&e.report, "slide"));
+    struct report_material material = {4, e.samples, NULL};
+    assert_true(report_create(&stopped, &e.ensemble, &material, &watch));
+    assert_int_equal(asked, 1);
+    assert_int_equal(stopped.warning_count, e.report.warning_count);
+    assert_string_equal(stopped.warnings[0],
+                        "samples: 4 of 4, first 0: (no time was left to say why)");
+    report_release(&stopped);
+    ensemble_lab_close(&e);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fast_samples_are_counted),
         cmocka_unit_test(order_and_workers_do_not_matter),
         cmocka_unit_test(quiet_and_refused),
+        cmocka_unit_test(what_is_quoted_can_be_stopped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
