@@ -25,7 +25,7 @@ static struct bounds_text bounds_of(double low, double high)
     return bounds;
 }
 
-/* One sample, or many that are equal: a value, and no distribution. */
+/* No sample, one, or many that are equal: at most a value, and no distribution. */
 static bool varies(const struct percuss_statistic *e)
 {
     return e->standard_deviation > 0.0;
@@ -33,11 +33,13 @@ static bool varies(const struct percuss_statistic *e)
 
 static void print_value(const struct percuss_statistic *e)
 {
-    printf("  restitution %.4f ", e->mean);
-    if (e->count == 1)
-        printf("from a single sample\n");
+    if (e->count == 0)
+        printf("  restitution: no sample has one\n");
+    else if (e->count == 1)
+        printf("  restitution %.4f from a single sample\n", e->mean);
     else
-        printf("from each of %llu samples: it does not vary\n", (unsigned long long)e->count);
+        printf("  restitution %.4f from each of %llu samples: it does not vary\n", e->mean,
+               (unsigned long long)e->count);
 }
 
 static void print_restitution(const struct percuss_statistic *e)
