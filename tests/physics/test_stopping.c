@@ -100,11 +100,27 @@ static struct waiting solve_watched(struct lab *lab, int kind, long patience,
     return waiting;
 }
 
+/* What the modal method takes from one look to the next, s: a millisecond where nothing slows the
+ * machine, a sanitizer or its cache. */
+static double usual_look(void)
+{
+    static struct solve_result result;
+    struct lab *lab = lab_of_all();
+    solve_watched(lab, 0, 64, &result);
+    double start = thread_seconds();
+    struct waiting waiting = solve_watched(lab, 0, 64, &result);
+    double seconds = thread_seconds() - start;
+    assert_int_equal(waiting.asked, 65);
+    lab_free(lab);
+    return seconds / 65.0;
+}
+
 /* In a fresh workspace, where bodies are still to be prepared, and in one that knows them. */
 static void stops_wherever_it_is_told_to(void **state)
 {
     (void)state;
     static struct solve_result result;
+    double usual = usual_look();
     for (int kind = 0; kind < KINDS; kind++) {
         for (long patience = 0; patience <= 256; patience = 4 * patience + (patience == 0)) {
             struct lab *lab = lab_of_all();
@@ -118,9 +134,11 @@ static void stops_wherever_it_is_told_to(void **state)
                 assert_true(result.fault.text[0] != '\0');
                 /* nobody is asked twice after he said no */
                 assert_int_equal(waiting.asked, patience + 1);
-                /* ten times what is seen, as a daemon's deadline is to hold to 50 ms or 10 % */
-                if (waiting.longest > 0.5)
-                    fail_msg("kind %d: %.3f s from one look to the next", kind, waiting.longest);
+                /* a daemon's deadline is to hold to 50 ms or 10 %: fifty usual looks; 13 are seen.
+                 * The thread's own time, and a ratio: what else runs does not count */
+                if (waiting.longest > 50.0 * usual)
+                    fail_msg("kind %d: %.3f s from one look to the next, usual: %.4f s", kind,
+                             waiting.longest, usual);
             }
             lab_free(lab);
         }
