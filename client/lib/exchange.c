@@ -122,8 +122,12 @@ enum percuss_result exchange_solve(struct percuss_client *client,
         result = exchange_await(client, pending, deadline);
         // a refusal has no contacts
         struct histories histories = {gather, pending->reply.contact_count};
-        if (result == PERCUSS_RESULT_OK && gather)
+        if (result == PERCUSS_RESULT_OK && gather) {
             result = receive_until(client, histories_are_complete, &histories, deadline);
+            if (result == PERCUSS_RESULT_TIMEOUT)
+                error_set(result, "the histories of request %llu have not all come from %s",
+                          (unsigned long long)pending->sequence, client->server_name);
+        }
         if (result == PERCUSS_RESULT_OK)
             result = collect(client, pending, reply);
         else

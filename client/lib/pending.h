@@ -22,7 +22,7 @@ struct pending {
     struct percuss_reply reply;
     struct batch *batch;                /* borrowed; NULL: a single request */
     struct ensemble_exchange *ensemble; /* the same of an ensemble */
-    struct gather *gather;          /* borrowed; NULL: no trace is wanted */
+    struct gather *gather;              /* borrowed; NULL: no trace is wanted */
     struct pending *next;               /* in its bucket */
     struct pending *previous_ready;     /* in order of arrival */
     struct pending *next_ready;

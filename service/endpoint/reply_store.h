@@ -9,8 +9,8 @@
 
 #include <stdbool.h>
 
-#include "endpoint/answer.h"
 #include "base/hash.h"
+#include "endpoint/answer.h"
 
 struct reply_limits {
     size_t per_client; /* replies */

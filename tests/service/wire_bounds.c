@@ -123,9 +123,10 @@ static void deadlines(struct peer *peer, struct scene *scene)
                 "kind %d: status %u: %s", kind, reply->status, reply->message);
         printf("kind %d: deadline %g s, answered after %.3f s: %s\n", kind, deadline, taken,
                reply->message);
-        /* only a hang: 50 ms or a tenth are promised on a machine that has nothing else to do. What is
-         * promised rests on how often a solve asks, which is bounded in work (unit/base/test_watch)
-         * and in the thread's own time (physics/test_stopping), whatever else the machine does */
+        /* only a hang: 50 ms or a tenth are promised on a machine that has nothing else to do. What
+         * is promised rests on how often a solve asks, which is bounded in work
+         * (unit/base/test_watch) and in the thread's own time (physics/test_stopping), whatever
+         * else the machine does */
         REQUIRE(taken < deadline + 5.0, "kind %d: answered after %g s", kind, taken);
         peer_return(peer, PEER_SINGLE, reply);
     }

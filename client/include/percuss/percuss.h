@@ -56,9 +56,10 @@ PERCUSS_API void percuss_client_free(struct percuss_client *client);
 
 /* Pings every 5 ms until a server answers, and stays with it: no other one is asked from then on.
  * Of those found within a moment (0.05 s after the first answer, 0.2 s where more are in sight) it
- * takes the one that has been up longest, or the one that the configuration names. NO_SERVER: none within the time, or none of that name; TIMEOUT: one is there but has not
- * answered; INVALID_ARGUMENT: several have ids that begin so; INCOMPATIBLE: one is there, but after
- * 2 s a quality of service still does not fit, named in percuss_error_text.
+ * takes the one that has been up longest, or the one that the configuration names. NO_SERVER: none
+ * within the time, or none of that name; TIMEOUT: one is there but has not answered;
+ * INVALID_ARGUMENT: several have ids that begin so; INCOMPATIBLE: one is there, but after 2 s a
+ * quality of service still does not fit, named in percuss_error_text.
  *
  * When that server goes, whatever waits for it returns NO_SERVER with its name: at once when it
  * ends, 2 s after it was killed. To be called again then, and after a restart, since a restarted
