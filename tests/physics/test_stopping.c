@@ -100,8 +100,8 @@ static struct waiting solve_watched(struct lab *lab, int kind, long patience,
     return waiting;
 }
 
-/* What the modal method takes from one look to the next, s: a millisecond where nothing slows the
- * machine, a sanitizer or its cache. */
+/* What the modal method takes from one look to the next, s: 0.2 ms on a machine of its own, a
+ * millisecond on a busy one. */
 static double usual_look(void)
 {
     static struct solve_result result;
@@ -134,9 +134,10 @@ static void stops_wherever_it_is_told_to(void **state)
                 assert_true(result.fault.text[0] != '\0');
                 /* nobody is asked twice after he said no */
                 assert_int_equal(waiting.asked, patience + 1);
-                /* a daemon's deadline is to hold to 50 ms or 10 %: fifty usual looks; 13 are seen.
-                 * The thread's own time, and a ratio: what else runs does not count */
-                if (waiting.longest > 50.0 * usual)
+                /* a daemon's deadline is to hold to 50 ms or 10 %: 250 usual looks; 13 to 65 are
+                 * seen, when complete meshes are set up: that waits for memory less than the modal
+                 * method does. The thread's own time, and a ratio: what else runs hardly counts */
+                if (waiting.longest > 250.0 * usual)
                     fail_msg("kind %d: %.3f s from one look to the next, usual: %.4f s", kind,
                              waiting.longest, usual);
             }
