@@ -10,8 +10,6 @@
  * right-hand sides are many more and cheaper. */
 static const double MAX_WORK = 3e7;
 static const double MAX_WORK_CVODE = 4e9;
-/* More of its energy no solution may gain or lose. */
-static const double WORST_DEFECT = 0.01;
 
 double attempt_work_allowed(enum percuss_method method)
 {
@@ -149,5 +147,5 @@ double attempt_energy_defect(const struct geometry *geometry, const struct impac
 
 bool attempt_keeps_energy(double defect)
 {
-    return defect <= WORST_DEFECT;
+    return defect <= ATTEMPT_WORST_DEFECT;
 }

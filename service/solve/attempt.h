@@ -75,7 +75,10 @@ double attempt_work_allowed(enum percuss_method method);
  * nothing available: the approach counts too. */
 double attempt_energy_defect(const struct geometry *geometry, const struct impact_outcome *outcome);
 
-/* Whether a solution with that defect is one at all: to 1 %. */
+/* More of its energy no solution may gain or lose. */
+static const double ATTEMPT_WORST_DEFECT = 0.01;
+
+/* Whether a solution with that defect is one at all. */
 bool attempt_keeps_energy(double defect);
 
 /* Whether it was cut off: for its effort, or where no step could be solved. */

@@ -79,7 +79,8 @@ static enum percuss_status estimate(struct attempt_context *context, const struc
 enum percuss_status step_search(struct attempt_context *context, struct attempt *best,
                                 double amplification, struct step_error *error)
 {
-    double closure_allowed = context->tolerance <= 1e-8 ? 1e-9 : 10.0 * context->tolerance;
+    double closure_allowed =
+        context->tolerance <= 1e-8 ? 1e-9 : fmin(10.0 * context->tolerance, ATTEMPT_WORST_DEFECT);
     struct attempt before = *best;
     for (int i = 0;; i++) {
         bool known = before.accuracy > 0.99 * LONGER * best->accuracy;

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The energy audit of physics notes, section 4: every term by itself, |closure| at most 1e-9 of
- * what was available at a tolerance of 1e-8 or less, ten times the tolerance otherwise. */
+ * what was available at a tolerance of 1e-8 or less, ten times the tolerance or 1e-2 otherwise. */
 #include "physics/support.h"
 
 static const double dampings[] = {0.0, 1e-5, 1e-3, 0.02, 0.2, 0.7, 0.97};
@@ -159,6 +159,28 @@ static void an_unfinished_contact_stores_energy(void **state)
     lab_free(lab);
 }
 
+/* The weight does far more work on the way in and out than the approach brings: whatever the
+ * tolerance, the steps are made so short that 1 % of what is available remains at most. */
+static void a_ball_laid_down_keeps_its_energy(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", make_sphere(ALUMINIUM, 0.020));
+    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    for (double speed = 3e-5; speed < 1e-3; speed *= 1.7) {
+        for (double tolerance = 1e-3; tolerance <= 1e-2; tolerance *= 1.5) {
+            struct solve_request request =
+                strike(sphere_spot("ball", 0.020), wall_spot("wall"), speed);
+            request.contacts[0].gap_acceleration = -9.81;
+            request.options.tolerance = tolerance;
+            lab_solve(lab, &request, &result);
+            measured("closure, laid down", share(&result), 0.0, 0.01);
+        }
+    }
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -166,6 +188,7 @@ int main(void)
         cmocka_unit_test(every_number_of_modes_closes),
         cmocka_unit_test(acceleration_and_gaps_close),
         cmocka_unit_test(an_unfinished_contact_stores_energy),
+        cmocka_unit_test(a_ball_laid_down_keeps_its_energy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
