@@ -1,0 +1,178 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "physics/estimates/truth.h"
+
+#include "solve/attempt.h"
+#include "solve/models.h"
+
+/* Most modes of a family, and the accuracies of the first solution's steps and of the finest. */
+static const size_t MOST_MODES = 4800;
+static const double FIRST_ACCURACY = 1e-9;
+static const double FINEST_ACCURACY = 1e-14;
+/* CVODE's relative tolerance is a hundredth. */
+static const double CVODE_ACCURACY = 1e-8;
+
+struct truth_room {
+    struct prepared_cache *cache;
+    struct arena arena;
+    struct body bodies[32];
+    struct body_set set; /* as the lab's, with fixed numbers of modes */
+};
+
+struct truth_room *truth_room_create(void)
+{
+    struct truth_room *room = calloc(1, sizeof *room);
+    if (!room)
+        return NULL;
+    room->cache = prepared_cache_create();
+    if (!room->cache) {
+        free(room);
+        return NULL;
+    }
+    return room;
+}
+
+void truth_room_free(struct truth_room *room)
+{
+    if (!room)
+        return;
+    prepared_cache_free(room->cache);
+    arena_release(&room->arena);
+    free(room);
+}
+
+static void fix_modes(struct truth_room *room, const struct body_set *set, size_t modes)
+{
+    room->set = *set;
+    room->set.bodies = room->bodies;
+    assert_true(set->count <= COUNT(room->bodies));
+    for (size_t b = 0; b < set->count; b++) {
+        room->bodies[b] = set->bodies[b];
+        if (body_is_flexible(&room->bodies[b]))
+            room->bodies[b].modes = (unsigned)modes;
+    }
+}
+
+/* One solution; its impulses replace the truth's, and how far they went is its spread. */
+struct level {
+    size_t modes;
+    double accuracy, work; /* allowed */
+    bool cvode;
+};
+
+static bool solve_scene(struct truth_room *room, const struct solve_request *request,
+                        const struct level *level, const struct scene *scene,
+                        struct impact_outcome *outcome)
+{
+    struct impact_settings settings = {.accuracy = level->accuracy,
+                                       .horizon = attempt_horizon(request, scene),
+                                       .max_work = level->work};
+    if (!impact_create(outcome, scene, &room->arena))
+        return false;
+    enum percuss_status status = level->cvode
+                                     ? impact_cvode(scene, &settings, &room->arena, outcome)
+                                     : impact_modal(scene, &settings, &room->arena, outcome);
+    return status == PERCUSS_OK && !outcome->always_overlapped &&
+           outcome->end_reason != PERCUSS_END_LIMIT;
+}
+
+static bool solve_level(struct truth_room *room, const struct body_set *set,
+                        const struct solve_request *request, const struct level *level,
+                        struct truth *truth)
+{
+    struct geometry *geometry;
+    struct fault fault = {0};
+    struct impact_outcome outcome;
+    struct assembly assembly;
+    const struct mode_choice choice = {.cut = INFINITY, .most = MODE_CHOICE_MOST};
+    arena_reset(&room->arena);
+    prepared_cache_use(room->cache, set->revision);
+    fix_modes(room, set, level->modes);
+    geometry = arena_take(&room->arena, 1, sizeof *geometry);
+    const struct models_source source = {&room->set, NULL, {room->cache, &room->arena, NULL}};
+    if (!geometry || geometry_find(geometry, &room->set, request, &room->arena, &fault) ||
+        models_choose(geometry, request, &source, &fault) ||
+        !assemble(&assembly, geometry, request, room->cache, &choice, &room->arena) ||
+        !solve_scene(room, request, level, &assembly.scene, &outcome))
+        return false;
+    double impulse[PERCUSS_MAX_CONTACTS] = {0};
+    bool first = truth->levels == 0;
+    truth->contacts = geometry->contact_count;
+    truth->sub_impacts = 0;
+    for (size_t c = 0; c < truth->contacts; c++) {
+        impulse[c] = outcome.tracks[c].impulse;
+        truth->compression[c] = geometry->impulse_compression[c];
+        truth->sub_impacts += outcome.tracks[c].count;
+    }
+    truth->spread = first ? INFINITY : truth_distance(truth, impulse);
+    truth->impulse_spread = first ? INFINITY : truth_impulse_distance(truth, impulse);
+    memcpy(truth->impulse, impulse, sizeof impulse);
+    truth->modes = level->modes;
+    truth->levels++;
+    truth->work += impact_work(&assembly.scene, &outcome);
+    truth->end_reason = outcome.end_reason;
+    return true;
+}
+
+static void print_level(const struct level *level, const struct truth *truth)
+{
+    printf("  reference: %zu modes of a family, accuracy %.0e%s: e", level->modes, level->accuracy,
+           level->cvode ? ", CVODE" : "");
+    for (size_t c = 0; c < truth->contacts; c++)
+        printf(" %.9f", truth->impulse[c] / truth->compression[c] - 1.0);
+    printf(", %zu sub-impacts, spread %.2e, work %.2e\n", truth->sub_impacts, truth->spread,
+           truth->work);
+}
+
+bool truth_find(struct truth_room *room, const struct body_set *set,
+                const struct solve_request *request, const struct truth_settings *settings,
+                struct truth *truth)
+{
+    struct level level = {.modes = settings->modes, .accuracy = FIRST_ACCURACY};
+    memset(truth, 0, sizeof *truth);
+    truth->spread = INFINITY;
+    for (;;) {
+        level.work = settings->effort - truth->work;
+        if (!solve_level(room, set, request, &level, truth))
+            return truth->levels > 1;
+        if (settings->chatty)
+            print_level(&level, truth);
+        if (truth->spread <= settings->goal || level.modes >= MOST_MODES)
+            return truth->levels > 1;
+        level.modes = level.modes * 2 < MOST_MODES ? level.modes * 2 : MOST_MODES;
+        level.accuracy = fmax(level.accuracy * 0.03, FINEST_ACCURACY);
+    }
+}
+
+bool truth_by_cvode(struct truth_room *room, const struct body_set *set,
+                    const struct solve_request *request, const struct truth_settings *settings,
+                    struct truth *truth)
+{
+    const struct level level = {.modes = settings->modes,
+                                .accuracy = CVODE_ACCURACY,
+                                .work = settings->effort,
+                                .cvode = true};
+    memset(truth, 0, sizeof *truth);
+    bool solved = solve_level(room, set, request, &level, truth);
+    if (solved && settings->chatty)
+        print_level(&level, truth);
+    return solved;
+}
+
+double truth_distance(const struct truth *truth, const double *impulse)
+{
+    double distance = 0.0;
+    for (size_t c = 0; c < truth->contacts; c++)
+        if (truth->compression[c] > 0.0)
+            distance = fmax(distance, fabs(impulse[c] - truth->impulse[c]) / truth->compression[c]);
+    return distance;
+}
+
+double truth_impulse_distance(const struct truth *truth, const double *impulse)
+{
+    double distance = 0.0;
+    for (size_t c = 0; c < truth->contacts; c++)
+        distance = fmax(distance, fabs(impulse[c] - truth->impulse[c]));
+    return distance;
+}
