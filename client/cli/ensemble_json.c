@@ -136,6 +136,9 @@ static json_t *check_to_json(const struct percuss_ensemble_reply *reply)
     set(to, "mean_shift_half_width", reply->check.mean_shift_half_width);
     set(to, "standard_deviation_shift", reply->check.standard_deviation_shift);
     set(to, "quantile_shift", reply->check.quantile_shift);
+    set(to, "within_low", reply->check.within_low);
+    set(to, "within_high", reply->check.within_high);
+    set_count(to, "unmet", reply->check.unmet);
     return to;
 }
 

@@ -167,7 +167,7 @@ static void convert_fit_and_check(const percuss_v1_EnsembleReply *wire,
     reply->beta.distance = reply->beta.p_value = NAN;
     reply->check.within = reply->check.largest = reply->check.mean_shift = NAN;
     reply->check.mean_shift_half_width = reply->check.standard_deviation_shift = NAN;
-    reply->check.quantile_shift = NAN;
+    reply->check.quantile_shift = reply->check.within_low = reply->check.within_high = NAN;
     if (wire->beta._length > 0) {
         const percuss_v1_BetaFit *beta = &wire->beta._buffer[0];
         reply->beta.low = beta->low;
@@ -186,6 +186,11 @@ static void convert_fit_and_check(const percuss_v1_EnsembleReply *wire,
         reply->check.mean_shift_half_width = check->mean_shift_half_width;
         reply->check.standard_deviation_shift = check->standard_deviation_shift;
         reply->check.quantile_shift = check->quantile_shift;
+        /* a server that does not know them leaves them 0, which no upper bound is */
+        bool bounded = check->within_high != 0.0;
+        reply->check.within_low = bounded ? check->within_low : NAN;
+        reply->check.within_high = bounded ? check->within_high : NAN;
+        reply->check.unmet = check->unmet;
     }
 }
 

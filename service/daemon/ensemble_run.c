@@ -29,7 +29,7 @@ struct ensemble_run {
     unsigned worker_count;
     struct ensemble_worker *workers[MOST_WORKERS];
     struct ensemble_sample *samples;
-    double *extras;
+    struct ensemble_extra *extras;
     uint64_t done;
     bool in_extras;
     double told;         /* monotonic, s: when those who wait were */

@@ -149,6 +149,9 @@ static void fill_model(struct answer *answer, const struct ensemble *ensemble,
         .mean_shift_half_width = check->mean_shift_half_width,
         .standard_deviation_shift = check->deviation_shift,
         .quantile_shift = check->quantile_shift,
+        .within_low = check->within_bounds.low,
+        .within_high = check->within_bounds.high,
+        .unmet = check->unmet,
     };
     reply->cut = ensemble->model.model.cut / (2.0 * M_PI);
     reply->step_accuracy = ensemble->model.model.accuracy;

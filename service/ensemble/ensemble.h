@@ -25,11 +25,12 @@ static inline bool ensemble_sample_has_result(const struct ensemble_sample *samp
 }
 
 /* How the one model for all samples was chosen: some pilot samples are solved by the full accuracy
- * search, and it is the coarsest model with which most of them agree within the tolerance. */
+ * search, and it is the coarsest model that loses none of them: who agrees with the finest within
+ * half of the tolerance, or within all of it, still does. */
 struct ensemble_model {
     struct repeat_model model;
     double tolerance;
-    unsigned pilots, agreeing;
+    unsigned pilots, agreeing; /* within the tolerance */
 };
 
 struct ensemble {
@@ -73,17 +74,26 @@ const struct warnings *ensemble_warnings(const struct ensemble_worker *worker);
  * are and what each input does; `ensemble_extras` is their number. */
 uint64_t ensemble_extras(const struct ensemble *ensemble, uint64_t done);
 
-/* Extra solution k: its restitution. The first ones repeat samples with the full accuracy search,
- * the others with one input drawn anew. */
-double ensemble_extra(struct ensemble_worker *worker, uint64_t done, uint64_t k);
-
-/* What extra k belongs to: the sample, and the dimension drawn anew (SIZE_MAX: none). */
+/* What extra k belongs to: the sample, and the dimension drawn anew (SIZE_MAX: none). The samples
+ * are drawn at random, as many of each replicate. */
 struct ensemble_extra_place {
     uint64_t sample;
     size_t dimension;
 };
 struct ensemble_extra_place ensemble_extra_place(const struct ensemble *ensemble, uint64_t done,
                                                  uint64_t k);
+
+/* Extra solution k. The first ones repeat samples with the full accuracy search, the others with
+ * one input drawn anew. */
+struct ensemble_extra {
+    double restitution; /* NAN: it was refused */
+    double error;       /* that the search estimates; NAN where one input is new */
+};
+struct ensemble_extra ensemble_extra(struct ensemble_worker *worker, uint64_t done, uint64_t k);
+
+/* Its inputs: spec.input_count values. */
+void ensemble_extra_inputs(const struct ensemble *ensemble,
+                           const struct ensemble_extra_place *place, double *values);
 
 /* The next number of samples, beyond `done`, at which to ask whether they are enough. */
 uint64_t ensemble_next_check(const struct ensemble *ensemble, uint64_t done);

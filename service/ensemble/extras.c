@@ -2,7 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* How many samples and extra solutions an ensemble takes, and what the extras belong to. */
-#include "ensemble/ensemble.h"
+#include <math.h>
+
+#include "ensemble/worker.h"
 
 enum {
     VERIFIED = 200,
@@ -11,9 +13,26 @@ enum {
     FIRST_CHECK = 256
 };
 
-static uint64_t verified(uint64_t done)
+/* In whole replicates. */
+static uint64_t complete(const struct ensemble *ensemble, uint64_t done)
 {
-    return done < VERIFIED ? done : VERIFIED;
+    return done - done % ensemble->sampling.replicates;
+}
+
+static uint64_t verified(const struct ensemble *ensemble, uint64_t done)
+{
+    uint64_t most = complete(ensemble, done);
+    return most < VERIFIED ? most : VERIFIED;
+}
+
+/* Sample k of those that are looked at again. Every so manieth would not do: of a Sobol sequence
+ * these share a part of the cube. */
+static uint64_t chosen(const struct ensemble *ensemble, uint64_t done, uint64_t k)
+{
+    const struct random_stream stream = {ensemble->spec.seed, STREAM_CHOSEN};
+    uint64_t replicates = ensemble->sampling.replicates, replicate = k % replicates;
+    uint64_t key = random_bits(&stream, replicate, 0);
+    return random_permute(key, k / replicates, done / replicates) * replicates + replicate;
 }
 
 /* Samples to be repeated with an input drawn anew: all of that within half the work so far. Without
@@ -24,25 +43,52 @@ static uint64_t substituted(const struct ensemble *ensemble, uint64_t done)
     size_t dimensions = ensemble->sampling.dimensions;
     if (dimensions < 2 || ensemble->copula.factor)
         return 0;
-    uint64_t each = done / (2 * dimensions);
+    uint64_t each = complete(ensemble, done) / (2 * dimensions);
     each = each < SUBSTITUTED ? each : SUBSTITUTED;
     return each < LEAST_SUBSTITUTED ? 0 : each;
 }
 
 uint64_t ensemble_extras(const struct ensemble *ensemble, uint64_t done)
 {
-    return verified(done) + substituted(ensemble, done) * ensemble->sampling.dimensions;
+    return verified(ensemble, done) + substituted(ensemble, done) * ensemble->sampling.dimensions;
 }
 
 struct ensemble_extra_place ensemble_extra_place(const struct ensemble *ensemble, uint64_t done,
                                                  uint64_t k)
 {
-    uint64_t checks = verified(done);
+    uint64_t checks = verified(ensemble, done);
     if (k < checks)
-        return (struct ensemble_extra_place){k * done / checks, SIZE_MAX};
+        return (struct ensemble_extra_place){chosen(ensemble, done, k), SIZE_MAX};
     uint64_t each = substituted(ensemble, done);
-    uint64_t place = (k - checks) % each;
-    return (struct ensemble_extra_place){place * done / each, (size_t)((k - checks) / each)};
+    return (struct ensemble_extra_place){chosen(ensemble, done, (k - checks) % each),
+                                         (size_t)((k - checks) / each)};
+}
+
+void ensemble_extra_inputs(const struct ensemble *ensemble,
+                           const struct ensemble_extra_place *place, double *values)
+{
+    ensemble_inputs(ensemble, place->sample, values);
+    if (place->dimension == SIZE_MAX)
+        return;
+    const struct random_stream stream = {ensemble->spec.seed, STREAM_SUBSTITUTES};
+    size_t input = ensemble->drawn[place->dimension];
+    values[input] = input_value(&ensemble->spec.inputs[input],
+                                random_uniform(&stream, place->sample, place->dimension));
+}
+
+struct ensemble_extra ensemble_extra(struct ensemble_worker *worker, uint64_t done, uint64_t k)
+{
+    const struct ensemble *ensemble = worker_ensemble(worker);
+    struct ensemble_extra_place place = ensemble_extra_place(ensemble, done, k);
+    double values[ENSEMBLE_MAX_INPUTS];
+    struct repeat_outcome outcome;
+    ensemble_extra_inputs(ensemble, &place, values);
+    enum percuss_status status = place.dimension == SIZE_MAX
+                                     ? worker_search(worker, values, NULL, &outcome, NULL)
+                                     : worker_solve(worker, values, &outcome, NULL);
+    if (!worker_has_result(status))
+        return (struct ensemble_extra){NAN, NAN};
+    return (struct ensemble_extra){outcome.restitution, outcome.error};
 }
 
 uint64_t ensemble_next_check(const struct ensemble *ensemble, uint64_t done)

@@ -161,3 +161,14 @@ struct interval interval_quantile(const struct interval_sample *sample, double p
         p + h < 1.0 ? summary_quantile(sample->sorted, sample->kept, p + h) : NAN,
     };
 }
+
+struct interval interval_share(size_t hits, size_t count, double level)
+{
+    if (count == 0)
+        return unknown;
+    double n = (double)count, share = (double)hits / n;
+    double z = special_normal_quantile(0.5 + 0.5 * level), more = z * z / n;
+    double middle = (share + 0.5 * more) / (1.0 + more);
+    double half = z / (1.0 + more) * sqrt(share * (1.0 - share) / n + 0.25 * more / n);
+    return (struct interval){fmax(0.0, middle - half), fmin(1.0, middle + half)};
+}

@@ -39,4 +39,8 @@ struct interval interval_deviation(const struct interval_sample *sample,
  * p -+ h, where h is the half-width for the share of values below (Woodruff 1952). */
 struct interval interval_quantile(const struct interval_sample *sample, double p);
 
+/* A probability of which `hits` of `count` independent trials are known: Wilson's (1927). NAN
+ * without any. */
+struct interval interval_share(size_t hits, size_t count, double level);
+
 #endif

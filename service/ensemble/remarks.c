@@ -10,6 +10,10 @@
 /* More of a distribution than this outside its truncation is worth a word. */
 static const double TRUNCATED_SHARE = 0.01;
 
+/* More samples than this that differ from the accuracy search by more than the tolerance, or one
+ * that does by so many times of it, too. */
+static const double OUTSIDE_SHARE = 0.05, OUTSIDE_FACTOR = 10.0;
+
 __attribute__((format(printf, 2, 3))) static void warn(struct ensemble_report *report,
                                                        const char *format, ...)
 {
@@ -126,7 +130,6 @@ static void warn_models(struct ensemble_report *report, const struct ensemble *e
 static void warn_numbers(struct ensemble_report *report, const struct ensemble *ensemble)
 {
     const struct ensemble_spec *spec = &ensemble->spec;
-    const struct report_verification *verification = &report->verification;
     if (report->truncated)
         warn(report,
              "samples: %llu of %llu reached the horizon or the effort allowed before they "
@@ -140,7 +143,31 @@ static void warn_numbers(struct ensemble_report *report, const struct ensemble *
                  "allowed and is cut off",
                  i, input_quantity_name(spec->inputs[i].quantity), share);
     }
-    if (verification->count && fabs(verification->mean_shift) > ensemble->model.tolerance)
+}
+
+/* What the samples that were solved again say of all. */
+static void warn_verification(struct ensemble_report *report, const struct ensemble *ensemble)
+{
+    const struct report_verification *verification = &report->verification;
+    double tolerance = ensemble->model.tolerance;
+    if (verification->count == 0)
+        return;
+    double outside = 1.0 - verification->within;
+    if (outside > OUTSIDE_SHARE || verification->largest > OUTSIDE_FACTOR * tolerance)
+        warn(report,
+             "verification: %.2g %% of %zu samples solved again by the accuracy search differ by "
+             "more than the tolerance of %g, by up to %.2g: so do as many of all samples, %.2g to "
+             "%.2g %% (the mean is off by %.1g, a quantile by up to %.1g)",
+             100.0 * outside, verification->count, tolerance, verification->largest,
+             100.0 * (1.0 - verification->within_bounds.high),
+             100.0 * (1.0 - verification->within_bounds.low), fabs(verification->mean_shift),
+             verification->quantile_shift);
+    if ((double)verification->unmet > OUTSIDE_SHARE * (double)verification->count)
+        warn(report,
+             "verification: %zu of %zu samples: the accuracy search itself does not reach the "
+             "tolerance of %g, by its own estimate",
+             verification->unmet, verification->count, tolerance);
+    if (fabs(verification->mean_shift) > tolerance)
         warn(report,
              "verification: the mean is off by %.2g: more than the tolerance: ask for a "
              "finer one",
@@ -157,5 +184,6 @@ bool remarks_fill(struct ensemble_report *report, const struct ensemble *ensembl
         return false;
     warn_models(report, ensemble, samples);
     warn_numbers(report, ensemble);
+    warn_verification(report, ensemble);
     return true;
 }

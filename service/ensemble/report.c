@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "ensemble/remarks.h"
+#include "ensemble/verification.h"
 
-static const double LEVEL = 0.95;
 static const double default_quantiles[] = {0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975};
 
 static double value_of(const struct ensemble_sample *sample, int quantity)
@@ -19,8 +19,8 @@ static double value_of(const struct ensemble_sample *sample, int quantity)
     return all[quantity];
 }
 
-static void quantiles_of(const struct ensemble_spec *spec, const double **probabilities,
-                         size_t *count)
+void report_probabilities(const struct ensemble_spec *spec, const double **probabilities,
+                          size_t *count)
 {
     bool given = spec->quantile_count > 0;
     *probabilities = given ? spec->quantiles : default_quantiles;
@@ -55,7 +55,7 @@ static void fill_curve(struct report_quantity *quantity, const double *sorted, s
 static bool fill_quantity(struct ensemble_report *report, const struct ensemble *ensemble,
                           struct report_quantity *quantity, struct interval_sample *sample)
 {
-    quantiles_of(&ensemble->spec, &quantity->probabilities, &quantity->quantile_count);
+    report_probabilities(&ensemble->spec, &quantity->probabilities, &quantity->quantile_count);
     quantity->moments = summary_moments(sample->values, sample->count);
     quantity->bins = ensemble->spec.bins ? ensemble->spec.bins : summary_bins(sample->kept);
     if (!summary_varies(&quantity->moments))
@@ -115,7 +115,7 @@ static bool fill_quantities(struct ensemble_report *report, const struct ensembl
             .replicates = ensemble->sampling.replicates,
             .sorted = sorted,
             .kept = summary_sort(values, report->done, sorted),
-            .level = LEVEL,
+            .level = REPORT_LEVEL,
         };
         report->quantities[q].name = names[q];
         good = fill_quantity(report, ensemble, &report->quantities[q], &sample);
@@ -152,15 +152,15 @@ static bool fill_counts(struct ensemble_report *report, const struct ensemble_sa
 /* Jansen's estimator: half the mean square change of the restitution when the input is drawn anew
  * and all others stay. */
 static double total_index(const struct ensemble_report *report, const struct ensemble *ensemble,
-                          const struct ensemble_sample *samples, const double *extras,
-                          size_t dimension)
+                          const struct ensemble_sample *samples,
+                          const struct ensemble_extra *extras, size_t dimension)
 {
     double sum = 0.0;
     size_t found = 0;
     uint64_t count = extras ? ensemble_extras(ensemble, report->done) : 0;
     for (uint64_t k = 0; k < count; k++) {
         struct ensemble_extra_place place = ensemble_extra_place(ensemble, report->done, k);
-        double change = extras[k] - samples[place.sample].restitution;
+        double change = extras[k].restitution - samples[place.sample].restitution;
         if (place.dimension != dimension || !isfinite(change))
             continue;
         sum += change * change;
@@ -195,7 +195,7 @@ static bool is_uncertain(const struct ensemble_spec *spec, size_t input)
 }
 
 static bool fill_inputs(struct ensemble_report *report, const struct ensemble *ensemble,
-                        const struct ensemble_sample *samples, const double *extras)
+                        const struct ensemble_sample *samples, const struct ensemble_extra *extras)
 {
     const struct ensemble_spec *spec = &ensemble->spec;
     size_t n = report->done;
@@ -228,64 +228,16 @@ static bool fill_inputs(struct ensemble_report *report, const struct ensemble *e
     return good;
 }
 
-/* Largest difference of the quantiles of two samples of equal size, which are sorted here. */
-static double quantile_shift(const struct ensemble_spec *spec, double *a, double *b, size_t count)
-{
-    const double *probabilities;
-    size_t quantiles;
-    double worst = 0.0;
-    quantiles_of(spec, &probabilities, &quantiles);
-    summary_sort(a, count, a);
-    summary_sort(b, count, b);
-    for (size_t i = 0; i < quantiles; i++)
-        worst = fmax(worst, fabs(summary_quantile(a, count, probabilities[i]) -
-                                 summary_quantile(b, count, probabilities[i])));
-    return worst;
-}
-
-static bool fill_verification(struct ensemble_report *report, const struct ensemble *ensemble,
-                              const struct ensemble_sample *samples, const double *extras)
-{
-    struct report_verification *out = &report->verification;
-    uint64_t count = ensemble_extras(ensemble, report->done);
-    double *memory = calloc(3 * count + 1, sizeof *memory);
-    double *fast = memory, *searched = memory + count, *difference = memory + 2 * count;
-    size_t within = 0;
-    if (!memory)
-        return false;
-    for (uint64_t k = 0; k < count; k++) {
-        struct ensemble_extra_place place = ensemble_extra_place(ensemble, report->done, k);
-        double shift = samples[place.sample].restitution - extras[k];
-        if (place.dimension != SIZE_MAX || !isfinite(shift))
-            continue;
-        fast[out->count] = samples[place.sample].restitution;
-        searched[out->count] = extras[k];
-        difference[out->count++] = shift;
-        within += fabs(shift) <= ensemble->model.tolerance;
-        out->largest = fmax(out->largest, fabs(shift));
-    }
-    struct moments moments = summary_moments(difference, out->count);
-    struct interval_sample sample = {difference, out->count, 1, NULL, out->count, LEVEL};
-    out->within = (double)within / (double)out->count;
-    out->mean_shift = moments.mean;
-    out->mean_shift_half_width = interval_mean(&sample, &moments).high - moments.mean;
-    out->deviation_shift = summary_moments(fast, out->count).deviation -
-                           summary_moments(searched, out->count).deviation;
-    out->quantile_shift = quantile_shift(&ensemble->spec, fast, searched, out->count);
-    free(memory);
-    return true;
-}
-
 bool report_create(struct ensemble_report *report, const struct ensemble *ensemble,
                    const struct report_material *material, const struct watch *watch)
 {
     const struct ensemble_sample *samples = material->samples;
-    const double *extras = material->extras;
+    const struct ensemble_extra *extras = material->extras;
     memset(report, 0, sizeof *report);
     report->done = material->done;
     bool good = fill_counts(report, samples) && fill_quantities(report, ensemble, samples) &&
                 fill_inputs(report, ensemble, samples, extras) &&
-                (!extras || fill_verification(report, ensemble, samples, extras));
+                (!extras || verification_fill(report, ensemble, material));
     return good && remarks_fill(report, ensemble, samples, watch);
 }
 
@@ -300,7 +252,7 @@ static double widest_quantile(const struct ensemble *ensemble, const struct inte
     const double *probabilities;
     size_t count;
     double widest = 0.0;
-    quantiles_of(&ensemble->spec, &probabilities, &count);
+    report_probabilities(&ensemble->spec, &probabilities, &count);
     for (size_t i = 0; i < count; i++) {
         struct interval interval = interval_quantile(sample, probabilities[i]);
         double half = 0.5 * (interval.high - interval.low);
@@ -321,7 +273,8 @@ struct report_progress report_progress(const struct ensemble *ensemble,
     for (uint64_t i = 0; i < done; i++)
         values[i] = samples[i].restitution;
     double *sorted = values + done;
-    struct interval_sample sample = {values, done, ensemble->sampling.replicates, sorted, 0, LEVEL};
+    struct interval_sample sample = {values, done, ensemble->sampling.replicates,
+                                     sorted, 0,    REPORT_LEVEL};
     struct moments moments = summary_moments(values, done);
     progress.mean = moments.mean;
     progress.deviation = moments.deviation;

@@ -20,6 +20,8 @@ enum {
     REPORT_WARNING_SIZE = 384
 };
 
+static const double REPORT_LEVEL = 0.95; /* of all intervals */
+
 /* One quantity of the impacts. */
 struct report_quantity {
     const char *name; /* restitution, impulse, end_time, peak_force */
@@ -52,10 +54,12 @@ struct report_input {
 struct report_verification {
     size_t count;
     double within;                            /* share that agrees within the tolerance */
+    struct interval within_bounds;            /* 95 %: of all samples */
     double largest;                           /* difference */
     double mean_shift, mean_shift_half_width; /* ensemble - search; 95 % */
     double deviation_shift;
     double quantile_shift; /* largest, of the quantiles asked for */
+    size_t unmet;          /* searches that do not reach the tolerance, by their own estimate */
 };
 
 struct ensemble_report {
@@ -79,8 +83,12 @@ struct ensemble_report {
 struct report_material {
     uint64_t done;
     const struct ensemble_sample *samples;
-    const double *extras; /* NULL: none were solved */
+    const struct ensemble_extra *extras; /* NULL: none were solved */
 };
+
+/* Probabilities of the quantiles: those asked for, or the default ones. */
+void report_probabilities(const struct ensemble_spec *spec, const double **probabilities,
+                          size_t *count);
 
 /* The report on them. What its warnings quote is solved again, watched by `watch` (NULL: nobody),
  * see remarks.h. False: out of memory. Release it all the same. */

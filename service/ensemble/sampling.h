@@ -26,7 +26,7 @@ const char *sampling_name(unsigned method);
 enum { SAMPLING_REPLICATES = 16, SAMPLING_MAX_DIMENSIONS = 64 };
 
 /* Purposes of the streams of one seed. */
-enum { STREAM_SAMPLES, STREAM_PILOTS, STREAM_SUBSTITUTES, STREAM_BOOTSTRAP };
+enum { STREAM_SAMPLES, STREAM_PILOTS, STREAM_SUBSTITUTES, STREAM_CHOSEN };
 
 struct sampling {
     enum sampling_method method;

@@ -57,17 +57,17 @@ static inline void ensemble_lab_open(struct ensemble_lab *e)
     e->inputs[0] = uncertain(INPUT_SPEED, 0, DISTRIBUTION_IS_UNIFORM, 0.089, 0.411);
 }
 
-/* Solves all samples; `extras`: also what the report is checked by. */
-static inline void ensemble_lab_run(struct ensemble_lab *e, bool extras)
+/* Solves all samples by the model that the ensemble has; `extras`: also what the report is checked
+ * by. */
+static inline void ensemble_lab_solve(struct ensemble_lab *e, bool extras)
 {
     struct fault fault = {""};
-    if (ensemble_create(&e->ensemble, &e->spec, NULL, &fault))
-        fail_msg("%s", fault.text);
     struct ensemble_worker *worker;
     assert_int_equal(ensemble_worker_create(&worker, &e->ensemble, &fault), PERCUSS_OK);
     uint64_t count = e->ensemble.count, more = ensemble_extras(&e->ensemble, count);
+    free(e->samples);
     e->samples = calloc(count, sizeof *e->samples);
-    double *extra = extras ? calloc(more + 1, sizeof *extra) : NULL;
+    struct ensemble_extra *extra = extras ? calloc(more + 1, sizeof *extra) : NULL;
     for (uint64_t i = 0; i < count; i++)
         ensemble_solve(worker, i, &e->samples[i], &fault);
     for (uint64_t k = 0; extras && k < more; k++)
@@ -76,6 +76,15 @@ static inline void ensemble_lab_run(struct ensemble_lab *e, bool extras)
     assert_true(report_create(&e->report, &e->ensemble, &material, NULL));
     free(extra);
     ensemble_worker_free(worker);
+}
+
+/* The same, from the choice of the model on. */
+static inline void ensemble_lab_run(struct ensemble_lab *e, bool extras)
+{
+    struct fault fault = {""};
+    if (ensemble_create(&e->ensemble, &e->spec, NULL, &fault))
+        fail_msg("%s", fault.text);
+    ensemble_lab_solve(e, extras);
 }
 
 static inline void ensemble_lab_clear(struct ensemble_lab *e)

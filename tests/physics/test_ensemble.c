@@ -86,21 +86,25 @@ static void paper_large(void **state)
     ensemble_lab_close(&e);
 }
 
-/* The one model for all samples answers as the accuracy search does, and the report says how well.
+/* The one model for all samples answers as the accuracy search does, and the report says how well,
+ * whatever pilots it was chosen by. They agree within half of the tolerance; of 200 other samples
+ * of the beam, where e changes by 0.06 a mm/s in places, one in twenty may be outside of all of it.
  */
 static void model_is_verified(void **state)
 {
     (void)state;
     struct ensemble_lab e;
     ensemble_lab_open(&e);
-    for (double tolerance = 1e-2; tolerance > 5e-5; tolerance /= 10.0) {
+    for (e.spec.seed = 1; e.spec.seed <= 8; e.spec.seed++) {
+        double tolerance = pow(10.0, -2.0 - (double)(e.spec.seed % 3));
         e.request.options.tolerance = tolerance;
         e.spec.samples = 200;
         ensemble_lab_run(&e, true);
         const struct report_verification *check = &e.report.verification;
         assert_int_equal(check->count, 200);
-        /* chosen by 21 of 24 pilots: among 200 others three quarters at least agree */
-        assert_true(check->within >= 0.75);
+        measured("share within the tolerance", check->within, 1.0, 0.05);
+        assert_true(check->within_bounds.low < check->within && check->within_bounds.low > 0.9);
+        assert_true(check->within <= check->within_bounds.high);
         assert_true(fabs(check->mean_shift) <= tolerance);
         ensemble_lab_clear(&e);
     }

@@ -235,14 +235,14 @@ static void compare_samples(struct lab *lab, const struct ensemble_spec *spec,
         near += fabs(sample.restitution - query.contacts[0].restitution) <= 1e-3;
     }
     assert_true(used[PERCUSS_CONTACT_HERTZ] > 0 && used[PERCUSS_CONTACT_TABLE] > 0);
-    measured("share within the tolerance", near / (double)ensemble.count, 1.0, 0.25);
+    measured("share within the tolerance", near / (double)ensemble.count, 1.0, 0.05);
     ensemble_worker_free(worker);
     ensemble_release(&ensemble);
 }
 
 /* Many samples by one model: which law a blow asks for does not depend on what the worker solved
- * before. The model is the coarsest with which 7 of 8 pilots are within the tolerance; of other
- * samples three of four at least are. */
+ * before. The model is the coarsest with which all pilots are within half of the tolerance: of 64
+ * other samples at most three may be outside of all of it. */
 static void samples_across_yield(void **state)
 {
     (void)state;

@@ -151,6 +151,38 @@ static void what_is_quoted_can_be_stopped(void **state)
     ensemble_lab_close(&e);
 }
 
+/* A model with too few modes, as pilots that agree by luck would choose one. */
+static void coarse_models_are_warned_of(void **state)
+{
+    (void)state;
+    struct ensemble_lab e;
+    ensemble_lab_open(&e);
+    e.spec.samples = 200;
+    ensemble_lab_run(&e, true);
+    assert_false(warns(&e.report, "verification:"));
+    report_release(&e.report);
+    e.ensemble.model.model.cut *= 0.3;
+    ensemble_lab_solve(&e, true);
+    assert_true(warns(&e.report, "% of 200 samples solved again by the accuracy search differ by "
+                                 "more than the tolerance of 0.001, by up to 0."));
+    ensemble_lab_close(&e);
+}
+
+/* A tolerance below rounding is not reached, and the search says so. */
+static void unreachable_tolerances_are_warned_of(void **state)
+{
+    (void)state;
+    struct ensemble_lab e;
+    ensemble_lab_open(&e);
+    e.request.options.tolerance = 1e-12;
+    e.spec.samples = 4;
+    ensemble_lab_run(&e, true);
+    assert_int_equal(e.report.verification.unmet, 4);
+    assert_true(warns(&e.report, "verification: 4 of 4 samples: the accuracy search itself does "
+                                 "not reach the tolerance of 1e-12"));
+    ensemble_lab_close(&e);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -158,6 +190,8 @@ int main(void)
         cmocka_unit_test(order_and_workers_do_not_matter),
         cmocka_unit_test(quiet_and_refused),
         cmocka_unit_test(what_is_quoted_can_be_stopped),
+        cmocka_unit_test(coarse_models_are_warned_of),
+        cmocka_unit_test(unreachable_tolerances_are_warned_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

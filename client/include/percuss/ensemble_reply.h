@@ -77,6 +77,8 @@ struct percuss_ensemble_reply {
         uint64_t count;
         double within, largest, mean_shift, mean_shift_half_width, standard_deviation_shift,
             quantile_shift;
+        double within_low, within_high; /* 95 %: the share of all samples that agree */
+        uint64_t unmet; /* searches that do not reach the tolerance, by their own estimate */
     } check;
     double cut, step_accuracy; /* the model of all samples: modes up to this frequency, Hz */
     uint32_t pilots, agreeing;

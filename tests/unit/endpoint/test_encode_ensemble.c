@@ -71,7 +71,8 @@ static struct example *make(void)
     e->report.input_count = 1;
     e->report.inputs = e->inputs;
     e->report.beta.alpha = 1.5;
-    e->report.verification.count = 5;
+    e->report.verification = (struct report_verification){
+        .count = 5, .within = 0.8, .within_bounds = {0.4, 0.9}, .unmet = 2};
     e->report.warning_count = 1;
     strcpy(e->report.warnings[0], "a warning");
     return e;
@@ -102,6 +103,10 @@ static void encodes_all(void **state)
     assert_int_equal(reply->intervals._length, REPORT_INTERVALS);
     assert_true(reply->beta._buffer[0].alpha == 1.5);
     assert_int_equal(reply->check._buffer[0].count, 5);
+    assert_true(reply->check._buffer[0].within == 0.8);
+    assert_true(reply->check._buffer[0].within_low == 0.4);
+    assert_true(reply->check._buffer[0].within_high == 0.9);
+    assert_int_equal(reply->check._buffer[0].unmet, 2);
     assert_string_equal(reply->warnings._buffer[0], "a warning");
     answer_release(answer);
     free(e);

@@ -166,11 +166,26 @@ static void replicates_tell_of_better_points(void **state)
     assert_true(width[SAMPLING_IS_SOBOL] < 0.2 * width[SAMPLING_IS_PLAIN]);
 }
 
+/* Wilson's interval: 195 of 200 by hand; of none and of all of ten it is not empty. */
+static void shares_by_hand(void **state)
+{
+    (void)state;
+    struct interval interval = interval_share(195, 200, 0.95);
+    /* (p + z^2/2n -+ z sqrt(p(1-p)/n + z^2/4n^2))/(1 + z^2/n), z = 1.959964, p = 0.975 */
+    assert_true(fabs(interval.low - 0.942822) < 1e-6);
+    assert_true(fabs(interval.high - 0.989275) < 1e-6);
+    assert_true(interval_share(0, 10, 0.95).low == 0.0);
+    assert_true(fabs(interval_share(0, 10, 0.95).high - 0.277533) < 1e-6);
+    assert_true(fabs(interval_share(10, 10, 0.95).high - 1.0) < 1e-12);
+    assert_true(isnan(interval_share(0, 0, 0.95).low));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plain_intervals_by_hand),
         cmocka_unit_test(replicated_mean_by_hand),
+        cmocka_unit_test(shares_by_hand),
         cmocka_unit_test(plain_is_honest),
         cmocka_unit_test(latin_hypercube_is_honest),
         cmocka_unit_test(sobol_is_honest),
