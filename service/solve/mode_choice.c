@@ -7,7 +7,7 @@
 
 #include "impact/impact.h"
 
-/* One contact that excites the family. */
+/* One contact that may excite the family. */
 struct demand {
     const struct site_load *load;
     double left;   /* compliance that the modes so far do not hold, m/N */
@@ -18,26 +18,30 @@ struct demand {
 /* With F = k d^(3/2), K = dF/dd and d'^2 = v^2 (1 - (d/d_m)^(5/2)) the integrals of K' F' and of
  * F'^2 over an elastic collision (see track.h) are 1.78 k^2 v d_m and 1.6 k^2 v d_m^2; the
  * compression impulse is v/W. */
-static struct demand make_demand(const struct scene *scene, size_t contact,
+static struct demand make_demand(const struct scene *scene, size_t contact, double rate,
                                  const struct site_load *load)
 {
-    struct impact_scale scale = impact_scale_of(scene, contact, scene->gap_rate[contact]);
+    struct impact_scale scale = impact_scale_of(scene, contact, rate);
     double stiffness = scale.force / scale.indentation;
     double w = scene->w[contact * scene->contacts + contact];
     return (struct demand){
         .load = load, .weight = 1.78 * stiffness * stiffness * w, .delay = 0.9 * scale.duration};
 }
 
-/* The approaching contacts that load the family. */
+/* The contacts that load the family, as if each closed like the fastest of all: what rests on a
+ * body hands on the blow that it gets. */
 static size_t find_demands(const struct geometry *geometry, const struct scene *scene, size_t body,
                            enum mode_family family, struct demand *demands)
 {
     size_t count = 0;
-    for (size_t c = 0; c < scene->contacts; c++) {
+    double rate = 0.0;
+    for (size_t c = 0; c < scene->contacts; c++)
+        rate = fmin(rate, scene->gap_rate[c]);
+    for (size_t c = 0; rate < 0.0 && c < scene->contacts; c++) {
         const struct site_load *load = geometry_load(geometry, c, body, family);
-        if (!load || !(scene->gap_rate[c] < 0.0))
+        if (!load)
             continue;
-        demands[count] = make_demand(scene, c, load);
+        demands[count] = make_demand(scene, c, rate, load);
         demands[count++].left = modal_compliance(geometry->bodies[body], family, load, load);
     }
     return count;
