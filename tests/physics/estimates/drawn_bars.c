@@ -27,7 +27,7 @@ static struct spot draw_striker(struct lab *lab, uint64_t *r, double size, bool 
 {
     if (flexible)
         return end_spot("a", tipped_rod(lab, r, "a")->length);
-    double radius = size * scene_log(r, 0.5, 4.0);
+    double radius = size * scene_log(r, 0.5, 10.0);
     lab_add(lab, "a", make_sphere(scene_material(r), radius));
     return sphere_spot("a", radius);
 }
@@ -36,8 +36,8 @@ static struct spot draw_striker(struct lab *lab, uint64_t *r, double size, bool 
 bool scene_draw_ringing(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
 {
     static struct solve_result first;
-    bool both = scene_pick(r, 3) == 0;
-    const struct body *bar = scene_pick(r, 2) ? scene_beam(lab, r, "b") : tipped_rod(lab, r, "b");
+    bool both = scene_pick(r, 4) == 0;
+    const struct body *bar = scene_pick(r, 4) ? scene_beam(lab, r, "b") : tipped_rod(lab, r, "b");
     bool beam = bar->shape == SHAPE_BEAM;
     double size = bar->radius, length = bar->length;
     struct spot striker = draw_striker(lab, r, size, both);
@@ -53,7 +53,7 @@ bool scene_draw_ringing(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
     enum percuss_status status = solve(lab->workspace, &lab->set, &blow, &first);
     if (status != PERCUSS_OK && status != PERCUSS_TRUNCATED)
         return false;
-    double second = speed * scene_log(r, 0.1, 3.0);
+    double second = speed * scene_log(r, 0.03, 3.0);
     scene->request = strike(striker, spots[1], second);
     for (size_t b = 0; b < 2; b++) {
         scene->states[b] = copy_state(first.bodies[b].state_after);

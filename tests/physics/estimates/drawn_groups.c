@@ -33,7 +33,8 @@ void scene_draw_group(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
     double length = beam->length;
     bool touching = scene_pick(r, 2);
     bool together = scene_pick(r, 2);
-    bool stacked = scene_pick(r, 5) == 0;
+    bool stacked = scene_pick(r, 4) == 0;
+    bool resting = stacked && scene_pick(r, 2); /* nobody comes but the one on top */
     double speed = scene_log(r, 0.03, 1.0);
     double fastest = 0.0;
     request->bodies[0] = (struct solve_body){.id = "beam", .orientation = {1.0, 0.0, 0.0, 0.0}};
@@ -47,6 +48,7 @@ void scene_draw_group(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
         add_sphere(lab, r, request, (double[]){x, 0.0, beam->radius + ball + gap}, ball);
         add_contact(request, i + 1, 0, (double[]){x, 0.0, beam->radius}, gap);
         double v = together ? speed : speed * random_between(r, -0.1, 1.0);
+        v = resting ? 0.0 : v;
         fastest = fmax(fastest, v);
         request->bodies[i + 1].velocity[2] = -v;
     }
@@ -65,8 +67,12 @@ void scene_draw_group(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
     if (fastest == 0.0) /* nobody approaches */
         request->bodies[1].velocity[2] = -speed;
     scene_say(scene, "%zu spheres%s on a beam r %.4g mm L %.4g m zeta %.2g, %s, up to %.4g m/s",
-              count, stacked ? ", one more on the last," : "", 1e3 * beam->radius, length,
-              beam->damping, touching ? "touching" : "with gaps", fmax(fastest, speed));
+              count,
+              resting   ? " at rest, one more on the last,"
+              : stacked ? ", one more on the last,"
+                        : "",
+              1e3 * beam->radius, length, beam->damping, touching ? "touching" : "with gaps",
+              fmax(fastest, speed));
 }
 
 /* In contact, with gaps, or some of both; hit from one end, from both, or all in motion. */
