@@ -99,6 +99,9 @@ static void print_model(const struct percuss_model *model)
     putchar('\n');
     if (model->reason[0])
         printf("               %s\n", model->reason);
+    if (model->omitted_error > 0.0)
+        printf("               what was left out changes the restitution by about %.1g\n",
+               model->omitted_error);
 }
 
 void reply_table_print(const struct percuss_request *request, const struct percuss_reply *reply)
