@@ -9,6 +9,7 @@
 #include "impact/oscillator.h"
 #include "solve/compliance.h"
 #include "solve/contact_model.h"
+#include "solve/radiation.h"
 
 /* A group whose shapes all vanish at every contact, up to rounding, does not exist for the scene.
  */
@@ -217,7 +218,8 @@ static size_t wanted(const struct addition *add, const struct scene *rigid,
 
 static bool create(struct assembly *assembly, const struct geometry *geometry, struct arena *arena)
 {
-    size_t groups = 2 * FAMILY_COUNT * geometry->body_count;
+    /* two parities of every family of a body, and what half-spaces radiate of each contact */
+    size_t groups = 2 * FAMILY_COUNT * geometry->body_count + geometry->contact_count;
     *assembly = (struct assembly){.lowest_omitted = INFINITY};
     assembly->groups = arena_take(arena, groups, sizeof *assembly->groups);
     assembly->sources = arena_take(arena, groups, sizeof(struct prepared_group *));
@@ -265,7 +267,7 @@ bool assemble(struct assembly *assembly, const struct geometry *geometry,
                 return false;
         }
     }
-    return true;
+    return radiation_add(geometry, request, cache, arena, assembly, residual);
 }
 
 bool assembly_same_modes(const struct assembly *a, const struct assembly *b)

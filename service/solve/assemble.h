@@ -28,8 +28,8 @@ struct omitted {
 struct assembly {
     struct scene scene;
     struct scene_group *groups;
-    const struct prepared_group **sources; /* of each group */
-    enum mode_family *families;            /* of each group */
+    const struct prepared_group **sources; /* of each group; NULL: a half-space's */
+    enum mode_family *families;            /* of each group; FAMILY_COUNT: a half-space's */
     struct omitted_part *parts;
     size_t part_count;
     struct omitted *omitted;          /* [contact] */
@@ -39,6 +39,7 @@ struct assembly {
     bool capped;                      /* a family wants more modes than are allowed */
     double highest;                   /* of the frequencies that take part, rad/s */
     double lowest_omitted;            /* rad/s; INFINITY: no more modes to be had */
+    double radiated_error;            /* in e, by what radiation.h leaves out of the waves */
 };
 
 /* Modes of a given initial state always take part. Arrays come from the arena. False: out of

@@ -10,6 +10,7 @@
 #include "contact/plastic.h"
 #include "impact/contact_step.h"
 #include "model/vector.h"
+#include "solve/radiation.h"
 
 /* A hit counts as central up to this share of the radius: the correction is of second order in it.
  */
@@ -133,12 +134,17 @@ static double largest_stiffness(const struct geometry *geometry,
 bool compliance_revise(struct geometry *geometry, const struct scene *scene,
                        const struct impact_outcome *outcome)
 {
-    if (geometry->compliance->used != PERCUSS_COMPLIANCE_MATCHED)
+    bool radiates = radiation_is_in(geometry, scene);
+    if (geometry->compliance->used != PERCUSS_COMPLIANCE_MATCHED && !radiates)
         return false;
     for (size_t c = 0; c < scene->contacts; c++) {
         if (!outcome->too_stiff && contact_bears(scene, c, largest_stiffness(geometry, outcome, c)))
             continue;
-        use_half_space(geometry, "the matched compliance is too negative for so stiff a contact");
+        if (radiates)
+            geometry->compliance->still = true;
+        else
+            use_half_space(geometry,
+                           "the matched compliance is too negative for so stiff a contact");
         return true;
     }
     return false;

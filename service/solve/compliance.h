@@ -14,6 +14,8 @@ struct compliance {
     enum percuss_compliance used; /* HALF_SPACE or MATCHED, of all contacts */
     double *series;               /* [contact], m/N; 0: half-space */
     double (*sides)[2];           /* [contact]: the parts of either body in it */
+    bool still;                   /* no waves leave through half-spaces, see radiation.h: a contact
+                                     is too stiff for them */
     char reason[128];             /* why half-space although matched was asked for, or empty */
 };
 
@@ -27,7 +29,8 @@ enum percuss_status compliance_choose(struct geometry *geometry,
                                       struct fault *fault);
 
 /* Looks at a solution: true: the series compliance (residual flexibility included) is too negative
- * for the law's stiffness, |C| dF/dd >= 0.5, and all contacts are half-spaces now. */
+ * for the law's stiffness, |C| dF/dd >= 0.5: half-spaces are still now or, where they were, all
+ * contacts' compliance is the half-space's. */
 bool compliance_revise(struct geometry *geometry, const struct scene *scene,
                        const struct impact_outcome *outcome);
 

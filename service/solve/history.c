@@ -47,8 +47,7 @@ static void share_of_side(const struct geometry *geometry, const struct assembly
                 continue;
             w[c * n + j] += rigid_inverse_mass(body, side->site.point, side->direction,
                                                other->site.point, other->direction);
-            if (body_is_flexible(body))
-                residual[c * n + j] += residual_of_side(geometry, assembly, side, other, c, j);
+            residual[c * n + j] += residual_of_side(geometry, assembly, side, other, c, j);
         }
     }
 }

@@ -23,11 +23,19 @@ struct remainder {
     struct oscillators *set;
 };
 
+/* A half-space's waves. */
+struct radiation {
+    struct radiation *next;
+    int step;
+    struct oscillators *set;
+};
+
 struct entry {
     struct entry *next;
     struct body body; /* a copy: its key, see body_same_modes */
     struct prepared_family *families[FAMILY_COUNT];
     struct remainder *remainders[FAMILY_COUNT];
+    struct radiation *radiation;
     enum { UNASKED, KNOWN, NONE } matched_is[OCTAVES];
     double matched[OCTAVES]; /* [k]: with the patch radius/2^k; [0] where it does not matter */
 };
@@ -115,6 +123,12 @@ static void entry_clear(struct entry *entry)
         remainders_free(entry->remainders[f]);
         entry->families[f] = NULL;
         entry->remainders[f] = NULL;
+    }
+    while (entry->radiation) {
+        struct radiation *next = entry->radiation->next;
+        oscillators_free(entry->radiation->set);
+        free(entry->radiation);
+        entry->radiation = next;
     }
     memset(entry->matched_is, 0, sizeof entry->matched_is);
 }
@@ -234,6 +248,28 @@ struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const s
         return NULL;
     }
     entry->remainders[family] = made;
+    return made->set;
+}
+
+struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const struct body *body,
+                                           int step)
+{
+    struct entry *entry = find_entry(cache, body);
+    if (!entry)
+        return NULL;
+    for (struct radiation *known = entry->radiation; known; known = known->next)
+        if (known->step == step)
+            return known->set;
+    struct radiation *made = calloc(1, sizeof *made);
+    if (!made)
+        return NULL;
+    double omega = exp2(0.25 * step);
+    *made = (struct radiation){entry->radiation, step, oscillators_create(1, &omega, M_SQRT1_2)};
+    if (!made->set) {
+        free(made);
+        return NULL;
+    }
+    entry->radiation = made;
     return made->set;
 }
 

@@ -45,6 +45,11 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
 struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
                                            enum mode_family family, size_t first);
 
+/* An oscillator of the frequency 2^(step/4) rad/s and the damping 1/sqrt(2) for the waves that
+ * leave through a half-space, with its step tables. NULL: out of memory. */
+struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const struct body *body,
+                                           int step);
+
 /* matched_compliance of a sphere, or of a rod's or cylinder's end, with the contact radius `patch`
  * (m). It takes milliseconds when first asked for. A sphere's is linear in the logarithm of the
  * patch but for terms of the order of (patch/radius)^2: taken from octaves. False: none is known,

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "solve/models.h"
+#include "solve/radiation.h"
 #include "solve/validity.h"
 
 struct repeat {
@@ -16,7 +17,8 @@ struct repeat {
     struct arena scene_memory, run_memory;
     struct geometry *geometry; /* in scene_memory as what follows; NULL: no scene is kept */
     struct scene scene;
-    bool elastic; /* neither body of any contact can yield: the laws do not depend on the blow */
+    bool
+        lasting; /* nothing in it depends on the blow: no body of a contact can yield or radiates */
     struct warnings warnings; /* of the last solution */
 };
 
@@ -162,9 +164,9 @@ static enum percuss_status make_scene(struct repeat *repeat, const struct body_s
         return status;
     if (!assemble_scene(repeat, geometry, request, model))
         return no_memory(fault);
-    repeat->elastic = true;
+    repeat->lasting = !radiation_is_possible(geometry);
     for (size_t c = 0; c < geometry->contact_count; c++)
-        repeat->elastic = repeat->elastic && geometry->contact_model->choices[c].side < 0;
+        repeat->lasting = repeat->lasting && geometry->contact_model->choices[c].side < 0;
     repeat->geometry = geometry;
     return PERCUSS_OK;
 }
@@ -193,7 +195,7 @@ static enum percuss_status run_scene(struct repeat *repeat, const struct solve_r
         if (!models_revise(repeat->geometry, request, &repeat->scene, &attempt->outcome))
             return PERCUSS_OK;
         /* what this blow decided is not for the next one */
-        repeat->elastic = false;
+        repeat->lasting = false;
         if (!assemble_scene(repeat, repeat->geometry, request, model))
             return no_memory(fault);
     }
@@ -207,8 +209,8 @@ enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *c
     struct attempt attempt = {0};
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
     arena_reset(&repeat->run_memory);
-    /* the laws of bodies that yield are chosen by the blow: another scene */
-    if (same_scene && repeat->geometry && repeat->elastic)
+    /* the laws of bodies that yield and the waves of half-spaces are chosen by the blow */
+    if (same_scene && repeat->geometry && repeat->lasting)
         outcome->status = geometry_find_rates(repeat->geometry, request, fault);
     else
         outcome->status = make_scene(repeat, catalogue, request, model, fault);

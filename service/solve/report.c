@@ -12,6 +12,7 @@
 #include "model/vector.h"
 #include "solve/compliance.h"
 #include "solve/contact_model.h"
+#include "solve/radiation.h"
 #include "solve/state_out.h"
 #include "solve/validity.h"
 
@@ -135,6 +136,8 @@ static void fill_model(const struct geometry *geometry, const struct solve_reque
     result->delassus_source =
         geometry->from_client ? PERCUSS_DELASSUS_CLIENT : PERCUSS_DELASSUS_SERVICE;
     const struct assembly *assembly = accuracy->assembly;
+    double tolerance = request->options.tolerance > 0.0 ? request->options.tolerance : 1e-3;
+    double unmodelled = assembly->radiated_error + validity_wave_loss(geometry);
     contact_model_explain(geometry, request, &accuracy->outcome, result->reason,
                           sizeof result->reason);
     size_t used = strlen(result->reason);
@@ -147,11 +150,20 @@ static void fill_model(const struct geometry *geometry, const struct solve_reque
                  "; every mode is too fast to matter (lowest %.4g Hz): static flexibility only",
                  assembly->lowest_omitted / (2.0 * M_PI));
     used = strlen(result->reason);
+    if (radiation_is_in(geometry, &assembly->scene))
+        snprintf(result->reason + used, sizeof result->reason - used,
+                 "; waves leave through the half-space: their energy counts as damping");
+    used = strlen(result->reason);
     if (geometry->compliance->reason[0])
         snprintf(result->reason + used, sizeof result->reason - used, "; half-space: %s",
                  geometry->compliance->reason);
-    result->omitted_error =
-        accuracy->modes.restitution + validity_wave_loss(geometry, request, result);
+    result->omitted_error = accuracy->modes.restitution + unmodelled;
+    if (unmodelled > tolerance)
+        report_warn(result,
+                    "model.omitted_error: waves that the models leave out of compact bodies and of "
+                    "half-spaces change the restitution by about %.2g: more than the tolerance of "
+                    "%.2g",
+                    unmodelled, tolerance);
 }
 
 static void fill_errors(const struct accuracy *accuracy, struct solve_result *result)

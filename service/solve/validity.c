@@ -25,11 +25,8 @@ static double wave_speed(const struct body *body)
     return sqrt(body->material.young / body->material.density);
 }
 
-double validity_wave_loss(const struct geometry *geometry, const struct solve_request *request,
-                          const struct solve_result *result)
+double validity_wave_loss(const struct geometry *geometry)
 {
-    (void)request;
-    (void)result;
     double worst = 0.0;
     for (size_t c = 0; c < geometry->contact_count; c++) {
         double speed = fabs(geometry->gap_rate[c]);
@@ -37,11 +34,7 @@ double validity_wave_loss(const struct geometry *geometry, const struct solve_re
         for (int which = 0; which < 2; which++) {
             const struct body *body = geometry->bodies[geometry->sides[c][which].body];
             double ratio = speed / wave_speed(body);
-            if (body->shape == SHAPE_HALF_SPACE)
-                /* share of the energy that goes into waves: 1.04 (v/c)^(3/5) (Hunter, J. Mech.
-                 * Phys. Solids 5 (1957) 162; Johnson, Contact Mechanics, section 11.4) */
-                energy_share += 1.04 * pow(ratio, 0.6);
-            else if (!body_is_flexible(body))
+            if (body->shape != SHAPE_HALF_SPACE && !body_is_flexible(body))
                 /* vibration of a sphere after a collision: about v/(50 c) (Rayleigh; Goldsmith) */
                 energy_share += 0.02 * ratio;
         }

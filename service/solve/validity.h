@@ -9,10 +9,9 @@
 #include "solve/geometry.h"
 #include "solve/warnings.h"
 
-/* Estimated effect on the restitution of waves in bodies that are rigid by their shape (the
- * half-space: Hunter 1957; spheres and compact bodies: Rayleigh 1906). */
-double validity_wave_loss(const struct geometry *geometry, const struct solve_request *request,
-                          const struct solve_result *result);
+/* Estimated effect on the restitution of waves in spheres and compact bodies, which are rigid by
+ * their shape (Rayleigh 1906). */
+double validity_wave_loss(const struct geometry *geometry);
 
 /* Looks where a solution leaves the models' range: yield, size of contact and dent, edges, speed,
  * the end of a table, sliding without friction, a differing delassus, compliance, no touch. Written

@@ -142,6 +142,14 @@ static inline struct spot side_spot(const char *id, double x, double radius, dou
         id, {x, radius * sin(about), radius * cos(about)}, {0.0, sin(about), cos(about)}, 0.0};
 }
 
+/* A wall of vanishing 1 - nu^2 and endless shear modulus: E* is that of the other body to 3e-16, and
+ * no wave leaves. */
+static inline struct body rigid_wall(void)
+{
+    return make_body(SHAPE_HALF_SPACE,
+                     (struct material){"rigid", 1e13, -1.0 + 1e-12, 1000.0, INFINITY, 0.0});
+}
+
 static inline struct spot wall_spot(const char *id)
 {
     return (struct spot){id, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 0.0};

@@ -5,13 +5,6 @@
  * and indentation, a restitution of one for every W, and the chain of three spheres. */
 #include "physics/support.h"
 
-/* A wall of vanishing 1 - nu^2: E* is that of the other body to 3e-16. */
-static struct body rigid_wall(void)
-{
-    return make_body(SHAPE_HALF_SPACE,
-                     (struct material){"rigid", 1e13, -1.0 + 1e-12, 1000.0, INFINITY, 0.0});
-}
-
 /* Hertz's collision of the effective mass m at speed v: largest indentation, force and duration
  * (Johnson, Contact Mechanics, section 11.4; 4 sqrt(pi) Gamma(2/5)/(5 Gamma(9/10)) = 2.943...). */
 static void closed_form(double m, double k, double v, double values[3])
@@ -123,7 +116,7 @@ static void the_clients_w_rules_the_dynamics(void **state)
     static struct solve_result result;
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, 0.012));
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    lab_add(lab, "wall", rigid_wall());
     uint64_t seed = 11;
     for (int i = 0; i < 12; i++) {
         double w = pow(10.0, random_between(&seed, -4.0, 5.0));

@@ -169,7 +169,11 @@ static void a_soft_sphere_keeps_its_dent(void **state)
     assert_int_equal(result.bodies[0].state_after->dents, 1);
     double e = result.contacts[0].restitution;
     assert_true(e > 0.4 && e < 0.95);
-    measured("energy", result.energy.plastic / result.energy.available, 1.0 - e * e, 1e-3);
+    /* with what leaves through the wall; the balance closes to a hundredth of the tolerance */
+    double lost = result.energy.plastic + result.energy.damping + result.energy.vibration;
+    measured("energy", lost / result.energy.available, 1.0 - e * e, 1e-5);
+    assert_true(result.energy.damping > 1e-4 * result.energy.available &&
+                result.energy.damping < 0.01 * result.energy.available);
     struct body_state *dent = copy_state(result.bodies[0].state_after);
     request.bodies[0].state = dent;
     lab_solve(lab, &request, &result);

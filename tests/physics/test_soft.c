@@ -93,17 +93,21 @@ static void a_soft_wall_gives_back_what_its_dent_does(void **state)
         struct lab *lab = lab_create();
         struct soft_law law = make_law(yields[y], 0.015);
         const struct body *ball = lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-        lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, soft_metal(yields[y])));
+        /* a block, through which no waves leave */
+        struct body block = make_body(SHAPE_BLOCK, soft_metal(yields[y]));
+        memcpy(block.size, (double[]){1.0, 1.0, 1.0}, sizeof block.size);
+        double mass = 1.0 / (1.0 / ball->mass + 1.0 / lab_add(lab, "wall", block)->mass);
         double before = 1.0 + 1e-9;
         for (size_t v = 0; v < COUNT(speeds); v++) {
             struct solve_request request =
-                strike(sphere_spot("ball", 0.015), wall_spot("wall"), speeds[v]);
+                strike(sphere_spot("ball", 0.015),
+                       (struct spot){"wall", {0.0, 0.0, 0.5}, {0.0, 0.0, 1.0}, 0.0}, speeds[v]);
             request.options.contact_model = PERCUSS_CONTACT_CLOSED_FORM;
             request.options.tolerance = 1e-5;
             lab_solve(lab, &request, &result);
             double e = result.contacts[0].restitution;
             /* the tolerance; the trapezoids leave 1e-9 of the work */
-            measured("restitution", e, rebound(&law, ball->mass, speeds[v]), 1e-5);
+            measured("restitution", e, rebound(&law, mass, speeds[v]), 1e-5);
             assert_true(result.tolerance_met && e <= before);
             before = e;
         }

@@ -49,8 +49,8 @@ struct percuss_energy { /* J */
     double available, rigid_after;
     size_t vibration_count;
     struct percuss_body_energy *vibration;
-    double damping, plastic, stored;
-    double closure; /* available less all the others: a check of the solution */
+    double damping, plastic, stored; /* damping: with the waves that leave through half-spaces */
+    double closure;                  /* available less all the others: a check of the solution */
 };
 
 struct percuss_error_estimate {

@@ -64,7 +64,7 @@ static inline struct lab *paper_lab(double damping)
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "beam", beam);
     lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    lab_add(lab, "wall", rigid_wall());
     return lab;
 }
 

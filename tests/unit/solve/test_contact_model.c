@@ -202,21 +202,25 @@ static void several_contacts_yield_by_themselves(void **state)
     request.bodies[0] = one.bodies[0];
     request.bodies[1] = one.bodies[1];
     request.bodies[2] = one.bodies[0];
-    request.bodies[2].position[0] = 0.2;
+    request.bodies[2].position[0] = 5.0; /* out of reach of the other's waves */
     request.bodies[2].velocity[2] = -0.002; /* too slow to leave a dent */
     request.contacts[0] = one.contacts[0];
     request.contacts[1] = one.contacts[0];
     request.contacts[1].a = 2;
-    request.contacts[1].point[0] = 0.2;
+    request.contacts[1].point[0] = 5.0;
     request.options.tolerance = 1e-6;
     lab_solve(lab, &request, &result);
     one.options.tolerance = 1e-6;
     double e = result.contacts[0].restitution;
-    measured("second contact", result.contacts[1].restitution, 1.0, 1e-6);
+    double second = result.contacts[1].restitution;
+    assert_true(second > 0.9995);
     assert_int_equal(result.bodies[1].state_after->dents, 1);
     measured("place", body_state_dents(result.bodies[1].state_after)->point[0], 0.0, 1e-12);
     lab_solve(lab, &one, &other);
     measured("first contact", e, other.contacts[0].restitution, 1e-6);
+    one.bodies[0].velocity[2] = -0.002;
+    lab_solve(lab, &one, &other);
+    measured("second contact", second, other.contacts[0].restitution, 1e-6);
     lab_free(lab);
 }
 

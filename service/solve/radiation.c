@@ -1,0 +1,274 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/radiation.h"
+
+#include <math.h>
+
+#include "contact/plastic.h"
+#include "impact/impact.h"
+#include "model/half_space.h"
+#include "solve/compliance.h"
+
+/* Effect on the restitution, in tolerances, below which waves are left out. */
+static const double NEGLIGIBLE = 0.05;
+/* Share of a contact's compliance that the oscillator may take over: from 0.5 on contacts do not
+ * bear it (contact_bears), a blow harder than the rigid masses' tell needs the other half. */
+static const double BORNE = 0.25;
+/* Frequency times duration of the contact that is fast enough; see ERROR. */
+static const double FAST = 128.0;
+/* Relative error of the loss times (frequency times duration)^2: spheres on a wall, integrated with
+ * oscillators of 14 to 7000, differ from the limit by 0.5 to 3. */
+static const double ERROR = 3.0;
+/* A contact lasts this many times its scale (Hertz, rigid bodies). */
+static const double HERTZ_DURATION = 2.94;
+/* Contacts that share less of their waves are far from each other. */
+static const double FAR = 1e-3;
+
+/* One half-space. */
+struct radiator {
+    size_t body;
+    struct half_space_waves waves;
+    size_t count;
+    size_t contact[PERCUSS_MAX_CONTACTS];
+    double stiffness; /* of the stiffest contact, N/m */
+    double duration;  /* of the shortest, s */
+    double loss;      /* see collision, the largest */
+    double patch;     /* contact radius, the largest, m */
+};
+
+static bool is_half_space(const struct geometry *geometry, size_t body)
+{
+    return geometry->bodies[body]->shape == SHAPE_HALF_SPACE;
+}
+
+/* One contact's collision, as far as its scale tells. */
+struct collision {
+    double stiffness; /* the largest, N/m */
+    double duration;  /* twice the shorter of approach and rebound, s */
+    double loss;      /* twice what a half-space's waves take of the restitution */
+    double patch;     /* contact radius, m */
+};
+
+/* An elastic half of a collision, of the energy 0.4 F d, has int F'^2 dt = 0.35 K^2 v d (see
+ * mode_choice.c). The rebound from a dent is another one than the approach, of energy e^2. */
+static struct collision collide(const struct geometry *geometry, const struct scene *scene,
+                                size_t contact, double rate, double lag)
+{
+    struct contact_law law = scene->laws[contact];
+    struct impact_scale scale = impact_scale_of(scene, contact, rate);
+    double axes[2];
+    double loading;
+    contact_law_force(&law, scale.indentation, &loading);
+    if (scale.indentation > contact_law_limit(&law))
+        contact_law_yield(&law, scale.indentation);
+    double back = fmin(scale.indentation, contact_law_limit(&law));
+    double unloading = back < scale.indentation ? contact_law_unloading(&law) : loading;
+    double e = sqrt(back / scale.indentation);
+    double squares =
+        0.35 * rate * (loading * loading * scale.indentation + unloading * unloading * e * back);
+    hertz_ellipse(&geometry->hertz[contact], scale.force, axes);
+    return (struct collision){
+        .stiffness = fmax(loading, unloading),
+        .duration = HERTZ_DURATION * fmin(scale.indentation, back / e) / rate,
+        .loss = lag * squares / (0.4 * scale.force * scale.indentation * e),
+        .patch = sqrt(axes[0] * axes[1]),
+    };
+}
+
+/* The rate whose energy a contact must stop, with what a pressing acceleration adds: twice its load
+ * is borne at most. */
+static double pressed_rate(const struct scene *scene, size_t contact, double rate)
+{
+    const struct contact_law *law = &scene->laws[contact];
+    double pressing = fmax(0.0, -scene->gap_acceleration[contact]);
+    if (pressing == 0.0)
+        return rate;
+    double load = 2.0 * pressing / scene->w[contact * (scene->contacts + 1)];
+    return sqrt(rate * rate + 2.0 * pressing * law->operations->indentation(law, load));
+}
+
+/* The stiffness is that of rigid masses: what vibration takes from the first blow may come back. */
+static void look_at(const struct geometry *geometry, const struct scene *scene, size_t contact,
+                    double rate, struct radiator *radiator)
+{
+    struct scene rigid = *scene;
+    rigid.groups = 0;
+    double lag = radiator->waves.lag;
+    struct collision collision = collide(geometry, scene, contact, rate, lag);
+    double hardest = collide(geometry, &rigid, contact, rate, lag).stiffness;
+    radiator->stiffness = fmax(radiator->stiffness, hardest);
+    radiator->duration = fmin(radiator->duration, collision.duration);
+    radiator->loss = fmax(radiator->loss, collision.loss);
+    radiator->patch = fmax(radiator->patch, collision.patch);
+    radiator->contact[radiator->count++] = contact;
+}
+
+static struct radiator find_radiator(const struct geometry *geometry, const struct scene *scene,
+                                     size_t body)
+{
+    struct radiator radiator = {.body = body, .duration = INFINITY};
+    double rate = 0.0;
+    radiator.waves = half_space_waves_of(&geometry->bodies[body]->material);
+    for (size_t c = 0; c < scene->contacts; c++)
+        rate = fmax(rate, -scene->gap_rate[c]);
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (geometry->sides[c][0].body == body || geometry->sides[c][1].body == body)
+            look_at(geometry, scene, c, pressed_rate(scene, c, rate), &radiator);
+    return radiator;
+}
+
+/* How much of their waves two contacts share: J0(k r), spread over the wave numbers of a pulse
+ * whose square mean is that of Rayleigh's wave at half a period per contact. */
+static double shared(const struct geometry *geometry, const struct radiator *radiator, size_t i,
+                     size_t j)
+{
+    const struct contact_side *a = geometry->sides[radiator->contact[i]];
+    const struct contact_side *b = geometry->sides[radiator->contact[j]];
+    const double *p = a[a[0].body != radiator->body].site.point;
+    const double *q = b[b[0].body != radiator->body].site.point;
+    double number = M_PI / (radiator->duration * radiator->waves.rayleigh);
+    double angle = number * hypot(p[0] - q[0], p[1] - q[1]);
+    double share = exp(-0.25 * angle * angle);
+    return share > FAR ? share : 0.0;
+}
+
+/* Cholesky's factor of the shares, row-major lower triangle: they are positive semidefinite but for
+ * what FAR took. Returns their largest sum over a row. */
+static double factor_shares(const struct geometry *geometry, const struct radiator *radiator,
+                            double *factor)
+{
+    size_t n = radiator->count;
+    double most = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        double row = 0.0;
+        for (size_t j = 0; j < n; j++) {
+            double left = shared(geometry, radiator, i, j);
+            row += left;
+            if (j > i)
+                continue;
+            for (size_t k = 0; k < j; k++)
+                left -= factor[i * n + k] * factor[j * n + k];
+            double pivot = factor[j * (n + 1)];
+            factor[i * n + j] = i == j ? sqrt(fmax(left, 0.0)) : pivot > 1e-6 ? left / pivot : 0.0;
+        }
+        most = fmax(most, row);
+    }
+    return most;
+}
+
+/* One more group: an oscillator that the contacts excite by a column of the factor. */
+static bool add_group(const struct radiator *radiator, struct oscillators *set,
+                      const double *factor, size_t column, struct arena *arena,
+                      struct assembly *assembly, double *residual)
+{
+    size_t n = assembly->scene.contacts;
+    double omega = set->omega[0];
+    double scale = omega * sqrt(radiator->waves.lag * omega * M_SQRT1_2);
+    struct scene_group *group = &assembly->groups[assembly->scene.groups];
+    *group = (struct scene_group){.set = set, .body = radiator->body, .count = 1, .stride = LANES};
+    group->participation = arena_take(arena, n, sizeof *group->participation);
+    if (!group->participation)
+        return false;
+    for (size_t i = column; i < radiator->count; i++) {
+        double part = factor[i * radiator->count + column];
+        if (part == 0.0)
+            continue;
+        double *row = arena_take(arena, LANES, sizeof *row);
+        if (!row)
+            return false;
+        row[0] = scale * part;
+        group->participation[radiator->contact[i]] = row;
+    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            if (group->participation[i] && group->participation[j])
+                residual[i * n + j] -=
+                    group->participation[i][0] * group->participation[j][0] / (omega * omega);
+    assembly->sources[assembly->scene.groups] = NULL;
+    assembly->families[assembly->scene.groups] = FAMILY_COUNT;
+    assembly->scene.groups++;
+    return true;
+}
+
+/* The oscillator's frequency: fast, but not of more compliance than the contacts bear together; a
+ * quarter octave of a ladder, so that few are ever made. */
+static int frequency_step(const struct radiator *radiator, double together)
+{
+    double fast = FAST / radiator->duration;
+    double most = BORNE * M_SQRT2 / (radiator->waves.lag * radiator->stiffness * together);
+    return (int)fmin(ceil(4.0 * log2(fast)), floor(4.0 * log2(most)));
+}
+
+/* What is left out of the radiated share: the oscillator's own error, and what the size of the
+ * contact changes of a point's waves. */
+static double left_out(const struct radiator *radiator, double omega)
+{
+    double angle = omega * radiator->duration;
+    double size = M_PI * radiator->patch / (radiator->waves.transverse * radiator->duration);
+    return radiator->loss * fmin(1.0, ERROR / (angle * angle) + size * size);
+}
+
+static bool add_radiator(const struct geometry *geometry, const struct radiator *radiator,
+                         struct prepared_cache *cache, struct arena *arena,
+                         struct assembly *assembly, double *residual)
+{
+    size_t n = radiator->count;
+    double *factor = arena_take(arena, n * n, sizeof *factor);
+    if (!factor)
+        return false;
+    double together = factor_shares(geometry, radiator, factor);
+    struct oscillators *set = prepared_radiation_get(cache, geometry->bodies[radiator->body],
+                                                     frequency_step(radiator, together));
+    if (!set)
+        return false;
+    for (size_t k = 0; k < n; k++)
+        if (!add_group(radiator, set, factor, k, arena, assembly, residual))
+            return false;
+    /* e^2 = 1 - share */
+    assembly->radiated_error =
+        fmax(assembly->radiated_error, 0.5 * left_out(radiator, set->omega[0]));
+    return true;
+}
+
+bool radiation_add(const struct geometry *geometry, const struct solve_request *request,
+                   struct prepared_cache *cache, struct arena *arena, struct assembly *assembly,
+                   double *residual)
+{
+    double asked = request->options.tolerance;
+    double negligible = NEGLIGIBLE * (asked > 0.0 ? asked : 1e-3);
+    bool still = geometry->compliance && geometry->compliance->still;
+    const struct scene scene = assembly->scene;
+    for (size_t b = 0; b < geometry->body_count; b++) {
+        if (!is_half_space(geometry, b))
+            continue;
+        struct radiator radiator = find_radiator(geometry, &scene, b);
+        if (radiator.count == 0)
+            continue;
+        if (!still && 0.5 * radiator.loss > negligible) {
+            if (!add_radiator(geometry, &radiator, cache, arena, assembly, residual))
+                return false;
+            continue;
+        }
+        for (size_t i = 0; i < radiator.count; i++)
+            assembly->omitted[radiator.contact[i]].viscosity += radiator.waves.lag;
+    }
+    return true;
+}
+
+bool radiation_is_in(const struct geometry *geometry, const struct scene *scene)
+{
+    for (size_t g = 0; g < scene->groups; g++)
+        if (is_half_space(geometry, scene->group[g].body))
+            return true;
+    return false;
+}
+
+bool radiation_is_possible(const struct geometry *geometry)
+{
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        for (int which = 0; which < 2; which++)
+            if (is_half_space(geometry, geometry->sides[c][which].body))
+                return true;
+    return false;
+}
