@@ -8,19 +8,34 @@
 
 /* Errors that rounding leaves of a sequence that amplifies it are nobody's estimate. */
 static const double ROUNDING = 1e-11;
+/* Of the spread of a reference that did not settle: its own error is hardly more. */
+static const double FAR = 5.0;
 
-void tally_add(struct tally *tally, const struct verdict *verdict)
+/* Names a scene that is met and wrong. */
+static void name_wrong(struct tally *tally, uint64_t scene)
+{
+    if (tally->wrong < TALLY_NAMED)
+        tally->wrong_scenes[tally->wrong] = scene;
+    tally->wrong++;
+}
+
+bool tally_add(struct tally *tally, const struct verdict *verdict)
 {
     tally->seconds += verdict->seconds;
     tally->slowest = fmax(tally->slowest, verdict->seconds);
     if (isnan(verdict->true_error)) {
         tally->unsolved++;
-        return;
+        return false;
     }
     if (!(verdict->spread <= TALLY_SETTLED * verdict->tolerance)) {
         tally->unsettled++;
         tally->unsettled_met += verdict->met;
-        return;
+        /* wrong all the same where what the reference leaves open cannot explain it */
+        bool far = verdict->met && isfinite(verdict->spread) &&
+                   verdict->true_error - FAR * verdict->spread > verdict->tolerance;
+        if (far)
+            name_wrong(tally, verdict->scene);
+        return far;
     }
     /* what the reference itself leaves open is in the answer's favour */
     double error = fmax(verdict->true_error - verdict->spread, 0.0);
@@ -39,16 +54,15 @@ void tally_add(struct tally *tally, const struct verdict *verdict)
         verdict->true_impulse_error <=
         (verdict->reported_impulse + verdict->impulse_spread) * (1.0 + 1e-9) + 1e-300;
     tally->miscounted += verdict->sub_impacts != verdict->true_sub_impacts;
-    if (verdict->met && error > verdict->tolerance) {
-        if (tally->wrong < TALLY_NAMED)
-            tally->wrong_scenes[tally->wrong] = verdict->scene;
-        tally->wrong++;
-    }
+    bool wrong = verdict->met && error > verdict->tolerance;
+    if (wrong)
+        name_wrong(tally, verdict->scene);
     double share = error / fmax(verdict->reported, ROUNDING);
     if (error > ROUNDING && share > tally->worst_share) {
         tally->worst_share = share;
         tally->worst_scene = verdict->scene;
     }
+    return wrong;
 }
 
 static int compare(const void *a, const void *b)

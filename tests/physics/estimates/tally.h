@@ -42,7 +42,8 @@ struct tally {
 /* A reference is good enough for a tolerance if its spread is below this share of it. */
 static const double TALLY_SETTLED = 0.1;
 
-void tally_add(struct tally *tally, const struct verdict *verdict);
+/* Whether it is met and wrong. */
+bool tally_add(struct tally *tally, const struct verdict *verdict);
 
 /* Median of reported over true error; 0: nothing judged. */
 double tally_median_over(const struct tally *tally);

@@ -1,0 +1,233 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "physics/estimates/campaign.h"
+
+#include <time.h>
+
+#include "physics/estimates/invariants.h"
+
+/* Of a solution by CVODE: its right-hand sides are many and cheap. */
+static const double CVODE_EFFORT = 1e9;
+const double campaign_tolerances[CAMPAIGN_TOLERANCES] = {1e-2, 1e-3, 1e-4};
+static const struct {
+    const char *name;
+    size_t most;
+} strata[CAMPAIGN_STRATA] = {{"1", 1}, {"2-9", 9}, {"10-29", 29}, {">=30", SIZE_MAX}};
+
+/* Of one scene. */
+struct answers {
+    struct solve_result results[CAMPAIGN_TOLERANCES];
+    struct verdict verdicts[CAMPAIGN_TOLERANCES];
+    size_t modes;
+};
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void print_answer(const struct solve_result *result, const struct verdict *verdict)
+{
+    printf("  tolerance %g: %s %s, met %d, true error %.3g, reported %.3g (time %.3g, modes %.3g), "
+           "impulse error %.3g N s, reported %.3g, %zu sub-impacts, %.1f ms\n    %s\n",
+           verdict->tolerance, status_name(result->status), end_reason_name(result->end_reason),
+           verdict->met, verdict->true_error, verdict->reported, result->restitution_time,
+           result->restitution_modes, verdict->true_impulse_error, verdict->reported_impulse,
+           verdict->sub_impacts, 1e3 * verdict->seconds,
+           result->status ? result->fault.text : result->reason);
+    for (size_t c = 0; c < result->contact_count; c++)
+        printf("    contact %zu: e %.9f, %zu sub-impacts\n", c, result->contacts[c].restitution,
+               result->contacts[c].sub_impact_count);
+    for (size_t w = 0; w < result->warning_count; w++)
+        printf("    warning: %s\n", result->warnings[w]);
+}
+
+/* Answers at one tolerance. False: refused. */
+static bool answer(struct campaign *campaign, struct scene_drawn *scene, double tolerance,
+                   struct solve_result *result, struct verdict *verdict)
+{
+    scene->request.options.tolerance = tolerance;
+    double before = seconds();
+    enum percuss_status status =
+        solve(campaign->lab->workspace, &campaign->lab->set, &scene->request, result);
+    *verdict = (struct verdict){.tolerance = tolerance, .seconds = seconds() - before};
+    if (status != PERCUSS_OK && status != PERCUSS_TRUNCATED) {
+        if (campaign->settings.chatty)
+            printf("  refused: %s %s\n", status_name(status), result->fault.text);
+        return false;
+    }
+    verdict->met = result->tolerance_met;
+    verdict->reported = result->restitution_time + result->restitution_modes;
+    verdict->reported_impulse = result->impulse_time + result->impulse_modes;
+    for (size_t c = 0; c < result->contact_count; c++)
+        verdict->sub_impacts += result->contacts[c].sub_impact_count;
+    return true;
+}
+
+static void judge(const struct campaign *campaign, const struct truth *truth, bool found,
+                  const struct solve_result *result, struct verdict *verdict)
+{
+    double impulse[PERCUSS_MAX_CONTACTS];
+    bool solved = true;
+    for (size_t c = 0; c < result->contact_count; c++) {
+        impulse[c] = result->contacts[c].impulse;
+        solved = solved && !(isnan(result->contacts[c].restitution) &&
+                             result->contacts[c].impulse_compression > 0.0);
+    }
+    verdict->spread = found ? truth->spread : INFINITY;
+    verdict->true_error = !solved ? NAN : found ? truth_distance(truth, impulse) : INFINITY;
+    verdict->true_impulse_error = found ? truth_impulse_distance(truth, impulse) : INFINITY;
+    verdict->impulse_spread = found ? truth->impulse_spread : INFINITY;
+    verdict->true_sub_impacts = truth->sub_impacts;
+    if (campaign->settings.chatty)
+        print_answer(result, verdict);
+}
+
+static void check_by_cvode(struct campaign *campaign, const struct scene_drawn *scene,
+                           uint64_t number, size_t modes, const struct truth *truth)
+{
+    struct truth other;
+    struct truth_settings settings = {
+        .effort = CVODE_EFFORT, .modes = modes, .chatty = campaign->settings.chatty};
+    if (!truth_by_cvode(campaign->room, &campaign->lab->set, &scene->plain, &settings, &other))
+        return;
+    double distance = truth_distance(truth, other.impulse);
+    campaign->compared++;
+    campaign->apart += distance > TALLY_SETTLED * campaign_tolerances[CAMPAIGN_TOLERANCES - 1];
+    if (distance > campaign->farthest) {
+        campaign->farthest = distance;
+        campaign->farthest_scene = number;
+    }
+}
+
+static size_t stratum_of(size_t sub_impacts)
+{
+    size_t stratum = 0;
+    while (sub_impacts > strata[stratum].most)
+        stratum++;
+    return stratum;
+}
+
+static void list_verdict(const struct campaign *campaign, const struct verdict *verdict)
+{
+    printf("%s,%llu,%g,%d,%.4g,%.4g,%.4g,%zu,%zu,%.4g\n",
+           scene_class_word(campaign->settings.class), (unsigned long long)verdict->scene,
+           verdict->tolerance, verdict->met, verdict->reported, verdict->true_error,
+           verdict->spread, verdict->sub_impacts, verdict->true_sub_impacts, verdict->seconds);
+}
+
+/* All three answers; `modes`: the most that a body took. False: refused. */
+static bool answer_all(struct campaign *campaign, struct scene_drawn *scene, uint64_t number,
+                       struct answers *answers)
+{
+    answers->modes = 8;
+    for (int t = 0; t < CAMPAIGN_TOLERANCES; t++) {
+        struct solve_result *result = &answers->results[t];
+        struct verdict *verdict = &answers->verdicts[t];
+        bool answered = answer(campaign, scene, campaign_tolerances[t], result, verdict);
+        verdict->scene = number;
+        const char *broken = invariant_broken(result, campaign_tolerances[t]);
+        if (broken)
+            printf("BROKEN: %s %llu at %g: %s\n", scene_class_word(campaign->settings.class),
+                   (unsigned long long)number, campaign_tolerances[t], broken);
+        campaign->broken += broken != NULL;
+        if (!answered)
+            return false;
+        for (size_t b = 0; b < result->body_count; b++)
+            if (result->bodies[b].modes > answers->modes)
+                answers->modes = result->bodies[b].modes;
+    }
+    return true;
+}
+
+/* The reference begins with more modes than any answer took, and doubles them. */
+static void judge_all(struct campaign *campaign, struct scene_drawn *scene, uint64_t number,
+                      struct answers *answers)
+{
+    const struct campaign_settings *settings = &campaign->settings;
+    const double tightest = campaign_tolerances[CAMPAIGN_TOLERANCES - 1];
+    const struct truth_settings wanted = {.goal = 0.2 * TALLY_SETTLED * tightest,
+                                          .effort = settings->effort,
+                                          .modes = answers->modes + 8,
+                                          .chatty = settings->chatty};
+    struct truth truth;
+    bool found = truth_find(campaign->room, &campaign->lab->set, &scene->plain, &wanted, &truth);
+    size_t stratum = found ? stratum_of(truth.sub_impacts) : 0;
+    bool wrong = false;
+    for (int t = 0; t < CAMPAIGN_TOLERANCES; t++) {
+        struct verdict *verdict = &answers->verdicts[t];
+        judge(campaign, &truth, found, &answers->results[t], verdict);
+        wrong = tally_add(&campaign->all[t], verdict) || wrong;
+        if (found)
+            tally_add(&campaign->strata[stratum][t], verdict);
+        if (settings->list)
+            list_verdict(campaign, verdict);
+    }
+    campaign->wrong += wrong;
+    if (found && settings->cvode && number % settings->cvode == 0 && truth.spread <= wanted.goal)
+        check_by_cvode(campaign, scene, number, wanted.modes, &truth);
+}
+
+static void run_scene(struct campaign *campaign, uint64_t number)
+{
+    static struct scene_drawn scene;
+    static struct answers answers;
+    bool drawn = scene_draw(campaign->lab, campaign->settings.class, number, &scene);
+    if (campaign->settings.chatty)
+        printf("%s %llu: %s\n", scene_class_word(campaign->settings.class),
+               (unsigned long long)number, scene.text);
+    bool answered = drawn && answer_all(campaign, &scene, number, &answers);
+    if (answered)
+        judge_all(campaign, &scene, number, &answers);
+    campaign->answered += answered;
+    campaign->refused += !answered;
+    scene_release(&scene);
+}
+
+void campaign_print(const struct campaign *campaign)
+{
+    bool csv = campaign->settings.csv;
+    const char *word = scene_class_word(campaign->settings.class);
+    for (int s = -1; s < CAMPAIGN_STRATA; s++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s%s%s", word, s < 0 ? "" : " ", s < 0 ? "" : strata[s].name);
+        for (int t = 0; t < CAMPAIGN_TOLERANCES; t++) {
+            const struct tally *tally = s < 0 ? &campaign->all[t] : &campaign->strata[s][t];
+            if (tally->judged + tally->unsettled + tally->unsolved)
+                tally_print(stdout, tally, name, campaign_tolerances[t], csv);
+        }
+    }
+    if (!csv && campaign->refused + campaign->broken)
+        printf("%s: %zu refused, %zu broken invariants\n", word, campaign->refused,
+               campaign->broken);
+    if (!csv && campaign->compared)
+        printf("%s: %zu references compared with CVODE, %zu more than %g apart, farthest %.3g "
+               "(scene %llu)\n",
+               word, campaign->compared, campaign->apart,
+               TALLY_SETTLED * campaign_tolerances[CAMPAIGN_TOLERANCES - 1], campaign->farthest,
+               (unsigned long long)campaign->farthest_scene);
+    fflush(stdout);
+}
+
+void campaign_run(struct campaign *campaign, const struct campaign_settings *settings)
+{
+    *campaign = (struct campaign){.settings = *settings, .lab = lab_create()};
+    campaign->room = truth_room_create();
+    assert_non_null(campaign->room);
+    for (uint64_t n = settings->first; n < settings->first + settings->count; n++)
+        run_scene(campaign, n);
+}
+
+void campaign_release(struct campaign *campaign)
+{
+    for (int t = 0; t < CAMPAIGN_TOLERANCES; t++) {
+        tally_free(&campaign->all[t]);
+        for (int s = 0; s < CAMPAIGN_STRATA; s++)
+            tally_free(&campaign->strata[s][t]);
+    }
+    truth_room_free(campaign->room);
+    lab_free(campaign->lab);
+}
