@@ -1,38 +1,235 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include "fe/complete_converge.h"
+
 #include <math.h>
 
-#include "fe/impact_complete.h"
+/* What the mean of 3 or 6 phases leaves of the swing's width: of 13 scenes with 12 phases each
+ * (docs/complete-fe.md) at most 0.09 and 0.025. */
+static const double LEFT_BY_3 = 0.10;
+static const double LEFT_BY_6 = 0.03;
+/* The swing is what elements of this size do where material flows, of first order; its mean is off
+ * by a part of it, which two means may hide by coming close on their way: of those scenes by 1/12
+ * at most, against meshes three and four times as fine. */
+static const double SWING_IN_MEAN = 1.0 / 12.0;
+/* cost of a mesh over that of one half as fine */
+static const double TWICE_AS_FINE = 8.0;
+/* solutions at most that aim at the limit */
+enum { AIMS = 3 };
+/* the solution that answers may be off the limit by this part of the limit's error */
+static const double OFF_LIMIT = 0.25;
 
-void impact_complete_extrapolate(struct complete_convergence *convergence)
+void complete_swing_judge(struct complete_swing *swing)
 {
-    const struct complete_result *result = convergence->result;
-    double first = result[1].restitution - result[0].restitution;
-    double second = result[2].restitution - result[1].restitution;
-    convergence->order = log2(fabs(first / second));
-    /* Linear elements converge with the second order where nothing else happens; nodes that close
-     * one by one add a part that jitters with the patch's radius over their distance. A change of
-     * sign is that jitter: nothing to extrapolate. Two values may lie close together by it alone:
-     * the error does not fall faster than the second order. */
-    double order = fmin(fmax(convergence->order, 1.0), 2.0);
-    double correction = first * second > 0.0 ? second / (exp2(order) - 1.0) : 0.0;
-    convergence->restitution = result[2].restitution + correction;
-    convergence->error =
-        fmax(correction == 0.0 ? fabs(second) : fabs(correction), fabs(first) / 12.0);
+    double low = INFINITY;
+    double high = -INFINITY;
+    double sum = 0.0;
+    for (unsigned k = 0; k < swing->phases; k++) {
+        low = fmin(low, swing->restitution[k]);
+        high = fmax(high, swing->restitution[k]);
+        sum += swing->restitution[k];
+    }
+    swing->mean = sum / swing->phases;
+    swing->width = high - low;
+    swing->jitter = swing->width * (swing->phases == COMPLETE_PHASES ? LEFT_BY_6 : LEFT_BY_3);
 }
 
-enum percuss_status impact_complete_converge(const struct complete_problem *problem,
-                                             struct complete_convergence *convergence,
-                                             struct fault *fault)
+/* What the limit would be wrong by if the means had no jitter; sets limit and order. */
+static double judge_bias(struct complete_convergence *convergence)
 {
-    for (int i = 0; i < 3; i++) {
-        struct complete_problem one = *problem;
-        one.cells = problem->cells >> (2 - i);
-        enum percuss_status status = impact_complete_solve(&one, &convergence->result[i], fault);
+    const struct complete_swing *swing = convergence->swing;
+    const struct complete_swing *finest = &swing[convergence->meshes - 1];
+    convergence->restitution = finest->mean;
+    convergence->order = NAN;
+    if (convergence->meshes < 2)
+        return INFINITY;
+    double first = swing[1].mean - swing[0].mean;
+    if (convergence->meshes == 2)
+        return fabs(first);
+    double second = swing[2].mean - swing[1].mean;
+    convergence->order = log2(fabs(first / second));
+    /* A change of sign is no order: nothing to extrapolate. Two means may lie close together by
+     * chance: half of what second order would leave of the first difference is the least. */
+    double order = fmin(fmax(convergence->order, 1.0), 2.0);
+    if (first * second > 0.0)
+        convergence->restitution += second / (exp2(order) - 1.0);
+    return fmax(fabs(second), fabs(first) / 8.0);
+}
+
+void complete_converge_judge(struct complete_convergence *convergence)
+{
+    const struct complete_swing *finest = &convergence->swing[convergence->meshes - 1];
+    double bias = fmax(judge_bias(convergence), SWING_IN_MEAN * finest->width);
+    convergence->error = bias + finest->jitter;
+}
+
+/* The trigonometric polynomial through n even phases: n odd, or n even with its highest harmonic a
+ * cosine (Henrici, Applied and Computational Complex Analysis 3, section 13.6). */
+static double interpolate(const struct complete_swing *swing, double phase)
+{
+    unsigned n = swing->phases;
+    double sum = 0.0;
+    for (unsigned k = 0; k < n; k++) {
+        double x = M_PI * (phase - (double)k / n);
+        double weight = n % 2 ? sin(n * x) / sin(x) : sin(n * x) / tan(x);
+        sum += swing->restitution[k] * (fabs(sin(x)) < 1e-12 ? 1.0 : weight / n);
+    }
+    return sum;
+}
+
+double complete_swing_phase(const struct complete_swing *swing, double wanted,
+                            struct complete_bracket *bracket)
+{
+    unsigned n = swing->phases;
+    for (unsigned k = 0; k < n; k++) {
+        double low = swing->restitution[k] - wanted;
+        double high = swing->restitution[(k + 1) % n] - wanted;
+        if (!(low * high < 0.0))
+            continue;
+        *bracket = (struct complete_bracket){{(double)k / n, (k + 1.0) / n}, {low, high}};
+        double ends[2] = {bracket->phase[0], bracket->phase[1]};
+        for (int i = 0; i < 40; i++) {
+            double middle = 0.5 * (ends[0] + ends[1]);
+            ends[(interpolate(swing, middle) - wanted) * low <= 0.0] = middle;
+        }
+        return ends[0];
+    }
+    return NAN;
+}
+
+/* Puts what was found at a phase in the place of one end: the line through both ends gives the next
+ * phase. */
+static double narrow(struct complete_bracket *bracket, double phase, double off)
+{
+    int end = off * bracket->off[0] <= 0.0;
+    bracket->phase[end] = phase;
+    bracket->off[end] = off;
+    double share = bracket->off[0] / (bracket->off[0] - bracket->off[1]);
+    return bracket->phase[0] + share * (bracket->phase[1] - bracket->phase[0]);
+}
+
+/* One solution among all. */
+struct share {
+    const struct complete_problem *problem;
+    double done, part; /* of the whole work: before this solution, and its own */
+};
+
+static bool proceed(void *context, double fraction)
+{
+    const struct share *share = context;
+    const struct complete_problem *problem = share->problem;
+    return !problem->proceed ||
+           problem->proceed(problem->context, share->done + share->part * fraction);
+}
+
+/* All that is needed while meshes are added. */
+struct search {
+    struct complete_convergence *convergence;
+    struct share share;
+    struct complete_problem problem; /* as given, but for the progress, mesh and phase */
+    struct complete_result latest[COMPLETE_PHASES]; /* of the finest mesh */
+    struct complete_result aimed;
+};
+
+static enum percuss_status solve_one(struct search *search, double phase,
+                                     struct complete_result *result, struct fault *fault)
+{
+    unsigned finer = COMPLETE_MESHES - search->convergence->meshes;
+    search->problem.phase = phase;
+    search->share.part = pow(TWICE_AS_FINE, -(double)finer) / (2 * COMPLETE_PHASES);
+    enum percuss_status status = impact_complete_solve(&search->problem, result, fault);
+    search->share.done += search->share.part;
+    return status;
+}
+
+/* Solves the phases that `count` evenly spread ones lack. */
+static enum percuss_status add_phases(struct search *search, unsigned count, struct fault *fault)
+{
+    struct complete_swing *swing = &search->convergence->swing[search->convergence->meshes - 1];
+    unsigned stride = swing->phases ? count / swing->phases : 0;
+    for (unsigned k = swing->phases; k-- > 0;) {
+        search->latest[k * stride] = search->latest[k];
+        swing->restitution[k * stride] = swing->restitution[k];
+    }
+    for (unsigned k = 0; k < count; k++) {
+        if (stride && k % stride == 0)
+            continue;
+        enum percuss_status status =
+            solve_one(search, (double)k / count, &search->latest[k], fault);
         if (status != PERCUSS_OK)
             return status;
+        swing->restitution[k] = search->latest[k].restitution;
     }
-    impact_complete_extrapolate(convergence);
+    swing->phases = count;
+    complete_swing_judge(swing);
+    complete_converge_judge(search->convergence);
     return PERCUSS_OK;
+}
+
+static enum percuss_status add_mesh(struct search *search, unsigned finest, struct fault *fault)
+{
+    unsigned mesh = search->convergence->meshes++;
+    search->problem.cells = finest >> (COMPLETE_MESHES - 1 - mesh);
+    search->convergence->swing[mesh] = (struct complete_swing){.cells = search->problem.cells};
+    return add_phases(search, COMPLETE_PHASES / 2, fault);
+}
+
+static void answer_with(struct search *search, const struct complete_result *result, double phase)
+{
+    struct complete_convergence *convergence = search->convergence;
+    double off = fabs(result->restitution - convergence->restitution);
+    if (!(convergence->error + off < convergence->result_error))
+        return;
+    convergence->result = *result;
+    convergence->cells = search->problem.cells;
+    convergence->phase = phase;
+    convergence->result_error = convergence->error + off;
+}
+
+/* The phase nearest the limit; others if it is too far from it and e passes through it. */
+static enum percuss_status choose(struct search *search, struct fault *fault)
+{
+    struct complete_convergence *convergence = search->convergence;
+    const struct complete_swing *swing = &convergence->swing[convergence->meshes - 1];
+    const double allowed = (1.0 + OFF_LIMIT) * convergence->error;
+    struct complete_bracket bracket;
+    convergence->result_error = INFINITY;
+    for (unsigned k = 0; k < swing->phases; k++)
+        answer_with(search, &search->latest[k], (double)k / swing->phases);
+    double phase = complete_swing_phase(swing, convergence->restitution, &bracket);
+    for (int i = 0; i < AIMS && convergence->result_error > allowed && isfinite(phase); i++) {
+        double turned = fmod(phase, 1.0);
+        enum percuss_status status = solve_one(search, turned, &search->aimed, fault);
+        if (status != PERCUSS_OK)
+            return status;
+        answer_with(search, &search->aimed, turned);
+        phase = narrow(&bracket, phase, search->aimed.restitution - convergence->restitution);
+    }
+    return PERCUSS_OK;
+}
+
+enum percuss_status complete_converge(const struct complete_problem *problem, double tolerance,
+                                      struct complete_convergence *convergence, struct fault *fault)
+{
+    struct search search = {.convergence = convergence, .problem = *problem};
+    search.share.problem = problem;
+    search.problem.context = &search.share;
+    search.problem.proceed = proceed;
+    search.problem.sample = NULL;
+    *convergence = (struct complete_convergence){.error = INFINITY};
+    if (problem->cells < 16 || problem->cells % 4)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "cells: %u: must be 16, 20, ...",
+                         problem->cells);
+    tolerance /= 1.0 + OFF_LIMIT;
+    enum percuss_status status = PERCUSS_OK;
+    while (status == PERCUSS_OK && convergence->meshes < COMPLETE_MESHES &&
+           convergence->error > tolerance) {
+        status = add_mesh(&search, problem->cells, fault);
+        /* the other phases of a mesh cost little beside the next mesh, which is compared with it */
+        double jitter = convergence->swing[convergence->meshes - 1].jitter;
+        if (status == PERCUSS_OK && convergence->error > tolerance && jitter > 0.1 * tolerance)
+            status = add_phases(&search, COMPLETE_PHASES, fault);
+    }
+    return status == PERCUSS_OK ? choose(&search, fault) : status;
 }

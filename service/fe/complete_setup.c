@@ -59,8 +59,9 @@ enum percuss_status complete_check(const struct complete_problem *problem, struc
         return fault_set(fault, PERCUSS_BAD_REQUEST, "speed: %g: must be > 0", problem->speed);
     if (problem->cells < 4 || problem->cells > 96)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "cells: %u: must be 4 ... 96", problem->cells);
-    if (problem->phase > 2)
-        return fault_set(fault, PERCUSS_BAD_REQUEST, "phase: %u: must be 0 ... 2", problem->phase);
+    if (!(problem->phase >= 0.0 && problem->phase < 1.0))
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "phase: %g: must be >= 0 and < 1",
+                         problem->phase);
     if (!(problem->horizon > 0.0 && isfinite(problem->horizon)))
         return fault_set(fault, PERCUSS_BAD_REQUEST, "horizon: %g: must be > 0", problem->horizon);
     return PERCUSS_OK;

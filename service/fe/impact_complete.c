@@ -275,7 +275,7 @@ enum percuss_status impact_complete_solve(const struct complete_problem *problem
     if (status != PERCUSS_OK)
         return status;
     bool outgrown = true;
-    double shift = (double)problem->phase / (3.0 * problem->cells);
+    double shift = (problem->phase < 0.5 ? problem->phase : problem->phase - 1.0) / problem->cells;
     for (double patch = complete_patch(problem) / (1.0 - shift); outgrown; patch *= 1.5) {
         status = solve_with_patch(problem, patch, result, &outgrown, fault);
         if (status != PERCUSS_OK)

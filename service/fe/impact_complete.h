@@ -33,9 +33,8 @@ struct complete_problem {
     struct complete_body a, b; /* one of them a sphere */
     double speed;              /* of A towards B, m/s, > 0 */
     unsigned cells;            /* elements across the expected contact radius, 4 ... 96 */
-    unsigned
-        phase;      /* 0 ... 2: moves the nodes by thirds of an element against the patch's rim; the
-                     * mean of e over the three is worth a mesh twice as fine where material flows */
+    double phase;   /* 0 <= phase < 1: moves the nodes by this part of an element, less one from a
+                     * half on, against the patch's rim: see complete_converge.h */
     double horizon; /* s, > 0: end of the search for further contacts */
     void *context;  /* handed to the two below; each may be NULL */
     void (*sample)(void *context, const struct complete_sample *sample);
@@ -88,22 +87,5 @@ struct complete_result {
  * same bits. */
 enum percuss_status impact_complete_solve(const struct complete_problem *problem,
                                           struct complete_result *result, struct fault *fault);
-
-/* Three meshes, each twice as fine as the one before; problem->cells is the finest. */
-struct complete_convergence {
-    struct complete_result result[3]; /* coarse to fine */
-    double restitution;               /* extrapolated */
-    double order;                     /* observed; between 1 and 2 it is used */
-    double error;                     /* of the finest mesh's restitution, estimated */
-};
-
-/* Observes the order of e over the three results and extrapolates it (Richardson) where they are
- * monotone. */
-void impact_complete_extrapolate(struct complete_convergence *convergence);
-
-/* Solves on the three meshes and extrapolates. Status as above. */
-enum percuss_status impact_complete_converge(const struct complete_problem *problem,
-                                             struct complete_convergence *convergence,
-                                             struct fault *fault);
 
 #endif

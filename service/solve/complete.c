@@ -8,30 +8,21 @@
 #include <string.h>
 
 #include "fe/complete_body.h"
+#include "fe/complete_converge.h"
 #include "model/vector.h"
 #include "solve/report.h"
 #include "solve/validity.h"
 
-enum { COARSEST = 4, MESHES = 4 };
+/* Elements across the contact radius: of the finest mesh, which costs half a minute. */
+enum { FINEST = 16 };
 
 /* Sideways motion and eccentricity, relative to the approach and the radius: what they change in
  * the impulse is of second order. */
 static const double ALONG = 1e-3;
 
-/* Two meshes alone say too little where plastic flow follows single nodes: of 16 scenes
- * (docs/complete-fe.md) the second was off by up to 0.0023 while both agreed to 0.0002. */
-static const double TWO_MESHES = 2.5e-3;
-
-/* One mesh of several. */
-struct share {
-    struct pace *pace;
-    double done, part; /* of the whole work: before this mesh, and its own */
-};
-
 static bool proceed(void *context, double fraction)
 {
-    const struct share *share = context;
-    return pace_ask(share->pace, share->done + share->part * fraction);
+    return pace_ask(context, fraction);
 }
 
 static enum percuss_status check_options(const struct solve_request *request, struct fault *fault)
@@ -148,21 +139,6 @@ static enum percuss_status make_problem(const struct geometry *geometry,
     return status;
 }
 
-/* Estimated error of the finest of `count` meshes. */
-static double mesh_error(const struct complete_result *results, int count,
-                         struct complete_convergence *convergence)
-{
-    const struct complete_result *finest = &results[count - 1];
-    *convergence = (struct complete_convergence){.restitution = finest->restitution};
-    if (count < 2)
-        return INFINITY;
-    if (count == 2)
-        return fmax(TWO_MESHES, fabs(finest->restitution - results[0].restitution));
-    memcpy(convergence->result, finest - 2, sizeof convergence->result);
-    impact_complete_extrapolate(convergence);
-    return convergence->error;
-}
-
 static void fill_contact(const struct geometry *geometry, const struct solve_request *request,
                          const struct complete_result *from, struct arena *arena,
                          struct solve_result *result)
@@ -224,23 +200,26 @@ static void fill_bodies(const struct geometry *geometry, const struct solve_requ
 }
 
 static void fill_model(const struct complete_convergence *convergence, const struct geometry *g,
-                       unsigned cells, struct solve_result *result)
+                       struct solve_result *result)
 {
-    const struct complete_result *from = &convergence->result[2];
+    const struct complete_result *from = &convergence->result;
+    const struct complete_swing *finest = &convergence->swing[convergence->meshes - 1];
     const struct body *bodies[2] = {g->bodies[0], g->bodies[1]};
     const struct complete_energy *energy = &from->energy;
     result->contact_model = PERCUSS_CONTACT_COMPLETE_FE;
     result->compliance = PERCUSS_COMPLIANCE_MATCHED;
     result->method = PERCUSS_METHOD_MODAL;
     result->delassus_source = PERCUSS_DELASSUS_SERVICE;
-    snprintf(result->reason, sizeof result->reason,
-             "complete finite elements, explicit dynamics, no modes: %u elements across the "
-             "contact radius, %zu in all, %zu of them plastic, %zu steps; extrapolated "
-             "restitution %.5f%s",
-             cells, from->elements, from->plastic_elements, from->steps, convergence->restitution,
-             bodies[0]->shape == SHAPE_BLOCK || bodies[1]->shape == SHAPE_BLOCK
-                 ? "; the block is taken as a cylinder of the same section"
-                 : "");
+    snprintf(
+        result->reason, sizeof result->reason,
+        "complete finite elements, explicit dynamics, no modes: %u elements across the "
+        "contact radius, %zu in all, %zu of them plastic, %zu steps; nodes in %u places against "
+        "the patch's rim; limit of the restitution %.5f, estimated error %.1g%s",
+        convergence->cells, from->elements, from->plastic_elements, from->steps, finest->phases,
+        convergence->restitution, convergence->error,
+        bodies[0]->shape == SHAPE_BLOCK || bodies[1]->shape == SHAPE_BLOCK
+            ? "; the block is taken as a cylinder of the same section"
+            : "");
     /* the work of closing nodes (some 1e-7) is the mesh's, and left in the closure */
     result->energy = (struct impact_energy){
         .available = energy->available,
@@ -276,33 +255,20 @@ enum percuss_status complete_answer(const struct geometry *geometry,
                                     const struct solve_request *request, struct pace *pace,
                                     struct arena *arena, struct solve_result *result)
 {
-    struct complete_problem problem = {0};
-    struct share share = {.pace = pace};
-    struct complete_result *results = arena_take(arena, MESHES, sizeof *results);
+    struct complete_problem problem = {.cells = FINEST, .context = pace, .proceed = proceed};
     struct complete_convergence *convergence = arena_take(arena, 1, sizeof *convergence);
-    if (!results || !convergence)
+    if (!convergence)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
     enum percuss_status status = make_problem(geometry, request, &problem, &result->fault);
     double tolerance = request->options.tolerance > 0.0 ? request->options.tolerance : 1e-3;
-    double error = INFINITY;
-    int count = 0;
-    problem.context = &share;
-    problem.proceed = proceed;
-    while (!status && count < MESHES && error > tolerance) {
-        problem.cells = COARSEST << count;
-        /* each mesh costs some seven times the one before */
-        share.part = pow(7.0, count - (MESHES - 1));
-        status = impact_complete_solve(&problem, &results[count++], &result->fault);
-        share.done += share.part;
-        error = mesh_error(results, count, convergence);
-    }
+    if (status == PERCUSS_OK)
+        status = complete_converge(&problem, tolerance, convergence, &result->fault);
     if (status)
         return status;
-    convergence->result[2] = results[count - 1];
-    fill_contact(geometry, request, &results[count - 1], arena, result);
-    fill_bodies(geometry, request, &results[count - 1], result);
-    fill_model(convergence, geometry, problem.cells, result);
-    fill_end(&results[count - 1], error, tolerance, result);
+    fill_contact(geometry, request, &convergence->result, arena, result);
+    fill_bodies(geometry, request, &convergence->result, result);
+    fill_model(convergence, geometry, result);
+    fill_end(&convergence->result, convergence->result_error, tolerance, result);
     struct warnings warnings = {0};
     validity_find_speed(geometry, &warnings);
     report_warnings(&warnings, result);

@@ -8,10 +8,11 @@
 
 #include "solve/geometry.h"
 
-/* Solves on meshes of 4, 8, 16 and 32 elements across the contact radius, until the estimated error
- * of the restitution fits the tolerance; answers with the finest. `pace` is told the part done,
- * and stops it with TIMEOUT. Fills `result`, status and message too, and returns the
- * status: BAD_REQUEST and UNSUPPORTED_GEOMETRY name what is not axisymmetric. */
+/* Solves on meshes of 4, 8 and 16 elements across the contact radius, with three or six places of
+ * the nodes each, until the estimated error of the restitution fits the tolerance
+ * (fe/complete_converge.h); answers with the solution nearest the limit. `pace` is told the part
+ * done, and stops it with TIMEOUT. Fills `result`, status and message too, and returns the status:
+ * BAD_REQUEST and UNSUPPORTED_GEOMETRY name what is not axisymmetric. */
 enum percuss_status complete_answer(const struct geometry *geometry,
                                     const struct solve_request *request, struct pace *pace,
                                     struct arena *arena, struct solve_result *result);
