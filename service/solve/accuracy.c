@@ -85,6 +85,8 @@ enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geome
         status = find_conditioning(&context, &best, &accuracy->restitution_by_speed);
     if (status)
         return pace_fault(fault, status);
+    /* what is cut off for its effort takes all that was left, but for a step */
+    accuracy->spent = context.work < 1e-3 * attempt_work_allowed(options->method);
     conclude(&context, &best, accuracy);
     return PERCUSS_OK;
 }

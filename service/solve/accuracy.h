@@ -17,6 +17,7 @@ struct accuracy {
     struct step_error steps;
     double restitution_by_speed; /* NAN unless asked for */
     bool tolerance_met;
+    bool spent; /* the effort allowed ended the search */
 };
 
 /* Solves until the estimated error fits the tolerance or the effort allowed is spent. The arena

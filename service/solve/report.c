@@ -166,7 +166,32 @@ static void fill_model(const struct geometry *geometry, const struct solve_reque
                     unmodelled, tolerance);
 }
 
-static void fill_errors(const struct accuracy *accuracy, struct solve_result *result)
+/* Why the estimated error is no smaller: of its larger part what ended the search, or else what
+ * makes a small difference large. */
+static const char *reason_of_error(const struct geometry *geometry, const struct accuracy *accuracy)
+{
+    const struct assembly *assembly = accuracy->assembly;
+    bool sequence = geometry->contact_count > 1 || accuracy->outcome.tracks[0].count > 1;
+    bool modes = accuracy->modes.restitution > accuracy->steps.restitution;
+    bool omitted = isfinite(assembly->lowest_omitted);
+    if (accuracy->spent || accuracy->outcome.end_reason == PERCUSS_END_LIMIT)
+        return "the effort allowed is spent";
+    if (!accuracy->steps.energy_closes)
+        return "the shortest steps allowed do not keep the energy";
+    if (modes && omitted && assembly->capped)
+        return sequence ? "the most modes that are tried of a body are too few for what the "
+                          "sequence of sub-impacts makes of the others"
+                        : "the most modes that are tried of a body are too few";
+    if (modes && omitted && !assembly->adjustable)
+        return "the catalogue fixes the number of modes";
+    if (modes && geometry->compliance->still)
+        return "a contact is too stiff for the waves of its half-space, which are left out";
+    return sequence ? "the sequence of sub-impacts amplifies small differences"
+                    : "the search for more modes or shorter steps ended";
+}
+
+static void fill_errors(const struct geometry *geometry, const struct accuracy *accuracy,
+                        struct solve_result *result)
 {
     result->restitution_time = accuracy->steps.restitution;
     result->restitution_modes = accuracy->modes.restitution;
@@ -182,10 +207,9 @@ static void fill_errors(const struct accuracy *accuracy, struct solve_result *re
     if (!result->tolerance_met)
         report_warn(
             result,
-            "error.tolerance_met: false: the estimated error of the restitution is %.2g: "
-            "the sequence of sub-impacts amplifies small differences (or the effort allowed "
-            "is spent)",
-            accuracy->steps.restitution + accuracy->modes.restitution);
+            "error.tolerance_met: false: the estimated error of the restitution is %.2g: %s",
+            accuracy->steps.restitution + accuracy->modes.restitution,
+            reason_of_error(geometry, accuracy));
 }
 
 static void fill_end(const struct accuracy *accuracy, struct solve_result *result)
@@ -219,7 +243,7 @@ void report_fill(const struct geometry *geometry, const struct solve_request *re
 {
     fill_contacts(geometry, request, accuracy, result);
     fill_bodies(geometry, request, accuracy, arena, result);
-    fill_errors(accuracy, result);
+    fill_errors(geometry, accuracy, result);
     fill_model(geometry, request, accuracy, result);
     warn_dents(result);
     fill_end(accuracy, result);

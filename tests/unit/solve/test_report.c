@@ -238,6 +238,44 @@ static void states_what_it_leaves_out(void **state)
     lab_free(lab);
 }
 
+/* An unmet tolerance names what stands in its way. */
+static void an_unmet_tolerance_has_its_reason(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    struct body three = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0);
+    struct body cantilever = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    three.modes = 3;
+    cantilever.supports[0] = SUPPORT_CLAMPED;
+    lab_add(lab, "three", three);
+    lab_add(lab, "cantilever", cantilever);
+    lab_add(lab, "long", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 100.0));
+    lab_add(lab, "heavy", make_sphere(STEEL, 0.050));
+    lab_add(lab, "grain", make_sphere(STEEL, 0.0005));
+    const struct spot grain = sphere_spot("grain", 0.0005);
+    const struct spot heavy = sphere_spot("heavy", 0.050);
+    struct {
+        struct solve_request request;
+        double tolerance;
+        const char *reason;
+    } cases[] = {
+        {on_end("three", 0.3), 1e-3, "the catalogue fixes the number of modes"},
+        /* a grain is faster than 1200 modes of 100 m */
+        {strike(grain, end_spot("long", 100.0), 5.0), 1e-3, "the most modes that are tried"},
+        /* hundreds of sub-impacts */
+        {strike(heavy, side_spot("cantilever", 0.49, 0.010, 0.0), 0.3), 1e-5,
+         "the effort allowed is spent"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        cases[i].request.options.tolerance = cases[i].tolerance;
+        solve(lab->workspace, &lab->set, &cases[i].request, &result);
+        assert_false(result.tolerance_met);
+        assert_true(warns(cases[i].reason));
+        assert_false(warns("amplifies"));
+    }
+    lab_free(lab);
+}
+
 /* de/dv against a difference of whole solutions. */
 static void conditioning_is_a_derivative(void **state)
 {
@@ -288,6 +326,7 @@ int main(void)
         cmocka_unit_test(sliding_of_the_simulators_bodies),
         cmocka_unit_test(every_kind_has_its_place),
         cmocka_unit_test(states_what_it_leaves_out),
+        cmocka_unit_test(an_unmet_tolerance_has_its_reason),
         cmocka_unit_test(conditioning_is_a_derivative),
         cmocka_unit_test(refusals_leave_a_clean_answer),
     };
