@@ -88,8 +88,12 @@ static json_t *sensitivity_to_json(const struct percuss_sensitivity *from)
     set_text(to, "input", from->input);
     set_text(to, "body", from->body);
     set(to, "first_order", from->first_order);
+    set(to, "first_order_low", from->first_order_low);
+    set(to, "first_order_high", from->first_order_high);
     set(to, "noise", from->noise);
     set(to, "total", from->total);
+    set(to, "total_low", from->total_low);
+    set(to, "total_high", from->total_high);
     set(to, "mean", from->mean);
     set(to, "standard_deviation", from->standard_deviation);
     set(to, "lowest", from->lowest);

@@ -16,9 +16,8 @@ enum { RESTITUTION, SIGNIFICANT = 5, RESULTS = 7 };
 /* The memory that a picture's arrays lie in. */
 struct columns {
     double *speeds; /* and restitutions, and numbers of sub-impacts */
-    const char *names[PERCUSS_MAX_INPUTS];
+    struct input_share shares[PERCUSS_MAX_INPUTS];
     char texts[PERCUSS_MAX_INPUTS][2 * PERCUSS_ID_SIZE];
-    double first[PERCUSS_MAX_INPUTS], total[PERCUSS_MAX_INPUTS];
     double *lows; /* and highs of the intervals */
 };
 
@@ -76,14 +75,14 @@ static void take_sensitivities(const struct percuss_ensemble_reply *reply, struc
         const struct percuss_sensitivity *s = &reply->sensitivities[i];
         snprintf(columns->texts[i], sizeof columns->texts[i], "%s%s%s", s->input,
                  s->body[0] ? "@" : "", s->body);
-        columns->names[i] = columns->texts[i];
-        columns->first[i] = s->first_order;
-        columns->total[i] = s->total;
+        columns->shares[i] = (struct input_share){
+            .name = columns->texts[i],
+            .first_order = {s->first_order, s->first_order_low, s->first_order_high},
+            .total = {s->total, s->total_low, s->total_high},
+        };
     }
     picture->input_count = count;
-    picture->inputs = columns->names;
-    picture->first_order = columns->first;
-    picture->total = columns->total;
+    picture->inputs = columns->shares;
 }
 
 static bool take_intervals(const struct percuss_ensemble_reply *reply, struct columns *columns,

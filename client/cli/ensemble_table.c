@@ -135,20 +135,33 @@ static void print_chaos(const struct percuss_sensitivity *input)
     printf("\n");
 }
 
+/* One index with its interval; nothing where it was not found. */
+static void print_index(double value, double low, double high)
+{
+    char ends[2][16];
+    const double bounds[] = {low, high};
+    if (isnan(value))
+        return;
+    for (int i = 0; i < 2; ++i)
+        snprintf(ends[i], sizeof ends[i], isnan(bounds[i]) ? "?" : "%.3f", bounds[i]);
+    printf(" %7.3f [%s, %s]", value, ends[0], ends[1]);
+}
+
 static void print_sensitivities(const struct percuss_ensemble_reply *reply)
 {
     const struct percuss_sensitivity *leading = NULL;
     printf("\n  share of the variance that an input explains by itself, and that is left when all "
-           "others are known\n");
+           "others are known,\n  with 95 %% confidence\n");
     for (size_t i = 0; i < reply->sensitivity_count; ++i) {
         const struct percuss_sensitivity *s = &reply->sensitivities[i];
         if (!leading || s->first_order > leading->first_order)
             leading = s;
-        char name[160], total[32] = "";
+        char name[160];
         snprintf(name, sizeof name, "%s%s%s", s->input, s->body[0] ? "@" : "", s->body);
-        if (!isnan(s->total))
-            snprintf(total, sizeof total, "%8.3f", s->total);
-        printf("  %-24s %8.3f (noise %.3f) %s\n", name, s->first_order, s->noise, total);
+        printf("  %-24s", name);
+        print_index(s->first_order, s->first_order_low, s->first_order_high);
+        print_index(s->total, s->total_low, s->total_high);
+        printf("\n");
     }
     /* of the others it says only that this one is not known */
     if (leading)

@@ -165,18 +165,28 @@ static void write_name(const struct plot *plot, const char *name)
     fputc('"', plot->script);
 }
 
+/* A bar without an interval gets a whisker of no length, or gnuplot leaves it out. */
+static void write_share(const struct plot *plot, const struct index_share *share)
+{
+    fprintf(plot->script, " %.9g %.9g %.9g", share->value,
+            isnan(share->low) ? share->value : share->low,
+            isnan(share->high) ? share->value : share->high);
+}
+
 static void write_sensitivities(const struct plot *plot, const struct ensemble_picture *picture)
 {
     fputs("$sensitivities << EOD\n", plot->script);
     for (size_t i = 0; i < picture->input_count; ++i) {
-        write_name(plot, picture->inputs[i]);
-        fprintf(plot->script, " %.9g %.9g\n", picture->first_order[i], picture->total[i]);
+        write_name(plot, picture->inputs[i].name);
+        write_share(plot, &picture->inputs[i].first_order);
+        write_share(plot, &picture->inputs[i].total);
+        fputc('\n', plot->script);
     }
     fputs("EOD\nset datafile separator whitespace\nunset xlabel\nset rmargin 8\n"
           "set ylabel 'share of the variance'\nset yrange [0:1.3]\nset style data histograms\n"
-          "set style histogram clustered gap 1\nset xtics rotate by -20\n"
-          "plot $sensitivities using 2:xtic(1) lt 1 title 'alone', "
-          "'' using 3 lt 2 title 'with its interactions'\n",
+          "set style histogram errorbars gap 1 lw 1\nset xtics rotate by -20\n"
+          "plot $sensitivities using 2:3:4:xtic(1) lt 1 title 'alone', "
+          "'' using 5:6:7 lt 2 title 'with its interactions'\n",
           plot->script);
 }
 

@@ -9,6 +9,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* A Sobol index with its confidence interval. NAN: not known. */
+struct index_share {
+    double value, low, high;
+};
+
+/* What one input causes, by itself and with its interactions. */
+struct input_share {
+    const char *name;
+    struct index_share first_order, total;
+};
+
 /* Arrays are borrowed; a count of 0 leaves its panel out. */
 struct ensemble_picture {
     const char *title;
@@ -26,8 +37,7 @@ struct ensemble_picture {
     size_t interval_count;     /* mean -+ so many deviations, behind the samples, widest last */
     const double *intervals_low, *intervals_high;
     size_t input_count;
-    const char *const *inputs;
-    const double *first_order, *total; /* Sobol indices */
+    const struct input_share *inputs;
 };
 
 /* Exit code; complains. */

@@ -107,6 +107,12 @@ static void convert_sensitivity(struct percuss_ensemble_reply *reply,
     to->first_order = wire->first_order;
     to->noise = wire->noise;
     to->total = wire->total;
+    /* a server that does not know them leaves them 0, which no upper bound is */
+    bool bounded = wire->first_order_high != 0.0;
+    to->first_order_low = bounded ? wire->first_order_low : NAN;
+    to->first_order_high = bounded ? wire->first_order_high : NAN;
+    to->total_low = bounded ? wire->total_low : NAN;
+    to->total_high = bounded ? wire->total_high : NAN;
     to->mean = wire->mean;
     to->standard_deviation = wire->standard_deviation;
     to->lowest = wire->lowest;

@@ -83,9 +83,13 @@ static void fill_sensitivity(struct answer *answer, const struct ensemble_spec *
     COPY_TEXT(to->input, input_quantity_name(input->quantity));
     if (input_is_of_body(input->quantity))
         COPY_TEXT(to->body, spec->request->bodies[input->body].id);
-    to->first_order = from->influence.first_order;
-    to->noise = from->influence.noise;
-    to->total = from->total;
+    to->first_order = from->indices.first_order;
+    to->first_order_low = from->indices.first_bounds.low;
+    to->first_order_high = from->indices.first_bounds.high;
+    to->noise = from->indices.noise;
+    to->total = from->indices.total;
+    to->total_low = from->indices.total_bounds.low;
+    to->total_high = from->indices.total_bounds.high;
     to->mean = from->values.mean;
     to->standard_deviation = from->values.deviation;
     to->lowest = from->values.lowest;

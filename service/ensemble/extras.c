@@ -8,7 +8,7 @@
 
 enum {
     VERIFIED = 200,
-    SUBSTITUTED = 1000, /* samples with one input drawn anew, at most, for each input */
+    SUBSTITUTED = 2000, /* samples with one input drawn anew, at most, for each input */
     LEAST_SUBSTITUTED = 32,
     FIRST_CHECK = 256
 };

@@ -41,26 +41,6 @@ static double scatter_of(const struct influence_pair *pairs, size_t count)
     return sum;
 }
 
-struct influence influence_first_order(const struct influence_pair *sorted, size_t count)
-{
-    size_t classes = (size_t)fmax(4.0, fmin(sqrt(0.5 * (double)count), 256.0));
-    if (count < 2 * classes || !(sorted[count - 1].x > sorted[0].x))
-        return (struct influence){NAN, NAN};
-    double within = 0.0;
-    for (size_t k = 0; k < classes; k++) {
-        size_t first = count * k / classes, end = count * (k + 1) / classes;
-        within += scatter_of(sorted + first, end - first);
-    }
-    double all = scatter_of(sorted, count);
-    double n = (double)count, spare = (double)(classes - 1);
-    double explained = (all - within - spare * within / (n - spare - 1.0)) / all;
-    /* without influence the classes' sum of squares is chi-squared: mean spare, variance 2 spare */
-    return (struct influence){
-        .first_order = all > 0.0 ? fmax(0.0, explained) : NAN,
-        .noise = 1.645 * sqrt(2.0 * spare) / n,
-    };
-}
-
 /* Root mean square difference over sqrt 2 of pairs one to two resolutions apart, the first of them
  * among [first, end). */
 static double local_deviation(const struct influence_pair *sorted, size_t count, size_t first,

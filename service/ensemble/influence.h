@@ -1,21 +1,13 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Which input causes the spread, and where along it the answer is smooth: from the samples alone,
- * whatever the points are. NAN: a value is missing. */
+/* Where along an input the answer is smooth: from the samples alone, whatever the points are. NAN:
+ * a value is missing. */
 #ifndef PERCUSS_ENSEMBLE_INFLUENCE_H
 #define PERCUSS_ENSEMBLE_INFLUENCE_H
 
 #include <stdbool.h>
 #include <stddef.h>
-
-/* First-order Sobol index, Var(E[y|x])/Var(y), by classes of x with equal numbers of samples (the
- * square root of half of all, 4 to 256), less what chance alone gives (epsilon squared; Okada
- * 2013). What y does within a class counts as not explained by x. */
-struct influence {
-    double first_order; /* NAN: too few values, or none differ */
-    double noise;       /* an input without influence stays below in 95 % of all ensembles */
-};
 
 /* A pair of numbers to be sorted by x. */
 struct influence_pair {
@@ -24,8 +16,6 @@ struct influence_pair {
 
 /* Drops pairs with a NAN and sorts the others by x. Returns how many they are. */
 size_t influence_sort(struct influence_pair *pairs, size_t count);
-
-struct influence influence_first_order(const struct influence_pair *sorted, size_t count);
 
 /* y along x in one of equal parts of the range of x. */
 struct influence_part {

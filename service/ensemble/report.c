@@ -149,31 +149,9 @@ static bool fill_counts(struct ensemble_report *report, const struct ensemble_sa
     return true;
 }
 
-/* Jansen's estimator: half the mean square change of the restitution when the input is drawn anew
- * and all others stay. */
-static double total_index(const struct ensemble_report *report, const struct ensemble *ensemble,
-                          const struct ensemble_sample *samples,
-                          const struct ensemble_extra *extras, size_t dimension)
-{
-    double sum = 0.0;
-    size_t found = 0;
-    uint64_t count = extras ? ensemble_extras(ensemble, report->done) : 0;
-    for (uint64_t k = 0; k < count; k++) {
-        struct ensemble_extra_place place = ensemble_extra_place(ensemble, report->done, k);
-        double change = extras[k].restitution - samples[place.sample].restitution;
-        if (place.dimension != dimension || !isfinite(change))
-            continue;
-        sum += change * change;
-        found++;
-    }
-    double deviation = report->quantities[0].moments.deviation;
-    return found && deviation > 0.0 ? 0.5 * sum / (double)found / (deviation * deviation) : NAN;
-}
-
 static bool fill_input(struct report_input *out, struct influence_pair *pairs, size_t kept,
                        struct arena *arena)
 {
-    out->influence = influence_first_order(pairs, kept);
     out->parts = arena_take(arena, REPORT_PARTS, sizeof *out->parts);
     if (!out->parts)
         return false;
@@ -194,17 +172,60 @@ static bool is_uncertain(const struct ensemble_spec *spec, size_t input)
            (one->distribution == DISTRIBUTION_IS_LIST && one->value_count > 1);
 }
 
+/* The extras with the input drawn anew, if there are any. False: out of memory. */
+static bool find_indices(const struct report_material *material, const struct ensemble *ensemble,
+                         struct report_input *out, struct indices_data *data)
+{
+    uint64_t count = material->extras ? ensemble_extras(ensemble, material->done) : 0;
+    struct indices_row *rows = malloc((count + 1) * sizeof *rows);
+    if (!rows)
+        return false;
+    for (uint64_t k = 0; k < count; k++) {
+        struct ensemble_extra_place place = ensemble_extra_place(ensemble, material->done, k);
+        double values[ENSEMBLE_MAX_INPUTS];
+        if (place.dimension == SIZE_MAX || ensemble->drawn[place.dimension] != out->input)
+            continue;
+        ensemble_extra_inputs(ensemble, &place, values);
+        rows[data->row_count++] =
+            (struct indices_row){place.sample, values[out->input], material->extras[k].restitution};
+    }
+    data->rows = rows;
+    bool good = indices_find(data, &out->indices);
+    free(rows);
+    return good;
+}
+
+/* What the inputs are of one sample after the other, and their answers. */
+struct columns {
+    double *x, *y;
+    struct influence_pair *pairs;
+};
+
+static bool take_columns(struct columns *columns, size_t count)
+{
+    columns->x = malloc((count + 1) * sizeof *columns->x);
+    columns->y = malloc((count + 1) * sizeof *columns->y);
+    columns->pairs = malloc((count + 1) * sizeof *columns->pairs);
+    return columns->x && columns->y && columns->pairs;
+}
+
+static void release_columns(struct columns *columns)
+{
+    free(columns->x);
+    free(columns->y);
+    free(columns->pairs);
+}
+
 static bool fill_inputs(struct ensemble_report *report, const struct ensemble *ensemble,
-                        const struct ensemble_sample *samples, const struct ensemble_extra *extras)
+                        const struct report_material *material)
 {
     const struct ensemble_spec *spec = &ensemble->spec;
     size_t n = report->done;
-    struct influence_pair *pairs = malloc((n + 1) * sizeof *pairs);
-    double *column = malloc((n + 1) * sizeof *column);
+    struct columns columns;
     report->inputs = arena_take(&report->memory, spec->input_count, sizeof *report->inputs);
-    bool good = pairs && column && report->inputs;
+    bool good = take_columns(&columns, n) && report->inputs;
+    /* where nothing varies there is nothing to explain */
     bool varies = summary_varies(&report->quantities[0].moments);
-    size_t dimension = 0;
     for (size_t i = 0; good && i < spec->input_count; i++) {
         if (!is_uncertain(spec, i))
             continue;
@@ -212,19 +233,21 @@ static bool fill_inputs(struct ensemble_report *report, const struct ensemble *e
         for (size_t k = 0; k < n; k++) {
             double values[ENSEMBLE_MAX_INPUTS];
             ensemble_inputs(ensemble, k, values);
-            column[k] = values[i];
-            pairs[k] = (struct influence_pair){values[i], samples[k].restitution};
+            columns.x[k] = values[i];
+            columns.y[k] = varies ? material->samples[k].restitution : NAN;
+            columns.pairs[k] = (struct influence_pair){columns.x[k], columns.y[k]};
         }
         out->input = i;
-        out->values = summary_moments(column, n);
-        out->total = spec_is_drawn(spec, i)
-                         ? total_index(report, ensemble, samples, extras, dimension++)
-                         : NAN;
-        /* where nothing varies there is nothing to explain */
-        good = fill_input(out, pairs, varies ? influence_sort(pairs, n) : 0, &report->memory);
+        out->values = summary_moments(columns.x, n);
+        struct indices_data data = {.count = n,
+                                    .x = columns.x,
+                                    .y = columns.y,
+                                    .replicates = ensemble->sampling.replicates,
+                                    .level = REPORT_LEVEL};
+        good = find_indices(material, ensemble, out, &data) &&
+               fill_input(out, columns.pairs, influence_sort(columns.pairs, n), &report->memory);
     }
-    free(pairs);
-    free(column);
+    release_columns(&columns);
     return good;
 }
 
@@ -232,12 +255,11 @@ bool report_create(struct ensemble_report *report, const struct ensemble *ensemb
                    const struct report_material *material, const struct watch *watch)
 {
     const struct ensemble_sample *samples = material->samples;
-    const struct ensemble_extra *extras = material->extras;
     memset(report, 0, sizeof *report);
     report->done = material->done;
     bool good = fill_counts(report, samples) && fill_quantities(report, ensemble, samples) &&
-                fill_inputs(report, ensemble, samples, extras) &&
-                (!extras || verification_fill(report, ensemble, material));
+                fill_inputs(report, ensemble, material) &&
+                (!material->extras || verification_fill(report, ensemble, material));
     return good && remarks_fill(report, ensemble, samples, watch);
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/arena.h"
 #include "ensemble/ensemble.h"
+#include "ensemble/indices.h"
 #include "ensemble/influence.h"
 #include "ensemble/interval.h"
 #include "ensemble/shape.h"
@@ -40,10 +41,8 @@ struct report_quantity {
 
 /* What one uncertain input does to the restitution. */
 struct report_input {
-    size_t input; /* index into the spec's */
-    struct influence influence;
-    double total; /* share of the variance that is left when only this input is unknown (total Sobol
-                     index; Jansen 1999); NAN: not found */
+    size_t input;           /* index into the spec's */
+    struct indices indices; /* the total one NAN: not found, or it is correlated */
     struct moments values;
     double resolution; /* of the parts: a hundredth of the input's range */
     size_t part_count;

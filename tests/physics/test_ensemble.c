@@ -78,7 +78,7 @@ static void paper_large(void **state)
     /* two peaks: no Beta distribution */
     assert_true(e.report.beta.p_value < 1e-6);
     /* the speed explains all that its classes resolve */
-    assert_true(e.report.inputs[0].influence.first_order > 0.8);
+    assert_true(e.report.inputs[0].indices.first_order > 0.9);
     unsigned chaotic = 0;
     for (size_t k = 0; k < e.report.inputs[0].part_count; k++)
         chaotic += e.report.inputs[0].parts[k].chaotic;
@@ -267,9 +267,11 @@ static void total_indices(void **state)
     e.inputs[1] = uncertain(INPUT_SITE, 1, DISTRIBUTION_IS_NORMAL, 0.5, 0.0005);
     ensemble_lab_run(&e, true);
     const struct report_input *speed = &e.report.inputs[0], *site = &e.report.inputs[1];
-    assert_true(speed->total > 0.9 && speed->total < 1.1);
-    assert_true(site->total < 0.05);
-    assert_true(speed->influence.first_order > site->influence.first_order);
+    assert_true(speed->indices.total > 0.9 && speed->indices.total <= 1.0);
+    assert_true(site->indices.total < 0.05);
+    assert_true(speed->indices.total_bounds.low > 0.9 && site->indices.total_bounds.high < 0.1);
+    assert_true(speed->indices.first_order <= speed->indices.total);
+    assert_true(speed->indices.first_order > site->indices.first_order);
     ensemble_lab_close(&e);
 }
 

@@ -76,6 +76,9 @@ for sampling in plain latin-hypercube sobol; do
     expect 0 ensemble --samples 600 --sampling "$sampling" --input young@al-beam=normal:70e9:1e9 \
         --seed 7 --json
     bare "$out" >"$work/one-$sampling"
+    for bound in first_order_low first_order_high total_low total_high within_low within_high; do
+        grep -q "\"$bound\": [01]" "$work/one-$sampling" || fail "$sampling: no $bound"
+    done
 done
 stop_daemon
 settings "workers: 2" "drain_seconds: 2"

@@ -36,8 +36,10 @@ struct percuss_input_part {
 struct percuss_sensitivity {
     char input[PERCUSS_ID_SIZE], body[PERCUSS_ID_SIZE];
     double first_order; /* share of the variance that the input explains by itself */
-    double noise;       /* one without influence shows less in 95 % of all cases */
-    double total;       /* share that is left when all others are known */
+    double first_order_low, first_order_high; /* 95 % */
+    double noise; /* one without influence shows less in 95 % of all cases */
+    double total; /* share that is left when all others are known, first_order at least */
+    double total_low, total_high;                     /* 95 % */
     double mean, standard_deviation, lowest, highest; /* of the input */
     double resolution;
     size_t part_count;

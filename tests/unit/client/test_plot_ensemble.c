@@ -25,8 +25,11 @@ static const double quantiles[QUANTILES] = {0.1, 0.25, 0.4, 0.6, 0.72};
 static const double low[QUANTILES] = {NAN, 0.22, 0.37, 0.58, 0.7};
 static const double high[QUANTILES] = {0.12, 0.28, 0.43, 0.62, 0.74};
 static const double below[] = {0.34, 0.24}, above[] = {0.54, 0.64};
-static const char *const inputs[] = {"speed", "young of 'al-beam'"};
-static const double first[] = {0.3, 0.05}, total[] = {0.9, 0.6};
+/* the second from a server that tells no intervals, and without a total index */
+static const struct input_share inputs[] = {
+    {"speed", {0.3, 0.25, 0.34}, {0.9, 0.8, 1.0}},
+    {"young of 'al-beam'", {0.05, NAN, NAN}, {NAN, NAN, NAN}},
+};
 
 static struct ensemble_picture whole(void)
 {
@@ -61,9 +64,7 @@ static struct ensemble_picture whole(void)
                                      .intervals_low = below,
                                      .intervals_high = above,
                                      .input_count = 2,
-                                     .inputs = inputs,
-                                     .first_order = first,
-                                     .total = total};
+                                     .inputs = inputs};
 }
 
 static long drawn(const struct ensemble_picture *picture)

@@ -64,7 +64,13 @@ static struct example *make(void)
     e->ensemble.spec.request = &e->request;
     e->ensemble.count = 20;
     e->parts[1].chaotic = true;
-    e->inputs[0] = (struct report_input){.total = 0.25, .part_count = 2, .parts = e->parts};
+    e->inputs[0] = (struct report_input){.indices = {.first_order = 0.125,
+                                                     .total = 0.25,
+                                                     .first_bounds = {0.1, 0.2},
+                                                     .total_bounds = {0.2, 0.3},
+                                                     .noise = 0.01},
+                                         .part_count = 2,
+                                         .parts = e->parts};
     e->report.done = 7;
     e->report.count_length = 3;
     e->report.sub_impact_counts = e->report.significant_counts = e->counts;
@@ -99,7 +105,12 @@ static void encodes_all(void **state)
     assert_int_equal(reply->sub_impact_counts._buffer[2], 12);
     assert_string_equal(reply->sensitivities._buffer[0].input, "young");
     assert_string_equal(reply->sensitivities._buffer[0].body, "beam");
-    assert_true(reply->sensitivities._buffer[0].parts._buffer[1].chaotic);
+    const percuss_v1_Sensitivity *sensitivity = &reply->sensitivities._buffer[0];
+    assert_true(sensitivity->first_order == 0.125 && sensitivity->total == 0.25);
+    assert_true(sensitivity->first_order_low == 0.1 && sensitivity->first_order_high == 0.2);
+    assert_true(sensitivity->total_low == 0.2 && sensitivity->total_high == 0.3);
+    assert_true(sensitivity->noise == 0.01);
+    assert_true(sensitivity->parts._buffer[1].chaotic);
     assert_int_equal(reply->intervals._length, REPORT_INTERVALS);
     assert_true(reply->beta._buffer[0].alpha == 1.5);
     assert_int_equal(reply->check._buffer[0].count, 5);

@@ -1,0 +1,281 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "ensemble/indices.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "ensemble/classes.h"
+#include "ensemble/sampling.h"
+#include "numeric/special.h"
+
+/* FINE: members of a class, for the first-order index; LEAST: samples, or rows, that say anything.
+ */
+enum { FINE = 8, LEAST = 16 };
+
+static const double ONE_SIDED = 1.645; /* deviations of a normal distribution that 95 % are below */
+
+/* An index before it is put into its bounds, and its standard error with degrees of freedom. */
+struct estimate {
+    double value, error, degrees;
+};
+
+/* Variance of the index of an input without influence: within a class of c members y leaves
+ * c/(c - 1) times the square of the class mean to chance, and that has the variance 2/c^2 of all.
+ */
+static double chance_of(const struct classes *classes)
+{
+    double sum = 0.0, n = (double)classes->member_count;
+    for (size_t k = 0; k < classes->count; k++) {
+        double c = class_size(&classes->list[k]);
+        sum += 2.0 * c / (c - 1.0);
+    }
+    return sum / (n * n);
+}
+
+/* 1 - R, R = the variance within classes over that of all. The error follows from what each class
+ * adds to (variance within) - R (variance): these numbers are independent of each other, but for a
+ * drift along x. Neighbours tell their scatter; the drift adds to the error where x itself is
+ * random. Where all class means happen to be alike that is too small: chance is the least. `added`:
+ * memory, one number a class. */
+static struct estimate first_order(const struct classes *classes, double *added)
+{
+    double n = (double)classes->member_count, count = (double)classes->count, within = 0.0;
+    for (size_t k = 0; k < classes->count; k++) {
+        const struct class *class = &classes->list[k];
+        added[k] = class_size(class) * class_variance(classes, class);
+        within += added[k];
+    }
+    double rest = within / (n * classes->variance), all = 0.0, scatter = 0.0;
+    for (size_t k = 0; k < classes->count; k++) {
+        for (size_t i = classes->list[k].first; i < classes->list[k].end; i++)
+            added[k] -= rest * classes->members[i].y * classes->members[i].y;
+        all += added[k] * added[k];
+        if (k > 0)
+            scatter += 0.5 * (added[k] - added[k - 1]) * (added[k] - added[k - 1]);
+    }
+    scatter *= count / (count - 1.0);
+    double drift = classes->replicates == 1 ? fmax(0.0, all - scatter) * count / n : 0.0;
+    double error = sqrt(scatter + drift) / (n * classes->variance);
+    /* of differences two thirds as many are independent */
+    return (struct estimate){1.0 - rest, fmax(error, rest * sqrt(chance_of(classes))),
+                             2.0 / 3.0 * (count - 1.0)};
+}
+
+/* How much of the class means is to be believed: their variance, less what chance gives, over what
+ * is seen; 0 where all of it may be chance. */
+static double belief(const struct classes *classes)
+{
+    double n = (double)classes->member_count, spare = (double)classes->count - 1.0, between = 0.0;
+    for (size_t k = 0; k < classes->count; k++)
+        between += classes->list[k].sum * classes->list[k].sum / class_size(&classes->list[k]);
+    double seen = between / (classes->variance * (n - 1.0));
+    double explained = (seen - spare / n) / (1.0 - spare / n);
+    return explained > ONE_SIDED * sqrt(2.0 * spare) / n ? explained / seen : 0.0;
+}
+
+/* What one replicate, or all plain points, add to the total index: u of samples, v of rows. */
+struct contribution {
+    double samples, u, u_squares;
+    double rows, v, v_squares, uv;
+};
+
+/* u = (y - g(x))^2 of every member, g = trust times the mean of its class without what depends on
+ * that member. */
+static double find_u(const struct classes *classes, double trust, double *u)
+{
+    double sum = 0.0, n = (double)classes->member_count;
+    double exact = trust > 0.0 ? 1.0 : n / (n - 1.0); /* y is less its own mean */
+    for (size_t k = 0; k < classes->count; k++)
+        for (size_t i = classes->list[k].first; i < classes->list[k].end; i++) {
+            double g = trust * class_mean_without(classes, &classes->list[k], i);
+            double off = classes->members[i].y - g;
+            u[i] = exact * off * off;
+            sum += u[i];
+        }
+    return sum / n;
+}
+
+/* v = (y' - g(x') - y + g(x))^2/2 of every row; NAN where a value is missing. */
+static double find_v(const struct indices_data *data, const struct classes *classes, double trust,
+                     double *v)
+{
+    double sum = 0.0, count = 0.0;
+    for (size_t k = 0; k < data->row_count; k++) {
+        const struct indices_row *row = &data->rows[k];
+        size_t at = classes->place[row->sample];
+        v[k] = NAN;
+        if (at == SIZE_MAX || !isfinite(row->y))
+            continue;
+        const struct member *member = &classes->members[at];
+        double g = class_mean_without(classes, class_at(classes, member->x), at);
+        double anew = class_mean_without(classes, class_at(classes, row->x), at);
+        double off = row->y - classes->mean - trust * anew - member->y + trust * g;
+        v[k] = 0.5 * off * off;
+        sum += v[k];
+        count += 1.0;
+    }
+    return count < LEAST ? NAN : sum / count;
+}
+
+/* Standard error of mean u + mean v, over plain points, where the rows are some of the samples. */
+static double plain_error(const struct contribution *all)
+{
+    double n = all->samples, m = all->rows, u = all->u / n, v = all->v / m;
+    double of_u = all->u_squares / n - u * u;
+    double of_v = (all->v_squares / m - v * v) * m / (m - 1.0);
+    double both = all->uv / m - u * v;
+    return sqrt(fmax(0.0, of_u / n + of_v / m + 2.0 * both / n));
+}
+
+/* The same by the spread of replicates, those that have rows. */
+static double replicated_error(const struct contribution *each, size_t count, double *degrees)
+{
+    double means[SAMPLING_REPLICATES];
+    for (size_t r = 0; r < count; r++)
+        means[r] = each[r].u / each[r].samples + each[r].v / each[r].rows;
+    struct moments moments = summary_moments(means, count);
+    *degrees = (double)moments.count - 1.0;
+    return moments.deviation / sqrt((double)moments.count);
+}
+
+/* `work`: memory, one number a sample and a row. */
+static struct estimate total_order(const struct indices_data *data, const struct classes *classes,
+                                   double trust, double *work)
+{
+    struct contribution each[SAMPLING_REPLICATES] = {0};
+    double *u = work, *v = work + classes->member_count;
+    double mean_u = find_u(classes, trust, u), mean_v = find_v(data, classes, trust, v);
+    struct estimate total = {1.0 + (mean_v - mean_u) / classes->variance, NAN, NAN};
+    if (isnan(mean_v))
+        return total;
+    double n = (double)classes->member_count, part = (1.0 - total.value) * n / (n - 1.0);
+    for (size_t i = 0; i < classes->member_count; i++) {
+        const struct member *member = &classes->members[i];
+        struct contribution *one = &each[member->sample % data->replicates];
+        /* the variance, by which it is divided, is an estimate too */
+        u[i] = part * member->y * member->y - u[i];
+        one->samples += 1.0;
+        one->u += u[i];
+        one->u_squares += u[i] * u[i];
+    }
+    for (size_t k = 0; k < data->row_count; k++) {
+        struct contribution *one = &each[data->rows[k].sample % data->replicates];
+        if (isnan(v[k]))
+            continue;
+        one->rows += 1.0;
+        one->v += v[k];
+        one->v_squares += v[k] * v[k];
+        one->uv += v[k] * u[classes->place[data->rows[k].sample]];
+    }
+    total.degrees = each[0].rows - 1.0;
+    total.error = data->replicates == 1 ? plain_error(each)
+                                        : replicated_error(each, data->replicates, &total.degrees);
+    total.error /= classes->variance;
+    return total;
+}
+
+static double clip(double share)
+{
+    return share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share;
+}
+
+static double half_width(const struct estimate *estimate, double level)
+{
+    return special_student_quantile(estimate->degrees, 0.5 + 0.5 * level) * estimate->error;
+}
+
+static void find_first(const struct indices_data *data, struct classes *classes, double *work,
+                       struct estimate *first, struct indices *indices)
+{
+    size_t size = classes->member_count / FINE;
+    size = size < 2 ? 2 : size > FINE ? FINE : size;
+    classes_divide(classes, 2 * size);
+    struct estimate coarse = first_order(classes, work);
+    classes_divide(classes, size);
+    *first = first_order(classes, work);
+    indices->noise = ONE_SIDED * sqrt(chance_of(classes));
+    double half = half_width(first, data->level);
+    /* classes half as wide find more where y is rough: still finer ones may once more */
+    double hidden = fmax(0.0, first->value - coarse.value);
+    indices->first_order = clip(first->value);
+    /* of a negative one the upper bound is taken from 0 */
+    indices->first_bounds =
+        (struct interval){clip(first->value - half), clip(fmax(0.0, first->value) + half + hidden)};
+}
+
+/* A mean of squares is skewed: its logarithm is less so, but where the error is as large as the
+ * index itself. */
+static struct interval total_bounds(const struct estimate *total, double half)
+{
+    double value = total->value;
+    if (!(value > 0.0))
+        return (struct interval){0.0, clip(value + half)};
+    return (struct interval){clip(value * exp(-half / value)),
+                             clip(fmin(value * exp(half / value), value + 2.0 * half))};
+}
+
+/* By the class means as control variate, or, where an input does next to nothing and they are mere
+ * noise, without: whichever error is smaller. */
+static bool find_total(const struct indices_data *data, struct classes *classes, double *work,
+                       struct estimate *total, struct indices *indices)
+{
+    classes_divide(classes, (size_t)sqrt(2.0 * (double)classes->member_count));
+    if (!classes_split(classes))
+        return false;
+    double trust = belief(classes);
+    *total = total_order(data, classes, 0.0, work);
+    struct estimate aided = total_order(data, classes, trust, work);
+    if (aided.error < total->error)
+        *total = aided;
+    indices->total = clip(total->value);
+    indices->total_bounds = total_bounds(total, half_width(total, data->level));
+    return true;
+}
+
+static void widen(struct interval *interval, double value)
+{
+    interval->low = fmin(interval->low, value);
+    interval->high = fmax(interval->high, value);
+}
+
+/* Pools what chance has put the wrong way round. */
+static void order(const struct estimate *first, const struct estimate *total,
+                  struct indices *indices)
+{
+    double of_first = first->error * first->error, of_total = total->error * total->error;
+    if (!(first->value > total->value))
+        return;
+    double pooled =
+        of_first + of_total > 0.0
+            ? (first->value * of_total + total->value * of_first) / (of_first + of_total)
+            : 0.5 * (first->value + total->value);
+    indices->first_order = indices->total = clip(pooled);
+    widen(&indices->first_bounds, indices->first_order);
+    widen(&indices->total_bounds, indices->total);
+}
+
+bool indices_find(const struct indices_data *data, struct indices *indices)
+{
+    static const struct interval unknown = {NAN, NAN};
+    *indices = (struct indices){NAN, NAN, unknown, unknown, NAN};
+    struct classes classes;
+    const struct class_samples samples = {data->x, data->y, data->count, data->replicates};
+    double *work = calloc(data->count + data->row_count + 1, sizeof *work);
+    bool good = classes_create(&classes, &samples) && work;
+    size_t n = classes.member_count;
+    if (good && n >= LEAST && classes.members[n - 1].x > classes.members[0].x &&
+        classes.variance > 0.0) {
+        struct estimate first, total = {NAN, NAN, NAN};
+        find_first(data, &classes, work, &first, indices);
+        if (data->row_count > 0) {
+            good = find_total(data, &classes, work, &total, indices);
+            order(&first, &total, indices);
+        }
+    }
+    classes_release(&classes);
+    free(work);
+    return good;
+}
