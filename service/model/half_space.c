@@ -32,17 +32,19 @@ static double shear_runs_off(double ratio, double sine, double cosine)
     return 4.0 * x2 * ab2 * sqrt(width) * sine / (g * g * g * g + 16.0 * x2 * x2 * ab2);
 }
 
-/* Over t = 0 ... pi/2. With t = pi/2 (u - sin(2 pi u)/(2 pi)) the midpoint rule's error falls with
- * the sixth power of the points. */
-static double integral(double (*integrand)(double, double, double), double ratio)
+/* Of both, over t = 0 ... pi/2. With t = pi/2 (u - sin(2 pi u)/(2 pi)) the midpoint rule's error
+ * falls with the sixth power of the points: 1e-9. */
+static double run_off(double ratio)
 {
-    enum { POINTS = 256 };
+    enum { POINTS = 64 };
     double sum = 0.0;
     for (int i = 0; i < POINTS; i++) {
         double u = (i + 0.5) / POINTS;
         double t = 0.5 * pi * (u - sin(2.0 * pi * u) / (2.0 * pi));
         double weight = 0.5 * pi * (1.0 - cos(2.0 * pi * u)) / POINTS;
-        sum += weight * integrand(ratio, sin(t), cos(t));
+        double sine = sin(t);
+        double cosine = cos(t);
+        sum += weight * (both_run_off(ratio, sine, cosine) + shear_runs_off(ratio, sine, cosine));
     }
     return sum;
 }
@@ -86,8 +88,7 @@ struct half_space_waves half_space_waves_of(const struct material *material)
     double ratio = sqrt((1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)));
     double transverse = sqrt(mu / material->density);
     double slow = slowness(ratio);
-    double sum =
-        integral(both_run_off, ratio) + integral(shear_runs_off, ratio) + pole(ratio, slow);
+    double sum = run_off(ratio) + pole(ratio, slow);
     return (struct half_space_waves){
         .lag = sum / (2.0 * pi * mu * transverse),
         .rayleigh = transverse / slow,

@@ -75,9 +75,9 @@ static void the_power_is_lamb_s(void **state)
     (void)state;
     for (size_t i = 0; i < MATERIALS; i++) {
         struct material material = unit_material(POISSON[i]);
-        /* both rules' error; where shear waves are far slower the functions are less smooth */
+        /* the rule's error with its 64 points */
         double lag = half_space_waves_of(&material).lag;
-        near(lag, lag_by_contour(speed_ratio(POISSON[i])), 2e-10);
+        near(lag, lag_by_contour(speed_ratio(POISSON[i])), 1e-9);
         /* dimensions: 1/(mu c_T) */
         material.young *= 70e9;
         material.density *= 2700.0;
