@@ -20,9 +20,10 @@ bool yielding_create(struct yielding *yielding, struct arena *arena)
     yielding->when = arena_take(arena, n, sizeof(double));
     yielding->target = arena_take(arena, n, sizeof(double));
     yielding->within = arena_take(arena, n, sizeof(double));
+    yielding->largest = arena_take(arena, n, sizeof(double));
     for (size_t c = 0; yielding->when && c < n; c++)
         yielding->when[c] = INFINITY;
-    return yielding->when && yielding->target && yielding->within;
+    return yielding->when && yielding->target && yielding->within && yielding->largest;
 }
 
 /* Unloading that begins a time t late, or early, gives a force wrong by its slope's jump times the
@@ -186,7 +187,10 @@ static void expect(struct yielding *yielding, size_t contact, double h)
     if (!exceeds(yielding, contact, path.largest))
         return;
     within = near_peak(yielding, fmin(duration, unloading_time(yielding, contact, &path, h)));
-    note(yielding, contact, time + h * path.peak, INFINITY, within);
+    double peak = time + h * path.peak;
+    note(yielding, contact, peak, INFINITY, within);
+    if (yielding->when[contact] == peak)
+        yielding->largest[contact] = path.largest;
 }
 
 /* First positive root of d + v t + a t^2/2 = target; INFINITY: none. */
@@ -236,18 +240,27 @@ static void yield(struct yielding *yielding, size_t contact, double indentation)
     yielding->now[contact].indentation -= deeper;
 }
 
-/* The expected event is here. True: the law yielded; otherwise an indentation is passed, or the
- * largest one stayed below the limit after all. */
-static bool take(struct yielding *yielding, size_t contact)
+/* The largest indentation of a contact that is near its peak; NAN: it is not. The motion at this
+ * instant tells, unless its deceleration changes on the way to the peak: then the step that has the
+ * peak in it does (`seen`), or the dent would be lost. */
+static double peak_indentation(const struct yielding *yielding, size_t contact, bool seen)
 {
     const struct contact_start *now = &yielding->now[contact];
-    yielding->when[contact] = INFINITY;
-    if (isfinite(yielding->target[contact]) || !yielding->active[contact] ||
-        !(now->curvature < 0.0))
-        return false;
     double left = -now->rate / now->curvature;
-    double peak = now->indentation + 0.5 * now->rate * left;
-    if (!(fabs(left) <= 2.0 * yielding->within[contact]) || !exceeds(yielding, contact, peak))
+    if (now->curvature < 0.0 && fabs(left) <= 2.0 * yielding->within[contact])
+        return now->indentation + 0.5 * now->rate * left;
+    return seen ? yielding->largest[contact] : NAN;
+}
+
+/* The expected event is here. True: the law yielded; otherwise an indentation is passed, or the
+ * largest one stayed below the limit after all. */
+static bool take(struct yielding *yielding, size_t contact, bool seen)
+{
+    yielding->when[contact] = INFINITY;
+    if (isfinite(yielding->target[contact]) || !yielding->active[contact])
+        return false;
+    double peak = peak_indentation(yielding, contact, seen);
+    if (!exceeds(yielding, contact, peak))
         return false;
     yield(yielding, contact, peak);
     return true;
@@ -273,7 +286,7 @@ bool yielding_passes(struct yielding *yielding, double h, int *level)
         if (!(end > yielding->when[c] + yielding->within[c]))
             continue;
         if (is_due(yielding, c))
-            yielded = take(yielding, c) || yielded;
+            yielded = take(yielding, c, true) || yielded;
         else
             passes = true;
     }
@@ -293,11 +306,13 @@ bool yielding_meet(struct yielding *yielding, double h, int *level)
         double left = yielding->when[c] - yielding->outcome->motion.time;
         if (!isfinite(left))
             continue;
+        /* what lies behind is of the step just made; ahead, maybe of one that was not made */
+        bool seen = left <= 0.0;
         if (!is_due(yielding, c) && left <= 2.0 * h)
             correct(yielding, c);
         if (!is_due(yielding, c))
             continue;
-        take(yielding, c);
+        take(yielding, c, seen);
         met = true;
     }
     if (met)

@@ -25,10 +25,11 @@ struct yielding {
     double accuracy;
     bool any; /* a law can yield; false: nothing below is used */
 
-    double *when;   /* [contact]: instant of the expected event, s; INFINITY: none */
-    double *target; /* [contact]: indentation that is passed then; INFINITY: the largest one */
-    double *within; /* [contact]: how near to it a step must end, s */
-    int resume;     /* level of the steps before an event was approached; -1: none is */
+    double *when;    /* [contact]: instant of the expected event, s; INFINITY: none */
+    double *target;  /* [contact]: indentation that is passed then; INFINITY: the largest one */
+    double *within;  /* [contact]: how near to it a step must end, s */
+    double *largest; /* [contact]: that largest one, on the step that has it */
+    int resume;      /* level of the steps before an event was approached; -1: none is */
 };
 
 /* The first members are set. False: out of memory. */
