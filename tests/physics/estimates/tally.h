@@ -20,6 +20,7 @@ struct verdict {
     double reported_impulse, true_impulse_error, impulse_spread; /* N s, of any contact */
     bool met;
     size_t sub_impacts, true_sub_impacts;
+    size_t modes;   /* of all bodies */
     double seconds; /* processor time */
 };
 
