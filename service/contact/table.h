@@ -27,6 +27,7 @@ struct contact_table {
     double surface_radius;  /* m, 1 / (1/R_a + 1/R_b) of what was sampled; 0: not stated, the law
                                is then taken for any as it is */
     double error;           /* relative, of the force, as its computation states it */
+    double range;           /* m: what lies beyond was continued, not computed; 0: all of it was */
 };
 
 /* A table made ready for interpolation; immutable, may be shared. */
@@ -37,8 +38,8 @@ struct contact_curves *contact_curves_create(const struct contact_table *table,
                                              struct fault *fault);
 void contact_curves_free(struct contact_curves *curves); /* NULL is allowed */
 
-/* Last indentation of the loading curve, m: the law goes on beyond it with the last slope of
- * F^(2/3). */
+/* Last indentation that was computed, m: beyond it the law goes on as a fully plastic contact, see
+ * law_table.c. */
 double contact_curves_range(const struct contact_curves *curves);
 /* Relative error of the force that the table states. */
 double contact_curves_error(const struct contact_curves *curves);
@@ -48,7 +49,7 @@ struct contact_law contact_law_table(const struct contact_curves *curves);
 /* The same for surfaces of another radius (m, 1 / (1/R_a + 1/R_b)), exact by dimensions: a static
  * contact region of given materials has no length of its own. */
 struct contact_law contact_law_table_at(const struct contact_curves *curves, double radius);
-/* Last indentation of such a law's loading curve, m. */
+/* Last computed indentation of such a law, m. */
 double contact_law_table_range(const struct contact_law *law);
 
 /* What a table is asked for. Curvatures as in struct hertz_contact. */

@@ -169,38 +169,11 @@ double contact_model_beyond_table(const struct impact_outcome *outcome, size_t c
     return fmax(0.0, depth / range - 1.0);
 }
 
-/* Tables that end before the largest indentation make place for the closed form. */
-static bool leave_tables(struct geometry *geometry, const struct solve_request *request,
-                         const struct impact_outcome *outcome)
-{
-    bool left = false;
-    for (size_t c = 0; c < geometry->contact_count; c++) {
-        struct contact_choice *choice = &geometry->contact_model->choices[c];
-        if (request->options.contact_model == PERCUSS_CONTACT_TABLE ||
-            !(contact_model_beyond_table(outcome, c) > 0.0))
-            continue;
-        choice->plastic =
-            contact_law_closed_form(&geometry->hertz[c], &body_of(geometry, c, 0)->material,
-                                    &body_of(geometry, c, 1)->material);
-        choice->tabulated = false;
-        choice->outranged = true;
-        geometry->contact_model->depth[c] = 0.0;
-        find_dents(geometry, request, c);
-        left = true;
-    }
-    return left;
-}
-
-bool contact_model_revise(struct geometry *geometry, const struct solve_request *request,
-                          const struct impact_outcome *outcome)
+bool contact_model_revise(struct geometry *geometry, const struct impact_outcome *outcome)
 {
     struct contact_model *model = geometry->contact_model;
     if (outcome->end_reason == PERCUSS_END_LIMIT)
         return false;
-    if (model->yielding && leave_tables(geometry, request, outcome)) {
-        use(geometry, true);
-        return true;
-    }
     if (model->decided)
         return false;
     bool yields = false;
@@ -291,9 +264,9 @@ static void explain_plastic(const struct geometry *geometry, const struct solve_
         append(text, size, ", below yield");
     if (choice->dented)
         append(text, size, ", in the dent of earlier impacts");
-    if (choice->outranged)
-        append(text, size, "; the table ends before that");
-    else if (!tabulated && request->options.contact_model == PERCUSS_CONTACT_AUTO)
+    if (contact_model_beyond_table(outcome, c) > 0.0)
+        append(text, size, "; the table ends before that and goes on as a fully plastic contact");
+    if (!tabulated && request->options.contact_model == PERCUSS_CONTACT_AUTO)
         append(text, size, "; no table for these bodies");
     if (!tabulated && geometry->hertz[c].axis_ratio < 0.999)
         append(text, size, "; elliptic: by the sphere of equal stiffness, %.3g m, an approximation",

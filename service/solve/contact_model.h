@@ -16,7 +16,6 @@ struct contact_choice {
     int side;                   /* of the body that yields: 0: a, 1: b; -1: neither */
     size_t dent;                /* index in that body's state of the dent that the law remembers */
     bool dented, tabulated;
-    bool outranged; /* a table was left aside: the indentation went beyond it */
 };
 
 struct contact_model {
@@ -36,9 +35,8 @@ enum percuss_status contact_model_choose(struct geometry *geometry,
                                          struct arena *arena, struct fault *fault);
 
 /* Looks at a solution: true: other laws are in order (Hertz exceeded yield, a law that yields was
- * not needed, a table ends too early) and are now the geometry's. At most three times. */
-bool contact_model_revise(struct geometry *geometry, const struct solve_request *request,
-                          const struct impact_outcome *outcome);
+ * not needed) and are now the geometry's. At most once. */
+bool contact_model_revise(struct geometry *geometry, const struct impact_outcome *outcome);
 
 /* What the reply names: HERTZ, CLOSED_FORM or TABLE. */
 enum percuss_contact_model contact_model_used(const struct geometry *geometry);

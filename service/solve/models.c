@@ -16,11 +16,10 @@ enum percuss_status models_choose(struct geometry *geometry, const struct solve_
     return status;
 }
 
-bool models_revise(struct geometry *geometry, const struct solve_request *request,
-                   const struct scene *scene, const struct impact_outcome *outcome)
+bool models_revise(struct geometry *geometry, const struct scene *scene,
+                   const struct impact_outcome *outcome)
 {
-    return contact_model_revise(geometry, request, outcome) ||
-           compliance_revise(geometry, scene, outcome);
+    return contact_model_revise(geometry, outcome) || compliance_revise(geometry, scene, outcome);
 }
 
 enum percuss_status models_solve(struct accuracy *accuracy, struct geometry *geometry,
@@ -31,8 +30,8 @@ enum percuss_status models_solve(struct accuracy *accuracy, struct geometry *geo
     bool revised = true;
     while (!status && revised) {
         status = accuracy_solve(accuracy, geometry, request, &source->means, fault);
-        revised = !status &&
-                  models_revise(geometry, request, &accuracy->assembly->scene, &accuracy->outcome);
+        revised =
+            !status && models_revise(geometry, &accuracy->assembly->scene, &accuracy->outcome);
     }
     return status;
 }

@@ -22,8 +22,8 @@ enum percuss_status models_choose(struct geometry *geometry, const struct solve_
                                   const struct models_source *source, struct fault *fault);
 
 /* Looks at a solution of a scene: true: other models are in order and are now the geometry's. */
-bool models_revise(struct geometry *geometry, const struct solve_request *request,
-                   const struct scene *scene, const struct impact_outcome *outcome);
+bool models_revise(struct geometry *geometry, const struct scene *scene,
+                   const struct impact_outcome *outcome);
 
 /* Chooses, and solves to the request's tolerance until nothing is left to revise. */
 enum percuss_status models_solve(struct accuracy *accuracy, struct geometry *geometry,

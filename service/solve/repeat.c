@@ -192,7 +192,7 @@ static enum percuss_status run_scene(struct repeat *repeat, const struct solve_r
         if (attempt->outcome.always_overlapped)
             return attempt_refuse_overlap(&context, attempt,
                                           attempt_horizon(request, &repeat->scene), fault);
-        if (!models_revise(repeat->geometry, request, &repeat->scene, &attempt->outcome))
+        if (!models_revise(repeat->geometry, &repeat->scene, &attempt->outcome))
             return PERCUSS_OK;
         /* what this blow decided is not for the next one */
         repeat->lasting = false;

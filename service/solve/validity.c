@@ -107,7 +107,7 @@ static void find_place(const struct geometry *geometry, const struct impact_outc
     if (beyond > 0.0)
         warnings_add(warnings, WARNING_TABLE_END,
                      "contacts[%zu]: the table ends before the largest indentation, by %.2g of "
-                     "its range: it was continued",
+                     "its range: it goes on as a fully plastic contact",
                      c, beyond);
 }
 
