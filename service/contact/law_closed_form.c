@@ -50,6 +50,11 @@ int closed_form_softer(const struct material *a, const struct material *b)
     return yield_b < yield_a ? 1 : 0;
 }
 
+double closed_form_yield_ratio(const struct material *a, const struct material *b)
+{
+    return yield_share(b) / yield_share(a);
+}
+
 double closed_form_radius(const struct hertz_contact *hertz)
 {
     double root = 0.75 * hertz->stiffness / hertz->effective_modulus;

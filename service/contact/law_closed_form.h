@@ -14,6 +14,9 @@
  * -1: neither. */
 int closed_form_softer(const struct material *a, const struct material *b);
 
+/* How much later the second body yields: its C(poisson) yield over the first one's. */
+double closed_form_yield_ratio(const struct material *a, const struct material *b);
+
 /* Indentation at which yield begins, m; INFINITY: never. Elliptic contacts: of the sphere that is
  * as stiff. */
 double closed_form_yield(const struct hertz_contact *hertz, const struct material *a,

@@ -30,6 +30,8 @@ struct contact_table {
     double range;           /* m: what lies beyond was continued, not computed; 0: all of it was */
 };
 
+struct contact_family; /* family.h */
+
 /* A table made ready for interpolation; immutable, may be shared. */
 struct contact_curves;
 
@@ -63,6 +65,7 @@ struct contact_pair {
 struct contact_table_source {
     void *context;
     const struct contact_curves *(*find)(void *context, const struct contact_pair *pair);
+    const struct contact_family *family; /* for pairs without a table of their own; NULL: none */
 };
 
 #endif

@@ -34,7 +34,11 @@ bool table_shelf_fill(struct table_shelf *shelf)
     if (table_store_load(shelf->loaded, shelf->folder, complain, &count, &fault))
         log_line(LEVEL_WARNING, "tables: %s", fault.text);
     else
-        log_line(LEVEL_INFO, "tables: %zu from %s", count, shelf->folder);
+        log_line(LEVEL_INFO, "tables: %zu from %s%s", count, shelf->folder,
+                 table_store_source(shelf->loaded)->family
+                     ? " and the family for all other metals"
+                     : "; no family there: other metals yield by the closed form");
+    table_store_lend_family(shelf->made, shelf->loaded);
     return true;
 }
 

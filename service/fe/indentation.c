@@ -41,29 +41,11 @@ void indentation_table_free(struct indentation_table *table)
     *table = (struct indentation_table){0};
 }
 
-/* Cubic through the four points nearest in the logarithm of x (ascending); y at every `stride`. */
-static double interpolate(size_t n, const double *x, const double *y, size_t stride, double at)
-{
-    size_t first = 0;
-    while (first + 4 < n && x[first + 2] < at)
-        first++;
-    size_t last = first + 4 < n ? first + 4 : n;
-    double sum = 0.0;
-    for (size_t i = first; i < last; i++) {
-        double weight = 1.0;
-        for (size_t j = first; j < last; j++)
-            if (j != i)
-                weight *= log(at / x[j]) / log(x[i] / x[j]);
-        sum += weight * y[i * stride];
-    }
-    return sum;
-}
-
 static double ratio_at(const struct indentation_run *run, double indentation)
 {
     if (indentation <= run->middle[0])
         return 1.0;
-    return interpolate(run->rings, run->middle, run->ratio, 1, indentation);
+    return indentation_interpolate(run->rings, run->middle, run->ratio, 1, indentation);
 }
 
 /* The returns' backward Euler leaves an error proportional to the step: taken out by the difference
@@ -103,10 +85,10 @@ static void fill_branches(struct indentation_table *table, const struct runs *ru
             table->hertz * pow(d, 1.5) * (i ? extrapolated(&runs->fine_long, run, d) : 1.0);
         if (d <= coarse->largest[0])
             continue;
-        double residual = interpolate(coarse->branches, coarse->largest, coarse->residual, 1, d);
+        double residual = indentation_interpolate(coarse->branches, coarse->largest, coarse->residual, 1, d);
         table->residual_error = fmax(table->residual_error, fabs(residual - run->residual[i]) / d);
         for (size_t j = 1; j < INDENTATION_SAMPLES - 1; j++) {
-            double recovery = interpolate(coarse->branches, coarse->largest, coarse->recovery + j,
+            double recovery = indentation_interpolate(coarse->branches, coarse->largest, coarse->recovery + j,
                                           INDENTATION_SAMPLES, d);
             double other = run->recovery[i * INDENTATION_SAMPLES + j];
             table->recovery_error = fmax(table->recovery_error, fabs(recovery - other));

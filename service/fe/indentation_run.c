@@ -32,6 +32,23 @@ double indentation_fraction(size_t sample)
     return part * part * part;
 }
 
+double indentation_interpolate(size_t n, const double *x, const double *y, size_t stride, double at)
+{
+    size_t first = 0;
+    while (first + 4 < n && x[first + 2] < at)
+        first++;
+    size_t last = first + 4 < n ? first + 4 : n;
+    double sum = 0.0;
+    for (size_t i = first; i < last; i++) {
+        double weight = 1.0;
+        for (size_t j = first; j < last; j++)
+            if (j != i)
+                weight *= log(at / x[j]) / log(x[i] / x[j]);
+        sum += weight * y[i * stride];
+    }
+    return sum;
+}
+
 static bool flows(const struct region *region)
 {
     struct region_ledger ledger;

@@ -40,4 +40,9 @@ enum percuss_status indentation_run(const struct indentation_plan *plan,
 /* k of F = k d^1.5, N/m^1.5. */
 double indentation_hertz(const struct region_input *input);
 
+/* Cubic through the four points nearest in the logarithm of x[n] (ascending, > 0); the values are
+ * y[0], y[stride], ... */
+double indentation_interpolate(size_t n, const double *x, const double *y, size_t stride,
+                               double at);
+
 #endif

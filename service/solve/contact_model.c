@@ -58,29 +58,33 @@ static void find_dents(struct geometry *geometry, const struct solve_request *re
     }
 }
 
-static enum percuss_status find_law(struct geometry *geometry, const struct solve_request *request,
-                                    const struct contact_table_source *tables, size_t c,
-                                    struct fault *fault)
+/* Where laws come from. */
+struct law_source {
+    const struct contact_table_source *tables; /* NULL: none */
+    struct arena *arena;
+};
+
+/* A table of just these materials. */
+static enum percuss_status find_table(struct geometry *geometry,
+                                      const struct solve_request *request,
+                                      const struct contact_table_source *tables, size_t c,
+                                      struct fault *fault)
 {
     struct contact_choice *choice = &geometry->contact_model->choices[c];
     const struct hertz_contact *hertz = &geometry->hertz[c];
     const struct body *a = body_of(geometry, c, 0);
     const struct body *b = body_of(geometry, c, 1);
-    enum percuss_contact_model asked = request->options.contact_model;
-    choice->side = closed_form_softer(&a->material, &b->material);
-    choice->yield = closed_form_yield(hertz, &a->material, &b->material);
-    choice->plastic = choice->side < 0 ? contact_law_hertz(hertz->stiffness)
-                                       : contact_law_closed_form(hertz, &a->material, &b->material);
     struct contact_pair pair = {
         &a->material, &b->material, {hertz->curvature[0], hertz->curvature[1]}};
-    const struct contact_curves *curves = NULL;
-    if (tables &&
-        (asked == PERCUSS_CONTACT_TABLE || (asked == PERCUSS_CONTACT_AUTO && choice->side >= 0)))
-        curves = tables->find(tables->context, &pair);
-    if (curves) {
-        choice->plastic = contact_law_table_at(curves, 0.5 / hertz->curvature[0]);
+    const struct contact_curves *curves = tables ? tables->find(tables->context, &pair) : NULL;
+    struct contact_law law;
+    if (curves)
+        law = contact_law_table_at(curves, 0.5 / hertz->curvature[0]);
+    /* one that ends before it yields says less than the family */
+    if (curves && (!tables->family || contact_law_table_range(&law) > choice->yield)) {
+        choice->plastic = law;
         choice->tabulated = true;
-    } else if (asked == PERCUSS_CONTACT_TABLE && choice->side >= 0) {
+    } else if (request->options.contact_model == PERCUSS_CONTACT_TABLE) {
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.contact_model: table: there is no table for %s on %s "
                          "(contacts[%zu]): %s; auto "
@@ -90,6 +94,54 @@ static enum percuss_status find_law(struct geometry *geometry, const struct solv
                              ? "the contact is elliptic, tables are of circular ones"
                              : "percuss-tables computes them");
     }
+    return PERCUSS_OK;
+}
+
+/* The family's law: in use by auto, to compare with where the closed form is asked for. */
+static bool find_family(struct geometry *geometry, const struct contact_family *family, size_t c,
+                        struct arena *arena, bool used)
+{
+    struct contact_choice *choice = &geometry->contact_model->choices[c];
+    const struct material *a = &body_of(geometry, c, 0)->material;
+    const struct material *b = &body_of(geometry, c, 1)->material;
+    struct contact_family_place place = contact_family_place(a, b);
+    const struct contact_curves *curves = contact_family_curves(family, &place, arena);
+    if (!curves)
+        return false;
+    struct contact_law law = contact_law_family(curves, &geometry->hertz[c], a, b);
+    if (!used) {
+        choice->compared = law;
+        return true;
+    }
+    choice->plastic = law;
+    choice->tabulated = choice->family = true;
+    choice->outside = contact_family_outside(family, &place);
+    choice->both = contact_family_both_yield(a, b);
+    return true;
+}
+
+static enum percuss_status find_law(struct geometry *geometry, const struct solve_request *request,
+                                    const struct law_source *source, size_t c, struct fault *fault)
+{
+    struct contact_choice *choice = &geometry->contact_model->choices[c];
+    const struct contact_table_source *tables = source->tables;
+    const struct hertz_contact *hertz = &geometry->hertz[c];
+    const struct body *a = body_of(geometry, c, 0);
+    const struct body *b = body_of(geometry, c, 1);
+    enum percuss_contact_model asked = request->options.contact_model;
+    choice->side = closed_form_softer(&a->material, &b->material);
+    choice->yield = closed_form_yield(hertz, &a->material, &b->material);
+    choice->plastic = choice->side < 0 ? contact_law_hertz(hertz->stiffness)
+                                       : contact_law_closed_form(hertz, &a->material, &b->material);
+    bool may = asked == PERCUSS_CONTACT_TABLE || asked == PERCUSS_CONTACT_AUTO;
+    if (may && choice->side >= 0) {
+        enum percuss_status status = find_table(geometry, request, tables, c, fault);
+        if (status)
+            return status;
+    }
+    if (choice->side >= 0 && !choice->tabulated && tables && tables->family &&
+        !find_family(geometry, tables->family, c, source->arena, may))
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     find_dents(geometry, request, c);
     return PERCUSS_OK;
 }
@@ -127,10 +179,11 @@ enum percuss_status contact_model_choose(struct geometry *geometry,
     if (!model || !model->depth || !model->laws || !model->choices)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     geometry->contact_model = model;
+    const struct law_source source = {tables, arena};
     bool dented = false;
     bool likely = false;
     for (size_t c = 0; c < n; c++) {
-        enum percuss_status status = find_law(geometry, request, tables, c, fault);
+        enum percuss_status status = find_law(geometry, request, &source, c, fault);
         if (status)
             return status;
         dented = dented || model->choices[c].dented;
@@ -256,7 +309,9 @@ static void explain_plastic(const struct geometry *geometry, const struct solve_
     const struct contact_history *history = &outcome->laws[c].history;
     bool tabulated = contact_model_used(geometry) == PERCUSS_CONTACT_TABLE;
     append(text, size, "elastic-plastic contact by %s",
-           tabulated ? "a table of the contact region" : "the closed form of Jackson and Green");
+           !tabulated       ? "the closed form of Jackson and Green"
+           : choice->family ? "the family of tables of the contact region"
+                            : "a table of the contact region");
     if (history->max_indentation > 0.0)
         append(text, size, ": indented %.3g times as deep as where %s yields, dent %.3g um",
                history->max_indentation / choice->yield, body->id, 1e6 * history->residual);
@@ -268,7 +323,7 @@ static void explain_plastic(const struct geometry *geometry, const struct solve_
         append(text, size, "; the table ends before that and goes on as a fully plastic contact");
     if (!tabulated && request->options.contact_model == PERCUSS_CONTACT_AUTO)
         append(text, size, "; no table for these bodies");
-    if (!tabulated && geometry->hertz[c].axis_ratio < 0.999)
+    if (geometry->hertz[c].axis_ratio < 0.999)
         append(text, size, "; elliptic: by the sphere of equal stiffness, %.3g m, an approximation",
                closed_form_radius(&geometry->hertz[c]));
     if (!tabulated && body->material.tangent > 0.0)

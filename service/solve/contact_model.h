@@ -5,7 +5,7 @@
 #ifndef PERCUSS_SOLVE_CONTACT_MODEL_H
 #define PERCUSS_SOLVE_CONTACT_MODEL_H
 
-#include "contact/table.h"
+#include "contact/family.h"
 #include "impact/impact.h"
 #include "solve/geometry.h"
 
@@ -16,6 +16,11 @@ struct contact_choice {
     int side;                   /* of the body that yields: 0: a, 1: b; -1: neither */
     size_t dent;                /* index in that body's state of the dent that the law remembers */
     bool dented, tabulated;
+    bool family;                 /* the table is one of the family's */
+    bool both;                   /* ... where both bodies flow */
+    double outside;              /* ... and this far outside its axes */
+    struct contact_law compared; /* the family's law, where the closed form is used; or without
+                                    operations: there is none */
 };
 
 struct contact_model {

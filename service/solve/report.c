@@ -12,6 +12,7 @@
 #include "model/vector.h"
 #include "solve/compliance.h"
 #include "solve/contact_model.h"
+#include "solve/law_error.h"
 #include "solve/radiation.h"
 #include "solve/state_out.h"
 #include "solve/validity.h"
@@ -127,6 +128,15 @@ static void warn_dents(struct solve_result *result)
     }
 }
 
+static double largest_restitution(const struct solve_result *result)
+{
+    double largest = 0.0;
+    for (size_t c = 0; c < result->contact_count; c++)
+        if (fabs(result->contacts[c].restitution) > largest)
+            largest = fabs(result->contacts[c].restitution);
+    return largest;
+}
+
 static void fill_model(const struct geometry *geometry, const struct solve_request *request,
                        const struct accuracy *accuracy, struct solve_result *result)
 {
@@ -157,7 +167,9 @@ static void fill_model(const struct geometry *geometry, const struct solve_reque
     if (geometry->compliance->reason[0])
         snprintf(result->reason + used, sizeof result->reason - used, "; half-space: %s",
                  geometry->compliance->reason);
-    result->omitted_error = accuracy->modes.restitution + unmodelled;
+    result->omitted_error =
+        accuracy->modes.restitution + unmodelled +
+        law_error_worst(geometry, &accuracy->outcome) * largest_restitution(result);
     if (unmodelled > tolerance)
         report_warn(result,
                     "model.omitted_error: waves that the models leave out of compact bodies and of "

@@ -10,6 +10,7 @@
 #include "model/vector.h"
 #include "solve/compliance.h"
 #include "solve/contact_model.h"
+#include "solve/law_error.h"
 
 /* Contact or dent against the smallest radius: surfaces are no longer parabolas there. */
 static const double LARGEST_CONTACT = 0.3;
@@ -17,6 +18,8 @@ static const double LARGEST_CONTACT = 0.3;
  * take is 1.4 % of the normal impulse whatever the coefficient: a sphere has stopped sliding after
  * sliding / (3.5 (1 + e) approach) of it. */
 static const double SLIDING = 0.05;
+/* Error of a contact law, of the restitution, that is worth a warning. */
+static const double WRONG_LAW = 0.05;
 /* A coefficient of friction as of dry metals, to say how much it may be about. */
 static const double FRICTION = 0.3;
 
@@ -103,6 +106,12 @@ static void find_place(const struct geometry *geometry, const struct impact_outc
                          "contacts[%zu]: within 10 %% of the radius of an edge of %s: the contact "
                          "law assumes material on all sides",
                          c, body_of(geometry, c, which)->id);
+    double error = law_error(geometry, outcome, c);
+    if (error > WRONG_LAW)
+        warnings_add(warnings, WARNING_LAW,
+                     "contacts[%zu]: the contact law itself is estimated to be off by %.2g of the "
+                     "restitution: %s",
+                     c, error, law_error_reason(geometry, outcome, c));
     double beyond = contact_model_beyond_table(outcome, c);
     if (beyond > 0.0)
         warnings_add(warnings, WARNING_TABLE_END,

@@ -20,6 +20,7 @@ enum warning_kind {
     WARNING_DELASSUS,
     WARNING_COMPLIANCE,
     WARNING_NO_TOUCH,
+    WARNING_LAW,
     WARNING_KINDS
 };
 _Static_assert(WARNING_KINDS <= 16, "a set of kinds is 16 bits");

@@ -6,8 +6,10 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "numeric/spline.h"
+#include "contact/plastic.h"
+#include "store/branch_shares.h"
 
 /* Samples of a branch at equal steps of the way back: twice those of the computation, which lie
  * close together where the force is small. */
@@ -24,6 +26,10 @@ enum { ELASTIC_POINTS = 8 };
  * grows with the square is off by up to 1/(4 ONSET^2) of the computed branch's. */
 enum { ONSET = 8 };
 static const double just_beyond = 1.0 + 1e-6;
+
+/* Points and branches beyond the computed ones, ten to a decade: as deep as the radius. */
+enum { BEYOND = 25 };
+#define BEYOND_STEP 1.2589254117941673
 
 static double rising(double value, double before)
 {
@@ -52,35 +58,6 @@ static size_t fill_loading(const struct indentation_table *table, double *indent
     return count;
 }
 
-/* One branch at equal steps: F^(2/3) is nearly a straight line of the way back. `part` of the way
- * from Hertz's branch (0) to the computed one (1). */
-static void fill_branch(const double *recovery, double part, double *share, double *memory)
-{
-    struct spline spline = {INDENTATION_SAMPLES, memory, memory + INDENTATION_SAMPLES,
-                            memory + 2 * INDENTATION_SAMPLES};
-    for (size_t j = 0; j < INDENTATION_SAMPLES; j++) {
-        double root = cbrt(indentation_fraction(j));
-        spline.value[j] = root * root;
-        spline.place[j] = spline.value[j] + part * (recovery[j] - spline.value[j]);
-    }
-    spline_set_slopes(&spline, memory + 3 * INDENTATION_SAMPLES);
-    for (size_t i = 1; i + 1 < SHARES; i++) {
-        double slope;
-        double value = spline_at(&spline, (double)i / (SHARES - 1), &slope);
-        share[i] = value * sqrt(value);
-    }
-    share[0] = 0.0;
-    share[SHARES - 1] = 1.0;
-}
-
-static bool is_way(const double *recovery)
-{
-    for (size_t j = 1; j < INDENTATION_SAMPLES; j++)
-        if (!(recovery[j] > recovery[j - 1]))
-            return false;
-    return recovery[0] == 0.0 && recovery[INDENTATION_SAMPLES - 1] == 1.0;
-}
-
 static enum percuss_status check(const struct indentation_table *table, struct fault *fault)
 {
     if (table->points == 0 || table->branches == 0 || !(table->indentation[0] > 0.0) ||
@@ -90,57 +67,135 @@ static enum percuss_status check(const struct indentation_table *table, struct f
                          "and have branches beyond it if it has points there",
                          table->points, table->branches);
     for (size_t b = 1; b < table->branches; b++)
-        if (!is_way(&table->recovery[b * INDENTATION_SAMPLES]))
+        if (!branch_shares_possible(&table->recovery[b * INDENTATION_SAMPLES]))
             return fault_set(fault, PERCUSS_BAD_REQUEST,
                              "contact table: the way back from %g m: must rise from 0 to 1",
                              table->largest[b]);
     return PERCUSS_OK;
 }
 
-struct contact_curves *table_curves_make(const struct indentation_table *table, struct fault *fault)
+/* Room for samples, and what is in it. */
+struct samples {
+    size_t points, branches;
+    double *indentation, *force, *radius;
+    double *largest, *residual, *share;
+    double *scratch; /* [BRANCH_SHARES_SCRATCH] */
+    double range;    /* m, as in struct contact_table */
+};
+
+static bool make_room(struct samples *samples, size_t points, size_t branches)
 {
-    if (check(table, fault))
-        return NULL;
-    size_t room = table->points + ELASTIC_POINTS;
-    size_t branches = table->branches > 1 ? table->branches - 1 + ONSET : 0;
     double *memory =
-        calloc(3 * room + branches * (SHARES + 2) + 5 * INDENTATION_SAMPLES, sizeof *memory);
-    if (!memory) {
-        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-        return NULL;
-    }
-    double *indentation = memory, *force = memory + room, *radius = memory + 2 * room;
-    double *largest = memory + 3 * room, *residual = largest + branches;
-    double *share = residual + branches;
-    double *scratch = share + branches * SHARES;
-    size_t points = fill_loading(table, indentation, force, radius);
-    for (size_t b = 0; b < branches; b++) {
+        calloc(3 * points + branches * (SHARES + 2) + BRANCH_SHARES_SCRATCH, sizeof *memory);
+    if (!memory)
+        return false;
+    samples->indentation = memory;
+    samples->force = memory + points;
+    samples->radius = memory + 2 * points;
+    samples->largest = memory + 3 * points;
+    samples->residual = samples->largest + branches;
+    samples->share = samples->residual + branches;
+    samples->scratch = samples->share + branches * SHARES;
+    return true;
+}
+
+static void fill_branches(const struct indentation_table *table, struct samples *samples)
+{
+    for (size_t b = 0; b < samples->branches; b++) {
         size_t from = b < ONSET ? 1 : b - ONSET + 1;
         double way = b < ONSET ? (double)b / ONSET : 1.0;
         double ratio = table->largest[from] / table->indentation[0];
-        largest[b] = b < ONSET ? table->indentation[0] * pow(ratio, way) : table->largest[from];
-        residual[b] =
-            fmax(0.0, table->residual[from]) / table->largest[from] * largest[b] * (way * way);
-        fill_branch(&table->recovery[from * INDENTATION_SAMPLES], way * way, &share[b * SHARES],
-                    scratch);
+        samples->largest[b] =
+            b < ONSET ? table->indentation[0] * pow(ratio, way) : table->largest[from];
+        samples->residual[b] = fmax(0.0, table->residual[from]) / table->largest[from] *
+                               samples->largest[b] * (way * way);
+        branch_shares_fill(&table->recovery[from * INDENTATION_SAMPLES], way * way, SHARES,
+                           &samples->share[b * SHARES], samples->scratch);
     }
-    if (branches)
-        largest[0] *= just_beyond;
-    struct contact_table samples = {
-        .points = points,
-        .indentation = indentation,
-        .force = force,
-        .contact_radius = radius,
-        .yield = table->indentation[0],
-        .branches = branches,
-        .largest = largest,
-        .residual = residual,
-        .samples = SHARES,
-        .share = share,
-        .surface_radius = table->input.radius,
-        .error = table->force_error,
-    };
-    struct contact_curves *curves = contact_curves_create(&samples, fault);
-    free(memory);
+    if (samples->branches)
+        samples->largest[0] *= just_beyond;
+}
+
+/* The last values times what the law makes of theirs from there on. */
+static void go_on(const struct contact_law *law, struct samples *samples)
+{
+    const struct plastic_curve *curve = law->operations->curve;
+    size_t last = samples->points - 1;
+    size_t end = samples->branches - 1;
+    double slope;
+    double from = samples->indentation[last], deepest = samples->largest[end];
+    double force = samples->force[last] / curve->force(law, from, &slope);
+    double radius = samples->radius[last] / curve->radius(law, from);
+    double back = (deepest - samples->residual[end]) / (deepest - curve->residual(law, deepest));
+    for (size_t i = 1; i <= BEYOND; i++) {
+        double d = from * pow(BEYOND_STEP, (double)i);
+        size_t to = last + i, branch = end + i;
+        samples->indentation[to] = d;
+        samples->force[to] = force * curve->force(law, d, &slope);
+        samples->radius[to] = rising(radius * curve->radius(law, d), samples->radius[to - 1]);
+        d = deepest * pow(BEYOND_STEP, (double)i);
+        samples->largest[branch] = d;
+        samples->residual[branch] = d - back * (d - curve->residual(law, d));
+        memcpy(&samples->share[branch * SHARES], &samples->share[end * SHARES],
+               SHARES * sizeof(double));
+    }
+    samples->points += BEYOND;
+    samples->branches += BEYOND;
+}
+
+static bool go_on_by_family(const struct indentation_table *table,
+                            const struct contact_family *family, struct samples *samples)
+{
+    const struct material *a = &table->input.materials[0], *b = &table->input.materials[1];
+    double curvature = 0.5 / table->input.radius;
+    struct hertz_contact hertz =
+        hertz_contact_make(hertz_effective_modulus(a, b), curvature, curvature);
+    struct contact_family_place place = contact_family_place(a, b);
+    struct arena arena = {0};
+    const struct contact_curves *curves = contact_family_curves(family, &place, &arena);
+    if (curves) {
+        struct contact_law law = contact_law_family(curves, &hertz, a, b);
+        go_on(&law, samples);
+        samples->range = contact_law_table_range(&law);
+    }
+    arena_release(&arena);
+    return curves;
+}
+
+struct contact_curves *table_curves_make(const struct indentation_table *table,
+                                         const struct contact_family *family, struct fault *fault)
+{
+    if (check(table, fault))
+        return NULL;
+    size_t branches = table->branches > 1 ? table->branches - 1 + ONSET : 0;
+    struct samples samples = {.branches = branches};
+    struct contact_curves *curves = NULL;
+    if (!make_room(&samples, table->points + ELASTIC_POINTS + BEYOND, branches + BEYOND)) {
+        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+        return NULL;
+    }
+    samples.points = fill_loading(table, samples.indentation, samples.force, samples.radius);
+    fill_branches(table, &samples);
+    if (family && branches && !go_on_by_family(table, family, &samples))
+        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    else
+        curves = contact_curves_create(
+            &(struct contact_table){
+                .points = samples.points,
+                .indentation = samples.indentation,
+                .force = samples.force,
+                .contact_radius = samples.radius,
+                .yield = table->indentation[0],
+                .branches = samples.branches,
+                .largest = samples.largest,
+                .residual = samples.residual,
+                .samples = SHARES,
+                .share = samples.share,
+                .surface_radius = table->input.radius,
+                .error = table->force_error,
+                .range = samples.range,
+            },
+            fault);
+    free(samples.indentation);
     return curves;
 }

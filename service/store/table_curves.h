@@ -5,12 +5,13 @@
 #ifndef PERCUSS_STORE_TABLE_CURVES_H
 #define PERCUSS_STORE_TABLE_CURVES_H
 
-#include "contact/table.h"
+#include "contact/family.h"
 #include "fe/indentation.h"
 
-/* NULL with BAD_REQUEST where the table's curves do not rise as they must, or INTERNAL without
- * memory. Free with contact_curves_free. */
+/* Beyond the table's last indentation its curves go on in proportion to those of the family, if
+ * there is one (NULL: none). NULL with BAD_REQUEST where the table's curves do not rise as they
+ * must, or INTERNAL without memory. Free with contact_curves_free. */
 struct contact_curves *table_curves_make(const struct indentation_table *table,
-                                         struct fault *fault);
+                                         const struct contact_family *family, struct fault *fault);
 
 #endif

@@ -34,10 +34,12 @@ static bool write_all(int file, const char *text)
     return fsync(file) == 0;
 }
 
-static enum percuss_status write_aside(const char *folder, const char *text, const char *path,
-                                       struct fault *fault)
+enum percuss_status table_file_write(const char *folder, const char *text, const char *path,
+                                     struct fault *fault)
 {
     char aside[TABLE_PATH_SIZE];
+    if (mkdir(folder, 0755) != 0 && errno != EEXIST)
+        return refuse(fault, folder, "cannot be made");
     /* no .json at its end: not taken for a table */
     if (snprintf(aside, sizeof aside, "%s/.table-XXXXXX", folder) >= (int)sizeof aside) {
         errno = ENAMETOOLONG;
@@ -65,18 +67,15 @@ enum percuss_status table_file_save(const char *folder, const struct indentation
         errno = ENAMETOOLONG;
         return refuse(fault, folder, "cannot be used");
     }
-    if (mkdir(folder, 0755) != 0 && errno != EEXIST)
-        return refuse(fault, folder, "cannot be made");
     char *text = table_json_write(table, origin);
     if (!text)
         return fault_set(fault, PERCUSS_INTERNAL, "contact table: out of memory");
-    enum percuss_status status = write_aside(folder, text, path, fault);
+    enum percuss_status status = table_file_write(folder, text, path, fault);
     free(text);
     return status;
 }
 
-/* The whole file; NULL with a fault. */
-static char *read_all(const char *path, size_t *size, struct fault *fault)
+char *table_file_read(const char *path, size_t *size, struct fault *fault)
 {
     FILE *file = fopen(path, "rbe");
     struct stat about;
@@ -102,7 +101,7 @@ enum percuss_status table_file_load(const char *path, struct indentation_table *
     size_t size = 0;
     *table = (struct indentation_table){0};
     struct fault reason = {""};
-    char *text = read_all(path, &size, fault);
+    char *text = table_file_read(path, &size, fault);
     if (!text)
         return PERCUSS_BAD_REQUEST;
     enum percuss_status status = table_json_read(text, size, table, &reason);

@@ -11,19 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "store/json_numbers.h"
 #include "store/table_key.h"
 
-enum { MOST_VALUES = 1000000 };
-
 static const char format_name[] = "percuss contact table 1";
-
-static json_t *array_of(size_t count, const double *values)
-{
-    json_t *array = json_array();
-    for (size_t i = 0; i < count; i++)
-        json_array_append_new(array, json_real(values[i]));
-    return array;
-}
 
 static json_t *material_of(const struct material *material)
 {
@@ -47,14 +38,15 @@ static json_t *object_of(const struct indentation_table *table, const struct tab
                                table->residual_error, "recovery", table->recovery_error);
     json_t *effort = json_pack("{s:I, s:I, s:f}", "nodes", (json_int_t)table->nodes, "newton_steps",
                                (json_int_t)table->newton_steps, "seconds", origin->seconds);
-    json_t *loading = json_pack(
-        "{s:o, s:o, s:o}", "indentation", array_of(table->points, table->indentation), "force",
-        array_of(table->points, table->force), "radius", array_of(table->points, table->radius));
+    json_t *loading =
+        json_pack("{s:o, s:o, s:o}", "indentation", json_numbers(table->points, table->indentation),
+                  "force", json_numbers(table->points, table->force), "radius",
+                  json_numbers(table->points, table->radius));
     json_t *unloading =
-        json_pack("{s:o, s:o, s:o, s:o}", "largest", array_of(table->branches, table->largest),
-                  "largest_force", array_of(table->branches, table->largest_force), "residual",
-                  array_of(table->branches, table->residual), "recovery",
-                  array_of(table->branches * INDENTATION_SAMPLES, table->recovery));
+        json_pack("{s:o, s:o, s:o, s:o}", "largest", json_numbers(table->branches, table->largest),
+                  "largest_force", json_numbers(table->branches, table->largest_force), "residual",
+                  json_numbers(table->branches, table->residual), "recovery",
+                  json_numbers(table->branches * INDENTATION_SAMPLES, table->recovery));
     return json_pack("{s:s, s:s, s:s, s:s, s:I, s:o, s:o, s:o, s:f, s:o, s:o}", "format",
                      format_name, "made_by", origin->program, "key", key, "content", content,
                      "indentation_version", (json_int_t)table->version, "input", inputs, "errors",
@@ -76,44 +68,6 @@ static const json_t *member(const json_t *object, const char *section, const cha
     return json_object_get(inside, name);
 }
 
-/* A finite number, or a refusal. */
-static enum percuss_status take_number(const json_t *value, const char *name, double *number,
-                                       struct fault *fault)
-{
-    *number = json_is_number(value) ? json_number_value(value) : NAN;
-    if (isfinite(*number))
-        return PERCUSS_OK;
-    return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: must be a number", name);
-}
-
-static enum percuss_status take_whole(const json_t *value, const char *name, size_t *number,
-                                      struct fault *fault)
-{
-    json_int_t whole = json_is_integer(value) ? json_integer_value(value) : -1;
-    *number = (size_t)whole;
-    if (whole >= 0 && whole <= UINT32_MAX)
-        return PERCUSS_OK;
-    return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: must be a whole number, not negative", name);
-}
-
-/* An array of numbers, of `*count` if that is not 0. */
-static enum percuss_status take_array(const json_t *array, const char *name, size_t *count,
-                                      double **values, struct fault *fault)
-{
-    size_t size = json_array_size(array);
-    if (size == 0 || size > MOST_VALUES || (*count && size != *count))
-        return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %zu values: must be %s", name, size,
-                         *count ? "as many as those beside it" : "1 to 1000000");
-    *count = size;
-    *values = calloc(size, sizeof **values);
-    if (!*values)
-        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = PERCUSS_OK;
-    for (size_t i = 0; i < size && !status; i++)
-        status = take_number(json_array_get(array, i), name, &(*values)[i], fault);
-    return status;
-}
-
 static enum percuss_status read_material(const json_t *object, struct material *material,
                                          struct fault *fault)
 {
@@ -129,11 +83,11 @@ static enum percuss_status read_material(const json_t *object, struct material *
                 {"tangent", &material->tangent}};
     enum percuss_status status = PERCUSS_OK;
     for (size_t i = 0; i < sizeof list / sizeof *list && !status; i++)
-        status =
-            take_number(json_object_get(object, list[i].name), list[i].name, list[i].value, fault);
+        status = json_numbers_take(json_object_get(object, list[i].name), list[i].name,
+                                   list[i].value, fault);
     material->yield = INFINITY;
     if (!status && !json_is_null(yield))
-        status = take_number(yield, "yield", &material->yield, fault);
+        status = json_numbers_take(yield, "yield", &material->yield, fault);
     return status;
 }
 
@@ -145,13 +99,14 @@ static enum percuss_status read_input(const json_t *root, struct region_input *i
     for (size_t i = 0; i < 2 && !status; i++)
         status = read_material(json_array_get(materials, i), &input->materials[i], fault);
     if (!status)
-        status = take_number(member(root, "input", "radius"), "radius", &input->radius, fault);
+        status =
+            json_numbers_take(member(root, "input", "radius"), "radius", &input->radius, fault);
     if (!status)
-        status = take_number(member(root, "input", "indentation"), "indentation",
-                             &input->indentation, fault);
+        status = json_numbers_take(member(root, "input", "indentation"), "indentation",
+                                   &input->indentation, fault);
     if (!status)
-        status = take_whole(member(root, "input", "resolution"), "resolution", &input->resolution,
-                            fault);
+        status = json_numbers_take_whole(member(root, "input", "resolution"), "resolution",
+                                         &input->resolution, fault);
     return status;
 }
 
@@ -174,8 +129,8 @@ static enum percuss_status read_arrays(const json_t *root, struct indentation_ta
         {"unloading", "recovery", &samples, &table->recovery},
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
-        status = take_array(member(root, list[i].section, list[i].name), list[i].name,
-                            list[i].count, list[i].values, fault);
+        status = json_numbers_take_array(member(root, list[i].section, list[i].name), list[i].name,
+                                         list[i].count, list[i].values, fault);
         if (status)
             return status;
     }
@@ -197,24 +152,15 @@ static enum percuss_status read_numbers(const json_t *root, struct indentation_t
                 {"errors", "recovery", &table->recovery_error}};
     enum percuss_status status = PERCUSS_OK;
     for (size_t i = 0; i < sizeof list / sizeof *list && !status; i++)
-        status = take_number(member(root, list[i].section, list[i].name), list[i].name,
-                             list[i].value, fault);
+        status = json_numbers_take(member(root, list[i].section, list[i].name), list[i].name,
+                                   list[i].value, fault);
     if (!status)
-        status = take_whole(member(root, "effort", "nodes"), "nodes", &table->nodes, fault);
+        status =
+            json_numbers_take_whole(member(root, "effort", "nodes"), "nodes", &table->nodes, fault);
     if (!status)
-        status = take_whole(member(root, "effort", "newton_steps"), "newton_steps",
-                            &table->newton_steps, fault);
+        status = json_numbers_take_whole(member(root, "effort", "newton_steps"), "newton_steps",
+                                         &table->newton_steps, fault);
     return status;
-}
-
-static enum percuss_status check_hash(const json_t *root, const char *name, const char *expected,
-                                      struct fault *fault)
-{
-    const char *text = json_string_value(json_object_get(root, name));
-    if (text && strcmp(text, expected) == 0)
-        return PERCUSS_OK;
-    return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %.40s: must be %s: the file is damaged", name,
-                     text ? text : "missing", expected);
 }
 
 static enum percuss_status read_table(const json_t *root, struct indentation_table *table,
@@ -226,8 +172,8 @@ static enum percuss_status read_table(const json_t *root, struct indentation_tab
     if (!format || strcmp(format, format_name) != 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "format: %.60s: must be %s",
                          format ? format : "missing", format_name);
-    enum percuss_status status = take_whole(json_object_get(root, "indentation_version"),
-                                            "indentation_version", &version, fault);
+    enum percuss_status status = json_numbers_take_whole(
+        json_object_get(root, "indentation_version"), "indentation_version", &version, fault);
     if (status)
         return status;
     if (version != INDENTATION_VERSION)
@@ -243,9 +189,9 @@ static enum percuss_status read_table(const json_t *root, struct indentation_tab
     if (status)
         return status;
     table_key(&table->input, key);
-    status = check_hash(root, "key", key, fault);
+    status = json_numbers_check_hash(root, "key", key, fault);
     table_content_key(table, key);
-    return status ? status : check_hash(root, "content", key, fault);
+    return status ? status : json_numbers_check_hash(root, "content", key, fault);
 }
 
 enum percuss_status table_json_read(const char *text, size_t size, struct indentation_table *table,

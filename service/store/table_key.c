@@ -94,6 +94,15 @@ void table_content_key(const struct indentation_table *table, char key[TABLE_KEY
     hash_write(hash, key);
 }
 
+void table_numbers_key(size_t lists, const size_t *counts, const double *const *values,
+                       char key[TABLE_KEY_SIZE])
+{
+    wide hash = hash_start();
+    for (size_t i = 0; i < lists; i++)
+        hash_doubles(&hash, counts[i], values[i]);
+    hash_write(hash, key);
+}
+
 /* Indentation up to which a law takes up an energy, J. */
 static double depth_for(const struct contact_law *law, double energy, double limit)
 {

@@ -25,6 +25,10 @@ void table_key(const struct region_input *input, char key[TABLE_KEY_SIZE]);
 /* A hash of all numbers of a table, in the same form. */
 void table_content_key(const struct indentation_table *table, char key[TABLE_KEY_SIZE]);
 
+/* The same of any lists of numbers. */
+void table_numbers_key(size_t lists, const size_t *counts, const double *const *values,
+                       char key[TABLE_KEY_SIZE]);
+
 /* Same constants to the last bit, but for name and density, which a static region does without. */
 bool table_same_material(const struct material *a, const struct material *b);
 

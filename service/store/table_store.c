@@ -10,7 +10,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "store/family_file.h"
 #include "store/table_curves.h"
 #include "store/table_file.h"
 #include "store/table_key.h"
@@ -26,6 +28,7 @@ struct table_entry {
 
 struct table_store {
     _Atomic(struct table_entry *) first;
+    struct contact_family *family;
     struct contact_table_source source;
 };
 
@@ -47,7 +50,7 @@ struct table_store *table_store_create(void)
     struct table_store *store = calloc(1, sizeof *store);
     if (!store)
         return NULL;
-    store->source = (struct contact_table_source){store, find_pair};
+    store->source = (struct contact_table_source){store, find_pair, NULL};
     return store;
 }
 
@@ -62,12 +65,18 @@ void table_store_free(struct table_store *store)
         free(entry);
         entry = next;
     }
+    contact_family_free(store->family);
     free(store);
 }
 
 const struct contact_table_source *table_store_source(struct table_store *store)
 {
     return &store->source;
+}
+
+void table_store_lend_family(struct table_store *store, const struct table_store *from)
+{
+    store->source.family = from->source.family;
 }
 
 static bool is_of(const struct table_entry *entry, const struct material *a,
@@ -104,7 +113,7 @@ enum percuss_status table_store_add(struct table_store *store,
     if (!entry)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     enum percuss_status status = PERCUSS_BAD_REQUEST;
-    entry->curves = table_curves_make(table, fault);
+    entry->curves = table_curves_make(table, store->source.family, fault);
     if (!entry->curves) {
         free(entry);
         return status;
@@ -134,10 +143,25 @@ static enum percuss_status load_one(struct table_store *store, const char *path,
     return status;
 }
 
+/* Before any table, as those go on by it. A folder may do without. */
+static void load_family(struct table_store *store, const char *folder,
+                        table_store_complaint *complain)
+{
+    char path[TABLE_PATH_SIZE];
+    struct fault reason;
+    snprintf(path, sizeof path, "%s/" FAMILY_FILE_NAME, folder);
+    if (store->family || access(path, F_OK) != 0)
+        return;
+    store->family = family_file_load(path, &reason);
+    store->source.family = store->family;
+    if (!store->family)
+        complain(&reason);
+}
+
 static int is_table_name(const struct dirent *entry)
 {
     size_t length = strlen(entry->d_name);
-    return entry->d_name[0] != '.' && length > 5 &&
+    return entry->d_name[0] != '.' && length > 5 && strcmp(entry->d_name, FAMILY_FILE_NAME) != 0 &&
            strcmp(entry->d_name + length - 5, ".json") == 0;
 }
 
@@ -151,6 +175,7 @@ enum percuss_status table_store_load(struct table_store *store, const char *fold
     if (found < 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: cannot be read: %s", folder,
                          strerror(errno));
+    load_family(store, folder, complain);
     for (int i = 0; i < found; i++) {
         char path[TABLE_PATH_SIZE];
         struct fault reason;

@@ -20,11 +20,16 @@ void table_store_free(struct table_store *store); /* NULL is allowed */
 /* Told what a file is refused for. */
 typedef void table_store_complaint(const struct fault *fault);
 
-/* Takes every FOLDER/ *.json that is a table of this version; what is not is complained about and
- * left out. *count becomes the number of tables taken. BAD_REQUEST: the folder cannot be read. */
+/* Takes FOLDER/family.json, where the store has no family yet, and every other FOLDER/ *.json that
+ * is a table of this version; what is not is complained about and left out. *count becomes the
+ * number of tables taken. BAD_REQUEST: the folder cannot be read. */
 enum percuss_status table_store_load(struct table_store *store, const char *folder,
                                      table_store_complaint *complain, size_t *count,
                                      struct fault *fault);
+
+/* From now on tables added go on beyond their ends by the other store's family, which must live as
+ * long. */
+void table_store_lend_family(struct table_store *store, const struct table_store *from);
 
 /* Takes one table, which stays the caller's. Any thread, also while others look up. BAD_REQUEST,
  * INTERNAL as table_curves_make. */
@@ -40,7 +45,7 @@ const struct contact_curves *table_store_find(const struct table_store *store,
  * tables. */
 bool table_store_is_circular(const double curvature[2]);
 
-/* As the solver asks; valid as long as the store. */
+/* As the solver asks, with the family; valid as long as the store. */
 const struct contact_table_source *table_store_source(struct table_store *store);
 
 #endif

@@ -7,44 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "catalogue/catalogue.h"
 #include "store/table_file.h"
 #include "store/table_key.h"
+#include "tables/bar.h"
+#include "tables/family.h"
 #include "tables/options.h"
 #include "tables/pairs.h"
-
-enum { BAR = 40 };
-
-/* What the progress bar shows. */
-struct bar {
-    const char *label;
-    int shown; /* per mille */
-    bool wanted;
-};
-
-static bool show(void *context, double done)
-{
-    struct bar *bar = context;
-    int now = (int)(1000.0 * done);
-    if (!bar->wanted || now == bar->shown)
-        return true;
-    bar->shown = now;
-    char line[BAR + 1];
-    int full = now * BAR / 1000;
-    memset(line, '#', (size_t)full);
-    memset(line + full, '.', (size_t)(BAR - full));
-    line[BAR] = '\0';
-    fprintf(stderr, "\r[%s] %5.1f %%  %s", line, 0.1 * now, bar->label);
-    return true;
-}
-
-static void clear(const struct bar *bar)
-{
-    if (bar->wanted)
-        fprintf(stderr, "\r\033[K");
-}
 
 static double processor_seconds(void)
 {
@@ -76,12 +46,12 @@ static enum percuss_status make(const struct options *options, const struct tabl
         printf("%s: is there\n", label);
         return PERCUSS_OK;
     }
-    struct bar bar = {label, -1, isatty(STDERR_FILENO)};
-    struct indentation_progress progress = {show, &bar};
+    struct bar bar = bar_begin(label);
+    struct indentation_progress progress = {bar_show, &bar};
     struct indentation_table table;
     double start = processor_seconds();
     enum percuss_status status = indentation_table_make(&input, &progress, &table, fault);
-    clear(&bar);
+    bar_clear(&bar);
     if (status)
         return status;
     struct table_origin origin = {"percuss-tables " PERCUSS_VERSION, processor_seconds() - start};
@@ -148,9 +118,10 @@ int main(int argc, char **argv)
 {
     struct options options = options_read(argc, argv);
     struct fault fault;
-    struct body_set *set;
-    enum percuss_status status = catalogue_load(options.catalogue, &set, &fault);
-    if (!status)
+    struct body_set *set = NULL;
+    enum percuss_status status = options.family ? family_compute(options.folder, &fault)
+                                                : catalogue_load(options.catalogue, &set, &fault);
+    if (!status && !options.family)
         status = make_all(&options, set, &fault);
     body_set_free(set);
     if (!status)

@@ -19,6 +19,7 @@ static const struct argp_option list[] = {
     {"b", 'b', "ID", 0, "... and this one", 0},
     {"speed", 's', "V", 0, "Deep enough for compact bodies that meet at V m/s; default 1", 0},
     {"resolution", 'r', "N", 0, "Elements along the mesh's core, 6 to 60; default 12", 0},
+    {"family", 'F', NULL, 0, "The family for all metals instead, DIR/family.json: 20 minutes", 0},
     {0},
 };
 
@@ -55,12 +56,17 @@ static error_t parse(int key, char *text, struct argp_state *state)
         options->resolution =
             (size_t)parse_number(state, "resolution", text, LEAST_RESOLUTION, MOST_RESOLUTION);
         return 0;
+    case 'F':
+        options->family = true;
+        return 0;
     case ARGP_KEY_ARG:
         argp_error(state, "%s: must be an option", text);
         return 0;
     case ARGP_KEY_END:
-        if (!options->catalogue || !options->folder)
-            argp_error(state, "--catalogue FILE and --folder DIR must be given");
+        if (options->family && (options->catalogue || options->a || options->b))
+            argp_error(state, "--family: has no catalogue and no bodies");
+        if ((!options->catalogue && !options->family) || !options->folder)
+            argp_error(state, "--catalogue FILE (or --family) and --folder DIR must be given");
         if (!options->a != !options->b)
             argp_error(state, "--a ID and --b ID must be given together");
         return 0;

@@ -5,6 +5,7 @@
 #ifndef PERCUSS_TABLES_OPTIONS_H
 #define PERCUSS_TABLES_OPTIONS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 struct options {
@@ -12,6 +13,7 @@ struct options {
     const char *a, *b; /* NULL: every pair that needs a table */
     double speed;      /* m/s */
     size_t resolution;
+    bool family; /* the family of all metals, and nothing else */
 };
 
 /* Ends the program for --help, --version and, with exit code 2, wrong usage. */

@@ -146,7 +146,7 @@ static struct contact_curves *make_curves(const struct rods *rods, int rod, doub
         fail(fault.text);
         return NULL;
     }
-    struct contact_curves *curves = table_curves_make(&table, &fault);
+    struct contact_curves *curves = table_curves_make(&table, NULL, &fault);
     indentation_table_free(&table);
     if (!curves)
         fail(fault.text);
@@ -166,7 +166,7 @@ static bool compare(const struct settings *settings, struct question *question, 
         if (!curves)
             return false;
     }
-    struct contact_table_source source = {curves, find_curves};
+    struct contact_table_source source = {curves, find_curves, NULL};
     question->workspace = solve_workspace_create();
     if (!question->workspace)
         return fail("out of memory");

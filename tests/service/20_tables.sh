@@ -34,11 +34,27 @@ expect 0 ask --contact-model table
 [ "$(field restitution)" != "$first" ] || fail "the same answer for another sphere"
 cp "$source_dir/config/catalogue.yaml" "$work/catalogue.yaml"
 
-say "auto without a table takes the closed form and says so"
+say "auto without a table of its own takes the family and says so"
+expect 0 percuss query --a glass-sphere --b al-rod-1 --speed 0.3 --json
+[ "$(field contact_model)" = table ] || fail "model $(field contact_model)"
+shows 'by the family of tables'
+stop_daemon
+
+say "without a family auto takes the closed form and says so; a damaged family is left out"
+mkdir "$work/alone"
+cp "$work"/tables/[0-9]*.json "$work/tables"/c*.json "$work/alone"
+sed 's/"poisson":\[0.1/"poisson":[0.2/' "$work/tables/family.json" >"$work/alone/family.json"
+settings "tables: alone"
+start_daemon
+logged 'table left out: .*/family.json: content: .*damaged' || fail "not complained about"
+logged 'tables: 2 from .*no family there' || fail "not two tables alone"
 expect 0 percuss query --a glass-sphere --b al-rod-1 --speed 0.3 --json
 [ "$(field contact_model)" = closed-form ] || fail "model $(field contact_model)"
 shows 'no table for these bodies'
+expect 0 percuss query --a steel-sphere --b al-rod-1 --speed 3
+says 'the table ends before the largest indentation'
 stop_daemon
+settings "tables: tables"
 
 say "damaged, foreign and outdated files are left out, the others serve"
 set -- "$work"/tables/*.json
@@ -100,13 +116,13 @@ expect 0 percuss query --request "$work/request.json" --json
 [ "$(field restitution)" = "$(field restitution "$work/slow")" ] || fail "e = $(field restitution)"
 auto() {
     expect 0 percuss query --a glass-sphere --b al-rod-2 --speed 1.2 --json
-    [ "$(field contact_model)" = "$1" ] || fail "auto took $(field contact_model)"
+    shows "elastic-plastic contact by $1"
 }
-auto closed-form
+auto 'the family of tables'
 stop_daemon
 start_daemon
 logged 'tables: 3 from' || fail "not three tables"
-auto table
+auto 'a table'
 expect 0 percuss query --request "$work/request.json" --json
 [ "$(field restitution)" = "$(field restitution "$work/slow")" ] || fail "e = $(field restitution)"
 

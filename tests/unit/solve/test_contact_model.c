@@ -43,7 +43,7 @@ static struct shelf *shelf_create(struct lab *lab, double range)
     sampled_table_make(&sampled, &law, range);
     shelf->curves = contact_curves_create(&sampled.table, &fault);
     assert_non_null(shelf->curves);
-    shelf->source = (struct contact_table_source){shelf, look_up};
+    shelf->source = (struct contact_table_source){shelf, look_up, NULL};
     solve_workspace_set_tables(lab->workspace, &shelf->source);
     return shelf;
 }
@@ -259,7 +259,10 @@ static void dents_are_bounded(void **state)
         const struct body_state *after = result.bodies[1].state_after;
         assert_int_equal(after->dents,
                          i < BODY_STATE_MAX_DENTS ? (size_t)i + 1 : BODY_STATE_MAX_DENTS);
-        assert_true((result.warning_count == 1) == (i >= BODY_STATE_MAX_DENTS - 1));
+        bool full = false;
+        for (size_t w = 0; w < result.warning_count; w++)
+            full = full || strstr(result.warnings[w], "no more are kept");
+        assert_true(full == (i >= BODY_STATE_MAX_DENTS - 1));
         free(before);
         before = malloc(body_state_size(after));
         assert_non_null(before);

@@ -1,0 +1,137 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/law_error.h"
+
+#include <math.h>
+
+#include "contact/law_closed_form.h"
+#include "contact/plastic.h"
+
+/* What tables, and the family between its places, leave where nothing else limits them: against
+ * direct computations on finer meshes (test_family). */
+static const double TABLE = 0.006;
+/* For each decade beyond 30 times the indentation of yield: what springs back is little then. */
+static const double DEEP = 0.003;
+/* What the family adds where both bodies flow and only one of them is in it. */
+static const double BOTH_YIELD = 0.004;
+/* For each step outside the axes, and each decade beyond the computed depths. */
+static const double OUTSIDE = 0.03;
+static const double BEYOND = 0.02;
+
+/* Restitution of the contact alone, from a depth: the root of the part of the work that comes back.
+ */
+static double restitution_from(const struct contact_law *law, double depth, double work)
+{
+    struct contact_law used = *law;
+    used.history = (struct contact_history){0};
+    contact_law_yield(&used, depth);
+    return sqrt(used.operations->stored(&used, contact_law_limit(&used)) / work);
+}
+
+/* Depth at which a law has taken up a work. */
+static double depth_for(const struct contact_law *law, double work)
+{
+    const struct plastic_curve *curve = law->operations->curve;
+    double d = curve->yield(law);
+    for (int i = 0; i < 60; i++) {
+        double slope;
+        double here = curve->work(law, d);
+        double change = log(work / here) * here / (curve->force(law, d, &slope) * d);
+        d *= exp(fmax(-3.0, fmin(change, 3.0)));
+        if (!(fabs(change) > 1e-9))
+            break;
+    }
+    return d;
+}
+
+/* How much less, or more, of the same work the contact gives back by the family. */
+static double against_family(const struct contact_law *law, const struct contact_law *family,
+                             double depth)
+{
+    double work = law->operations->curve->work(law, depth);
+    double other = depth_for(family, work);
+    if (!(other > family->operations->curve->yield(family)))
+        return 0.0;
+    double e = restitution_from(law, depth, work);
+    return fabs(restitution_from(family, other, work) / e - 1.0);
+}
+
+/* The closed form where there is no family to compare it with: it springs back by too little the
+ * deeper and the more the metal hardens. Fitted to that comparison, 2 to 1000 times the indentation
+ * of yield, hardening 0 to 0.2; within a third of it. */
+static double by_closed_form(double depth, double hardening)
+{
+    double way = log(fmax(depth, 1.0));
+    return 0.005 * pow(way, 2.25) + 0.35 * hardening * way;
+}
+
+/* Small strains and parabolas. Of a sphere pressed flat the mean pressure falls from 2.84 yields by
+ * exp(-0.82 (a/R)^(-0.7)) of it (Jackson and Green, J. Tribology 127 (2005) 343; of a flat that is
+ * indented it falls less), and e grows with the hardness to the power 5/8 (Johnson, Contact
+ * Mechanics, 1985, section 11.5). */
+static double by_size(double ratio)
+{
+    return ratio > 0.0 ? 0.625 * exp(-0.82 * pow(ratio, -0.7)) : 0.0;
+}
+
+/* The table itself: a family's is one between others. */
+static double by_table(const struct contact_choice *choice, double depth)
+{
+    double beyond = depth / contact_law_table_range(&choice->plastic);
+    double error = beyond > 1.0 ? BEYOND * log10(beyond) : 0.0;
+    error += DEEP * log10(fmax(depth / (30.0 * choice->yield), 1.0));
+    return error + TABLE + OUTSIDE * choice->outside + (choice->both ? BOTH_YIELD : 0.0);
+}
+
+/* Size of the dent, and all else. */
+static void find_parts(const struct geometry *geometry, const struct impact_outcome *outcome,
+                       size_t contact, double parts[2])
+{
+    const struct contact_choice *choice = &geometry->contact_model->choices[contact];
+    const struct contact_history *history = &outcome->laws[contact].history;
+    parts[0] = parts[1] = 0.0;
+    if (!contact_model_yielded(geometry, outcome, contact))
+        return;
+    const struct contact_side *side = &geometry->sides[contact][choice->side];
+    const struct material *soft = &geometry->bodies[side->body]->material;
+    double hardening = soft->tangent / soft->young;
+    parts[0] = by_size(history->contact_radius / closed_form_radius(&geometry->hertz[contact]));
+    if (choice->tabulated)
+        parts[1] = by_table(choice, history->max_indentation);
+    else if (!choice->compared.operations)
+        parts[1] = TABLE + by_closed_form(history->max_indentation / choice->yield, hardening);
+    else
+        parts[1] =
+            TABLE + against_family(&choice->plastic, &choice->compared, history->max_indentation);
+}
+
+double law_error(const struct geometry *geometry, const struct impact_outcome *outcome,
+                 size_t contact)
+{
+    double parts[2];
+    find_parts(geometry, outcome, contact, parts);
+    return parts[0] + parts[1];
+}
+
+const char *law_error_reason(const struct geometry *geometry, const struct impact_outcome *outcome,
+                             size_t contact)
+{
+    const struct contact_choice *choice = &geometry->contact_model->choices[contact];
+    double parts[2];
+    find_parts(geometry, outcome, contact, parts);
+    if (parts[0] > parts[1])
+        return "the dent is too large for small strains";
+    if (!choice->tabulated)
+        return choice->compared.operations ? "the closed form against tables of finite elements"
+                                           : "the closed form without tables to compare with";
+    return "the tables end before these materials or this depth";
+}
+
+double law_error_worst(const struct geometry *geometry, const struct impact_outcome *outcome)
+{
+    double worst = 0.0;
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        worst = fmax(worst, law_error(geometry, outcome, c));
+    return worst;
+}
