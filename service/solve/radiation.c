@@ -88,6 +88,17 @@ static double pressed_rate(const struct scene *scene, size_t contact, double rat
     return sqrt(rate * rate + 2.0 * pressing * law->operations->indentation(law, load));
 }
 
+/* The fastest that a contact of a group can be driven: by what all of them must stop (a heavy ball
+ * on a light one on a wall). */
+static double driven_rate(const struct geometry *geometry, size_t contact, double rate)
+{
+    size_t n = geometry->contact_count;
+    double energy = 0.0;
+    for (size_t c = 0; c < n; c++)
+        energy += 0.5 * geometry->impulse_compression[c] * fabs(geometry->gap_rate[c]);
+    return fmax(rate, sqrt(2.0 * energy * geometry->w[contact * (n + 1)]));
+}
+
 /* The stiffness is that of rigid masses: what vibration takes from the first blow may come back. */
 static void look_at(const struct geometry *geometry, const struct scene *scene, size_t contact,
                     double rate, struct radiator *radiator)
@@ -95,8 +106,9 @@ static void look_at(const struct geometry *geometry, const struct scene *scene, 
     struct scene rigid = *scene;
     rigid.groups = 0;
     double lag = radiator->waves.lag;
+    double driven = driven_rate(geometry, contact, rate);
     struct collision collision = collide(geometry, scene, contact, rate, lag);
-    double hardest = collide(geometry, &rigid, contact, rate, lag).stiffness;
+    double hardest = collide(geometry, &rigid, contact, driven, lag).stiffness;
     radiator->stiffness = fmax(radiator->stiffness, hardest);
     radiator->duration = fmin(radiator->duration, collision.duration);
     radiator->loss = fmax(radiator->loss, collision.loss);

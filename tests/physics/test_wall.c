@@ -5,6 +5,7 @@
  * integration of its own, its energy, both methods, dents, neighbours. */
 #include "model/half_space.h"
 #include "physics/support.h"
+#include "solve/repeat.h"
 
 static const double SPEEDS[] = {0.1, 0.5, 2.0, 5.0, 20.0};
 
@@ -194,6 +195,70 @@ static void neighbours_share_their_waves(void **state)
     lab_free(lab);
 }
 
+/* A heavy ball on a light one that rests on the wall presses it far more than its own weight and
+ * speed tell: the waves stay in the model, and CVODE agrees. */
+static void a_ball_between_a_heavy_one_and_the_wall(void **state)
+{
+    (void)state;
+    static struct solve_result result, again;
+    struct lab *lab = wall_lab(STEEL, STEEL);
+    for (double radius = 0.03; radius < 0.3; radius *= 2.0) {
+        struct solve_request request = {.body_count = 3, .contact_count = 2};
+        struct solve_request below = on_wall(0.0);
+        lab_add(lab, "heavy", make_sphere(STEEL, radius));
+        request.bodies[0] = below.bodies[0];
+        request.bodies[1] = below.bodies[1];
+        request.bodies[2] = below.bodies[0];
+        snprintf(request.bodies[2].id, sizeof request.bodies[2].id, "heavy");
+        request.bodies[2].position[2] = 0.030 + radius;
+        request.bodies[2].velocity[2] = -0.5;
+        request.contacts[0] = below.contacts[0];
+        request.contacts[1] = below.contacts[0];
+        request.contacts[1].point[2] = 0.030;
+        request.contacts[1].a = 2;
+        request.contacts[1].b = 0;
+        request.options.tolerance = 1e-6;
+        lab_solve(lab, &request, &result);
+        assert_non_null(strstr(result.reason, "waves leave"));
+        assert_true(result.energy.damping > 1e-4 * result.energy.available);
+        request.options.method = PERCUSS_METHOD_CVODE;
+        lab_solve(lab, &request, &again);
+        /* the tolerance of either */
+        measured("e", result.contacts[1].restitution, again.contacts[1].restitution, 2e-6);
+        measured_relative("waves", result.energy.damping, again.energy.damping, 1e-3);
+    }
+    lab_free(lab);
+}
+
+/* Many speeds by one model, as an ensemble solves them: each as if it were alone. */
+static void every_sample_has_its_own_waves(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = wall_lab(STEEL, ALUMINIUM);
+    struct repeat *repeat = repeat_create();
+    struct repeat_model model;
+    struct repeat_outcome outcome;
+    struct fault fault;
+    struct solve_request request = on_wall(SPEEDS[COUNT(SPEEDS) - 1]);
+    request.options.tolerance = 1e-4;
+    assert_int_equal(repeat_search(repeat, &lab->set, &request, 0, &model, &outcome, &fault),
+                     PERCUSS_OK);
+    for (size_t v = 0; v < COUNT(SPEEDS); v++) {
+        request = on_wall(SPEEDS[v]);
+        request.options.tolerance = 1e-4;
+        lab_solve(lab, &request, &result);
+        assert_int_equal(
+            repeat_solve(repeat, &lab->set, &request, 0, &model, v > 0, &outcome, &fault),
+            PERCUSS_OK);
+        /* the search may have taken other steps: two tenths of the tolerance */
+        measured("sample", outcome.restitution, result.contacts[0].restitution, 2e-5);
+        assert_true(outcome.restitution < 1.0 - 5e-4);
+    }
+    repeat_free(repeat);
+    lab_free(lab);
+}
+
 /* A dent as large as it is deep in a soft wall makes the contact far stiffer on the way back, and
  * whatever the speed the waves stay in the model. */
 static void soft_walls_take_waves_too(void **state)
@@ -225,6 +290,8 @@ int main(void)
         cmocka_unit_test(hunter_was_not_far_off),
         cmocka_unit_test(both_methods_keep_the_books),
         cmocka_unit_test(neighbours_share_their_waves),
+        cmocka_unit_test(a_ball_between_a_heavy_one_and_the_wall),
+        cmocka_unit_test(every_sample_has_its_own_waves),
         cmocka_unit_test(soft_walls_take_waves_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
