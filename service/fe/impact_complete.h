@@ -83,7 +83,7 @@ struct complete_result {
 };
 
 /* Solves on one mesh. OK; BAD_REQUEST naming the field and what is allowed; TIMEOUT when `proceed`
- * stopped it; INTERNAL without memory or where the energy does not balance to 1e-3. Same input,
+ * stopped it; INTERNAL without memory or where the energy does not balance to 1e-2. Same input,
  * same bits. */
 enum percuss_status impact_complete_solve(const struct complete_problem *problem,
                                           struct complete_result *result, struct fault *fault);

@@ -230,6 +230,14 @@ static void fill_model(const struct complete_convergence *convergence, const str
     };
 }
 
+/* The energy that the steps gain or lose, as if all of it were the rebound's. */
+static double step_error(const struct complete_result *from)
+{
+    double e = from->restitution;
+    double missed = fabs(from->energy.closure + from->energy.contact);
+    return sqrt(e * e + missed / from->energy.available) - fabs(e);
+}
+
 static void fill_end(const struct complete_result *from, double error, double tolerance,
                      struct solve_result *result)
 {
@@ -242,12 +250,14 @@ static void fill_end(const struct complete_result *from, double error, double to
                   "restitution is not final");
     result->restitution_modes = error;
     result->impulse_modes = error * result->contacts[0].impulse_compression;
-    result->tolerance_met = error <= tolerance;
+    result->restitution_time = step_error(from);
+    result->impulse_time = result->restitution_time * result->contacts[0].impulse_compression;
+    result->tolerance_met = error + result->restitution_time <= tolerance;
     if (!result->tolerance_met)
         report_warn(result,
                     "error.tolerance_met: false: the estimated error of the restitution is %.2g on "
                     "the finest mesh allowed",
-                    error);
+                    error + result->restitution_time);
     report_warn(result, "states_after: none: complete-fe keeps neither vibration nor dents");
 }
 

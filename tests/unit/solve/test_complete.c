@@ -92,6 +92,12 @@ static void two_spheres_dissipate_by_flow_only(void **state)
     /* docs/complete-fe.md: 0.6958 as the limit; four and eight elements: 0.7098, 0.6996 */
     measured("e", result.contacts[0].restitution, 0.6958, 0.01);
     assert_true(result.energy.plastic > 0.3 * result.energy.available);
+    /* what the steps gain or lose counts as the rebound's */
+    double e = result.contacts[0].restitution;
+    double changed = e + result.restitution_time;
+    double lost = fabs(result.energy.closure) / result.energy.available;
+    measured_relative("steps", changed * changed - e * e, lost, 1e-6);
+    assert_true(result.restitution_time > 0.0);
     lab_free(lab);
 }
 
