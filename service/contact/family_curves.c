@@ -86,6 +86,13 @@ static void find_weights(const struct family_axis *axis, double at, size_t order
     }
 }
 
+/* restrict: four numbers at a time */
+static void add(size_t count, double part, const double *restrict from, double *restrict sum)
+{
+    for (size_t i = 0; i < count; i++)
+        sum[i] += part * from[i];
+}
+
 /* The weighted mean of all tables' numbers. */
 static void mix(const struct contact_family *family, const struct contact_family_place *place,
                 size_t order, size_t count, const double *numbers, double *sum)
@@ -99,9 +106,8 @@ static void mix(const struct contact_family *family, const struct contact_family
     for (size_t t = 0; t < family->tables; t++) {
         double part =
             weight[0][t / third / second] * weight[1][t / third % second] * weight[2][t % third];
-        const double *from = numbers + t * count;
-        for (size_t i = 0; part != 0.0 && i < count; i++)
-            sum[i] += part * from[i];
+        if (part != 0.0)
+            add(count, part, numbers + t * count, sum);
     }
 }
 

@@ -47,11 +47,13 @@ static inline size_t family_shape_numbers(const struct contact_family *family)
     return 2 * family->branches * family->samples;
 }
 
-/* The first axis is that of the root of the hardening: cubics through it hold both what grows like
- * it and what grows like the hardening. */
+/* Along the axes: the root of the hardening, as cubics through it hold both what grows like it and
+ * what grows like the hardening; and a logarithm of the share, as curves bend ever more the smaller
+ * it is (of the force at 900 times the yield's depth, hardening 0.1, it is straight within 6 %). */
 static inline double family_along(size_t axis, double value)
 {
-    return axis == 0 ? sqrt(value) : value;
+    const double bend = 0.1;
+    return axis == 0 ? sqrt(value) : axis == 2 ? log(value + bend) : value;
 }
 
 #endif

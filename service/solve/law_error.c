@@ -10,9 +10,9 @@
 
 /* What tables, and the family between its places, leave where nothing else limits them: against
  * direct computations on finer meshes (test_family). */
-static const double TABLE = 0.006;
+static const double TABLE = 0.004;
 /* For each decade beyond 30 times the indentation of yield: what springs back is little then. */
-static const double DEEP = 0.003;
+static const double DEEP = 0.006;
 /* What the family adds where both bodies flow and only one of them is in it. */
 static const double BOTH_YIELD = 0.004;
 /* For each step outside the axes, and each decade beyond the computed depths. */

@@ -44,9 +44,8 @@ static double restitution(struct lab *lab, double radius, double length, double 
 }
 
 /* Rods of aluminium 73 GPa, 0.33, 2780 kg/m^3, with hardening. References: both bodies meshed by
- * another program's elements, which on the cases without hardening lies within 0.003 of computed
- * tables; the family's own error is 0.006 of e. The closed form, which leaves hardening out, is off
- * by 0.071, 0.147 and 0.048, and says so. */
+ * another program's elements, which on a dozen cases lie within 0.003 of computed tables. The
+ * closed form, which leaves hardening out, is off by 0.071, 0.147 and 0.048, and says so. */
 static void metals_without_a_table(void **state)
 {
     (void)state;
@@ -60,11 +59,11 @@ static void metals_without_a_table(void **state)
             ball_on(cases[i].radius, metal(73e9, 0.33, 2780.0, cases[i].yield, cases[i].tangent),
                     cases[i].length);
         double e = restitution(lab, cases[i].radius, cases[i].length, cases[i].speed);
-        measured("e", e, cases[i].meshed, 0.003 + 0.006 * cases[i].meshed);
+        measured("e", e, cases[i].meshed, 0.003);
         assert_int_equal(result.contact_model, PERCUSS_CONTACT_TABLE);
         assert_non_null(strstr(result.reason, "family"));
         assert_int_equal(result.warning_count, 0);
-        assert_true(result.omitted_error > 0.006 * e && result.omitted_error < 0.02 * e);
+        assert_true(result.omitted_error > 0.004 * e && result.omitted_error < 0.02 * e);
         struct solve_request request = strike(sphere_spot("ball", cases[i].radius),
                                               end_spot("soft", cases[i].length), cases[i].speed);
         request.options.compliance = PERCUSS_COMPLIANCE_MATCHED;
@@ -140,7 +139,8 @@ static double given_back(const struct contact_law *law, double depth)
 
 /* Regions computed for pairs between the family's places, at resolution 8: their mesh leaves 0.6 %
  * of what springs back or less (first order: half the difference to resolution 12 and the family's
- * limit), 0.3 % of e; the family 0.6 %. Where both bodies flow 0.4 % more. */
+ * limit), 0.3 % of e, and 0.2 % of the force; the family as much. Where both bodies flow 0.4 %
+ * more. */
 static void between_its_places_it_is_what_is_computed_there(void **state)
 {
     (void)state;
@@ -174,9 +174,9 @@ static void between_its_places_it_is_what_is_computed_there(void **state)
         for (double w = 2.0; w < 40.0; w *= 1.5) {
             measured_relative("force", law.operations->curve->force(&law, w * unit, &slopes[0]),
                               direct.operations->curve->force(&direct, w * unit, &slopes[1]),
-                              0.006 + 2.0 * beyond[i]);
+                              0.004 + beyond[i]);
             measured_relative("e", given_back(&law, w * unit), given_back(&direct, w * unit),
-                              0.009 + beyond[i]);
+                              0.006 + beyond[i]);
         }
         arena_release(&arena);
         contact_curves_free(curves);
@@ -184,8 +184,66 @@ static void between_its_places_it_is_what_is_computed_there(void **state)
     }
 }
 
-/* The same law for the same metal whichever body is named first, and an elliptic contact has it by
- * its sphere of equal stiffness. */
+/* Deep, at places between the family's: force over Hertz's and what springs back at 10, 100 and 900
+ * times the depth of yield, from passages at resolutions 6 and 12 at just these places,
+ * extrapolated (2 f_12 - f_6; 40 s each). The family takes the mesh's error from other places:
+ * where the body that yields is the stiffer one that is off by 0.02 of what springs back, elsewhere
+ * by 0.004. */
+static void deep_between_its_places(void **state)
+{
+    (void)state;
+    static const double depths[] = {10.0, 100.0, 900.0};
+    static const struct {
+        struct contact_family_place place;
+        double force[3], back[3], allowed;
+    } cases[] = {
+        {{0.005, 0.36, 0.55}, {0.8330, 0.4905, 0.2343}, {0.6458, 0.3093, 0.1337}, 0.007},
+        {{0.01, 0.33, 0.73}, {0.8223, 0.4839, 0.2401}, {0.6343, 0.3063, 0.1394}, 0.007},
+        {{0.05, 0.2, 0.85}, {0.8298, 0.5317, 0.3188}, {0.6578, 0.3516, 0.1981}, 0.007},
+        {{0.2, 0.25, 0.3}, {0.9315, 0.8019, 0.6959}, {0.8428, 0.6715, 0.5768}, 0.007},
+        {{0, 0.38, 0.25}, {0.8651, 0.5175, 0.2242}, {0.6871, 0.3203, 0.1232}, 0.02},
+    };
+    const struct contact_family *family = table_store_source(shipped)->family;
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct arena arena = {0};
+        struct contact_law law =
+            contact_law_table(contact_family_curves(family, &cases[i].place, &arena));
+        for (size_t k = 0; k < COUNT(depths); k++) {
+            double slope, d = depths[k];
+            double force = law.operations->curve->force(&law, d, &slope) / (d * sqrt(d));
+            double back = 1.0 - law.operations->curve->residual(&law, d) / d;
+            measured_relative("force", force, cases[i].force[k], 0.004);
+            measured_relative("springs back", back, cases[i].back[k], cases[i].allowed);
+        }
+        arena_release(&arena);
+    }
+}
+
+/* Nothing gives back more than it took up, at any place and depth, and ever less of it. */
+static void nothing_is_gained_anywhere(void **state)
+{
+    (void)state;
+    const struct contact_family *family = table_store_source(shipped)->family;
+    uint64_t seed = 11;
+    for (int i = 0; i < 200; i++) {
+        struct arena arena = {0};
+        double h = random_between(&seed, 0.0, 0.6);
+        struct contact_family_place place = {h * h, random_between(&seed, 0.0, 0.49),
+                                             random_between(&seed, 0.05, 1.0)};
+        struct contact_law law = contact_law_table(contact_family_curves(family, &place, &arena));
+        double before = 1.0;
+        for (double d = 1.001; d < 1e7; d *= d < 3.0 ? 1.01 : 1.2) {
+            double e = given_back(&law, d);
+            if (!(e < before + 2e-4))
+                fail_msg("at %g: %g after %g (%g, %g, %g)", d, e, before, place.hardening,
+                         place.poisson, place.share);
+            before = e;
+        }
+        arena_release(&arena);
+    }
+}
+
+/* By the sphere of equal stiffness. */
 static void elliptic_contacts_have_it_too(void **state)
 {
     (void)state;
@@ -208,6 +266,8 @@ int main(void)
         cmocka_unit_test(a_table_s_end_is_no_cliff),
         cmocka_unit_test(restitution_falls_with_speed),
         cmocka_unit_test(between_its_places_it_is_what_is_computed_there),
+        cmocka_unit_test(deep_between_its_places),
+        cmocka_unit_test(nothing_is_gained_anywhere),
         cmocka_unit_test(elliptic_contacts_have_it_too),
     };
     return cmocka_run_group_tests(tests, load_shipped, free_shipped);
