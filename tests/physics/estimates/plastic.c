@@ -8,8 +8,8 @@
  *   plastic --draw [--seed N]      one scene of each class; the seed is the week's unless given
  * Prints by class and model how often the difference is covered by what answer and finite elements
  * state, by how much they over-state it, and what is met and wrong. Exit 1: a scene was not
- * answered or had no table, or a table's answer is off by more than TABLE_OFF beyond what finite
- * elements state. */
+ * answered or had no table, or the answer by a table or by auto is off by more than TABLE_OFF
+ * beyond what finite elements state. */
 #include <getopt.h>
 #include <time.h>
 
@@ -18,7 +18,7 @@
 #include "store/table_curves.h"
 #include "store/table_store.h"
 
-enum { MODELS = 3, OWN_TABLE = 2, MOST = 1000, RESOLUTION = 8 };
+enum { MODELS = 3, CLOSED_FORM = 0, OWN_TABLE = 2, MOST = 1000, RESOLUTION = 8 };
 
 static const struct {
     const char *word;
@@ -30,8 +30,9 @@ static const struct {
 /* The law of the table is exact to its stated error, some 0.003. What is left is the modal model's
  * (no lateral inertia in rods) and the region's, whose surfaces are flat: up to (contact radius /
  * radius)^2 = 0.05 of the pressure, which e follows with 5/8 or less. It tells where the sphere
- * flows and flattens (0.0145 of e at most in 9 blows); in a rod the metal around the dent is as in
- * the region (0.0055 in 18). */
+ * flows and flattens (0.0145 of e at most in 10 blows); in a rod the metal around the dent is as in
+ * the region (0.0055 in 20). The family that `auto` takes is up to 0.0063 off a table: 0.0139 and
+ * 0.0086. */
 static const double TABLE_OFF[PLASTIC_COUNT] = {
     [PLASTIC_SLENDER] = 0.015, [PLASTIC_THICK] = 0.015, [PLASTIC_BALL] = 0.03};
 
@@ -120,8 +121,8 @@ static void note(struct campaign *campaign, int m, uint64_t number,
     tally->covered += difference <= sum;
     tally->met += result->tolerance_met;
     tally->wrong += result->tolerance_met && difference > 1e-3 + fe_error(fe);
-    if (m == OWN_TABLE && difference > TABLE_OFF[campaign->settings.class] + fe_error(fe)) {
-        printf("FAILED: own table: off by %.2g\n", difference);
+    if (m != CLOSED_FORM && difference > TABLE_OFF[campaign->settings.class] + fe_error(fe)) {
+        printf("FAILED: %s: off by %.2g\n", models[m].word, difference);
         campaign->fails = true;
     }
     if (campaign->settings.list)
