@@ -41,6 +41,17 @@ static double possible_range(const struct attempt_context *context, const struct
     return 1.0 + most;
 }
 
+/* An answer that does not meet its tolerance is one of those beside it. */
+static void widen(const struct attempt_context *context, const struct attempt *best,
+                  struct accuracy *accuracy)
+{
+    struct mode_error *modes = &accuracy->modes;
+    double distance = nearby_distance(context->nearby, context->geometry, &best->outcome);
+    bool alone = context->nearby->solutions < 2;
+    double error = alone && !modes->unchecked ? 0.0 : SEQUENCE_FACTOR * distance;
+    modes->restitution = fmax(modes->restitution, error - accuracy->steps.restitution);
+}
+
 /* What the searches found, in the terms of the answer. */
 static void conclude(const struct attempt_context *context, const struct attempt *best,
                      struct accuracy *accuracy)
@@ -48,13 +59,15 @@ static void conclude(const struct attempt_context *context, const struct attempt
     accuracy->assembly = best->assembly;
     accuracy->outcome = best->outcome;
     accuracy->step_accuracy = best->accuracy;
+    accuracy->tolerance_met =
+        accuracy->steps.energy_closes && !accuracy->modes.unchecked &&
+        accuracy->steps.restitution + accuracy->modes.restitution <= context->tolerance;
+    if (!accuracy->tolerance_met && attempt_is_sequence(best))
+        widen(context, best, accuracy);
     /* what sequences amplify beyond all bounds */
     double range = possible_range(context, best);
     accuracy->steps.restitution = fmin(accuracy->steps.restitution, range);
     accuracy->modes.restitution = fmin(accuracy->modes.restitution, range);
-    accuracy->tolerance_met =
-        accuracy->steps.energy_closes &&
-        accuracy->steps.restitution + accuracy->modes.restitution <= context->tolerance;
 }
 
 enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geometry *geometry,
@@ -70,9 +83,11 @@ enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geome
         .pace = means->pace,
         .tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3,
         .work = attempt_work_allowed(request->options.method),
+        .nearby = &accuracy->nearby,
     };
     bool sequence = mode_search_expects_sequence(geometry);
-    struct attempt best = {.accuracy = step_search_first_accuracy(context.tolerance, sequence)};
+    struct attempt best = {.accuracy = step_search_first_accuracy(context.tolerance, sequence,
+                                                                  geometry->contact_count > 1)};
     memset(accuracy, 0, sizeof *accuracy);
     accuracy->restitution_by_speed = NAN;
     enum percuss_status status = mode_search(&context, &best, &accuracy->modes);
@@ -80,7 +95,7 @@ enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geome
         return attempt_refuse_overlap(&context, &best,
                                       attempt_horizon(request, &best.assembly->scene), fault);
     if (!status)
-        status = step_search(&context, &best, accuracy->modes.amplification, &accuracy->steps);
+        status = step_search(&context, &best, &accuracy->modes, &accuracy->steps);
     if (!status && options->conditioning)
         status = find_conditioning(&context, &best, &accuracy->restitution_by_speed);
     if (status)

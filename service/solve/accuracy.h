@@ -15,6 +15,7 @@ struct accuracy {
     double step_accuracy;          /* that it was solved with, see impact_settings */
     struct mode_error modes;
     struct step_error steps;
+    struct nearby nearby;        /* the answer, and those that it was compared with */
     double restitution_by_speed; /* NAN unless asked for */
     bool tolerance_met;
     bool spent; /* the effort allowed ended the search */

@@ -11,6 +11,11 @@
 static const double MAX_WORK = 3e7;
 static const double MAX_WORK_CVODE = 4e9;
 
+/* Sub-impacts of a contact from which on e is chaotic often enough (a fifth of the random heavy
+ * balls on light beams from 30 on) that two solutions may agree within the tolerance and both be
+ * wrong. */
+enum { LONG = 10 };
+
 double attempt_work_allowed(enum percuss_method method)
 {
     return method == PERCUSS_METHOD_CVODE ? MAX_WORK_CVODE : MAX_WORK;
@@ -133,6 +138,14 @@ bool attempt_is_sequence(const struct attempt *attempt)
         if (attempt->outcome.tracks[c].count > 1)
             return true;
     return contacts > 1;
+}
+
+bool attempt_is_long(const struct attempt *attempt)
+{
+    for (size_t c = 0; c < attempt->assembly->scene.contacts; c++)
+        if (attempt->outcome.tracks[c].count >= LONG)
+            return true;
+    return false;
 }
 
 double attempt_energy_defect(const struct geometry *geometry, const struct impact_outcome *outcome)

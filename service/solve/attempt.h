@@ -7,6 +7,7 @@
 
 #include "impact/impact.h"
 #include "solve/assemble.h"
+#include "solve/nearby.h"
 
 /* What solving takes besides the problem; all borrowed. */
 struct attempt_means {
@@ -22,8 +23,9 @@ struct attempt_context {
     struct prepared_cache *cache;
     struct arena *arena;
     struct pace *pace;
-    double tolerance; /* on the restitution */
-    double work;      /* left for the request (impact.h) */
+    double tolerance;      /* on the restitution */
+    double work;           /* left for the request (impact.h) */
+    struct nearby *nearby; /* of the best attempt so far, for its comparisons with others */
 };
 
 struct attempt {
@@ -87,5 +89,11 @@ bool attempt_is_spent(const struct attempt *attempt);
 /* Whether a contact closes more than once, or there are several: later sub-impacts amplify what the
  * first ones miss. */
 bool attempt_is_sequence(const struct attempt *attempt);
+
+/* How much longer steps another solution takes for comparison, as accuracy (impact_settings). */
+static const double ATTEMPT_LONGER = 100.0;
+
+/* Whether a contact closes so often that one comparison may agree by chance. */
+bool attempt_is_long(const struct attempt *attempt);
 
 #endif

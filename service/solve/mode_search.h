@@ -5,19 +5,13 @@
 #ifndef PERCUSS_SOLVE_MODE_SEARCH_H
 #define PERCUSS_SOLVE_MODE_SEARCH_H
 
-#include "solve/attempt.h"
+#include "solve/sequence.h"
 
 /* Most modes of a family of a body that are tried. */
 enum { MODE_SEARCH_MOST = 1200 };
 
-/* What the omitted modes do to the answer. */
-struct mode_error {
-    double restitution, impulse;
-    double amplification; /* of a relative error of the first sub-impact into the restitution */
-};
-
-/* Whether a contact bends a beam: then a sequence of sub-impacts is likely, which amplifies every
- * error. */
+/* Whether a contact bends a beam, or there are several: then a sequence of sub-impacts is likely,
+ * which amplifies every error. */
 bool mode_search_expects_sequence(const struct geometry *geometry);
 
 /* Solves with as few modes as the tolerance allows; best->accuracy is given. PERCUSS_OK or

@@ -202,6 +202,35 @@ static const char *reason_of_error(const struct geometry *geometry, const struct
                     : "the search for more modes or shorter steps ended";
 }
 
+/* What solutions near an answer that does not meet its tolerance say of it. */
+static void warn_range(const struct geometry *geometry, const struct accuracy *accuracy,
+                       struct solve_result *result)
+{
+    const struct nearby *nearby = &accuracy->nearby;
+    size_t widest = 0;
+    for (size_t c = 1; c < geometry->contact_count; c++)
+        if (!(nearby->high[widest] - nearby->low[widest] >= nearby->high[c] - nearby->low[c]))
+            widest = c;
+    if (nearby->high[widest] > nearby->low[widest])
+        report_warn(result,
+                    "contacts[%zu].restitution: %.9g: solutions near this one span %.9g to %.9g",
+                    widest, attempt_restitution(geometry, &accuracy->outcome, widest),
+                    nearby->low[widest], nearby->high[widest]);
+}
+
+/* Counts that they do not confirm. */
+static void warn_counts(const struct geometry *geometry, const struct accuracy *accuracy,
+                        struct solve_result *result)
+{
+    const struct nearby *nearby = &accuracy->nearby;
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        if (nearby->fewest[c] != nearby->most[c])
+            report_warn(result,
+                        "contacts[%zu].sub_impact_count: %zu: uncertain: solutions near this one "
+                        "count %zu to %zu",
+                        c, accuracy->outcome.tracks[c].count, nearby->fewest[c], nearby->most[c]);
+}
+
 static void fill_errors(const struct geometry *geometry, const struct accuracy *accuracy,
                         struct solve_result *result)
 {
@@ -216,12 +245,15 @@ static void fill_errors(const struct geometry *geometry, const struct accuracy *
     result->energy = accuracy->outcome.energy;
     result->time_shift = accuracy->outcome.time_shift;
     result->window = accuracy->outcome.window;
-    if (!result->tolerance_met)
+    if (!result->tolerance_met) {
         report_warn(
             result,
             "error.tolerance_met: false: the estimated error of the restitution is %.2g: %s",
             accuracy->steps.restitution + accuracy->modes.restitution,
             reason_of_error(geometry, accuracy));
+        warn_range(geometry, accuracy, result);
+    }
+    warn_counts(geometry, accuracy, result);
 }
 
 static void fill_end(const struct accuracy *accuracy, struct solve_result *result)

@@ -8,16 +8,18 @@
 enum { MAX_TIGHTENINGS = 3 };
 /* Finest accuracy of the time steps that is tried. */
 static const double FINEST = 1e-17;
-/* Accuracies of the time steps that are compared, and tried one after the other. */
-static const double LONGER = 100.0;
-/* From here down longer steps are tried for comparison. */
+/* From here down longer steps are tried for comparison, for sequences always. */
 static const double COMPARE_BELOW = 1e-5;
+/* Of a long one, or a group, another solution is asked for. */
+static const double SLIGHTLY_LONGER = 10.0;
 
-/* The audit must close to 1e-9 where the tolerance is 1e-8 or less. */
-double step_search_first_accuracy(double tolerance, bool sequence)
+/* The audit must close to 1e-9 where the tolerance is 1e-8 or less. In groups contacts open and
+ * close within steps. Longer steps for comparison than those of 2e-4 do not exist. */
+double step_search_first_accuracy(double tolerance, bool sequence, bool group)
 {
-    double share = tolerance <= 1e-8 ? 1e-3 : sequence ? 0.01 : 0.1;
-    return fmax(share * tolerance, FINEST);
+    double share = tolerance <= 1e-8 || group ? 1e-3 : sequence ? 0.01 : 0.1;
+    double most = group ? 1e-6 : sequence ? 1e-5 : 1.0;
+    return fmax(fmin(share * tolerance, most), FINEST);
 }
 
 /* Least restitution that an elastic contact's rebound is taken for: what it gives to vibration
@@ -28,8 +30,7 @@ static const double ELASTIC_REBOUND = 0.1;
  * gain or lose, as if all of it were the rebound's (e^2 is its share of what is available; four
  * times the energy, to be safe), and not less than what the accuracy asked for has been seen to
  * leave (docs/accuracy.md). A soft contact hardly rebounds: e changes by the root of its share. */
-static double error_of_steps(const struct attempt_context *context, const struct attempt *best,
-                             double amplification)
+static double error_of_steps(const struct attempt_context *context, const struct attempt *best)
 {
     double e = best->outcome.plastic > 0.0 ? 0.0 : ELASTIC_REBOUND;
     for (size_t c = 0; c < context->geometry->contact_count; c++)
@@ -37,69 +38,91 @@ static double error_of_steps(const struct attempt_context *context, const struct
     double defect = 4.0 * attempt_energy_defect(context->geometry, &best->outcome);
     double rebound = best->outcome.plastic > 0.0 ? e + sqrt(e * e + defect) : 2.0 * e;
     double change = defect > 0.0 ? defect / rebound : 0.0;
-    return amplification * fmax(change, 0.1 * pow(best->accuracy, 0.8));
+    return fmax(change, 0.1 * pow(best->accuracy, 0.8));
 }
 
-static enum percuss_status estimate_alone(const struct attempt_context *context,
-                                          const struct attempt *best, double amplification,
-                                          struct step_error *error)
+static struct step_error estimate_alone(const struct attempt_context *context,
+                                        const struct attempt *best)
 {
     double largest = 0.0;
     for (size_t c = 0; c < context->geometry->contact_count; c++)
         largest = fmax(largest, context->geometry->impulse_compression[c]);
-    error->restitution = error_of_steps(context, best, amplification);
-    error->impulse = error->restitution * largest;
-    return PERCUSS_OK;
+    double restitution = error_of_steps(context, best);
+    return (struct step_error){.restitution = restitution, .impulse = restitution * largest};
 }
 
-/* Compares with a solution of longer steps where the tolerance is tight, estimates otherwise.
- * `coarse` is that solution where there is one already. */
-static enum percuss_status estimate(struct attempt_context *context, const struct attempt *best,
-                                    const struct attempt *coarse, double amplification,
-                                    struct step_error *error)
+/* Adds what a solution with longer steps says, `known` where there is one already. What was cut off
+ * says nothing. */
+static enum percuss_status compare(struct attempt_context *context, const struct attempt *best,
+                                   double longer, const struct attempt *known,
+                                   struct step_error *error)
 {
-    if (context->tolerance >= COMPARE_BELOW)
-        return estimate_alone(context, best, amplification, error);
     struct attempt own = *best;
-    if (!coarse) {
-        own.accuracy *= LONGER;
+    if (!known) {
+        own.accuracy *= longer;
         enum percuss_status status = attempt_run(context, &own, &best->assembly->scene);
         if (status)
             return status;
-        coarse = &own;
+        known = &own;
     }
-    if (attempt_is_spent(coarse))
-        return estimate_alone(context, best, amplification, error);
-    struct attempt_difference change = attempt_compare(context, best, coarse);
-    error->restitution = change.restitution;
-    error->impulse = change.impulse;
+    if (attempt_is_spent(known))
+        return PERCUSS_OK;
+    struct attempt_difference change = attempt_compare(context, best, known);
+    nearby_add(context->nearby, context->geometry, &known->outcome);
+    if (!attempt_is_sequence(best)) { /* better than any estimate */
+        *error = (struct step_error){.restitution = change.restitution, .impulse = change.impulse};
+        return PERCUSS_OK;
+    }
+    error->restitution = fmax(error->restitution, SEQUENCE_FACTOR * change.restitution);
+    error->impulse = fmax(error->impulse, SEQUENCE_FACTOR * change.impulse);
     return PERCUSS_OK;
 }
 
+/* `coarse`: a solution with longer steps where there is one already. `compared`: the modes' error
+ * has the steps' in it. */
+static enum percuss_status estimate(struct attempt_context *context, const struct attempt *best,
+                                    const struct attempt *coarse, bool compared,
+                                    struct step_error *error)
+{
+    bool sequence = attempt_is_sequence(best) && !compared;
+    *error = estimate_alone(context, best);
+    if (!sequence && context->tolerance >= COMPARE_BELOW)
+        return PERCUSS_OK;
+    enum percuss_status status = compare(context, best, ATTEMPT_LONGER, coarse, error);
+    bool again = sequence && (attempt_is_long(best) || context->geometry->contact_count > 1);
+    if (!status && again && error->restitution <= SEQUENCE_STEPS_SHARE * context->tolerance)
+        status = compare(context, best, SLIGHTLY_LONGER, NULL, error);
+    return status;
+}
+
 enum percuss_status step_search(struct attempt_context *context, struct attempt *best,
-                                double amplification, struct step_error *error)
+                                const struct mode_error *modes, struct step_error *error)
 {
     double closure_allowed =
         context->tolerance <= 1e-8 ? 1e-9 : fmin(10.0 * context->tolerance, ATTEMPT_WORST_DEFECT);
-    struct attempt before = *best;
+    const struct attempt *coarse = modes->longer;
+    struct attempt before;
     for (int i = 0;; i++) {
-        bool known = before.accuracy > 0.99 * LONGER * best->accuracy;
-        enum percuss_status status =
-            estimate(context, best, known ? &before : NULL, amplification, error);
+        bool compared = modes->covers_steps && i == 0;
+        enum percuss_status status = estimate(context, best, coarse, compared, error);
         if (status)
             return status;
         error->energy_defect = attempt_energy_defect(context->geometry, &best->outcome);
         error->energy_closes = error->energy_defect <= closure_allowed;
-        bool enough = error->restitution <= 0.3 * context->tolerance && error->energy_closes;
+        bool enough =
+            error->restitution <= SEQUENCE_STEPS_SHARE * context->tolerance && error->energy_closes;
         if (enough || i >= MAX_TIGHTENINGS || best->accuracy < 1.01 * FINEST ||
             attempt_is_spent(best) || best->outcome.too_stiff)
             return PERCUSS_OK;
         struct attempt finer = *best;
-        finer.accuracy = fmax(best->accuracy / LONGER, FINEST);
+        finer.accuracy = fmax(best->accuracy / ATTEMPT_LONGER, FINEST);
         status = attempt_run(context, &finer, &best->assembly->scene);
         if (status || attempt_is_spent(&finer))
             return status;
         before = *best;
         *best = finer;
+        /* a last, smaller step down is no measure */
+        coarse = before.accuracy > 0.99 * ATTEMPT_LONGER * best->accuracy ? &before : NULL;
+        nearby_add(context->nearby, context->geometry, &best->outcome);
     }
 }

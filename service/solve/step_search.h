@@ -5,7 +5,7 @@
 #ifndef PERCUSS_SOLVE_STEP_SEARCH_H
 #define PERCUSS_SOLVE_STEP_SEARCH_H
 
-#include "solve/attempt.h"
+#include "solve/sequence.h"
 
 /* What the time steps do to the answer. */
 struct step_error {
@@ -16,12 +16,12 @@ struct step_error {
 
 /* Accuracy of the time steps to begin with; a sequence of sub-impacts is expected to amplify their
  * error. */
-double step_search_first_accuracy(double tolerance, bool sequence);
+double step_search_first_accuracy(double tolerance, bool sequence, bool group);
 
-/* Solves the attempt's scene again with shorter steps if its error is too large. `amplification`:
- * of a relative error of the first sub-impact into the restitution. PERCUSS_OK or PERCUSS_INTERNAL.
- */
+/* Solves the attempt's scene again with shorter steps if its error is too large. `modes`: what is
+ * known of the attempt already, as longer steps than its own are. PERCUSS_OK, PERCUSS_INTERNAL or
+ * PERCUSS_TIMEOUT. */
 enum percuss_status step_search(struct attempt_context *context, struct attempt *best,
-                                double amplification, struct step_error *error);
+                                const struct mode_error *modes, struct step_error *error);
 
 #endif

@@ -103,8 +103,8 @@ static void paper_s_rods(void **state)
         const struct pair_of_answers *both = ask_both(lab, &request, NULL);
         assert_int_equal(both->query.contact_model, PERCUSS_CONTACT_TABLE);
         assert_int_equal(both->sample.contact_model, PERCUSS_CONTACT_TABLE);
-        /* the last digit given */
-        measured("query", both->query.contacts[0].restitution, cases[i].restitution, 1e-5);
+        /* a tenth of the tolerance: the number of modes differs by one or two */
+        measured("query", both->query.contacts[0].restitution, cases[i].restitution, 1e-4);
         measured("ensemble", both->sample.restitution, cases[i].restitution, 1e-3);
     }
     lab_free(lab);

@@ -47,6 +47,16 @@ static void a_rod_as_the_complete_bodies_say(void **state)
     lab_free(lab);
 }
 
+/* Whether the reply says that the beam's matched compliance is not known; at this tolerance it
+ * warns of what the ball leaves out and of more modes than are tried, too. */
+static bool warns_of_compliance(const struct solve_result *result)
+{
+    for (size_t i = 0; i < result->warning_count; i++)
+        if (strstr(result->warnings[i], "options.compliance: matched"))
+            return true;
+    return false;
+}
+
 /* A beam's 3-D solution is not known: half-space, and the reply says so when asked for more. */
 static void beams_stay_half_spaces(void **state)
 {
@@ -57,13 +67,10 @@ static void beams_stay_half_spaces(void **state)
         strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.2);
     solve_with(lab, request, PERCUSS_COMPLIANCE_DEFAULT, &result);
     assert_int_equal(result.compliance, PERCUSS_COMPLIANCE_HALF_SPACE);
-    /* the ball's own vibration is more than this tolerance */
-    assert_int_equal(result.warning_count, 1);
-    assert_non_null(strstr(result.warnings[0], "model.omitted_error"));
+    assert_false(warns_of_compliance(&result));
     solve_with(lab, request, PERCUSS_COMPLIANCE_MATCHED, &result);
     assert_int_equal(result.compliance, PERCUSS_COMPLIANCE_HALF_SPACE);
-    assert_int_equal(result.warning_count, 2);
-    assert_non_null(strstr(result.warnings[1], "beam"));
+    assert_true(warns_of_compliance(&result));
     lab_free(lab);
 }
 

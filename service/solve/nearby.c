@@ -1,0 +1,47 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/nearby.h"
+
+#include <math.h>
+
+#include "solve/attempt.h"
+
+void nearby_begin(struct nearby *nearby, const struct geometry *geometry,
+                  const struct impact_outcome *answer)
+{
+    nearby->solutions = 1;
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        nearby->low[c] = nearby->high[c] = attempt_restitution(geometry, answer, c);
+        nearby->fewest[c] = nearby->most[c] = answer->tracks[c].count;
+    }
+}
+
+void nearby_add(struct nearby *nearby, const struct geometry *geometry,
+                const struct impact_outcome *other)
+{
+    nearby->solutions++;
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        double e = attempt_restitution(geometry, other, c);
+        size_t count = other->tracks[c].count;
+        nearby->low[c] = fmin(nearby->low[c], e);
+        nearby->high[c] = fmax(nearby->high[c], e);
+        if (count < nearby->fewest[c])
+            nearby->fewest[c] = count;
+        if (count > nearby->most[c])
+            nearby->most[c] = count;
+    }
+}
+
+double nearby_distance(const struct nearby *nearby, const struct geometry *geometry,
+                       const struct impact_outcome *answer)
+{
+    double largest = 0.0;
+    if (nearby->solutions < 2)
+        return INFINITY;
+    for (size_t c = 0; c < geometry->contact_count; c++) {
+        double e = attempt_restitution(geometry, answer, c); /* NAN: fmax leaves it out */
+        largest = fmax(largest, fmax(e - nearby->low[c], nearby->high[c] - e));
+    }
+    return largest;
+}

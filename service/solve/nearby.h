@@ -1,0 +1,32 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What solutions near an answer say of it. A sequence of sub-impacts amplifies what the model and
+ * the steps leave out, at times beyond all bounds: then the answer is one of a range, and only
+ * other solutions of the same accuracy show how wide that is. */
+#ifndef PERCUSS_SOLVE_NEARBY_H
+#define PERCUSS_SOLVE_NEARBY_H
+
+#include "impact/impact.h"
+#include "solve/geometry.h"
+
+struct nearby {
+    size_t solutions;
+    double low[PERCUSS_MAX_CONTACTS], high[PERCUSS_MAX_CONTACTS]; /* restitution; NAN: has none */
+    size_t fewest[PERCUSS_MAX_CONTACTS], most[PERCUSS_MAX_CONTACTS]; /* sub-impacts */
+};
+
+/* The range of one solution alone. */
+void nearby_begin(struct nearby *nearby, const struct geometry *geometry,
+                  const struct impact_outcome *answer);
+
+/* Widens it by another solution of the same contacts, which was not cut off. */
+void nearby_add(struct nearby *nearby, const struct geometry *geometry,
+                const struct impact_outcome *other);
+
+/* Largest distance of an answer's restitution from the ends of the range, as large as it can be
+ * where there is no other solution. */
+double nearby_distance(const struct nearby *nearby, const struct geometry *geometry,
+                       const struct impact_outcome *answer);
+
+#endif

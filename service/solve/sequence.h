@@ -1,0 +1,34 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The error of a sequence of sub-impacts, from solutions beside the answer. Later sub-impacts
+ * amplify what the model and the steps leave out of the first ones, and not evenly. */
+#ifndef PERCUSS_SOLVE_SEQUENCE_H
+#define PERCUSS_SOLVE_SEQUENCE_H
+
+#include "solve/attempt.h"
+
+/* What the omitted modes do to the answer. */
+struct mode_error {
+    double restitution, impulse;
+    bool covers_steps; /* what longer time steps do to a sequence is in it */
+    bool by_steps;     /* it is too large, and longer time steps do more */
+    bool unchecked;    /* the effort did not suffice to find it out */
+    const struct attempt
+        *longer; /* solved with longer time steps; NULL: not needed. In the arena */
+};
+
+/* Share of the tolerance that the modes may take, and the steps. */
+static const double SEQUENCE_MODES_SHARE = 0.7;
+static const double SEQUENCE_STEPS_SHARE = 0.3;
+
+/* True error over the difference to a better or a cruder solution: below 2 for 19 of 20 random
+ * sequences of every class (docs/accuracy.md). */
+static const double SEQUENCE_FACTOR = 3.0;
+
+/* Compares a sequence with solutions beside it; `error` holds what is known without them, and is
+ * widened. PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT. */
+enum percuss_status sequence_compare(struct attempt_context *context, struct attempt *best,
+                                     struct mode_error *error);
+
+#endif
