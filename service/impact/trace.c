@@ -142,7 +142,8 @@ static void sample(struct tracer *tracer, const double *force, const double *ind
     trace->time[i] = tracer->now.time;
     for (size_t c = 0; c < trace->contacts; c++) {
         struct trace_contact *contact = &trace->contact[c];
-        contact->force[i] = fmax(0.0, force[c]);
+        /* beyond the instant of release a step's cubic may rise once more */
+        contact->force[i] = indentation[c] > 0.0 ? fmax(0.0, force[c]) : 0.0;
         contact->indentation[i] = fmax(0.0, indentation[c]);
         contact->gap[i] = tracer->now.gap[c];
         contact->gap_rate[i] = tracer->now.gap_rate[c];

@@ -54,6 +54,9 @@ static void shows_the_reply(const struct solve_result *result)
         for (size_t i = 0; i < trace->count; i++) {
             peak = fmax(peak, trace->contact[c].force[i]);
             deepest = fmax(deepest, trace->contact[c].indentation[i]);
+            /* nothing presses where nothing touches */
+            assert_true(trace->contact[c].indentation[i] > 0.0 ||
+                        trace->contact[c].force[i] == 0.0);
         }
         for (size_t i = 0; i < contact->sub_impacts_listed; i++) {
             listed_peak = fmax(listed_peak, contact->sub_impacts[i].peak_force);
@@ -141,6 +144,16 @@ static void a_rod_a_wall_and_a_ringing_beam(void **state)
     assert_int_equal(result.warning_count, 0);
     shows_the_reply(&result);
     bodies_meet_while_they_touch(&result, 0, 2e-5);
+    /* a wall's point moves with the waves that leave: into it first, and out of it at the end */
+    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    request = strike(sphere_spot("sphere", 0.015), wall_spot("wall"), 2.0);
+    request.options.trace = true;
+    lab_solve(lab, &request, &result);
+    shows_the_reply(&result);
+    bodies_meet_while_they_touch(&result, 0, 0.0);
+    const struct trace_contact *wall = &result.trace->contact[0];
+    assert_true(wall->velocity[1][result.trace->count / 8] < 0.0);
+    assert_true(wall->velocity[1][result.trace->count - 1] > 0.0);
     lab_free(lab);
 }
 
