@@ -45,7 +45,7 @@ static struct solve_request request_of(int kind)
     case 4:
     case 5:
         options->method = PERCUSS_METHOD_CVODE;
-        options->tolerance = 1e-4;
+        options->tolerance = 1e-3;
         break;
     case 6: /* a flight that no contact ends */
         request.contacts[0].gap = 1e-3;
@@ -146,39 +146,24 @@ static void stops_wherever_it_is_told_to(void **state)
     }
 }
 
-static void a_watch_changes_no_bit(void **state)
+/* What was stopped leaves nothing behind, and a watch changes no bit: solved to the end after that,
+ * and watched, the answer is that of a fresh workspace without a watch. */
+static void watched_or_stopped_before_the_bits_are_the_same(void **state)
 {
     (void)state;
     static struct solve_result plain, watched;
-    struct lab *lab = lab_of_all();
-    for (int kind = 0; kind < 7; kind++) {
-        struct solve_request request = request_of(kind);
-        lab_solve(lab, &request, &plain);
-        double impulse = plain.contacts[0].impulse, window = plain.window;
-        struct impact_energy energy = plain.energy;
-        solve_watched(lab, kind, 1L << 40, &watched);
-        assert_int_equal(watched.status, PERCUSS_OK);
-        assert_memory_equal(&watched.contacts[0].impulse, &impulse, sizeof impulse);
-        assert_memory_equal(&watched.window, &window, sizeof window);
-        assert_memory_equal(&watched.energy, &energy, sizeof energy);
-    }
-    lab_free(lab);
-}
-
-/* What was stopped leaves nothing behind: asked again the answer is that of a fresh workspace. */
-static void a_stopped_solve_leaves_nothing_behind(void **state)
-{
-    (void)state;
-    static struct solve_result result;
     for (int kind = 0; kind < 7; kind++) {
         struct lab *fresh = lab_of_all(), *used = lab_of_all();
         struct solve_request request = request_of(kind);
         for (long patience = 0; patience < 8; patience++)
-            solve_watched(used, kind, patience, &result);
-        lab_solve(fresh, &request, &result);
-        double impulse = result.contacts[0].impulse;
-        lab_solve(used, &request, &result);
-        assert_memory_equal(&result.contacts[0].impulse, &impulse, sizeof impulse);
+            solve_watched(used, kind, patience, &watched);
+        lab_solve(fresh, &request, &plain);
+        solve_watched(used, kind, 1L << 40, &watched);
+        assert_int_equal(watched.status, PERCUSS_OK);
+        assert_memory_equal(&watched.contacts[0].impulse, &plain.contacts[0].impulse,
+                            sizeof plain.contacts[0].impulse);
+        assert_memory_equal(&watched.window, &plain.window, sizeof plain.window);
+        assert_memory_equal(&watched.energy, &plain.energy, sizeof plain.energy);
         lab_free(fresh);
         lab_free(used);
     }
@@ -188,8 +173,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stops_wherever_it_is_told_to),
-        cmocka_unit_test(a_watch_changes_no_bit),
-        cmocka_unit_test(a_stopped_solve_leaves_nothing_behind),
+        cmocka_unit_test(watched_or_stopped_before_the_bits_are_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
