@@ -177,12 +177,14 @@ static void print_model(const struct percuss_ensemble_reply *reply)
     printf(", modes up to %.4g Hz\n", reply->cut);
     if (reply->check.count == 0)
         return;
-    printf(
-        "  against the full accuracy search (%llu samples): %.1f %% within the tolerance (of all "
-        "%.1f to %.1f %%),\n  the largest difference %.1e, the mean off by %.1e -+ %.1e\n",
-        (unsigned long long)reply->check.count, 100.0 * reply->check.within,
-        100.0 * reply->check.within_low, 100.0 * reply->check.within_high, reply->check.largest,
-        reply->check.mean_shift, reply->check.mean_shift_half_width);
+    printf("  against the full accuracy search (%llu samples): %.1f %% within the tolerance",
+           (unsigned long long)reply->check.count, 100.0 * reply->check.within);
+    /* an older server does not say */
+    if (!isnan(reply->check.within_high))
+        printf(" (of all %.1f to %.1f %%)", 100.0 * reply->check.within_low,
+               100.0 * reply->check.within_high);
+    printf(",\n  the largest difference %.1e, the mean off by %.1e -+ %.1e\n", reply->check.largest,
+           reply->check.mean_shift, reply->check.mean_shift_half_width);
 }
 
 static void print_distribution(const struct percuss_ensemble_reply *reply)

@@ -30,18 +30,28 @@ static void print_title(const struct percuss_request *request, size_t i)
         printf("%s on %s\n", request->bodies[contact->a].id, request->bodies[contact->b].id);
 }
 
+/* Of a longer list the negligible ones are left out. */
+enum { LONG_LIST = 40 };
+
 static void print_sub_impacts(const struct percuss_contact_result *contact)
 {
+    unsigned hidden = contact->sub_impacts_listed > LONG_LIST
+                          ? contact->sub_impacts_listed - reply_significant(contact)
+                          : 0;
     if (contact->sub_impacts_listed == 0)
         return;
     printf("\n  %4s %10s %10s %13s %8s %10s %12s\n", "#", "start/ms", "length/us", "impulse/N s",
            "share/%", "peak/N", "indent./um");
     for (uint32_t i = 0; i < contact->sub_impacts_listed; ++i) {
         const struct percuss_sub_impact *sub = &contact->sub_impacts[i];
+        if (hidden && sub->negligible)
+            continue;
         printf("  %4u %10.4f %10.2f %13.6g %8.2f %10.4g %12.4g%s\n", i + 1, 1e3 * sub->start,
                1e6 * (sub->end - sub->start), sub->impulse, 100.0 * sub->impulse / contact->impulse,
                sub->peak_force, 1e6 * sub->max_indentation, sub->negligible ? "  negligible" : "");
     }
+    if (hidden)
+        printf("  ... and %u negligible ones (--json lists them)\n", hidden);
     if (contact->sub_impacts_listed < contact->sub_impact_count)
         printf("  ... %u more\n", contact->sub_impact_count - contact->sub_impacts_listed);
 }
