@@ -137,6 +137,10 @@ bool compliance_revise(struct geometry *geometry, const struct scene *scene,
     bool radiates = radiation_is_in(geometry, scene);
     if (geometry->compliance->used != PERCUSS_COMPLIANCE_MATCHED && !radiates)
         return false;
+    if (outcome->end_reason == PERCUSS_END_LIMIT && radiation_is_shared(geometry, scene)) {
+        geometry->compliance->still = true;
+        return true;
+    }
     for (size_t c = 0; c < scene->contacts; c++) {
         if (!outcome->too_stiff && contact_bears(scene, c, largest_stiffness(geometry, outcome, c)))
             continue;

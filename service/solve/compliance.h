@@ -15,7 +15,7 @@ struct compliance {
     double *series;               /* [contact], m/N; 0: half-space */
     double (*sides)[2];           /* [contact]: the parts of either body in it */
     bool still;                   /* no waves leave through half-spaces, see radiation.h: a contact
-                                     is too stiff for them */
+                                     is too stiff for them, or too many share them */
     char reason[128];             /* why half-space although matched was asked for, or empty */
 };
 
@@ -30,7 +30,8 @@ enum percuss_status compliance_choose(struct geometry *geometry,
 
 /* Looks at a solution: true: the series compliance (residual flexibility included) is too negative
  * for the law's stiffness, |C| dF/dd >= 0.5: half-spaces are still now or, where they were, all
- * contacts' compliance is the half-space's. */
+ * contacts' compliance is the half-space's. They are still too where the effort was spent on
+ * contacts that share their waves: each by itself takes far less. */
 bool compliance_revise(struct geometry *geometry, const struct scene *scene,
                        const struct impact_outcome *outcome);
 

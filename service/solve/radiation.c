@@ -145,28 +145,30 @@ static double shared(const struct geometry *geometry, const struct radiator *rad
     return share > FAR ? share : 0.0;
 }
 
+/* What a contact feels of all waves that the contacts on its half-space make, in its own. */
+static double felt(const struct geometry *geometry, const struct radiator *radiator, size_t i)
+{
+    double sum = 0.0;
+    for (size_t j = 0; j < radiator->count; j++)
+        sum += shared(geometry, radiator, i, j);
+    return sum;
+}
+
 /* Cholesky's factor of the shares, row-major lower triangle: they are positive semidefinite but for
- * what FAR took. Returns their largest sum over a row. */
-static double factor_shares(const struct geometry *geometry, const struct radiator *radiator,
-                            double *factor)
+ * what FAR took. */
+static void factor_shares(const struct geometry *geometry, const struct radiator *radiator,
+                          double *factor)
 {
     size_t n = radiator->count;
-    double most = 0.0;
     for (size_t i = 0; i < n; i++) {
-        double row = 0.0;
-        for (size_t j = 0; j < n; j++) {
+        for (size_t j = 0; j <= i; j++) {
             double left = shared(geometry, radiator, i, j);
-            row += left;
-            if (j > i)
-                continue;
             for (size_t k = 0; k < j; k++)
                 left -= factor[i * n + k] * factor[j * n + k];
             double pivot = factor[j * (n + 1)];
             factor[i * n + j] = i == j ? sqrt(fmax(left, 0.0)) : pivot > 1e-6 ? left / pivot : 0.0;
         }
-        most = fmax(most, row);
     }
-    return most;
 }
 
 /* One more group: an oscillator that the contacts excite by a column of the factor. */
@@ -226,10 +228,13 @@ static bool add_radiator(const struct geometry *geometry, const struct radiator 
                          struct assembly *assembly, double *residual)
 {
     size_t n = radiator->count;
+    double together = 0.0;
     double *factor = arena_take(arena, n * n, sizeof *factor);
     if (!factor)
         return false;
-    double together = factor_shares(geometry, radiator, factor);
+    factor_shares(geometry, radiator, factor);
+    for (size_t i = 0; i < n; i++)
+        together = fmax(together, felt(geometry, radiator, i));
     struct oscillators *set = prepared_radiation_get(cache, geometry->bodies[radiator->body],
                                                      frequency_step(radiator, together));
     if (!set)
@@ -263,7 +268,8 @@ bool radiation_add(const struct geometry *geometry, const struct solve_request *
             continue;
         }
         for (size_t i = 0; i < radiator.count; i++)
-            assembly->omitted[radiator.contact[i]].viscosity += radiator.waves.lag;
+            assembly->omitted[radiator.contact[i]].viscosity +=
+                radiator.waves.lag * felt(geometry, &radiator, i);
     }
     return true;
 }
@@ -273,6 +279,18 @@ bool radiation_is_in(const struct geometry *geometry, const struct scene *scene)
     for (size_t g = 0; g < scene->groups; g++)
         if (is_half_space(geometry, scene->group[g].body))
             return true;
+    return false;
+}
+
+bool radiation_is_shared(const struct geometry *geometry, const struct scene *scene)
+{
+    for (size_t g = 0; g < scene->groups; g++) {
+        size_t count = 0;
+        for (size_t c = 0; c < scene->contacts; c++)
+            count += scene->group[g].participation[c] != NULL;
+        if (count > 1 && is_half_space(geometry, scene->group[g].body))
+            return true;
+    }
     return false;
 }
 

@@ -25,6 +25,9 @@ bool radiation_add(const struct geometry *geometry, const struct solve_request *
 /* Whether such oscillators are among the scene's groups. */
 bool radiation_is_in(const struct geometry *geometry, const struct scene *scene);
 
+/* Whether contacts share one of them, and so must be solved together. */
+bool radiation_is_shared(const struct geometry *geometry, const struct scene *scene);
+
 /* Whether a contact is on a half-space: the scene then depends on the speeds. */
 bool radiation_is_possible(const struct geometry *geometry);
 

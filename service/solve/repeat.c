@@ -182,10 +182,10 @@ static enum percuss_status run_scene(struct repeat *repeat, const struct solve_r
         .request = request,
         .arena = &repeat->run_memory,
         .pace = &pace,
-        .work = attempt_work_allowed(request->options.method),
     };
     attempt->accuracy = model->accuracy;
     for (;;) {
+        context.work = attempt_work_allowed(request->options.method);
         enum percuss_status status = attempt_run(&context, attempt, &repeat->scene);
         if (status)
             return pace_fault(fault, status);

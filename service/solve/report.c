@@ -197,7 +197,9 @@ static const char *reason_of_error(const struct geometry *geometry, const struct
     if (modes && omitted && !assembly->adjustable)
         return "the catalogue fixes the number of modes";
     if (modes && geometry->compliance->still)
-        return "a contact is too stiff for the waves of its half-space, which are left out";
+        return "waves that leave through half-spaces are left out: a contact is too stiff for "
+               "them, or "
+               "too many share them";
     return sequence ? "the sequence of sub-impacts amplifies small differences"
                     : "the search for more modes or shorter steps ended";
 }

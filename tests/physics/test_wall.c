@@ -195,6 +195,50 @@ static void neighbours_share_their_waves(void **state)
     lab_free(lab);
 }
 
+/* `count` spheres in rows of six, 50 mm from each other, at different speeds. */
+static void solve_crowd(struct lab *lab, size_t count, struct solve_result *result)
+{
+    struct solve_request request = {.body_count = count + 1, .contact_count = count};
+    struct solve_request one = on_wall(1.0);
+    request.bodies[count] = one.bodies[1];
+    for (size_t i = 0; i < count; i++) {
+        struct solve_body *body = &request.bodies[i];
+        struct solve_contact *contact = &request.contacts[i];
+        *body = one.bodies[0];
+        *contact = one.contacts[0];
+        contact->a = i;
+        contact->b = count;
+        body->position[0] = contact->point[0] = 0.05 * (double)(i % 6);
+        body->position[1] = contact->point[1] = 0.05 * (double)(i / 6);
+        body->velocity[2] = -(0.5 + (double)(i * 7 % 11) / 10.0);
+    }
+    lab_solve(lab, &request, result);
+}
+
+/* So many neighbours cannot be solved together with the effort allowed: they are answered without
+ * waves, with an error that has all of the waves in it, and a warning that says why. */
+static void a_crowd_is_answered_without_waves(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = wall_lab(STEEL, STEEL);
+    double lost = 0.0;
+    solve_crowd(lab, 20, &result);
+    assert_true(result.tolerance_met && result.status == PERCUSS_OK);
+    for (size_t c = 0; c < 20; c++)
+        lost = fmax(lost, 1.0 - result.contacts[c].restitution);
+    assert_true(lost > 0.03);
+    solve_crowd(lab, 40, &result);
+    assert_int_equal(result.status, PERCUSS_OK);
+    assert_false(result.tolerance_met);
+    assert_true(strstr(result.warnings[0], "left out") != NULL);
+    /* more neighbours take more */
+    assert_true(result.restitution_modes > lost && result.restitution_modes < 1.0);
+    for (size_t c = 0; c < 40; c++)
+        measured("e", result.contacts[c].restitution, 1.0, 1e-4);
+    lab_free(lab);
+}
+
 /* A heavy ball on a light one that rests on the wall presses it far more than its own weight and
  * speed tell: the waves stay in the model, and CVODE agrees. */
 static void a_ball_between_a_heavy_one_and_the_wall(void **state)
@@ -290,6 +334,7 @@ int main(void)
         cmocka_unit_test(hunter_was_not_far_off),
         cmocka_unit_test(both_methods_keep_the_books),
         cmocka_unit_test(neighbours_share_their_waves),
+        cmocka_unit_test(a_crowd_is_answered_without_waves),
         cmocka_unit_test(a_ball_between_a_heavy_one_and_the_wall),
         cmocka_unit_test(every_sample_has_its_own_waves),
         cmocka_unit_test(soft_walls_take_waves_too),
