@@ -32,6 +32,14 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
     return PERCUSS_OK;
 }
 
+static double largest_compression(const struct geometry *geometry)
+{
+    double largest = 0.0;
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        largest = fmax(largest, geometry->impulse_compression[c]);
+    return largest;
+}
+
 /* The width of what a restitution can be, from no impulse (-1) to a full rebound, or what it is. */
 static double possible_range(const struct attempt_context *context, const struct attempt *best)
 {
@@ -41,15 +49,29 @@ static double possible_range(const struct attempt_context *context, const struct
     return 1.0 + most;
 }
 
-/* An answer that does not meet its tolerance is one of those beside it. */
-static void widen(const struct attempt_context *context, const struct attempt *best,
+/* An answer that does not meet its tolerance is one of those beside it. What is unknown is no less
+ * than the tolerance. */
+static void widen(const struct attempt_context *context, const struct attempt *best, bool unknown,
                   struct accuracy *accuracy)
 {
     struct mode_error *modes = &accuracy->modes;
     double distance = nearby_distance(context->nearby, context->geometry, &best->outcome);
     bool alone = context->nearby->solutions < 2;
-    double error = alone && !modes->unchecked ? 0.0 : SEQUENCE_FACTOR * distance;
-    modes->restitution = fmax(modes->restitution, error - accuracy->steps.restitution);
+    double error = alone && !unknown ? 0.0 : SEQUENCE_FACTOR * distance;
+    error = fmax(error, unknown ? context->tolerance : 0.0) - accuracy->steps.restitution;
+    if (error > modes->restitution) {
+        modes->restitution = error;
+        modes->impulse = fmax(modes->impulse, error * largest_compression(context->geometry));
+    }
+}
+
+/* Errors that are wider than what is possible. */
+static void bound(double range, double compression, double *restitution, double *impulse)
+{
+    if (*restitution > range) {
+        *restitution = range;
+        *impulse = fmin(*impulse, range * compression);
+    }
 }
 
 /* What the searches found, in the terms of the answer. */
@@ -59,15 +81,18 @@ static void conclude(const struct attempt_context *context, const struct attempt
     accuracy->assembly = best->assembly;
     accuracy->outcome = best->outcome;
     accuracy->step_accuracy = best->accuracy;
+    /* what was cut off was compared with nothing */
+    bool unknown = accuracy->modes.unchecked || accuracy->steps.unchecked || attempt_is_spent(best);
     accuracy->tolerance_met =
-        accuracy->steps.energy_closes && !accuracy->modes.unchecked &&
+        accuracy->steps.energy_closes && !unknown &&
         accuracy->steps.restitution + accuracy->modes.restitution <= context->tolerance;
-    if (!accuracy->tolerance_met && attempt_is_sequence(best))
-        widen(context, best, accuracy);
+    if (!accuracy->tolerance_met && (attempt_is_sequence(best) || unknown))
+        widen(context, best, unknown, accuracy);
     /* what sequences amplify beyond all bounds */
     double range = possible_range(context, best);
-    accuracy->steps.restitution = fmin(accuracy->steps.restitution, range);
-    accuracy->modes.restitution = fmin(accuracy->modes.restitution, range);
+    double compression = largest_compression(context->geometry);
+    bound(range, compression, &accuracy->steps.restitution, &accuracy->steps.impulse);
+    bound(range, compression, &accuracy->modes.restitution, &accuracy->modes.impulse);
 }
 
 enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geometry *geometry,

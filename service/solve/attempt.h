@@ -93,6 +93,9 @@ bool attempt_is_sequence(const struct attempt *attempt);
 /* How much longer steps another solution takes for comparison, as accuracy (impact_settings). */
 static const double ATTEMPT_LONGER = 100.0;
 
+/* Finest accuracy of the time steps that is tried. */
+static const double ATTEMPT_FINEST = 1e-17;
+
 /* Whether a contact closes so often that one comparison may agree by chance. */
 bool attempt_is_long(const struct attempt *attempt);
 

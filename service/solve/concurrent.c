@@ -136,8 +136,11 @@ enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct ge
         status = solve_on(&refinement, resolutions[i], &accuracy->outcome);
         if (status != PERCUSS_OK)
             return status;
+        /* what the modal solutions say is of another contact model */
+        nearby_begin(&accuracy->nearby, geometry, &accuracy->outcome);
         if (i == 0)
             continue;
+        nearby_add(&accuracy->nearby, geometry, &coarse);
         estimate(accuracy, geometry, &coarse, tolerance);
         effort->extrapolated = 2.0 * attempt_restitution(geometry, &accuracy->outcome, 0) -
                                attempt_restitution(geometry, &coarse, 0);

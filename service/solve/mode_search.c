@@ -34,8 +34,10 @@ static struct attempt_difference slow_effect(const struct attempt_context *conte
         double impulse = omitted->inertia * track->inertia;
         double lost = omitted->viscosity * track->viscosity; /* J */
         double e = fabs(attempt_restitution(geometry, &attempt->outcome, c));
+        /* a contact at rest in a group is struck through its neighbours */
+        double approach = compression * geometry->w[c * (geometry->contact_count + 1)];
         if (compression > 0.0)
-            impulse += lost / (fmax(e, 0.1) * fabs(geometry->gap_rate[c]));
+            impulse += lost / (fmax(e, 0.1) * approach);
         largest.impulse = fmax(largest.impulse, impulse);
         if (compression > 0.0)
             largest.restitution = fmax(largest.restitution, impulse / compression);
@@ -82,7 +84,8 @@ static double first_allowed(const struct attempt_context *context)
 static bool can_improve(const struct attempt *best, const struct mode_error *error)
 {
     bool raise = best->assembly->adjustable && !best->assembly->capped;
-    return (raise || error->by_steps) && !error->unchecked && !attempt_is_spent(best) &&
+    bool shorter = error->by_steps && best->accuracy > 1.01 * ATTEMPT_FINEST;
+    return (error->by_steps ? shorter : raise) && !error->unchecked && !attempt_is_spent(best) &&
            !best->outcome.too_stiff;
 }
 
@@ -99,7 +102,7 @@ static void improve(const struct attempt_context *context, const struct mode_err
 {
     double factor = 0.5 * context->tolerance / error->restitution;
     if (error->by_steps)
-        next->accuracy /= ATTEMPT_LONGER;
+        next->accuracy = fmax(next->accuracy / ATTEMPT_LONGER, ATTEMPT_FINEST);
     else
         next->choice.allowed *= fmin(fmax(factor, 0.01), 0.5);
 }
@@ -120,15 +123,17 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
         best->choice = next.choice;
         if (raise == 0 || is_another(&next, best)) {
             status = attempt_run(context, &next, &next.assembly->scene);
+            if (status)
+                return status;
             /* what is cut off for its effort does not replace what was solved */
-            if (!status && raise > 0 && attempt_is_spent(&next) && !next.outcome.too_stiff)
+            if (raise > 0 && attempt_is_spent(&next) && !next.outcome.too_stiff)
                 return PERCUSS_OK;
             nearby_begin(context->nearby, context->geometry, &next.outcome);
             if (raise > 0)
                 nearby_add(context->nearby, context->geometry, &best->outcome);
             *best = next;
-            if (status || best->outcome.always_overlapped)
-                return status;
+            if (best->outcome.always_overlapped)
+                return PERCUSS_OK;
             status = estimate(context, best, error);
         }
         bool enough =

@@ -210,10 +210,13 @@ static void warn_range(const struct geometry *geometry, const struct accuracy *a
 {
     const struct nearby *nearby = &accuracy->nearby;
     size_t widest = 0;
-    for (size_t c = 1; c < geometry->contact_count; c++)
-        if (!(nearby->high[widest] - nearby->low[widest] >= nearby->high[c] - nearby->low[c]))
+    double width = 0.0;
+    for (size_t c = 0; c < geometry->contact_count; c++)
+        if (nearby->high[c] - nearby->low[c] > width) { /* false: NAN, it has no restitution */
+            width = nearby->high[c] - nearby->low[c];
             widest = c;
-    if (nearby->high[widest] > nearby->low[widest])
+        }
+    if (width > 0.0)
         report_warn(result,
                     "contacts[%zu].restitution: %.9g: solutions near this one span %.9g to %.9g",
                     widest, attempt_restitution(geometry, &accuracy->outcome, widest),

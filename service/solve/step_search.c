@@ -6,8 +6,6 @@
 #include <math.h>
 
 enum { MAX_TIGHTENINGS = 3 };
-/* Finest accuracy of the time steps that is tried. */
-static const double FINEST = 1e-17;
 /* From here down longer steps are tried for comparison, for sequences always. */
 static const double COMPARE_BELOW = 1e-5;
 /* Of a long one, or a group, another solution is asked for. */
@@ -19,7 +17,7 @@ double step_search_first_accuracy(double tolerance, bool sequence, bool group)
 {
     double share = tolerance <= 1e-8 || group ? 1e-3 : sequence ? 0.01 : 0.1;
     double most = group ? 1e-6 : sequence ? 1e-5 : 1.0;
-    return fmax(fmin(share * tolerance, most), FINEST);
+    return fmax(fmin(share * tolerance, most), ATTEMPT_FINEST);
 }
 
 /* Least restitution that an elastic contact's rebound is taken for: what it gives to vibration
@@ -65,8 +63,10 @@ static enum percuss_status compare(struct attempt_context *context, const struct
             return status;
         known = &own;
     }
-    if (attempt_is_spent(known))
+    if (attempt_is_spent(known)) {
+        error->unchecked = attempt_is_sequence(best);
         return PERCUSS_OK;
+    }
     struct attempt_difference change = attempt_compare(context, best, known);
     nearby_add(context->nearby, context->geometry, &known->outcome);
     if (!attempt_is_sequence(best)) { /* better than any estimate */
@@ -84,9 +84,9 @@ static enum percuss_status estimate(struct attempt_context *context, const struc
                                     const struct attempt *coarse, bool compared,
                                     struct step_error *error)
 {
-    bool sequence = attempt_is_sequence(best) && !compared;
+    bool sequence = attempt_is_sequence(best);
     *error = estimate_alone(context, best);
-    if (!sequence && context->tolerance >= COMPARE_BELOW)
+    if (compared || (!sequence && context->tolerance >= COMPARE_BELOW))
         return PERCUSS_OK;
     enum percuss_status status = compare(context, best, ATTEMPT_LONGER, coarse, error);
     bool again = sequence && (attempt_is_long(best) || context->geometry->contact_count > 1);
@@ -111,11 +111,11 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         error->energy_closes = error->energy_defect <= closure_allowed;
         bool enough =
             error->restitution <= SEQUENCE_STEPS_SHARE * context->tolerance && error->energy_closes;
-        if (enough || i >= MAX_TIGHTENINGS || best->accuracy < 1.01 * FINEST ||
+        if (enough || i >= MAX_TIGHTENINGS || best->accuracy < 1.01 * ATTEMPT_FINEST ||
             attempt_is_spent(best) || best->outcome.too_stiff)
             return PERCUSS_OK;
         struct attempt finer = *best;
-        finer.accuracy = fmax(best->accuracy / ATTEMPT_LONGER, FINEST);
+        finer.accuracy = fmax(best->accuracy / ATTEMPT_LONGER, ATTEMPT_FINEST);
         status = attempt_run(context, &finer, &best->assembly->scene);
         if (status || attempt_is_spent(&finer))
             return status;

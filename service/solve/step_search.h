@@ -12,6 +12,7 @@ struct step_error {
     double restitution, impulse;
     double energy_defect; /* |closure| against what is available or approaches */
     bool energy_closes;   /* as the tolerance demands */
+    bool unchecked;       /* of a sequence: the effort did not suffice to find it out */
 };
 
 /* Accuracy of the time steps to begin with; a sequence of sub-impacts is expected to amplify their
