@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "contact/family.h"
 #include "contact/law_closed_form.h"
 #include "contact/plastic.h"
 
@@ -75,6 +76,62 @@ static double by_size(double ratio)
     return ratio > 0.0 ? 0.625 * exp(-0.82 * pow(ratio, -0.7)) : 0.0;
 }
 
+/* Tables are of flat surfaces; a ball that yields bears less and springs back less, both by the
+ * first power of w = (contact radius / its own radius). Its free surface falls away under the edge
+ * by the angle w: of the mean pressure of slip lines, 2 k (1 + pi/2), 2 k w is lost (Johnson 1985,
+ * section 6.2), as far as yield and not hardening bears it, at Tabor's strain of 0.2 w. And the
+ * pole approaches the centre by F ((1 + nu)/4 + (1 - nu^2)/2) / (pi E R) less than that of a
+ * half-space by the depth (Tatara, J. Eng. Mater. Technol. 113 (1991) 285, at small contacts): so
+ * much less of F (1 - nu^2)/(2 E a) is stored, and e^2 with it, by the ball's share of the
+ * compliance. */
+static double lost_pressure(const struct material *soft, double w)
+{
+    double borne = soft->yield / (soft->yield + 0.2 * w * soft->tangent);
+    return 0.625 * borne * w / (1.0 + M_PI_2);
+}
+
+static double lost_storage(const struct material *soft, double share, double w)
+{
+    return 0.5 * share * w * M_2_PI * (0.5 + 0.25 / (1.0 - soft->poisson));
+}
+
+/* Root mean square of a surface's principal curvatures: 1/R of a sphere. */
+static double roundness(const struct site *site)
+{
+    double squares = 0.0;
+    for (int i = 0; i < 9; i++)
+        squares += site->curvature[i] * site->curvature[i];
+    return sqrt(0.5 * squares);
+}
+
+/* Of the compliance of a contact, what one of its bodies has. */
+static double share_of(const struct material *const materials[2], int side)
+{
+    double own[2];
+    for (int i = 0; i < 2; i++)
+        own[i] = (1.0 - materials[i]->poisson * materials[i]->poisson) / materials[i]->young;
+    return own[side] / (own[0] + own[1]);
+}
+
+/* Of the balls that flow: that with the smaller radius loses the pressure of both. */
+static double by_roundness(const struct geometry *geometry, size_t contact, double contact_radius)
+{
+    const struct contact_choice *choice = &geometry->contact_model->choices[contact];
+    const struct contact_side *sides = geometry->sides[contact];
+    const struct material *m[2] = {&geometry->bodies[sides[0].body]->material,
+                                   &geometry->bodies[sides[1].body]->material};
+    bool both = contact_family_both_yield(m[0], m[1]);
+    double pressure = 0.0, stored = 0.0;
+    for (int i = 0; i < 2; i++) {
+        if (i != choice->side && !both)
+            continue;
+        double w = contact_radius * roundness(&sides[i].site);
+        pressure = fmax(pressure, lost_pressure(m[i], w));
+        stored += lost_storage(m[i], share_of(m, i), w);
+    }
+    return pressure + stored;
+}
+
 /* The table itself: a family's is one between others. */
 static double by_table(const struct contact_choice *choice, double depth)
 {
@@ -84,7 +141,7 @@ static double by_table(const struct contact_choice *choice, double depth)
     return error + TABLE + OUTSIDE * choice->outside + (choice->both ? BOTH_YIELD : 0.0);
 }
 
-/* Size of the dent, and all else. */
+/* Size and shape, and all else. */
 static void find_parts(const struct geometry *geometry, const struct impact_outcome *outcome,
                        size_t contact, double parts[2])
 {
@@ -96,7 +153,8 @@ static void find_parts(const struct geometry *geometry, const struct impact_outc
     const struct contact_side *side = &geometry->sides[contact][choice->side];
     const struct material *soft = &geometry->bodies[side->body]->material;
     double hardening = soft->tangent / soft->young;
-    parts[0] = by_size(history->contact_radius / closed_form_radius(&geometry->hertz[contact]));
+    parts[0] = by_size(history->contact_radius / closed_form_radius(&geometry->hertz[contact])) +
+               by_roundness(geometry, contact, history->contact_radius);
     if (choice->tabulated)
         parts[1] = by_table(choice, history->max_indentation);
     else if (!choice->compared.operations)
