@@ -123,6 +123,8 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         *best = finer;
         /* a last, smaller step down is no measure */
         coarse = before.accuracy > 0.99 * ATTEMPT_LONGER * best->accuracy ? &before : NULL;
-        nearby_add(context->nearby, context->geometry, &best->outcome);
+        /* those with longer steps are not as accurate; what they said is in the errors */
+        nearby_begin(context->nearby, context->geometry, &best->outcome);
+        nearby_add(context->nearby, context->geometry, &before.outcome);
     }
 }
