@@ -39,6 +39,11 @@ static enum percuss_status check_axes(const struct contact_family_samples *sampl
                          "3 or more that rise from first yield, and no more branches than "
                          "unloadings",
                          samples->depths, samples->springs, samples->branches, samples->samples);
+    if (!(samples->computed > 1.0) || !(samples->error >= 0.0))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "family: computed up to %g with an error of %g: must be beyond first "
+                         "yield, and not negative",
+                         samples->computed, samples->error);
     return PERCUSS_OK;
 }
 

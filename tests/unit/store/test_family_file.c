@@ -125,6 +125,8 @@ static void damaged_files_are_named(void **state)
         {"\"poisson\":[", "\"poisson\":[0.1,0.15,", "must be as many"},
         {"\"samples\":5", "\"samples\":4", "branches"},
         {"\"branch_count\":2", "\"branch_count\":0", "branches"},
+        {"\"computed\":", "\"computed\":-", "must be beyond first yield"},
+        {"\"error\":", "\"error\":-", "must be beyond first yield"},
         {"{", "[", "must be JSON"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
