@@ -7,7 +7,7 @@
 
 #include "base/fault.h"
 
-/* Into FOLDER/family.json, with a bar on a terminal; some 13 minutes of one core. */
+/* Into FOLDER/family.json, with a bar on a terminal; some 18 minutes of one core. */
 enum percuss_status family_compute(const char *folder, struct fault *fault);
 
 #endif
