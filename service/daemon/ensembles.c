@@ -18,51 +18,51 @@ void ensembles_release(struct ensembles *ensembles)
     pthread_mutex_destroy(&ensembles->lock);
 }
 
-void ensembles_enter(struct ensembles *ensembles, struct task *task)
+void ensembles_enter(struct ensembles *ensembles, struct job *job)
 {
     pthread_mutex_lock(&ensembles->lock);
-    LIST_INSERT_HEAD(&ensembles->all, task, ensembles);
+    LIST_INSERT_HEAD(&ensembles->all, job, ensembles);
     pthread_mutex_unlock(&ensembles->lock);
 }
 
-void ensembles_leave(struct ensembles *ensembles, struct task *task)
+void ensembles_leave(struct ensembles *ensembles, struct job *job)
 {
     pthread_mutex_lock(&ensembles->lock);
-    LIST_REMOVE(task, ensembles);
+    LIST_REMOVE(job, ensembles);
     pthread_mutex_unlock(&ensembles->lock);
 }
 
 void ensembles_cancel(struct ensembles *ensembles, const uint8_t client[16], uint64_t sequence)
 {
-    struct task *task;
+    struct job *job;
     pthread_mutex_lock(&ensembles->lock);
-    LIST_FOREACH(task, &ensembles->all, ensembles)
+    LIST_FOREACH(job, &ensembles->all, ensembles)
     {
-        if (task->sequence == sequence && memcmp(task->client, client, sizeof task->client) == 0)
-            atomic_store(&task->cancelled, true);
+        if (job->sequence == sequence && memcmp(job->client, client, sizeof job->client) == 0)
+            atomic_store(&job->cancelled, true);
     }
     pthread_mutex_unlock(&ensembles->lock);
 }
 
-void ensembles_tell_waiting(struct ensembles *ensembles, const struct task *running,
-                            void (*tell)(void *context, const struct task *waiting), void *context)
+void ensembles_tell_waiting(struct ensembles *ensembles, const struct job *running,
+                            void (*tell)(void *context, const struct job *waiting), void *context)
 {
-    struct task *task;
+    struct job *job;
     pthread_mutex_lock(&ensembles->lock);
-    LIST_FOREACH(task, &ensembles->all, ensembles)
+    LIST_FOREACH(job, &ensembles->all, ensembles)
     {
-        if (task != running)
-            tell(context, task);
+        if (job != running)
+            tell(context, job);
     }
     pthread_mutex_unlock(&ensembles->lock);
 }
 
 void ensembles_cancel_all(struct ensembles *ensembles)
 {
-    struct task *task;
+    struct job *job;
     pthread_mutex_lock(&ensembles->lock);
-    LIST_FOREACH(task, &ensembles->all, ensembles)
-    atomic_store(&task->cancelled, true);
+    LIST_FOREACH(job, &ensembles->all, ensembles)
+    atomic_store(&job->cancelled, true);
     pthread_mutex_unlock(&ensembles->lock);
 }
 

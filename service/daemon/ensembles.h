@@ -8,26 +8,26 @@
 
 #include <pthread.h>
 
-#include "daemon/task.h"
+#include "daemon/job.h"
 
 struct ensembles {
     pthread_mutex_t lock;
-    LIST_HEAD(ensemble_list, task) all;
+    LIST_HEAD(ensemble_list, job) all;
     uint64_t done, samples; /* of the one that runs; samples 0: none does */
 };
 
 void ensembles_create(struct ensembles *ensembles);
 void ensembles_release(struct ensembles *ensembles);
 
-void ensembles_enter(struct ensembles *ensembles, struct task *task);
-void ensembles_leave(struct ensembles *ensembles, struct task *task);
+void ensembles_enter(struct ensembles *ensembles, struct job *job);
+void ensembles_leave(struct ensembles *ensembles, struct job *job);
 
 /* The client does not want it any more; nothing happens if there is no such ensemble. */
 void ensembles_cancel(struct ensembles *ensembles, const uint8_t client[16], uint64_t sequence);
 
 /* Tells each that waits for `running` to end. */
-void ensembles_tell_waiting(struct ensembles *ensembles, const struct task *running,
-                            void (*tell)(void *context, const struct task *waiting), void *context);
+void ensembles_tell_waiting(struct ensembles *ensembles, const struct job *running,
+                            void (*tell)(void *context, const struct job *waiting), void *context);
 
 /* The server ends. */
 void ensembles_cancel_all(struct ensembles *ensembles);

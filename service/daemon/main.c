@@ -115,7 +115,7 @@ int main(int argc, char **argv)
         return EXIT_FAILURE;
     }
     log_line(LEVEL_INFO, "ready: domain %u, %zu bodies, catalogue revision %s", settings.domain,
-             service->editions.current->set->count, service->editions.current->set->revision);
+             service->snapshots.current->set->count, service->snapshots.current->set->revision);
     serve(service, &signals);
     if (!drain(service, &signals, settings.drain_seconds)) {
         /* a thread still works, so nothing is taken apart */

@@ -13,12 +13,12 @@ struct queue {
     size_t capacity, first, length;
     size_t running; /* requests handed out and not yet done */
     bool closed;
-    struct task *tasks[]; /* a ring */
+    struct job *jobs[]; /* a ring */
 };
 
 struct queue *queue_create(size_t capacity)
 {
-    struct queue *queue = calloc(1, sizeof *queue + capacity * sizeof(struct task *));
+    struct queue *queue = calloc(1, sizeof *queue + capacity * sizeof(struct job *));
     if (!queue)
         return NULL;
     queue->capacity = capacity;
@@ -42,27 +42,27 @@ void queue_free(struct queue *queue)
     free(queue);
 }
 
-static void push(struct queue *queue, struct task *task)
+static void push(struct queue *queue, struct job *job)
 {
-    queue->tasks[(queue->first + queue->length) % queue->capacity] = task;
+    queue->jobs[(queue->first + queue->length) % queue->capacity] = job;
     queue->length++;
 }
 
-static struct task *pop(struct queue *queue)
+static struct job *pop(struct queue *queue)
 {
-    struct task *task = queue->tasks[queue->first];
+    struct job *job = queue->jobs[queue->first];
     queue->first = (queue->first + 1) % queue->capacity;
     queue->length--;
-    return task;
+    return job;
 }
 
-bool queue_put(struct queue *queue, struct task *task)
+bool queue_put(struct queue *queue, struct job *job)
 {
     pthread_mutex_lock(&queue->lock);
     bool accepted = !queue->closed && queue->length < queue->capacity;
     if (accepted) {
-        push(queue, task);
-        if (task->count > 1)
+        push(queue, job);
+        if (job->count > 1)
             pthread_cond_broadcast(&queue->filled);
         else
             pthread_cond_signal(&queue->filled);
@@ -71,22 +71,22 @@ bool queue_put(struct queue *queue, struct task *task)
     return accepted;
 }
 
-struct task *queue_take(struct queue *queue, size_t *index)
+struct job *queue_take(struct queue *queue, size_t *index)
 {
-    struct task *task = NULL;
+    struct job *job = NULL;
     pthread_mutex_lock(&queue->lock);
     while (queue->length == 0 && !queue->closed)
         pthread_cond_wait(&queue->filled, &queue->lock);
     if (queue->length > 0) {
-        task = pop(queue);
-        *index = task->next++;
+        job = pop(queue);
+        *index = job->next++;
         /* the rest of a batch goes to the end: others need not wait for all of it */
-        if (task->next < task->count)
-            push(queue, task);
+        if (job->next < job->count)
+            push(queue, job);
         queue->running++;
     }
     pthread_mutex_unlock(&queue->lock);
-    return task;
+    return job;
 }
 
 void queue_done(struct queue *queue)

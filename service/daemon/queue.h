@@ -1,35 +1,35 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The tasks that wait: bounded, and full means refused. */
+/* The jobs that wait: bounded, and full means refused. */
 #ifndef PERCUSS_DAEMON_QUEUE_H
 #define PERCUSS_DAEMON_QUEUE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "daemon/task.h"
+#include "daemon/job.h"
 
 struct queue;
 struct queue *queue_create(size_t capacity); /* NULL: out of memory */
 void queue_free(struct queue *queue);        /* must be empty */
 
-/* False: full or closed, and the task stays the caller's. */
-bool queue_put(struct queue *queue, struct task *task);
+/* False: full or closed, and the job stays the caller's. */
+bool queue_put(struct queue *queue, struct job *job);
 
-/* Waits for a request: task->requests[*index] is the caller's to answer, and then to be reported by
- * queue_done. The members of a batch are handed out one by one, taking turns with other tasks.
+/* Waits for a request: job->requests[*index] is the caller's to answer, and then to be reported by
+ * queue_done. The members of a batch are handed out one by one, taking turns with other jobs.
  * NULL: the queue is closed and empty. */
-struct task *queue_take(struct queue *queue, size_t *index);
+struct job *queue_take(struct queue *queue, size_t *index);
 void queue_done(struct queue *queue);
 
-/* Takes no more tasks. */
+/* Takes no more jobs. */
 void queue_close(struct queue *queue);
 
 /* Waits until nothing is queued or being answered, at most `seconds`. False: something is. */
 bool queue_drain(struct queue *queue, double seconds);
 
-/* Number of tasks that wait. */
+/* Number of jobs that wait. */
 size_t queue_length(struct queue *queue);
 
 #endif

@@ -10,8 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "daemon/dispatch.h"
 #include "daemon/log.h"
-#include "daemon/reception.h"
 #include "daemon/workers.h"
 #include "endpoint/clock.h"
 #include "endpoint/encode.h"
@@ -40,9 +40,9 @@ static bool create_stores(struct service *service)
     service->tables.folder = settings->tables;
     service->tables.replies = service->replies;
     service->tables.draining = &service->draining;
-    bool good = table_shelf_fill(&service->tables);
-    service->desk = good ? seat_create(&service->tables, false) : NULL;
-    good = service->tokens && service->replies && service->desk;
+    bool good = table_cache_load(&service->tables);
+    service->inline_responder = good ? responder_create(&service->tables, false) : NULL;
+    good = service->tokens && service->replies && service->inline_responder;
     for (int lane = 0; lane < LANE_COUNT; lane++) {
         service->lanes[lane] = queue_create(settings->queue_capacity);
         good = good && service->lanes[lane];
@@ -53,7 +53,7 @@ static bool create_stores(struct service *service)
 static void *read_requests(void *argument)
 {
     struct service *service = argument;
-    struct endpoint_handler handler = reception_handler(service);
+    struct endpoint_handler handler = dispatch_handler(service);
     endpoint_run(service->endpoint, &handler);
     return NULL;
 }
@@ -70,11 +70,11 @@ static bool start_threads(struct service *service, struct fault *fault)
 /* Announced before anybody can hit them. */
 static bool open_dents(struct service *service, struct fault *fault)
 {
-    if (!service->rig)
+    if (!service->specimens)
         return true;
     if (!endpoint_open_dents(service->endpoint, fault))
         return false;
-    rig_announce(service->rig, service->endpoint);
+    specimen_lane_announce(service->specimens, service->endpoint);
     return true;
 }
 
@@ -88,20 +88,20 @@ struct service *service_create(const struct settings *settings, struct fault *fa
     service->settings = settings;
     ensembles_create(&service->ensembles);
     service->started = clock_now();
-    if (editions_create(&service->editions, settings->catalogue, fault))
+    if (snapshots_open(&service->snapshots, settings->catalogue, fault))
         goto failed;
     if (!create_stores(service)) {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         goto failed;
     }
     if (settings->store[0] &&
-        rig_open(settings->store, settings->stored_replies, &service->rig, fault))
+        specimen_lane_open(settings->store, settings->stored_replies, &service->specimens, fault))
         goto failed;
     service->endpoint = endpoint_create(settings->domain, fault);
     if (!service->endpoint || !open_dents(service, fault) || !start_threads(service, fault))
         goto failed;
     /* bodies before the status: whoever sees a server finds its catalogue */
-    if (!endpoint_announce_bodies(service->endpoint, service->editions.current->set, NULL))
+    if (!endpoint_announce_bodies(service->endpoint, service->snapshots.current->set, NULL))
         log_line(LEVEL_WARNING, "not all bodies could be announced");
     service_announce(service);
     return service;
@@ -124,14 +124,14 @@ void service_free(struct service *service)
     if (service->endpoint)
         endpoint_flush(service->endpoint, flush_seconds);
     endpoint_free(service->endpoint);
-    rig_close(service->rig);
-    seat_free(service->desk);
+    specimen_lane_close(service->specimens);
+    responder_free(service->inline_responder);
     for (int lane = 0; lane < LANE_COUNT; lane++)
         queue_free(service->lanes[lane]);
-    table_shelf_empty(&service->tables);
+    table_cache_free(&service->tables);
     reply_store_free(service->replies);
     token_store_free(service->tokens);
-    editions_release(&service->editions);
+    snapshots_close(&service->snapshots);
     ensembles_release(&service->ensembles);
     free(service);
 }
@@ -139,20 +139,20 @@ void service_free(struct service *service)
 void service_reload(struct service *service)
 {
     struct fault fault;
-    struct edition *before;
+    struct snapshot *before;
     const char *path = service->settings->catalogue;
-    if (editions_reload(&service->editions, path, &before, &fault)) {
+    if (snapshots_reload(&service->snapshots, path, &before, &fault)) {
         log_line(LEVEL_ERROR, "reload: %s; the old catalogue stays", fault.text);
         return;
     }
-    struct edition *now = editions_hold(&service->editions);
+    struct snapshot *now = snapshots_hold(&service->snapshots);
     if (!endpoint_announce_bodies(service->endpoint, now->set, before->set))
         log_line(LEVEL_WARNING, "not all bodies could be announced");
     log_line(LEVEL_INFO, "reload: %zu bodies, catalogue revision %s%s", now->set->count,
              now->set->revision,
              strcmp(now->set->revision, before->set->revision) ? "" : " as before");
-    editions_let_go(&service->editions, before);
-    editions_let_go(&service->editions, now);
+    snapshots_release(&service->snapshots, before);
+    snapshots_release(&service->snapshots, now);
     service_announce(service);
 }
 
@@ -166,17 +166,17 @@ static uint32_t waiting(const struct service *service)
 
 void service_announce(struct service *service)
 {
-    struct edition *edition = editions_hold(&service->editions);
+    struct snapshot *snapshot = snapshots_hold(&service->snapshots);
     percuss_v1_ServerStatus status = {
         .process = (uint32_t)getpid(),
         .workers = service->settings->workers,
-        .bodies = (uint32_t)edition->set->count,
+        .bodies = (uint32_t)snapshot->set->count,
         .queue_length = waiting(service),
         .queue_capacity = LANE_COUNT * service->settings->queue_capacity,
         .answered = atomic_load(&service->answered),
         .refused = atomic_load(&service->refused),
         .uptime = clock_now() - service->started,
-        .specimens = service->rig ? (uint32_t)rig_count(service->rig) : 0,
+        .specimens = service->specimens ? (uint32_t)specimen_lane_count(service->specimens) : 0,
     };
     ensembles_describe(&service->ensembles, status.activity, &status.progress);
     const char *state = atomic_load(&service->draining) ? "draining" : "ready";
@@ -188,9 +188,9 @@ void service_announce(struct service *service)
     snprintf(status.version, sizeof status.version, "%s", PERCUSS_VERSION);
     snprintf(status.state, sizeof status.state, "%s", state);
     snprintf(status.catalogue_revision, sizeof status.catalogue_revision, "%s",
-             edition->set->revision);
+             snapshot->set->revision);
     snprintf(status.catalogue, sizeof status.catalogue, "%.255s", service->settings->catalogue);
-    editions_let_go(&service->editions, edition);
+    snapshots_release(&service->snapshots, snapshot);
     gethostname(status.host, sizeof status.host - 1);
     endpoint_announce_status(service->endpoint, &status);
 }
@@ -206,9 +206,9 @@ void service_tick(struct service *service)
                  undelivered - service->reported);
     service->reported = undelivered;
     service_announce(service);
-    struct edition *edition = editions_hold(&service->editions);
-    neighbours_look(&service->neighbours, service->endpoint, edition->set->revision);
-    editions_let_go(&service->editions, edition);
+    struct snapshot *snapshot = snapshots_hold(&service->snapshots);
+    neighbours_look(&service->neighbours, service->endpoint, snapshot->set->revision);
+    snapshots_release(&service->snapshots, snapshot);
 }
 
 void service_begin_drain(struct service *service)
@@ -234,13 +234,13 @@ bool service_cut_short(struct service *service)
 }
 
 struct envelope service_envelope(const struct service *service, const struct request_name *name,
-                                 const struct edition *edition)
+                                 const struct snapshot *snapshot)
 {
     return (struct envelope){
         .client = name->client,
         .server = endpoint_server(service->endpoint),
         .sequence = name->sequence,
-        .revision = edition->set->revision,
+        .revision = snapshot->set->revision,
         .version = PERCUSS_VERSION,
     };
 }

@@ -5,14 +5,14 @@
 #ifndef PERCUSS_DAEMON_SERVICE_H
 #define PERCUSS_DAEMON_SERVICE_H
 
-#include "daemon/edition.h"
 #include "daemon/ensembles.h"
 #include "daemon/neighbours.h"
 #include "daemon/queue.h"
-#include "daemon/respond.h"
-#include "daemon/rig.h"
+#include "daemon/responder.h"
 #include "daemon/settings.h"
-#include "daemon/table_shelf.h"
+#include "daemon/snapshot.h"
+#include "daemon/specimen_lane.h"
+#include "daemon/table_cache.h"
 #include "endpoint/endpoint.h"
 #include "endpoint/reply_store.h"
 
@@ -22,15 +22,16 @@ enum lane { LANE_SHORT, LANE_LONG, LANE_SPECIMENS, LANE_COUNT };
 
 struct service {
     const struct settings *settings;
-    struct editions editions;
+    struct snapshots snapshots;
     struct endpoint *endpoint;
     struct token_store *tokens;
     struct reply_store *replies;
-    struct table_shelf tables;
-    struct rig *rig; /* of the specimens; NULL: no store */
+    struct table_cache tables;
+    struct specimen_lane *specimens; /* NULL: no store */
     struct queue *lanes[LANE_COUNT];
     struct ensembles ensembles; /* in the long lane */
-    struct seat *desk;          /* of the reading thread, which solves what is cheap itself */
+    struct responder
+        *inline_responder; /* of the reading thread, which solves what is cheap itself */
     uint8_t last_client[16];
     double company_until; /* monotonic, s: till then several clients count as asking */
     double started;       /* monotonic, s */
@@ -69,9 +70,9 @@ bool service_cut_short(struct service *service);
 /* Ends the threads and leaves the domain. */
 void service_free(struct service *service);
 
-/* The head of the reply to that request, answered from that edition, which must stay. */
+/* The head of the reply to that request, answered from that snapshot, which must stay. */
 struct envelope service_envelope(const struct service *service, const struct request_name *name,
-                                 const struct edition *edition);
+                                 const struct snapshot *snapshot);
 
 /* Sends the answer to an admitted request, stores it and counts it; the caller keeps his reference.
  * NULL: there was no memory for one. */

@@ -7,7 +7,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "daemon/ensemble_run.h"
+#include "daemon/ensemble_job.h"
 #include "endpoint/batch.h"
 
 static const int long_lane_nice = 10;
@@ -15,57 +15,57 @@ static const int long_lane_nice = 10;
 struct worker {
     struct service *service;
     enum lane lane;
-    struct seat *seat;
+    struct responder *responder;
     pthread_t thread;
 };
 
-static struct request_name task_name(const struct task *task)
+static struct request_name job_name(const struct job *job)
 {
-    return (struct request_name){task->client, task->exchange, task->sequence};
+    return (struct request_name){job->client, job->exchange, job->sequence};
 }
 
 /* The replies of a batch as one answer, in the order of its requests; NULL: no memory. */
-static struct answer *assemble(const struct service *service, struct task *task)
+static struct answer *assemble(const struct service *service, struct job *job)
 {
-    for (size_t i = 0; i < task->count; i++) {
-        if (!task->answers[i])
+    for (size_t i = 0; i < job->count; i++) {
+        if (!job->answers[i])
             return NULL;
     }
-    struct request_name name = task_name(task);
-    struct envelope envelope = service_envelope(service, &name, task->edition);
-    struct answer *answer = batch_answer(&envelope, task->answers, task->count);
+    struct request_name name = job_name(job);
+    struct envelope envelope = service_envelope(service, &name, job->snapshot);
+    struct answer *answer = batch_answer(&envelope, job->answers, job->count);
     if (answer) {
         /* it has taken the references over */
-        free(task->answers);
-        task->answers = NULL;
+        free(job->answers);
+        job->answers = NULL;
     }
     return answer;
 }
 
-/* The last request of the task has been answered: sends the reply. */
-static void finish(struct service *service, struct task *task)
+/* The last request of the job has been answered: sends the reply. */
+static void finish(struct service *service, struct job *job)
 {
-    struct request_name name = task_name(task);
+    struct request_name name = job_name(job);
     /* a client that has come back meanwhile is told */
-    if (atomic_load(&task->abandoned) && reply_store_is_gone(service->replies, task->client)) {
+    if (atomic_load(&job->abandoned) && reply_store_is_gone(service->replies, job->client)) {
         reply_store_forget(service->replies, &name);
-    } else if (task->exchange == EXCHANGE_BATCH) {
-        struct answer *answer = assemble(service, task);
+    } else if (job->exchange == EXCHANGE_BATCH) {
+        struct answer *answer = assemble(service, job);
         service_deliver(service, &name, answer);
         answer_release(answer);
     } else {
-        service_deliver(service, &name, task->answers[0]);
+        service_deliver(service, &name, job->answers[0]);
     }
-    if (task->ensemble)
-        ensembles_leave(&service->ensembles, task);
-    editions_let_go(&service->editions, task->edition);
-    task_free(task);
+    if (job->ensemble)
+        ensembles_leave(&service->ensembles, job);
+    snapshots_release(&service->snapshots, job->snapshot);
+    job_free(job);
 }
 
 /* Who asked. */
 struct asker {
     struct service *service;
-    struct task *task;
+    struct job *job;
 };
 
 /* Whether he still waits, see question.still_wanted. */
@@ -74,9 +74,9 @@ static enum percuss_status still_wanted(void *context, struct fault *fault)
     const struct asker *asker = context;
     if (atomic_load(&asker->service->ending))
         return fault_set(fault, PERCUSS_BUSY, "the server is shutting down: ask another one");
-    if (!reply_store_is_gone(asker->service->replies, asker->task->client))
+    if (!reply_store_is_gone(asker->service->replies, asker->job->client))
         return PERCUSS_OK;
-    atomic_store(&asker->task->abandoned, true);
+    atomic_store(&asker->job->abandoned, true);
     return fault_set(fault, PERCUSS_TIMEOUT, "the client had gone: ask again");
 }
 
@@ -85,57 +85,58 @@ static struct answer *answer_one(struct worker *worker, const struct question *q
 {
     struct service *service = worker->service;
     if (worker->lane != LANE_SPECIMENS)
-        return respond(worker->seat, service->tokens, question);
-    size_t before = rig_count(service->rig);
-    struct answer *answer = rig_respond(service->rig, worker->seat, service->tokens, question);
+        return responder_answer(worker->responder, service->tokens, question);
+    size_t before = specimen_lane_count(service->specimens);
+    struct answer *answer =
+        specimen_lane_respond(service->specimens, worker->responder, service->tokens, question);
     /* who has seen the reply finds its specimen announced */
-    if (rig_count(service->rig) != before)
+    if (specimen_lane_count(service->specimens) != before)
         service_announce(service);
     return answer;
 }
 
-static void clear_specimen(struct service *service, struct task *task)
+static void clear_specimen(struct service *service, struct job *job)
 {
-    rig_clear(service->rig, task->clears);
+    specimen_lane_clear(service->specimens, job->clears);
     service_announce(service);
-    editions_let_go(&service->editions, task->edition);
-    task_free(task);
+    snapshots_release(&service->snapshots, job->snapshot);
+    job_free(job);
 }
 
-static void work_on(struct worker *worker, struct task *task, size_t index)
+static void work_on(struct worker *worker, struct job *job, size_t index)
 {
     struct service *service = worker->service;
-    struct request_name name = task_name(task);
-    name.sequence = task->requests[index].sequence;
-    struct asker asker = {service, task};
+    struct request_name name = job_name(job);
+    name.sequence = job->requests[index].sequence;
+    struct asker asker = {service, job};
     struct question question = {
-        .request = &task->requests[index],
-        .set = task->edition->set,
-        .envelope = service_envelope(service, &name, task->edition),
-        .arrival = task->arrival,
-        .in_batch = task->exchange == EXCHANGE_BATCH,
+        .request = &job->requests[index],
+        .set = job->snapshot->set,
+        .envelope = service_envelope(service, &name, job->snapshot),
+        .arrival = job->arrival,
+        .in_batch = job->exchange == EXCHANGE_BATCH,
         .still_wanted = still_wanted,
         .context = &asker,
     };
-    task->answers[index] =
-        task->ensemble ? ensemble_respond(service, task) : answer_one(worker, &question);
-    if (atomic_fetch_sub(&task->left, 1) == 1)
-        finish(service, task);
+    job->answers[index] =
+        job->ensemble ? ensemble_respond(service, job) : answer_one(worker, &question);
+    if (atomic_fetch_sub(&job->left, 1) == 1)
+        finish(service, job);
 }
 
 static void *work(void *argument)
 {
     struct worker *worker = argument;
     struct queue *queue = worker->service->lanes[worker->lane];
-    struct task *task;
+    struct job *job;
     size_t index;
     if (worker->lane == LANE_LONG)
         setpriority(PRIO_PROCESS, (id_t)gettid(), long_lane_nice);
-    while ((task = queue_take(queue, &index))) {
-        if (task->clears[0])
-            clear_specimen(worker->service, task);
+    while ((job = queue_take(queue, &index))) {
+        if (job->clears[0])
+            clear_specimen(worker->service, job);
         else
-            work_on(worker, task, index);
+            work_on(worker, job, index);
         queue_done(queue);
     }
     return NULL;
@@ -151,16 +152,16 @@ static bool worker_start(struct worker *worker, struct service *service)
 {
     worker->service = service;
     worker->lane = lane_of(service, service->worker_count);
-    worker->seat = seat_create(&service->tables, worker->lane == LANE_LONG);
-    if (worker->seat && pthread_create(&worker->thread, NULL, work, worker) == 0)
+    worker->responder = responder_create(&service->tables, worker->lane == LANE_LONG);
+    if (worker->responder && pthread_create(&worker->thread, NULL, work, worker) == 0)
         return true;
-    seat_free(worker->seat);
+    responder_free(worker->responder);
     return false;
 }
 
 bool workers_start(struct service *service)
 {
-    size_t count = service->settings->workers + 1 + (service->rig ? 1 : 0);
+    size_t count = service->settings->workers + 1 + (service->specimens ? 1 : 0);
     service->workers = calloc(count, sizeof *service->workers);
     while (service->workers && service->worker_count < count &&
            worker_start(&service->workers[service->worker_count], service))
@@ -172,7 +173,7 @@ void workers_join(struct service *service)
 {
     for (size_t i = 0; i < service->worker_count; i++) {
         pthread_join(service->workers[i].thread, NULL);
-        seat_free(service->workers[i].seat);
+        responder_free(service->workers[i].responder);
     }
     free(service->workers);
     service->workers = NULL;

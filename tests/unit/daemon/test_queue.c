@@ -15,14 +15,14 @@
 #include "daemon/queue.h"
 #include "endpoint/clock.h"
 
-/* The queue looks at nothing of a task but how many requests it has. */
-static struct task task_of(size_t count)
+/* The queue looks at nothing of a job but how many requests it has. */
+static struct job job_of(size_t count)
 {
-    return (struct task){.count = count};
+    return (struct job){.count = count};
 }
 
 /* The next request must be this one. */
-static void takes(struct queue *queue, const struct task *expected, size_t expected_index)
+static void takes(struct queue *queue, const struct job *expected, size_t expected_index)
 {
     size_t index = 999;
     assert_ptr_equal(queue_take(queue, &index), expected);
@@ -32,21 +32,21 @@ static void takes(struct queue *queue, const struct task *expected, size_t expec
 static void hands_out_in_order_and_refuses_when_full(void **state)
 {
     (void)state;
-    struct task tasks[4] = {task_of(1), task_of(1), task_of(1), task_of(1)};
+    struct job jobs[4] = {job_of(1), job_of(1), job_of(1), job_of(1)};
     struct queue *queue = queue_create(3);
     /* more often round than the ring is long */
     for (int round = 0; round < 5; round++) {
         for (int i = 0; i < 3; i++)
-            assert_true(queue_put(queue, &tasks[i]));
-        assert_false(queue_put(queue, &tasks[3]));
+            assert_true(queue_put(queue, &jobs[i]));
+        assert_false(queue_put(queue, &jobs[3]));
         assert_int_equal(queue_length(queue), 3);
-        takes(queue, &tasks[0], 0);
-        assert_true(queue_put(queue, &tasks[3]));
+        takes(queue, &jobs[0], 0);
+        assert_true(queue_put(queue, &jobs[3]));
         for (int i = 1; i < 4; i++)
-            takes(queue, &tasks[i], 0);
+            takes(queue, &jobs[i], 0);
         assert_int_equal(queue_length(queue), 0);
         for (int i = 0; i < 4; i++) {
-            tasks[i].next = 0;
+            jobs[i].next = 0;
             queue_done(queue);
         }
     }
@@ -56,7 +56,7 @@ static void hands_out_in_order_and_refuses_when_full(void **state)
 static void a_batch_lets_others_in_between(void **state)
 {
     (void)state;
-    struct task batch = task_of(3), single = task_of(1), pair = task_of(2);
+    struct job batch = job_of(3), single = job_of(1), pair = job_of(2);
     struct queue *queue = queue_create(3);
     assert_true(queue_put(queue, &batch));
     assert_true(queue_put(queue, &single));
@@ -75,7 +75,7 @@ static void a_batch_lets_others_in_between(void **state)
 static void a_closed_queue_gives_what_it_has(void **state)
 {
     (void)state;
-    struct task batch = task_of(2), late = task_of(1);
+    struct job batch = job_of(2), late = job_of(1);
     size_t index;
     struct queue *queue = queue_create(4);
     assert_true(queue_put(queue, &batch));
@@ -91,7 +91,7 @@ static void a_closed_queue_gives_what_it_has(void **state)
 static void is_drained_when_all_is_done(void **state)
 {
     (void)state;
-    struct task batch = task_of(2);
+    struct job batch = job_of(2);
     struct queue *queue = queue_create(4);
     assert_true(queue_drain(queue, 0.0));
     assert_true(queue_put(queue, &batch));
@@ -117,11 +117,11 @@ static void *done_later(void *queue)
 static void draining_ends_with_the_last_request(void **state)
 {
     (void)state;
-    struct task task = task_of(1);
+    struct job job = job_of(1);
     pthread_t thread;
     struct queue *queue = queue_create(1);
-    assert_true(queue_put(queue, &task));
-    takes(queue, &task, 0);
+    assert_true(queue_put(queue, &job));
+    takes(queue, &job, 0);
     assert_int_equal(pthread_create(&thread, NULL, done_later, queue), 0);
     /* within seconds of a minute: it is woken */
     double start = clock_now();
@@ -131,21 +131,21 @@ static void draining_ends_with_the_last_request(void **state)
     queue_free(queue);
 }
 
-enum { WORKERS = 4, TASKS = 500, MOST_REQUESTS = 7 };
+enum { WORKERS = 4, JOBS = 500, MOST_REQUESTS = 7 };
 
 struct crowd {
     struct queue *queue;
-    struct task tasks[TASKS];
-    atomic_int taken[TASKS][MOST_REQUESTS];
+    struct job jobs[JOBS];
+    atomic_int taken[JOBS][MOST_REQUESTS];
 };
 
 static void *take_all(void *argument)
 {
     struct crowd *crowd = argument;
-    struct task *task;
+    struct job *job;
     size_t index;
-    while ((task = queue_take(crowd->queue, &index))) {
-        atomic_fetch_add(&crowd->taken[task - crowd->tasks][index], 1);
+    while ((job = queue_take(crowd->queue, &index))) {
+        atomic_fetch_add(&crowd->taken[job - crowd->jobs][index], 1);
         queue_done(crowd->queue);
     }
     return NULL;
@@ -159,18 +159,18 @@ static void threads_take_every_request_once(void **state)
     crowd.queue = queue_create(8);
     for (int i = 0; i < WORKERS; i++)
         assert_int_equal(pthread_create(&threads[i], NULL, take_all, &crowd), 0);
-    for (size_t i = 0; i < TASKS; i++) {
-        crowd.tasks[i] = task_of(1 + i % MOST_REQUESTS);
-        while (!queue_put(crowd.queue, &crowd.tasks[i]))
+    for (size_t i = 0; i < JOBS; i++) {
+        crowd.jobs[i] = job_of(1 + i % MOST_REQUESTS);
+        while (!queue_put(crowd.queue, &crowd.jobs[i]))
             sched_yield();
     }
     assert_true(queue_drain(crowd.queue, 60.0));
     queue_close(crowd.queue); /* wakes those that wait for more */
     for (int i = 0; i < WORKERS; i++)
         pthread_join(threads[i], NULL);
-    for (size_t i = 0; i < TASKS; i++) {
+    for (size_t i = 0; i < JOBS; i++) {
         for (size_t j = 0; j < MOST_REQUESTS; j++)
-            assert_int_equal(atomic_load(&crowd.taken[i][j]), j < crowd.tasks[i].count);
+            assert_int_equal(atomic_load(&crowd.taken[i][j]), j < crowd.jobs[i].count);
     }
     queue_free(crowd.queue);
 }

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "daemon/table_shelf.h"
+#include "daemon/table_cache.h"
 
 #include <math.h>
 #include <time.h>
@@ -20,42 +20,42 @@ static void complain(const struct fault *fault)
     log_line(LEVEL_WARNING, "table left out: %s", fault->text);
 }
 
-bool table_shelf_fill(struct table_shelf *shelf)
+bool table_cache_load(struct table_cache *cache)
 {
     size_t count;
     struct fault fault;
-    atomic_init(&shelf->progress, NAN);
-    shelf->loaded = table_store_create();
-    shelf->made = table_store_create();
-    if (!shelf->loaded || !shelf->made)
+    atomic_init(&cache->progress, NAN);
+    cache->loaded = table_store_create();
+    cache->made = table_store_create();
+    if (!cache->loaded || !cache->made)
         return false;
-    if (!*shelf->folder)
+    if (!*cache->folder)
         return true;
-    if (table_store_load(shelf->loaded, shelf->folder, complain, &count, &fault))
+    if (table_store_load(cache->loaded, cache->folder, complain, &count, &fault))
         log_line(LEVEL_WARNING, "tables: %s", fault.text);
     else
-        log_line(LEVEL_INFO, "tables: %zu from %s%s", count, shelf->folder,
-                 table_store_source(shelf->loaded)->family
+        log_line(LEVEL_INFO, "tables: %zu from %s%s", count, cache->folder,
+                 table_store_source(cache->loaded)->family
                      ? " and the family for all other metals"
                      : "; no family there: other metals yield by the closed form");
-    table_store_lend_family(shelf->made, shelf->loaded);
+    table_store_lend_family(cache->made, cache->loaded);
     return true;
 }
 
-void table_shelf_empty(struct table_shelf *shelf)
+void table_cache_free(struct table_cache *cache)
 {
-    table_store_free(shelf->loaded);
-    table_store_free(shelf->made);
+    table_store_free(cache->loaded);
+    table_store_free(cache->made);
 }
 
-const struct contact_curves *table_shelf_find(const struct table_shelf *shelf,
+const struct contact_curves *table_cache_find(const struct table_cache *cache,
                                               const struct material *a, const struct material *b)
 {
-    const struct contact_curves *curves = table_store_find(shelf->loaded, a, b);
-    return curves ? curves : table_store_find(shelf->made, a, b);
+    const struct contact_curves *curves = table_store_find(cache->loaded, a, b);
+    return curves ? curves : table_store_find(cache->made, a, b);
 }
 
-bool table_shelf_lacks(const struct table_shelf *shelf, const struct body_set *set,
+bool table_cache_lacks(const struct table_cache *cache, const struct body_set *set,
                        const percuss_v1_Request *request)
 {
     size_t bodies = request->bodies._length;
@@ -68,26 +68,26 @@ bool table_shelf_lacks(const struct table_shelf *shelf, const struct body_set *s
         const struct body *a = body_set_find(set, request->bodies._buffer[contact->a].id);
         const struct body *b = body_set_find(set, request->bodies._buffer[contact->b].id);
         if (a && b && closed_form_softer(&a->material, &b->material) >= 0 &&
-            !table_shelf_find(shelf, &a->material, &b->material))
+            !table_cache_find(cache, &a->material, &b->material))
             return true;
     }
     return false;
 }
 
-/* Told by the computation; false stops it. */
+/* Asked by the computation; false stops it. */
 static bool go_on(void *context, double done)
 {
     struct table_maker *maker = context;
     double deadline = maker->request->options.deadline;
-    atomic_store(&maker->shelf->progress, done);
-    if (atomic_load(maker->shelf->draining))
+    atomic_store(&maker->cache->progress, done);
+    if (atomic_load(maker->cache->draining))
         maker->status =
             fault_set(&maker->fault, PERCUSS_BUSY, "the server is shutting down: ask another one");
     else if (maker->cancelled && atomic_load(maker->cancelled))
         maker->status =
             fault_set(&maker->fault, PERCUSS_TIMEOUT,
                       "cancelled with %.0f %% of the contact table computed", 100.0 * done);
-    else if (reply_store_is_gone(maker->shelf->replies, maker->client))
+    else if (reply_store_is_gone(maker->cache->replies, maker->client))
         maker->status = fault_set(&maker->fault, PERCUSS_TIMEOUT, "the client had gone: ask again");
     else if (deadline > 0.0 && clock_now() - maker->arrival > deadline)
         maker->status = fault_set(
@@ -105,7 +105,7 @@ static double thread_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void keep(const struct table_shelf *shelf, const struct indentation_table *table,
+static void keep(const struct table_cache *cache, const struct indentation_table *table,
                  double seconds)
 {
     char path[TABLE_PATH_SIZE];
@@ -113,31 +113,31 @@ static void keep(const struct table_shelf *shelf, const struct indentation_table
     struct table_origin origin = {"percussd " PERCUSS_VERSION, seconds};
     const char *a = table->input.materials[0].name, *b = table->input.materials[1].name;
     log_line(LEVEL_INFO, "table of %s on %s: computed in %.1f s", a, b, seconds);
-    if (*shelf->folder && table_file_save(shelf->folder, table, &origin, path, &fault))
+    if (*cache->folder && table_file_save(cache->folder, table, &origin, path, &fault))
         log_line(LEVEL_WARNING, "table of %s on %s: kept until the end only: %s", a, b, fault.text);
 }
 
 static const struct contact_curves *make(struct table_maker *maker, const struct material *a,
                                          const struct material *b)
 {
-    struct table_shelf *shelf = maker->shelf;
+    struct table_cache *cache = maker->cache;
     struct region_input input = table_input(a, b, covered_speed);
     struct indentation_progress progress = {go_on, maker};
     struct indentation_table table;
     struct fault fault;
     double start = thread_seconds();
     enum percuss_status status = indentation_table_make(&input, &progress, &table, &fault);
-    atomic_store(&shelf->progress, NAN);
+    atomic_store(&cache->progress, NAN);
     if (!status) {
-        status = table_store_add(shelf->made, &table, &fault);
-        keep(shelf, &table, thread_seconds() - start);
+        status = table_store_add(cache->made, &table, &fault);
+        keep(cache, &table, thread_seconds() - start);
         indentation_table_free(&table);
     }
     if (status && !maker->status)
         maker->status = fault_set(&maker->fault, PERCUSS_INTERNAL,
                                   "the contact table of %s on %s could not be computed: %.300s",
                                   a->name, b->name, fault.text);
-    return status ? NULL : table_store_find(shelf->made, a, b);
+    return status ? NULL : table_store_find(cache->made, a, b);
 }
 
 static const struct contact_curves *find_or_make(void *context, const struct contact_pair *pair)
@@ -146,7 +146,7 @@ static const struct contact_curves *find_or_make(void *context, const struct con
     const struct material *a = pair->a, *b = pair->b;
     if (!table_store_is_circular(pair->curvature) || closed_form_softer(a, b) < 0)
         return NULL;
-    const struct contact_curves *curves = table_shelf_find(maker->shelf, a, b);
+    const struct contact_curves *curves = table_cache_find(maker->cache, a, b);
     if (curves || maker->status)
         return curves;
     if (maker->makes)
@@ -161,7 +161,7 @@ static const struct contact_curves *find_only(void *context, const struct contac
 {
     const struct table_maker *maker = context;
     return table_store_is_circular(pair->curvature)
-               ? table_shelf_find(maker->shelf, pair->a, pair->b)
+               ? table_cache_find(maker->cache, pair->a, pair->b)
                : NULL;
 }
 
@@ -179,9 +179,9 @@ static bool overrides_material(const percuss_v1_Request *request)
     return false;
 }
 
-void table_maker_init(struct table_maker *maker, struct table_shelf *shelf, bool makes)
+void table_maker_init(struct table_maker *maker, struct table_cache *cache, bool makes)
 {
-    *maker = (struct table_maker){.source.context = maker, .shelf = shelf, .makes = makes};
+    *maker = (struct table_maker){.source.context = maker, .cache = cache, .makes = makes};
 }
 
 const struct contact_table_source *table_maker_begin(struct table_maker *maker,

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "daemon/rig.h"
+#include "daemon/specimen_lane.h"
 
 #include <stdatomic.h>
 #include <stdio.h>
@@ -14,66 +14,66 @@
 #include "endpoint/reply_bytes.h"
 #include "store/specimens.h"
 
-struct rig {
+struct specimen_lane {
     struct specimen_store *store;
     struct endpoint *endpoint;
     atomic_size_t count;
     struct body_state *states[PERCUSS_MAX_BODIES]; /* of the request at hand */
 };
 
-enum percuss_status rig_open(const char *path, unsigned replies, struct rig **rig,
-                             struct fault *fault)
+enum percuss_status specimen_lane_open(const char *path, unsigned replies,
+                                       struct specimen_lane **lane, struct fault *fault)
 {
-    struct rig *created = calloc(1, sizeof *created);
-    *rig = NULL;
+    struct specimen_lane *created = calloc(1, sizeof *created);
+    *lane = NULL;
     if (!created)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     enum percuss_status status = specimen_store_open(path, replies, &created->store, fault);
     if (status) {
-        rig_close(created);
+        specimen_lane_close(created);
         return status;
     }
     atomic_init(&created->count, specimen_store_count(created->store));
-    *rig = created;
+    *lane = created;
     return PERCUSS_OK;
 }
 
-void rig_close(struct rig *rig)
+void specimen_lane_close(struct specimen_lane *lane)
 {
-    if (!rig)
+    if (!lane)
         return;
-    specimen_store_close(rig->store);
-    free(rig);
+    specimen_store_close(lane->store);
+    free(lane);
 }
 
 static void announce(void *context, const struct specimen *specimen)
 {
-    struct rig *rig = context;
+    struct specimen_lane *lane = context;
     struct dents_notice notice = {specimen->name, specimen->body, specimen->impacts,
                                   specimen->state};
-    endpoint_announce_dents(rig->endpoint, &notice);
+    endpoint_announce_dents(lane->endpoint, &notice);
 }
 
 /* All specimens, or one. */
-static void announce_again(struct rig *rig, const char *specimen)
+static void announce_again(struct specimen_lane *lane, const char *specimen)
 {
     struct fault fault;
-    if (specimen_store_visit(rig->store, specimen, announce, rig, &fault))
+    if (specimen_store_visit(lane->store, specimen, announce, lane, &fault))
         log_line(LEVEL_ERROR, "%s", fault.text);
 }
 
-void rig_announce(struct rig *rig, struct endpoint *endpoint)
+void specimen_lane_announce(struct specimen_lane *lane, struct endpoint *endpoint)
 {
-    rig->endpoint = endpoint;
-    announce_again(rig, NULL);
+    lane->endpoint = endpoint;
+    announce_again(lane, NULL);
 }
 
-size_t rig_count(struct rig *rig)
+size_t specimen_lane_count(struct specimen_lane *lane)
 {
-    return atomic_load(&rig->count);
+    return atomic_load(&lane->count);
 }
 
-bool rig_concerns(const percuss_v1_Request *request)
+bool specimen_lane_concerns(const percuss_v1_Request *request)
 {
     for (uint32_t i = 0; i < request->bodies._length; i++) {
         if (request->bodies._buffer[i].specimen[0])
@@ -82,16 +82,16 @@ bool rig_concerns(const percuss_v1_Request *request)
     return false;
 }
 
-static void release(struct rig *rig)
+static void release(struct specimen_lane *lane)
 {
     for (size_t i = 0; i < PERCUSS_MAX_BODIES; i++) {
-        free(rig->states[i]);
-        rig->states[i] = NULL;
+        free(lane->states[i]);
+        lane->states[i] = NULL;
     }
 }
 
-/* Fills rig->states. */
-static enum percuss_status load(struct rig *rig, const struct question *question,
+/* Fills lane->states. */
+static enum percuss_status load(struct specimen_lane *lane, const struct question *question,
                                 struct fault *fault)
 {
     for (uint32_t i = 0; i < question->request->bodies._length; i++) {
@@ -102,7 +102,7 @@ static enum percuss_status load(struct rig *rig, const struct question *question
         if (!wire->specimen[0] || !body)
             continue;
         enum percuss_status status =
-            specimen_store_load(rig->store, wire->specimen, body, &rig->states[i], &reason);
+            specimen_store_load(lane->store, wire->specimen, body, &lane->states[i], &reason);
         if (status)
             return fault_set(fault, status, "bodies[%u].specimen: %.560s", i, reason.text);
     }
@@ -110,7 +110,7 @@ static enum percuss_status load(struct rig *rig, const struct question *question
 }
 
 /* What the impact did to the specimens; their number. A request that ignores dents leaves none. */
-static size_t find_changes(const struct question *question, const struct seat *seat,
+static size_t find_changes(const struct question *question, const struct responder *responder,
                            struct specimen_change *changes)
 {
     size_t count = 0;
@@ -121,46 +121,47 @@ static size_t find_changes(const struct question *question, const struct seat *s
         if (wire->specimen[0])
             changes[count++] =
                 (struct specimen_change){wire->specimen, body_set_find(question->set, wire->id),
-                                         seat->result.bodies[i].state_after};
+                                         responder->result.bodies[i].state_after};
     }
     return count;
 }
 
 /* Makes an answer durable with what the impact did. */
-static enum percuss_status store(struct rig *rig, const struct question *question,
-                                 const struct seat *seat, const struct answer *answer,
+static enum percuss_status store(struct specimen_lane *lane, const struct question *question,
+                                 const struct responder *responder, const struct answer *answer,
                                  struct stored_reply *reply)
 {
     struct specimen_change changes[PERCUSS_MAX_BODIES];
     struct fault fault;
-    size_t count = find_changes(question, seat, changes);
+    size_t count = find_changes(question, responder, changes);
     reply->bytes = reply_bytes_write(answer, &reply->size);
     if (!reply->bytes)
         return PERCUSS_INTERNAL;
-    enum percuss_status status = specimen_store_commit(rig->store, changes, count, reply, &fault);
+    enum percuss_status status = specimen_store_commit(lane->store, changes, count, reply, &fault);
     free(reply->bytes);
     if (status) {
         log_line(LEVEL_ERROR, "%s", fault.text);
         return status;
     }
-    atomic_store(&rig->count, specimen_store_count(rig->store));
+    atomic_store(&lane->count, specimen_store_count(lane->store));
     for (size_t i = 0; i < count; i++)
-        announce_again(rig, changes[i].name);
+        announce_again(lane, changes[i].name);
     return PERCUSS_OK;
 }
 
-static struct answer *compute(struct rig *rig, struct seat *seat, struct token_store *tokens,
-                              const struct question *question, struct stored_reply *reply)
+static struct answer *compute(struct specimen_lane *lane, struct responder *responder,
+                              struct token_store *tokens, const struct question *question,
+                              struct stored_reply *reply)
 {
     struct fault fault;
-    enum percuss_status status = load(rig, question, &fault);
+    enum percuss_status status = load(lane, question, &fault);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
     struct question posed = *question;
-    posed.specimens = (const struct body_state *const *)rig->states;
-    struct answer *answer = respond(seat, tokens, &posed);
+    posed.specimens = (const struct body_state *const *)lane->states;
+    struct answer *answer = responder_answer(responder, tokens, &posed);
     if (!answer || !encode_status_has_result(answer->reply->status) ||
-        store(rig, question, seat, answer, reply) == PERCUSS_OK)
+        store(lane, question, responder, answer, reply) == PERCUSS_OK)
         return answer;
     answer_release(answer);
     return encode_refusal(&question->envelope, PERCUSS_INTERNAL,
@@ -216,8 +217,8 @@ static struct answer *recall(const struct question *question, const struct store
     return refuse_damaged(question, problem);
 }
 
-struct answer *rig_respond(struct rig *rig, struct seat *seat, struct token_store *tokens,
-                           const struct question *question)
+struct answer *specimen_lane_respond(struct specimen_lane *lane, struct responder *responder,
+                                     struct token_store *tokens, const struct question *question)
 {
     struct digest content = question_digest_single(question->request);
     struct stored_reply reply = {.sequence = question->envelope.sequence,
@@ -226,27 +227,27 @@ struct answer *rig_respond(struct rig *rig, struct seat *seat, struct token_stor
     struct fault fault;
     memcpy(reply.client, question->envelope.client, sizeof reply.client);
     memcpy(kept.client, reply.client, sizeof kept.client);
-    enum percuss_status status = specimen_store_find(rig->store, &kept, &fault);
+    enum percuss_status status = specimen_store_find(lane->store, &kept, &fault);
     if (status == PERCUSS_INTERNAL)
         return kept.damaged ? refuse_damaged(question, fault.text)
                             : refuse_for_now(question, fault.text);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
     struct answer *answer = kept.bytes ? recall(question, &kept, content)
-                                       : compute(rig, seat, tokens, question, &reply);
+                                       : compute(lane, responder, tokens, question, &reply);
     free(kept.bytes);
-    release(rig);
+    release(lane);
     return answer;
 }
 
-void rig_clear(struct rig *rig, const char *specimen)
+void specimen_lane_clear(struct specimen_lane *lane, const char *specimen)
 {
     struct fault fault;
-    if (specimen_store_clear(rig->store, specimen, &fault)) {
+    if (specimen_store_clear(lane->store, specimen, &fault)) {
         log_line(LEVEL_ERROR, "%s", fault.text);
         return;
     }
     log_line(LEVEL_INFO, "specimen %s: cleared", specimen);
-    atomic_store(&rig->count, specimen_store_count(rig->store));
-    endpoint_withdraw_dents(rig->endpoint, specimen);
+    atomic_store(&lane->count, specimen_store_count(lane->store));
+    endpoint_withdraw_dents(lane->endpoint, specimen);
 }

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "daemon/reception.h"
+#include "daemon/dispatch.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +20,7 @@ static const double company_seconds = 0.01;
 
 /* Warm solves of what is_cheap says take some 0.02 to 0.5 ms; what takes longer than this, s, is
  * not cheap whatever it looks like. */
-static const double desk_seconds = 0.005;
+static const double inline_seconds = 0.005;
 
 static struct answer *refusal(const struct envelope *envelope, enum exchange exchange,
                               enum percuss_status status, const char *message)
@@ -37,10 +37,10 @@ static struct answer *refusal(const struct envelope *envelope, enum exchange exc
 static void reply_at_once(struct service *service, const struct request_name *name,
                           enum percuss_status status, const char *message)
 {
-    struct edition *edition = editions_hold(&service->editions);
-    struct envelope envelope = service_envelope(service, name, edition);
+    struct snapshot *snapshot = snapshots_hold(&service->snapshots);
+    struct envelope envelope = service_envelope(service, name, snapshot);
     struct answer *answer = refusal(&envelope, name->exchange, status, message);
-    editions_let_go(&service->editions, edition);
+    snapshots_release(&service->snapshots, snapshot);
     if (!answer)
         return;
     endpoint_reply(service->endpoint, name->client, answer);
@@ -100,42 +100,42 @@ static bool is_long(const percuss_v1_Options *options)
 
 static bool is_durable(const struct service *service, const percuss_v1_Request *request)
 {
-    return service->rig && rig_concerns(request);
+    return service->specimens && specimen_lane_concerns(request);
 }
 
 /* A batch is as long as its longest member, its specimens are refused by any worker; ensembles are
  * long. */
-static enum lane lane_for(const struct service *service, const struct task *task)
+static enum lane lane_for(const struct service *service, const struct job *job)
 {
-    size_t i = 0, count = task->count;
-    const percuss_v1_Request *requests = task->requests;
-    if (task->exchange == EXCHANGE_SINGLE && !task->ensemble && is_durable(service, requests))
+    size_t i = 0, count = job->count;
+    const percuss_v1_Request *requests = job->requests;
+    if (job->exchange == EXCHANGE_SINGLE && !job->ensemble && is_durable(service, requests))
         return LANE_SPECIMENS;
     while (i < count && !is_long(&requests[i].options) &&
-           !table_shelf_lacks(&service->tables, task->edition->set, &requests[i]))
+           !table_cache_lacks(&service->tables, job->snapshot->set, &requests[i]))
         i++;
-    return i < count || task->ensemble ? LANE_LONG : LANE_SHORT;
+    return i < count || job->ensemble ? LANE_LONG : LANE_SHORT;
 }
 
-/* Hands a task (NULL: it could not be made) to the workers, or refuses it at once. */
-static void enqueue(struct service *service, const struct request_name *name, struct task *task,
+/* Hands a job (NULL: it could not be made) to the workers, or refuses it at once. */
+static void enqueue(struct service *service, const struct request_name *name, struct job *job,
                     double arrival)
 {
-    if (!task) {
+    if (!job) {
         turn_away(service, name);
         return;
     }
-    memcpy(task->client, name->client, sizeof task->client);
-    task->sequence = name->sequence;
-    task->arrival = arrival;
-    task->edition = editions_hold(&service->editions);
-    if (task->ensemble)
-        ensembles_enter(&service->ensembles, task);
-    if (!queue_put(service->lanes[lane_for(service, task)], task)) {
-        if (task->ensemble)
-            ensembles_leave(&service->ensembles, task);
-        editions_let_go(&service->editions, task->edition);
-        task_free(task);
+    memcpy(job->client, name->client, sizeof job->client);
+    job->sequence = name->sequence;
+    job->arrival = arrival;
+    job->snapshot = snapshots_hold(&service->snapshots);
+    if (job->ensemble)
+        ensembles_enter(&service->ensembles, job);
+    if (!queue_put(service->lanes[lane_for(service, job)], job)) {
+        if (job->ensemble)
+            ensembles_leave(&service->ensembles, job);
+        snapshots_release(&service->snapshots, job->snapshot);
+        job_free(job);
         turn_away(service, name);
     }
 }
@@ -144,7 +144,7 @@ static void enqueue_requests(struct service *service, const struct request_name 
                              const percuss_v1_Request *requests, size_t count, double arrival)
 {
     bool draining = atomic_load(&service->draining);
-    enqueue(service, name, draining ? NULL : task_create(name->exchange, requests, count), arrival);
+    enqueue(service, name, draining ? NULL : job_create(name->exchange, requests, count), arrival);
 }
 
 static bool is_cheap(const percuss_v1_Request *request)
@@ -182,21 +182,21 @@ static enum percuss_status is_quick(void *context, struct fault *fault)
 static bool answer_here(struct service *service, const struct request_name *name,
                         const percuss_v1_Request *request, double arrival)
 {
-    struct patience patience = {.end = arrival + desk_seconds};
-    struct edition *edition = editions_hold(&service->editions);
+    struct patience patience = {.end = arrival + inline_seconds};
+    struct snapshot *snapshot = snapshots_hold(&service->snapshots);
     struct question question = {
         .request = request,
-        .set = edition->set,
-        .envelope = service_envelope(service, name, edition),
+        .set = snapshot->set,
+        .envelope = service_envelope(service, name, snapshot),
         .arrival = arrival,
         .still_wanted = is_quick,
         .context = &patience,
     };
-    struct answer *answer = respond(service->desk, service->tokens, &question);
+    struct answer *answer = responder_answer(service->inline_responder, service->tokens, &question);
     if (!patience.over)
         service_deliver(service, name, answer);
     answer_release(answer);
-    editions_let_go(&service->editions, edition);
+    snapshots_release(&service->snapshots, snapshot);
     return !patience.over;
 }
 
@@ -251,7 +251,7 @@ static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *re
     if (!admit(service, &name, question_digest_ensemble(request), arrival))
         return;
     bool draining = atomic_load(&service->draining);
-    enqueue(service, &name, draining ? NULL : task_create_ensemble(request), arrival);
+    enqueue(service, &name, draining ? NULL : job_create_ensemble(request), arrival);
 }
 
 /* In its turn among the requests; a client that sees no effect asks again. */
@@ -261,14 +261,14 @@ static void receive_clear(void *context, const char *specimen)
     struct service *service = context;
     if (!specimen[0] || atomic_load(&service->draining))
         return;
-    struct task *task = task_create(EXCHANGE_SINGLE, &nothing, 1);
-    if (!task)
+    struct job *job = job_create(EXCHANGE_SINGLE, &nothing, 1);
+    if (!job)
         return;
-    snprintf(task->clears, sizeof task->clears, "%s", specimen);
-    task->edition = editions_hold(&service->editions);
-    if (!queue_put(service->lanes[LANE_SPECIMENS], task)) {
-        editions_let_go(&service->editions, task->edition);
-        task_free(task);
+    snprintf(job->clears, sizeof job->clears, "%s", specimen);
+    job->snapshot = snapshots_hold(&service->snapshots);
+    if (!queue_put(service->lanes[LANE_SPECIMENS], job)) {
+        snapshots_release(&service->snapshots, job->snapshot);
+        job_free(job);
     }
 }
 
@@ -281,7 +281,7 @@ static void note_presence(void *context, const uint8_t client[16], bool present)
     reply_store_set_present(service->replies, client, present, clock_now());
 }
 
-struct endpoint_handler reception_handler(struct service *service)
+struct endpoint_handler dispatch_handler(struct service *service)
 {
     return (struct endpoint_handler){
         .context = service,

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "daemon/respond.h"
+#include "daemon/responder.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,26 +13,26 @@
 #include "endpoint/decode.h"
 #include "endpoint/encode.h"
 
-struct seat *seat_create(struct table_shelf *shelf, bool makes)
+struct responder *responder_create(struct table_cache *cache, bool makes)
 {
-    struct seat *seat = calloc(1, sizeof *seat);
-    if (!seat)
+    struct responder *responder = calloc(1, sizeof *responder);
+    if (!responder)
         return NULL;
-    seat->workspace = solve_workspace_create();
-    if (!seat->workspace) {
-        free(seat);
+    responder->workspace = solve_workspace_create();
+    if (!responder->workspace) {
+        free(responder);
         return NULL;
     }
-    table_maker_init(&seat->maker, shelf, makes);
-    return seat;
+    table_maker_init(&responder->maker, cache, makes);
+    return responder;
 }
 
-void seat_free(struct seat *seat)
+void responder_free(struct responder *responder)
 {
-    if (!seat)
+    if (!responder)
         return;
-    solve_workspace_free(seat->workspace);
-    free(seat);
+    solve_workspace_free(responder->workspace);
+    free(responder);
 }
 
 static enum percuss_status check_deadline(const struct question *question, const char *when,
@@ -71,31 +71,31 @@ static struct token_subject subject_of(const struct question *question, size_t i
 }
 
 /* Whether a question is to be answered, and if not, what it is refused with. */
-struct vigil {
+struct inquiry {
     const struct question *question;
     enum percuss_status status;
     struct fault fault;
 };
 
-static bool vigil_look(struct vigil *vigil, const char *when)
+static bool still_wanted(struct inquiry *inquiry, const char *when)
 {
-    const struct question *question = vigil->question;
-    vigil->status = check_deadline(question, when, &vigil->fault);
-    if (!vigil->status && question->still_wanted)
-        vigil->status = question->still_wanted(question->context, &vigil->fault);
-    return vigil->status == PERCUSS_OK;
+    const struct question *question = inquiry->question;
+    inquiry->status = check_deadline(question, when, &inquiry->fault);
+    if (!inquiry->status && question->still_wanted)
+        inquiry->status = question->still_wanted(question->context, &inquiry->fault);
+    return inquiry->status == PERCUSS_OK;
 }
 
 /* What a solve asks now and then. */
 static bool goes_on(void *context, double done)
 {
     (void)done;
-    return vigil_look(context, "within the solve");
+    return still_wanted(context, "within the solve");
 }
 
-static struct answer *refuse(const struct vigil *vigil)
+static struct answer *refuse(const struct inquiry *inquiry)
 {
-    return encode_refusal(&vigil->question->envelope, vigil->status, vigil->fault.text);
+    return encode_refusal(&inquiry->question->envelope, inquiry->status, inquiry->fault.text);
 }
 
 /* What keeps a specimen outlives the solve. */
@@ -112,13 +112,13 @@ static enum percuss_status hold_specimen(const struct question *question, size_t
     return PERCUSS_OK;
 }
 
-static enum percuss_status hold_state(struct seat *seat, struct token_store *tokens,
+static enum percuss_status hold_state(struct responder *responder, struct token_store *tokens,
                                       const struct question *question, size_t index,
                                       struct fault *fault)
 {
     const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[index];
     const char *token = wire->state;
-    struct solve_body *body = &seat->request.bodies[index];
+    struct solve_body *body = &responder->request.bodies[index];
     if (wire->specimen[0])
         return hold_specimen(question, index, body, fault);
     /* an unknown body is the solver's to refuse */
@@ -133,99 +133,99 @@ static enum percuss_status hold_state(struct seat *seat, struct token_store *tok
     return fault_set(fault, PERCUSS_UNKNOWN_STATE, "bodies[%zu].state: %.500s", index, reason.text);
 }
 
-static void release_states(struct seat *seat, struct token_store *tokens,
+static void release_states(struct responder *responder, struct token_store *tokens,
                            const struct question *question)
 {
-    for (size_t i = 0; i < seat->request.body_count; i++) {
+    for (size_t i = 0; i < responder->request.body_count; i++) {
         bool is_token = question->request->bodies._buffer[i].state[0] != '\0';
-        if (is_token && seat->request.bodies[i].state)
-            token_store_release(tokens, seat->request.bodies[i].state);
-        seat->request.bodies[i].state = NULL;
+        if (is_token && responder->request.bodies[i].state)
+            token_store_release(tokens, responder->request.bodies[i].state);
+        responder->request.bodies[i].state = NULL;
     }
 }
 
-/* Fills seat->request; after a failure it holds no states. */
-static enum percuss_status prepare(struct seat *seat, struct token_store *tokens,
+/* Fills responder->request; after a failure it holds no states. */
+static enum percuss_status prepare(struct responder *responder, struct token_store *tokens,
                                    const struct question *question, struct fault *fault)
 {
-    enum percuss_status status = decode_request(question->request, &seat->request, fault);
-    if (!status && question->in_batch && seat->request.options.trace)
+    enum percuss_status status = decode_request(question->request, &responder->request, fault);
+    if (!status && question->in_batch && responder->request.options.trace)
         status = fault_set(fault, PERCUSS_BAD_REQUEST,
                            "options.trace: true: must be false in a batch: ask by itself");
     if (status)
         return status;
-    for (size_t i = 0; !status && i < seat->request.body_count; i++)
-        status = hold_state(seat, tokens, question, i, fault);
+    for (size_t i = 0; !status && i < responder->request.body_count; i++)
+        status = hold_state(responder, tokens, question, i, fault);
     if (status)
-        release_states(seat, tokens, question);
+        release_states(responder, tokens, question);
     return status;
 }
 
-static void name_states(struct seat *seat, struct token_store *tokens,
+static void name_states(struct responder *responder, struct token_store *tokens,
                         const struct question *question)
 {
     double now = clock_now();
-    for (size_t i = 0; i < seat->result.body_count; i++) {
-        const struct solve_body_result *body = &seat->result.bodies[i];
+    for (size_t i = 0; i < responder->result.body_count; i++) {
+        const struct solve_body_result *body = &responder->result.bodies[i];
         struct subject_name name;
         struct token_subject subject = subject_of(question, i, &name);
-        seat->tokens[i][0] = '\0';
+        responder->tokens[i][0] = '\0';
         if (body->state_after)
-            token_store_put(tokens, &subject, body->state_after, now, seat->tokens[i]);
+            token_store_put(tokens, &subject, body->state_after, now, responder->tokens[i]);
     }
 }
 
 /* Who leaves the choice takes the tables that are there. */
-static void use_tables(struct seat *seat, const struct question *question)
+static void use_tables(struct responder *responder, const struct question *question)
 {
-    bool insists = seat->request.options.contact_model == PERCUSS_CONTACT_TABLE;
+    bool insists = responder->request.options.contact_model == PERCUSS_CONTACT_TABLE;
     const struct contact_table_source *made = table_maker_begin(
-        &seat->maker, question->request, question->envelope.client, question->arrival);
-    solve_workspace_set_tables(seat->workspace,
-                               insists ? made : table_store_source(seat->maker.shelf->loaded));
+        &responder->maker, question->request, question->envelope.client, question->arrival);
+    solve_workspace_set_tables(responder->workspace,
+                               insists ? made : table_store_source(responder->maker.cache->loaded));
 }
 
-/* Solves seat->request and makes the reply. */
-static struct answer *compute(struct seat *seat, struct token_store *tokens,
+/* Solves responder->request and makes the reply. */
+static struct answer *compute(struct responder *responder, struct token_store *tokens,
                               const struct question *question)
 {
     const struct envelope *envelope = &question->envelope;
-    struct solve_result *result = &seat->result;
-    struct vigil vigil = {.question = question};
-    if (!vigil_look(&vigil, "before the solve began"))
-        return refuse(&vigil);
-    use_tables(seat, question);
-    solve_workspace_watch(seat->workspace, (struct watch){goes_on, &vigil});
-    solve(seat->workspace, question->set, &seat->request, result);
-    solve_workspace_watch(seat->workspace, (struct watch){0});
-    if (seat->maker.status)
-        return encode_refusal(envelope, seat->maker.status, seat->maker.fault.text);
+    struct solve_result *result = &responder->result;
+    struct inquiry inquiry = {.question = question};
+    if (!still_wanted(&inquiry, "before the solve began"))
+        return refuse(&inquiry);
+    use_tables(responder, question);
+    solve_workspace_watch(responder->workspace, (struct watch){goes_on, &inquiry});
+    solve(responder->workspace, question->set, &responder->request, result);
+    solve_workspace_watch(responder->workspace, (struct watch){0});
+    if (responder->maker.status)
+        return encode_refusal(envelope, responder->maker.status, responder->maker.fault.text);
     if (result->status == PERCUSS_INTERNAL)
         log_line(LEVEL_ERROR, "request %llu: internal: %s", (unsigned long long)envelope->sequence,
                  result->fault.text);
-    if (!vigil.status)
-        vigil.status = check_deadline(question, "when the solve ended", &vigil.fault);
-    if (vigil.status)
-        return refuse(&vigil);
+    if (!inquiry.status)
+        inquiry.status = check_deadline(question, "when the solve ended", &inquiry.fault);
+    if (inquiry.status)
+        return refuse(&inquiry);
     if (!encode_status_has_result(result->status))
         return encode_refusal(envelope, result->status, result->fault.text);
-    name_states(seat, tokens, question);
-    const char(*names)[PERCUSS_ID_SIZE] = (const char(*)[PERCUSS_ID_SIZE])seat->tokens;
+    name_states(responder, tokens, question);
+    const char(*names)[PERCUSS_ID_SIZE] = (const char(*)[PERCUSS_ID_SIZE])responder->tokens;
     if (question->in_batch)
         return batch_encode_member(envelope, result, names);
     return encode_result(envelope, result, names, PERCUSS_MAX_SUB_IMPACTS);
 }
 
-struct answer *respond(struct seat *seat, struct token_store *tokens,
-                       const struct question *question)
+struct answer *responder_answer(struct responder *responder, struct token_store *tokens,
+                                const struct question *question)
 {
     struct fault fault;
     double start = clock_now();
-    enum percuss_status status = prepare(seat, tokens, question, &fault);
+    enum percuss_status status = prepare(responder, tokens, question, &fault);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
-    struct answer *answer = compute(seat, tokens, question);
-    release_states(seat, tokens, question);
+    struct answer *answer = compute(responder, tokens, question);
+    release_states(responder, tokens, question);
     if (answer) {
         answer->reply->timing.queue = start - question->arrival;
         answer->reply->timing.solve = clock_now() - start;

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/table_shelf.c: who may have tables computed, and until when. */
+/* Tests daemon/table_cache.c: who may have tables computed, and until when. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,16 +11,16 @@
 
 #include <cmocka.h>
 
-#include "daemon/table_shelf.h"
+#include "daemon/table_cache.h"
 
 static const struct material steel = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};
 static const struct material soft = {"al-205", 70e9, 0.33, 2700.0, 205e6, 0.0};
 static const struct contact_pair pair = {&steel, &soft, {1.0 / 0.03, 1.0 / 0.03}};
 static const uint8_t client[16] = {7};
 
-/* A shelf without tables; a computation that begins ends at the first look at `draining`. */
+/* A cache without tables; a computation that begins ends at the first look at `draining`. */
 struct world {
-    struct table_shelf shelf;
+    struct table_cache cache;
     atomic_bool draining;
     struct table_maker maker;
     percuss_v1_Request request; /* names no client, as members of a batch may */
@@ -32,20 +32,20 @@ static void open_world(struct world *world, bool draining)
         .per_client = 4, .bytes = 1 << 20, .clients = 4, .seconds = 60.0};
     memset(world, 0, sizeof *world);
     atomic_init(&world->draining, draining);
-    world->shelf.folder = "";
-    world->shelf.draining = &world->draining;
-    world->shelf.replies = reply_store_create(&limits);
-    assert_non_null(world->shelf.replies);
-    assert_true(table_shelf_fill(&world->shelf));
+    world->cache.folder = "";
+    world->cache.draining = &world->draining;
+    world->cache.replies = reply_store_create(&limits);
+    assert_non_null(world->cache.replies);
+    assert_true(table_cache_load(&world->cache));
     world->request.options.contact_model = PERCUSS_CONTACT_TABLE;
-    table_maker_init(&world->maker, &world->shelf, true);
+    table_maker_init(&world->maker, &world->cache, true);
     table_maker_begin(&world->maker, &world->request, client, 0.0);
 }
 
 static void close_world(struct world *world)
 {
-    table_shelf_empty(&world->shelf);
-    reply_store_free(world->shelf.replies);
+    table_cache_free(&world->cache);
+    reply_store_free(world->cache.replies);
 }
 
 static const struct contact_curves *find(struct world *world)
@@ -75,8 +75,8 @@ static void the_computation_ends_when_its_client_goes(void **state)
     (void)state;
     struct world world;
     open_world(&world, false);
-    reply_store_set_present(world.shelf.replies, client, true, 0.0);
-    reply_store_set_present(world.shelf.replies, client, false, 0.0);
+    reply_store_set_present(world.cache.replies, client, true, 0.0);
+    reply_store_set_present(world.cache.replies, client, false, 0.0);
     assert_null(find(&world));
     assert_int_equal(world.maker.status, PERCUSS_TIMEOUT);
     assert_string_equal(world.maker.fault.text, "the client had gone: ask again");

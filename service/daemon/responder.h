@@ -2,18 +2,18 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* One request answered: validated, its states looked up, solved, and put into a reply. */
-#ifndef PERCUSS_DAEMON_RESPOND_H
-#define PERCUSS_DAEMON_RESPOND_H
+#ifndef PERCUSS_DAEMON_RESPONDER_H
+#define PERCUSS_DAEMON_RESPONDER_H
 
 #include <stdbool.h>
 
-#include "daemon/table_shelf.h"
+#include "daemon/table_cache.h"
 #include "endpoint/answer.h"
 #include "endpoint/token_store.h"
 #include "solve/solve.h"
 
 /* What one thread needs to answer requests. */
-struct seat {
+struct responder {
     struct solve_workspace *workspace;
     struct table_maker maker; /* of contact tables that requests insist on */
     struct solve_request request;
@@ -21,10 +21,10 @@ struct seat {
     char tokens[PERCUSS_MAX_BODIES][PERCUSS_ID_SIZE]; /* of the states afterwards */
 };
 
-/* Contact tables come from `shelf`, borrowed; with `makes` missing ones are computed when asked
+/* Contact tables come from `cache`, borrowed; with `makes` missing ones are computed when asked
  * for, which takes seconds to minutes. NULL: out of memory. */
-struct seat *seat_create(struct table_shelf *shelf, bool makes);
-void seat_free(struct seat *seat);
+struct responder *responder_create(struct table_cache *cache, bool makes);
+void responder_free(struct responder *responder);
 
 /* A request with where it came from. */
 struct question {
@@ -43,7 +43,7 @@ struct question {
 /* The reply, whatever it says; it differs with the thread, the load and the time in its timing
  * only, and where a deadline passed or nobody waits any more: then it is not to be kept
  * (answer.passing). NULL: out of memory. */
-struct answer *respond(struct seat *seat, struct token_store *tokens,
-                       const struct question *question);
+struct answer *responder_answer(struct responder *responder, struct token_store *tokens,
+                                const struct question *question);
 
 #endif

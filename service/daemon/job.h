@@ -2,22 +2,22 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* A request, or a batch of them, that waits for workers. */
-#ifndef PERCUSS_DAEMON_TASK_H
-#define PERCUSS_DAEMON_TASK_H
+#ifndef PERCUSS_DAEMON_JOB_H
+#define PERCUSS_DAEMON_JOB_H
 
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <sys/queue.h>
 
-#include "daemon/edition.h"
+#include "daemon/snapshot.h"
 #include "endpoint/answer.h"
 
-struct task {
+struct job {
     enum exchange exchange;
     uint8_t client[16];
     uint64_t sequence;
     double arrival; /* monotonic, s */
-    struct edition *edition;
+    struct snapshot *snapshot;
     percuss_v1_Request *requests; /* copies; one, or the members of a batch */
     size_t count;
     size_t next;             /* first request no worker has taken; the queue's */
@@ -26,18 +26,18 @@ struct task {
     atomic_bool abandoned;   /* nobody waits for the reply any more */
     percuss_v1_EnsembleRequest *ensemble; /* a copy whose scene is requests[0]; NULL: none */
     atomic_bool cancelled;                /* its client wants no more samples */
-    LIST_ENTRY(task) ensembles;
+    LIST_ENTRY(job) ensembles;
     char clears[PERCUSS_ID_SIZE]; /* no request: a specimen to be forgotten; empty: a request */
 };
 
-/* A task for copies of `count` >= 1 requests; client, sequence, arrival and edition are the
+/* A job for copies of `count` >= 1 requests; client, sequence, arrival and snapshot are the
  * caller's to set. NULL: out of memory. */
-struct task *task_create(enum exchange exchange, const percuss_v1_Request *requests, size_t count);
+struct job *job_create(enum exchange exchange, const percuss_v1_Request *requests, size_t count);
 
-/* A task for a copy of an ensemble, likewise. */
-struct task *task_create_ensemble(const percuss_v1_EnsembleRequest *request);
+/* A job for a copy of an ensemble, likewise. */
+struct job *job_create_ensemble(const percuss_v1_EnsembleRequest *request);
 
-/* Releases all but the edition. */
-void task_free(struct task *task);
+/* Releases all but the snapshot. */
+void job_free(struct job *job);
 
 #endif

@@ -1,14 +1,14 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "daemon/ensemble_run.h"
+#include "daemon/ensemble_job.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "daemon/crew.h"
+#include "daemon/parallel.h"
 #include "endpoint/clock.h"
 #include "endpoint/decode_ensemble.h"
 #include "endpoint/encode.h"
@@ -21,7 +21,7 @@ static const char client_had_gone[] = "the client had gone: ask again";
 
 struct ensemble_run {
     struct service *service;
-    struct task *task;
+    struct job *job;
     double deadline; /* monotonic, s; INFINITY: none */
     struct decoded_ensemble *decoded;
     struct ensemble ensemble;
@@ -32,31 +32,31 @@ struct ensemble_run {
     struct ensemble_extra *extras;
     uint64_t done;
     bool in_extras;
-    double told;         /* monotonic, s: when those who wait were */
+    double noticed;      /* monotonic, s: when those who wait were */
     atomic_bool stopped; /* the workers are to give up */
     char message[160];   /* what cut it short; empty: nothing */
 };
 
-/* Writes a progress sample to the client of a task. */
-static void publish(struct service *service, const struct task *task, uint64_t done,
-                    uint64_t samples, const struct report_progress *progress)
+/* Writes a progress sample to the client of a job. */
+static void publish(struct service *service, const struct job *job, uint64_t done, uint64_t samples,
+                    const struct report_progress *progress)
 {
     percuss_v1_EnsembleProgress sample = {
-        .sequence = task->sequence,
+        .sequence = job->sequence,
         .done = done,
         .samples = samples,
         .mean = progress->mean,
         .standard_deviation = progress->deviation,
         .half_width = progress->half_width,
     };
-    memcpy(sample.client, task->client, sizeof sample.client);
-    endpoint_publish(service->endpoint, task->client, CHANNEL_PROGRESS, &sample, 0);
+    memcpy(sample.client, job->client, sizeof sample.client);
+    endpoint_publish(service->endpoint, job->client, CHANNEL_PROGRESS, &sample, 0);
 }
 
 static const struct report_progress no_progress = {NAN, NAN, NAN, NAN, false};
 
 /* Who waits for another ensemble to end hears that the server is there. */
-static void tell_waiting(void *context, const struct task *waiting)
+static void tell_waiting(void *context, const struct job *waiting)
 {
     publish(context, waiting, 0, waiting->ensemble->samples, &no_progress);
 }
@@ -65,16 +65,16 @@ static void tell_waiting(void *context, const struct task *waiting)
 static void keep_waiting(struct ensemble_run *run)
 {
     double now = clock_now();
-    if (now < run->told + 1.0)
+    if (now < run->noticed + 1.0)
         return;
-    run->told = now;
-    ensembles_tell_waiting(&run->service->ensembles, run->task, tell_waiting, run->service);
+    run->noticed = now;
+    ensembles_tell_waiting(&run->service->ensembles, run->job, tell_waiting, run->service);
 }
 
 static void publish_progress(struct ensemble_run *run, uint64_t done)
 {
     struct report_progress progress = report_progress(&run->ensemble, run->samples, done, false);
-    publish(run->service, run->task, done, run->ensemble.count, &progress);
+    publish(run->service, run->job, done, run->ensemble.count, &progress);
     ensembles_note(&run->service->ensembles, done, run->ensemble.count);
     keep_waiting(run);
 }
@@ -82,16 +82,16 @@ static void publish_progress(struct ensemble_run *run, uint64_t done)
 /* Whether anybody still wants the rest. */
 static bool is_wanted(struct ensemble_run *run)
 {
-    struct task *task = run->task;
-    if (reply_store_is_gone(run->service->replies, task->client))
-        atomic_store(&task->abandoned, true);
-    if (atomic_load(&task->abandoned))
+    struct job *job = run->job;
+    if (reply_store_is_gone(run->service->replies, job->client))
+        atomic_store(&job->abandoned, true);
+    if (atomic_load(&job->abandoned))
         return false;
-    if (atomic_load(&task->cancelled))
+    if (atomic_load(&job->cancelled))
         snprintf(run->message, sizeof run->message, "cancelled");
     else if (clock_now() > run->deadline)
         snprintf(run->message, sizeof run->message, "options.deadline: %g s: has passed",
-                 task->requests[0].options.deadline);
+                 job->requests[0].options.deadline);
     return !run->message[0];
 }
 
@@ -100,8 +100,8 @@ static bool lasts(void *context, double done)
 {
     struct ensemble_run *run = context;
     (void)done;
-    if (clock_now() >= run->told + 1.0)
-        tell_waiting(run->service, run->task);
+    if (clock_now() >= run->noticed + 1.0)
+        tell_waiting(run->service, run->job);
     keep_waiting(run);
     return is_wanted(run);
 }
@@ -122,17 +122,17 @@ static bool goes_on(void *context, double done)
     return !atomic_load(&run->stopped);
 }
 
-static bool work_on_sample(void *context, unsigned member, uint64_t item)
+static bool work_on_sample(void *context, unsigned thread, uint64_t item)
 {
     struct ensemble_run *run = context;
-    ensemble_solve(run->workers[member], item, &run->samples[item], NULL);
+    ensemble_solve(run->workers[thread], item, &run->samples[item], NULL);
     return run->samples[item].status != PERCUSS_TIMEOUT;
 }
 
-static bool work_on_extra(void *context, unsigned member, uint64_t item)
+static bool work_on_extra(void *context, unsigned thread, uint64_t item)
 {
     struct ensemble_run *run = context;
-    run->extras[item] = ensemble_extra(run->workers[member], run->done, item);
+    run->extras[item] = ensemble_extra(run->workers[thread], run->done, item);
     return goes_on(run, 0.0);
 }
 
@@ -142,8 +142,9 @@ static void solve_samples(struct ensemble_run *run)
     bool wanted = is_wanted(run);
     while (wanted && run->done < run->ensemble.count) {
         uint64_t next = ensemble_next_check(&run->ensemble, run->done);
-        struct crew_job job = {run->worker_count, run->done, next, work_on_sample, watch, run};
-        run->done = crew_run(&job);
+        struct parallel_loop loop = {run->worker_count, run->done, next,
+                                     work_on_sample,    watch,     run};
+        run->done = parallel_run(&loop);
         wanted = run->done == next && is_wanted(run);
         if (wanted && next < run->ensemble.count &&
             report_progress(&run->ensemble, run->samples, next, true).enough)
@@ -158,8 +159,8 @@ static void solve_extras(struct ensemble_run *run)
     uint64_t count = run->message[0] ? 0 : ensemble_extras(&run->ensemble, run->done);
     run->extras = count ? calloc(count, sizeof *run->extras) : NULL;
     run->in_extras = true;
-    struct crew_job job = {run->worker_count, 0, count, work_on_extra, watch, run};
-    if (run->extras && crew_run(&job) == count)
+    struct parallel_loop loop = {run->worker_count, 0, count, work_on_extra, watch, run};
+    if (run->extras && parallel_run(&loop) == count)
         return;
     free(run->extras);
     run->extras = NULL;
@@ -181,7 +182,7 @@ static void publish_samples(struct ensemble_run *run)
             encode_sample(&run->ensemble, first + i, &run->samples[first + i],
                           values + i * columns);
         percuss_v1_EnsembleSamples sample = {
-            .sequence = run->task->sequence,
+            .sequence = run->job->sequence,
             .part = (uint32_t)part,
             .parts = (uint32_t)parts,
             .columns = (uint32_t)columns,
@@ -190,8 +191,8 @@ static void publish_samples(struct ensemble_run *run)
                      ._length = (uint32_t)(count * columns),
                      ._maximum = (uint32_t)(count * columns)},
         };
-        memcpy(sample.client, run->task->client, sizeof sample.client);
-        if (endpoint_publish(run->service->endpoint, run->task->client, CHANNEL_SAMPLES, &sample,
+        memcpy(sample.client, run->job->client, sizeof sample.client);
+        if (endpoint_publish(run->service->endpoint, run->job->client, CHANNEL_SAMPLES, &sample,
                              PATIENCE) != DELIVERY_DONE)
             break;
     }
@@ -212,7 +213,7 @@ static bool words_last(void *context, double done)
 {
     struct ensemble_run *run = context;
     (void)done;
-    if (clock_now() >= run->told + 1.0)
+    if (clock_now() >= run->noticed + 1.0)
         publish_progress(run, run->done);
     return is_wanted(run);
 }
@@ -222,7 +223,7 @@ static struct answer *report(struct ensemble_run *run, const struct envelope *en
 {
     if (run->done == 0)
         return refuse(envelope,
-                      atomic_load(&run->task->cancelled) ? PERCUSS_TRUNCATED : PERCUSS_TIMEOUT,
+                      atomic_load(&run->job->cancelled) ? PERCUSS_TRUNCATED : PERCUSS_TIMEOUT,
                       run->message[0] ? run->message : "no thread could be started");
     const struct watch watch = {words_last, run};
     const struct report_material material = {run->done, run->samples, run->extras};
@@ -245,7 +246,7 @@ static struct answer *report(struct ensemble_run *run, const struct envelope *en
 }
 
 /* One worker a thread. False: no memory. */
-static bool hire(struct ensemble_run *run, struct fault *fault)
+static bool create_workers(struct ensemble_run *run, struct fault *fault)
 {
     const struct watch watch = {goes_on, run};
     unsigned wanted = run->service->settings->workers;
@@ -271,30 +272,30 @@ static bool hire(struct ensemble_run *run, struct fault *fault)
  * changes a material then: the workers only look them up. */
 static const struct contact_table_source *find_tables(struct ensemble_run *run)
 {
-    struct table_shelf *shelf = &run->service->tables;
-    const percuss_v1_Request *scene = &run->task->requests[0];
-    table_maker_init(&run->maker, shelf, true);
+    struct table_cache *cache = &run->service->tables;
+    const percuss_v1_Request *scene = &run->job->requests[0];
+    table_maker_init(&run->maker, cache, true);
     if (scene->options.contact_model != PERCUSS_CONTACT_TABLE)
-        return table_store_source(shelf->loaded);
+        return table_store_source(cache->loaded);
     const struct contact_table_source *source =
-        table_maker_begin(&run->maker, scene, run->task->client, run->task->arrival);
-    run->maker.cancelled = &run->task->cancelled;
+        table_maker_begin(&run->maker, scene, run->job->client, run->job->arrival);
+    run->maker.cancelled = &run->job->cancelled;
     return source;
 }
 
 /* From the wire to an ensemble that is ready to run. */
 static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault)
 {
-    struct task *task = run->task;
-    double seconds = task->requests[0].options.deadline;
-    run->deadline = seconds > 0.0 ? task->arrival + seconds : INFINITY;
+    struct job *job = run->job;
+    double seconds = job->requests[0].options.deadline;
+    run->deadline = seconds > 0.0 ? job->arrival + seconds : INFINITY;
     run->decoded = calloc(1, sizeof *run->decoded);
     if (!run->decoded)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = decode_ensemble(task->ensemble, run->decoded, fault);
+    enum percuss_status status = decode_ensemble(job->ensemble, run->decoded, fault);
     if (status)
         return status;
-    run->decoded->spec.catalogue = task->edition->set;
+    run->decoded->spec.catalogue = job->snapshot->set;
     run->decoded->spec.tables = find_tables(run);
     const struct watch watch = {lasts, run};
     status = is_wanted(run) ? ensemble_create(&run->ensemble, &run->decoded->spec, &watch, fault)
@@ -303,7 +304,7 @@ static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault
         return fault_set(fault, run->maker.status, "%s", run->maker.fault.text);
     if (run->message[0])
         return fault_set(fault, PERCUSS_TIMEOUT, "%s before the first sample", run->message);
-    if (status == PERCUSS_TIMEOUT && atomic_load(&task->abandoned))
+    if (status == PERCUSS_TIMEOUT && atomic_load(&job->abandoned))
         return fault_set(fault, PERCUSS_TIMEOUT, "%s", client_had_gone);
     return status;
 }
@@ -327,35 +328,35 @@ static struct answer *carry_out(struct ensemble_run *run, const struct envelope 
     enum percuss_status status = prepare(run, &fault);
     if (status)
         return refuse(envelope, status, fault.text);
-    if (!hire(run, &fault))
+    if (!create_workers(run, &fault))
         return refuse(envelope, PERCUSS_INTERNAL, fault.text);
     publish_progress(run, 0);
     solve_samples(run);
     solve_extras(run);
-    struct answer *answer = atomic_load(&run->task->abandoned) ? NULL : report(run, envelope);
-    if (atomic_load(&run->task->abandoned)) {
+    struct answer *answer = atomic_load(&run->job->abandoned) ? NULL : report(run, envelope);
+    if (atomic_load(&run->job->abandoned)) {
         answer_release(answer);
         return refuse(envelope, PERCUSS_TIMEOUT, client_had_gone);
     }
-    if (run->task->ensemble->list_samples)
+    if (run->job->ensemble->list_samples)
         publish_samples(run);
     return answer;
 }
 
-struct answer *ensemble_respond(struct service *service, struct task *task)
+struct answer *ensemble_respond(struct service *service, struct job *job)
 {
     double start = clock_now();
     struct ensemble_run *run = calloc(1, sizeof *run);
     if (!run)
         return NULL;
     run->service = service;
-    run->task = task;
-    struct request_name name = {task->client, task->exchange, task->sequence};
-    struct envelope envelope = service_envelope(service, &name, task->edition);
+    run->job = job;
+    struct request_name name = {job->client, job->exchange, job->sequence};
+    struct envelope envelope = service_envelope(service, &name, job->snapshot);
     struct answer *answer = carry_out(run, &envelope);
     release(run);
     if (answer) {
-        answer->report->timing.queue = start - task->arrival;
+        answer->report->timing.queue = start - job->arrival;
         answer->report->timing.solve = clock_now() - start;
     }
     return answer;

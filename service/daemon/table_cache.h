@@ -4,8 +4,8 @@
 /* The daemon's contact tables. Those of the folder, loaded at start, serve `auto` and `table`.
  * Those computed since, because a request insisted on one, serve `table` only, so that the answers
  * to `auto` do not change while the daemon runs; the folder keeps them for the next start. */
-#ifndef PERCUSS_DAEMON_TABLE_SHELF_H
-#define PERCUSS_DAEMON_TABLE_SHELF_H
+#ifndef PERCUSS_DAEMON_TABLE_CACHE_H
+#define PERCUSS_DAEMON_TABLE_CACHE_H
 
 #include <stdatomic.h>
 
@@ -13,7 +13,7 @@
 #include "model/body.h"
 #include "store/table_store.h"
 
-struct table_shelf {
+struct table_cache {
     struct table_store *loaded, *made;
     const char *folder;          /* empty: none */
     struct reply_store *replies; /* knows who is gone */
@@ -22,21 +22,21 @@ struct table_shelf {
 };
 
 /* Loads the folder; a folder or file that does not do is logged. False: out of memory. */
-bool table_shelf_fill(struct table_shelf *shelf);
-void table_shelf_empty(struct table_shelf *shelf);
+bool table_cache_load(struct table_cache *cache);
+void table_cache_free(struct table_cache *cache);
 
 /* The curves for `table`, or NULL. */
-const struct contact_curves *table_shelf_find(const struct table_shelf *shelf,
+const struct contact_curves *table_cache_find(const struct table_cache *cache,
                                               const struct material *a, const struct material *b);
 
 /* Whether `table` for a request would have to be computed first, as far as its bodies tell. */
-bool table_shelf_lacks(const struct table_shelf *shelf, const struct body_set *set,
+bool table_cache_lacks(const struct table_cache *cache, const struct body_set *set,
                        const percuss_v1_Request *request);
 
 /* What `table` is answered from for one request at a time. */
 struct table_maker {
     struct contact_table_source source;
-    struct table_shelf *shelf;
+    struct table_cache *cache;
     bool makes;                        /* may take its time: the long lane */
     const percuss_v1_Request *request; /* being answered, set by who answers it */
     double arrival;                    /* of it, monotonic, s */
@@ -46,7 +46,7 @@ struct table_maker {
     struct fault fault;
 };
 
-void table_maker_init(struct table_maker *maker, struct table_shelf *shelf, bool makes);
+void table_maker_init(struct table_maker *maker, struct table_cache *cache, bool makes);
 
 /* Begins with a request that asks for `table`, of a client (16 octets; a member of a batch need not
  * name him); what answers it. Tables that are missing are computed, but for materials that

@@ -1,0 +1,73 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/snapshot.h"
+
+#include <stdlib.h>
+
+#include "catalogue/catalogue.h"
+
+static enum percuss_status snapshot_load(const char *path, struct snapshot **snapshot,
+                                         struct fault *fault)
+{
+    *snapshot = calloc(1, sizeof **snapshot);
+    if (!*snapshot)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    (*snapshot)->holders = 1;
+    enum percuss_status status = catalogue_load(path, &(*snapshot)->set, fault);
+    if (status) {
+        free(*snapshot);
+        *snapshot = NULL;
+    }
+    return status;
+}
+
+enum percuss_status snapshots_open(struct snapshots *snapshots, const char *path,
+                                   struct fault *fault)
+{
+    *snapshots = (struct snapshots){0};
+    pthread_mutex_init(&snapshots->lock, NULL);
+    return snapshot_load(path, &snapshots->current, fault);
+}
+
+void snapshots_close(struct snapshots *snapshots)
+{
+    if (snapshots->current)
+        snapshots_release(snapshots, snapshots->current);
+    pthread_mutex_destroy(&snapshots->lock);
+}
+
+enum percuss_status snapshots_reload(struct snapshots *snapshots, const char *path,
+                                     struct snapshot **before, struct fault *fault)
+{
+    struct snapshot *fresh;
+    *before = NULL;
+    enum percuss_status status = snapshot_load(path, &fresh, fault);
+    if (status)
+        return status;
+    pthread_mutex_lock(&snapshots->lock);
+    *before = snapshots->current;
+    snapshots->current = fresh;
+    pthread_mutex_unlock(&snapshots->lock);
+    return PERCUSS_OK;
+}
+
+struct snapshot *snapshots_hold(struct snapshots *snapshots)
+{
+    pthread_mutex_lock(&snapshots->lock);
+    struct snapshot *snapshot = snapshots->current;
+    snapshot->holders++;
+    pthread_mutex_unlock(&snapshots->lock);
+    return snapshot;
+}
+
+void snapshots_release(struct snapshots *snapshots, struct snapshot *snapshot)
+{
+    pthread_mutex_lock(&snapshots->lock);
+    bool last = --snapshot->holders == 0;
+    pthread_mutex_unlock(&snapshots->lock);
+    if (last) {
+        body_set_free(snapshot->set);
+        free(snapshot);
+    }
+}

@@ -1,0 +1,37 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Requests of specimens: their dents come from the store, and what an impact leaves is durable
+ * together with its reply before anybody sees it. One thread at a time; it takes the requests in
+ * order of arrival. */
+#ifndef PERCUSS_DAEMON_SPECIMEN_LANE_H
+#define PERCUSS_DAEMON_SPECIMEN_LANE_H
+
+#include "daemon/responder.h"
+#include "endpoint/endpoint.h"
+
+struct specimen_lane;
+
+/* Opens the store. Its status is specimen_store_open's. */
+enum percuss_status specimen_lane_open(const char *path, unsigned replies,
+                                       struct specimen_lane **lane, struct fault *fault);
+void specimen_lane_close(struct specimen_lane *lane); /* NULL is allowed */
+
+/* From now on the specimens are announced there. */
+void specimen_lane_announce(struct specimen_lane *lane, struct endpoint *endpoint);
+
+/* The reply to a request that names specimens: the stored one if there is one of this client and
+ * number. NULL: out of memory. */
+struct answer *specimen_lane_respond(struct specimen_lane *lane, struct responder *responder,
+                                     struct token_store *tokens, const struct question *question);
+
+/* Forgets a specimen. */
+void specimen_lane_clear(struct specimen_lane *lane, const char *specimen);
+
+/* Number of specimens. Any thread. */
+size_t specimen_lane_count(struct specimen_lane *lane);
+
+/* Whether a request names a specimen. */
+bool specimen_lane_concerns(const percuss_v1_Request *request);
+
+#endif
