@@ -20,7 +20,7 @@ allowed() {
     solve) echo "base numeric model fe contact impact solve" ;;
     ensemble) echo "base numeric model fe contact impact solve ensemble" ;;
     catalogue) echo "base numeric model catalogue" ;;
-    store) echo "base numeric model fe contact impact solve store" ;;
+    store) echo "base numeric model fe contact store" ;;
     endpoint) echo "base numeric model contact impact solve ensemble endpoint" ;;
     tables) echo "base model fe contact catalogue store tables" ;;
     daemon) echo "base numeric model fe contact impact solve ensemble catalogue store endpoint daemon" ;;

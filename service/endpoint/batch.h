@@ -6,7 +6,7 @@
 #define PERCUSS_ENDPOINT_BATCH_H
 
 #include "endpoint/answer.h"
-#include "solve/solve.h"
+#include "solve/result.h"
 
 /* Largest sample, and most sub-impacts listed per contact. */
 enum { BATCH_PART_BYTES = 64 * 1024, BATCH_SUB_IMPACTS = 16 };

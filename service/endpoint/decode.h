@@ -5,7 +5,7 @@
 #ifndef PERCUSS_ENDPOINT_DECODE_H
 #define PERCUSS_ENDPOINT_DECODE_H
 
-#include "solve/solve.h"
+#include "solve/request.h"
 #include "wire.h"
 
 /* Fills `request` (what is not used of its arrays stays as it was). PERCUSS_OK, or

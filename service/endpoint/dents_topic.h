@@ -9,7 +9,7 @@
 #include <stdbool.h>
 
 #include "base/fault.h"
-#include "solve/body_state.h"
+#include "contact/body_state.h"
 #include "wire.h"
 
 struct dents_topic {

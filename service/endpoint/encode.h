@@ -6,7 +6,7 @@
 #define PERCUSS_ENDPOINT_ENCODE_H
 
 #include "endpoint/answer.h"
-#include "solve/solve.h"
+#include "solve/result.h"
 
 /* A reply listing at most `listed` sub-impacts a contact (their count is exact all the same).
  * `tokens` names the state of every body afterwards, "" for none. Numbers the result does not

@@ -10,7 +10,7 @@
 #include <stddef.h>
 
 #include "base/fault.h"
-#include "solve/body_state.h"
+#include "contact/body_state.h"
 
 /* What is kept: the states used last, within all three bounds. */
 struct token_limits {

@@ -8,6 +8,7 @@
 
 #include "ensemble/choice.h"
 #include "ensemble/worker.h"
+#include "solve/solve.h"
 
 void ensemble_inputs(const struct ensemble *ensemble, uint64_t index, double *values)
 {

@@ -8,7 +8,7 @@
 #include "ensemble/copula.h"
 #include "ensemble/input.h"
 #include "ensemble/sampling.h"
-#include "solve/solve.h"
+#include "solve/request.h"
 
 enum {
     ENSEMBLE_MAX_INPUTS = SAMPLING_MAX_DIMENSIONS,

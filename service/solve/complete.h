@@ -6,7 +6,9 @@
 #ifndef PERCUSS_SOLVE_COMPLETE_H
 #define PERCUSS_SOLVE_COMPLETE_H
 
+#include "base/watch.h"
 #include "solve/geometry.h"
+#include "solve/result.h"
 
 /* Solves on meshes of 4, 8 and 16 elements across the contact radius, with three or six places of
  * the nodes each, until the estimated error of the restitution fits the tolerance

@@ -7,6 +7,7 @@
 #define PERCUSS_SOLVE_CONCURRENT_H
 
 #include "solve/accuracy.h"
+#include "solve/result.h"
 
 /* What a reply says of it. */
 struct concurrent_effort {

@@ -9,8 +9,8 @@
 #include "base/arena.h"
 #include "contact/hertz.h"
 #include "model/modal_basis.h"
+#include "solve/request.h"
 #include "solve/roll.h"
-#include "solve/solve.h"
 
 struct contact_model;
 struct compliance;

@@ -6,6 +6,7 @@
 #define PERCUSS_SOLVE_HISTORY_H
 
 #include "solve/accuracy.h"
+#include "solve/result.h"
 
 /* Solves the answer's scene once more by the modal method, with the forces taken down, and sets
  * result->trace. That may take as much work as an answer, and the histories as much again: where it

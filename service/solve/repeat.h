@@ -7,8 +7,13 @@
 #ifndef PERCUSS_SOLVE_REPEAT_H
 #define PERCUSS_SOLVE_REPEAT_H
 
-#include "solve/solve.h"
+#include <stdint.h>
+
+#include "base/watch.h"
+#include "solve/request.h"
 #include "solve/warnings.h"
+
+struct contact_table_source; /* contact/table.h */
 
 /* What an accuracy search settles on. */
 struct repeat_model {

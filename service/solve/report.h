@@ -6,6 +6,7 @@
 #define PERCUSS_SOLVE_REPORT_H
 
 #include "solve/accuracy.h"
+#include "solve/result.h"
 #include "solve/warnings.h"
 
 /* Fills everything of `result` that the solution decides; status and message too. */

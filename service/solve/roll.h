@@ -7,7 +7,7 @@
 #define PERCUSS_SOLVE_ROLL_H
 
 #include "base/arena.h"
-#include "solve/solve.h"
+#include "solve/request.h"
 
 struct geometry;
 

@@ -11,8 +11,8 @@
 #include <stdint.h>
 
 #include "base/fault.h"
+#include "contact/body_state.h"
 #include "model/body.h"
-#include "solve/body_state.h"
 
 /* Most specimens of a store. */
 enum { SPECIMEN_STORE_MOST = 4096 };

@@ -3,6 +3,7 @@
 
 /* Warm solves of the rod and the beam, and of groups of contacts, for counting instructions:
  * instructions.sh. */
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

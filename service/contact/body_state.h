@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The vibration of a body at one instant and the dents in its surface: what a state token names. */
-#ifndef PERCUSS_SOLVE_BODY_STATE_H
-#define PERCUSS_SOLVE_BODY_STATE_H
+#ifndef PERCUSS_CONTACT_BODY_STATE_H
+#define PERCUSS_CONTACT_BODY_STATE_H
 
 #include <stddef.h>
 

@@ -1,0 +1,67 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What the solver answers. */
+#ifndef PERCUSS_SOLVE_RESULT_H
+#define PERCUSS_SOLVE_RESULT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/fault.h"
+#include "contact/body_state.h"
+#include "impact/result.h"
+
+struct trace; /* impact/trace.h */
+
+struct solve_contact_result {
+    double impulse;
+    double impulse_vector[3]; /* on body a */
+    double impulse_compression;
+    double restitution; /* NAN where impulse_compression is 0 */
+    double inverse_effective_mass;
+    double end_time;
+    size_t sub_impact_count;              /* exact */
+    size_t sub_impacts_listed;            /* at most PERCUSS_MAX_SUB_IMPACTS */
+    const struct sub_impact *sub_impacts; /* in the workspace, until its next solve */
+};
+
+struct solve_body_result {
+    char id[PERCUSS_ID_SIZE];
+    double velocity[3]; /* after; only with the service's own W */
+    double angular_velocity[3];
+    double vibration; /* J */
+    unsigned modes;   /* kept in the scene */
+    bool rigid;
+    const char *theory; /* rigid, rod, rayleigh-love, timoshenko, euler-bernoulli */
+    double shear_factor;
+    const struct body_state *state_after; /* in the workspace, until its next solve; NULL: none */
+};
+
+struct solve_result {
+    enum percuss_status status;
+    struct fault fault; /* the message; empty for OK */
+    bool complete;
+    enum percuss_end_reason end_reason;
+    double window; /* s; from then on vibration cannot cause a contact */
+    size_t contact_count, body_count;
+    struct solve_contact_result contacts[PERCUSS_MAX_CONTACTS];
+    struct solve_body_result bodies[PERCUSS_MAX_BODIES];
+    enum percuss_delassus_source delassus_source;
+    bool velocities_known; /* the service's own W was used */
+    struct impact_energy energy;
+    double restitution_time, restitution_modes, impulse_time, impulse_modes;
+    double restitution_by_speed; /* NAN unless asked for */
+    bool tolerance_met;
+    enum percuss_contact_model contact_model;
+    enum percuss_compliance compliance;
+    enum percuss_method method;
+    char reason[512];
+    double omitted_error;
+    double time_shift;
+    const struct trace *trace; /* in the workspace, until its next solve; NULL: not asked for */
+    size_t warning_count;
+    char warnings[40][256]; /* more than validity.h finds */
+};
+
+#endif
