@@ -2,49 +2,21 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* What the physics tests share: a catalogue built in C, scenes of two bodies that touch in given
- * spots, repeatable random numbers, and comparisons that can print what they measured. */
+ * spots, and repeatable random numbers. */
 #ifndef PERCUSS_TEST_SUPPORT_H
 #define PERCUSS_TEST_SUPPORT_H
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "model/vector.h"
 #include "solve/solve.h"
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* The handbook materials of the numbers in the physics notes. */
 #define STEEL     ((struct material){"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0})
 #define ALUMINIUM ((struct material){"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0})
 #define GLASS     ((struct material){"glass", 48e9, 0.20, 2800.0, INFINITY, 0.0})
-
-/* Fails unless |value - expected| <= allowed; PERCUSS_MEASURE=1 prints every comparison. */
-static inline void measured(const char *what, double value, double expected, double allowed)
-{
-    double error = fabs(value - expected);
-    if (getenv("PERCUSS_MEASURE"))
-        print_message("    %-44s %.12g expected %.12g error %.2e allowed %.1e\n", what, value,
-                      expected, error, allowed);
-    if (!(error <= allowed))
-        fail_msg("%s: %.17g is not %.17g within %g (error %.3e)", what, value, expected, allowed,
-                 error);
-}
-
-/* The same with a relative error. */
-static inline void measured_relative(const char *what, double value, double expected,
-                                     double relative)
-{
-    measured(what, value, expected, relative * fabs(expected));
-}
 
 /* A catalogue of up to 32 bodies and a workspace. Bodies stay where they are. */
 struct lab {
@@ -142,8 +114,8 @@ static inline struct spot side_spot(const char *id, double x, double radius, dou
         id, {x, radius * sin(about), radius * cos(about)}, {0.0, sin(about), cos(about)}, 0.0};
 }
 
-/* A wall of vanishing 1 - nu^2 and endless shear modulus: E* is that of the other body to 3e-16, and
- * no wave leaves. */
+/* A wall of vanishing 1 - nu^2 and endless shear modulus: E* is that of the other body to 3e-16,
+ * and no wave leaves. */
 static inline struct body rigid_wall(void)
 {
     return make_body(SHAPE_HALF_SPACE,

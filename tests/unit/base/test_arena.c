@@ -2,15 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/base/arena.c: alignment, zeros, reuse, and sizes that cannot be. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "base/arena.h"
+#include "check.h"
 
 static void pieces_are_aligned_zero_and_apart(void **state)
 {

@@ -2,15 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/base/fault.c: messages and the names of the wire's numbers. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "base/fault.h"
+#include "check.h"
 
 static void the_message_is_written_and_the_status_returned(void **state)
 {

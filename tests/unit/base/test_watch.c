@@ -3,14 +3,8 @@
 
 /* Mirrors service/base/watch.c: who waits is asked once in so much work, and never again after no.
  */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "base/watch.h"
+#include "check.h"
 
 struct waiting {
     int asked, patience;

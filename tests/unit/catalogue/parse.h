@@ -5,16 +5,11 @@
 #ifndef PERCUSS_TESTS_CATALOGUE_PARSE_H
 #define PERCUSS_TESTS_CATALOGUE_PARSE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "catalogue/catalogue.h"
+#include "check.h"
 
 /* The catalogue in this text; fails the test with the message if it is refused. */
 static inline struct body_set *parse_good(const char *text)

@@ -2,15 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests client/lib/batch.c: parts in any order, twice, of two servers, missing, impossible. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "batch.h"
+#include "check.h"
 
 /* Part number `part` of 3 with two replies, of sequences 10 part and 10 part + 1. */
 static percuss_v1_BatchReply part_of_three(uint32_t part, uint8_t server)

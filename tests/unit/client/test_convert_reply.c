@@ -2,13 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests client/lib/convert_reply.c: every field of a wire reply arrives, and its memory goes. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "convert.h"
 #include "unit/client/wire_reply.h"
 

@@ -3,14 +3,9 @@
 
 /* Tests client/lib/convert_request.c and request.c: every field reaches the wire, and what does not
  * fit is refused by name. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "convert.h"
 
 static struct percuss_request request;

@@ -2,14 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests client/lib/gather.c: parts of a trace in order, repeated, foreign and malformed. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "gather.h"
 
 static double numbers[10] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};

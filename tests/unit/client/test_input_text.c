@@ -2,18 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors client/cli/input_text.c: distributions and columns of numbers as people write them. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "input_text.h"
 
 static void distributions(void **state)

@@ -3,15 +3,10 @@
 
 /* Tests client/lib/pair.c: for every pair of shapes the bodies touch at one point with opposite
  * normals and approach at the wanted speed. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include <percuss/percuss.h>
 #include <string.h>
 
-#include <cmocka.h>
-#include <percuss/percuss.h>
+#include "check.h"
 
 /* With dimensions that differ in every direction. */
 static const struct percuss_body shapes[] = {

@@ -2,13 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests client/lib/pending.c: finding by sequence, order of arrival, the window. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "pending.h"
 
 static struct pending *add(struct pending_table *table, uint64_t sequence)

@@ -2,18 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests client/cli/plot_ensemble.c and plot.c: gnuplot draws every panel, and each alone. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "plot_ensemble.h"
 
 enum { SAMPLES = 12000, BINS = 10, QUANTILES = 5 };

@@ -3,14 +3,7 @@
 
 /* Tests client/cli/reply_json.c: the wire's names and nesting, choices as names, undefined numbers
  * as null, doubles that come back bit by bit. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "convert.h"
 #include "reply_json.h"
 #include "unit/client/wire_reply.h"

@@ -3,16 +3,11 @@
 
 /* Tests client/cli/request_json.c and json_reader.c: a whole request, defaults, and every kind of
  * error with its path. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "request_json.h"
 
 static struct json_request request;

@@ -2,14 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests client/cli/similar.c: which id was meant. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "similar.h"
 
 static void measures_the_distance(void **state)

@@ -2,15 +2,10 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests client/cli/tally.c: the warnings of many replies, each kind once. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "tally.h"
 
 static void take(struct tally *tally, const char *place, char *first, char *second)

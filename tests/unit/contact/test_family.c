@@ -3,16 +3,9 @@
 
 /* Mirrors service/contact/family.c and family_curves.c: a family sampled from powers whose
  * exponents depend on the place, so that every curve between the places is known. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "contact/family.h"
 #include "contact/law_closed_form.h"
 #include "contact/plastic.h"
@@ -101,12 +94,6 @@ static struct contact_family *make(void)
     return family;
 }
 
-static void near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g within %g", value, expected, relative);
-}
-
 static struct hertz_contact contact_of(const struct material *a, const struct material *b,
                                        double radius)
 {
@@ -134,31 +121,31 @@ static void a_place_between_the_tables_has_its_curves(void **state)
         struct arena arena = {0};
         pair_at(&places[i], pair);
         struct contact_family_place place = contact_family_place(&pair[1], &pair[0]);
-        near(place.hardening, places[i].hardening, 1e-12);
-        near(place.poisson, places[i].poisson, 1e-12);
-        near(place.share, places[i].share, 1e-8);
-        near(contact_family_outside(family, &place) + 1.0, 1.0, 1e-7);
+        near_relative(place.hardening, places[i].hardening, 1e-12);
+        near_relative(place.poisson, places[i].poisson, 1e-12);
+        near_relative(place.share, places[i].share, 1e-8);
+        near_relative(contact_family_outside(family, &place) + 1.0, 1.0, 1e-7);
         struct hertz_contact hertz = contact_of(&pair[0], &pair[1], 0.02);
         double unit = closed_form_yield(&hertz, &pair[0], &pair[1]);
         struct contact_law law = contact_law_family(contact_family_curves(family, &place, &arena),
                                                     &hertz, &pair[0], &pair[1]);
         /* below yield the law is Hertz's but for the spline's bend there */
         double slope;
-        near(contact_law_force(&law, 0.5 * unit, &slope), hertz.stiffness * pow(0.5 * unit, 1.5),
-             1e-4);
-        near(contact_law_limit(&law), unit, 1e-12);
-        near(contact_law_table_range(&law), 1e4 * unit, 1e-12);
+        near_relative(contact_law_force(&law, 0.5 * unit, &slope),
+                      hertz.stiffness * pow(0.5 * unit, 1.5), 1e-4);
+        near_relative(contact_law_limit(&law), unit, 1e-12);
+        near_relative(contact_law_table_range(&law), 1e4 * unit, 1e-12);
         /* four places of an exponential's cubic, and ten depths to a decade */
         for (double w = 2.0; w < 9e3; w *= 1.7) {
             double expected = hertz.stiffness * pow(w * unit, 1.5) *
                               force_at(place.hardening, place.poisson, place.share, w);
-            near(law.operations->curve->force(&law, w * unit, &slope), expected, 2e-3);
+            near_relative(law.operations->curve->force(&law, w * unit, &slope), expected, 2e-3);
             /* dents begin with the square of the way, not like the power */
             if (w > 4.0)
-                near(law.operations->curve->residual(&law, w * unit),
-                     w * unit * (1.0 - back_at(place.hardening, w)), 4e-3);
-            near(law.operations->curve->radius(&law, w * unit),
-                 sqrt(0.02 * w * unit * (1.0 + 0.1 * log(w))), 1e-3);
+                near_relative(law.operations->curve->residual(&law, w * unit),
+                              w * unit * (1.0 - back_at(place.hardening, w)), 4e-3);
+            near_relative(law.operations->curve->radius(&law, w * unit),
+                          sqrt(0.02 * w * unit * (1.0 + 0.1 * log(w))), 1e-3);
         }
         arena_release(&arena);
     }
@@ -171,14 +158,14 @@ static void equal_bodies_are_ones_on_a_rigid_flat(void **state)
     (void)state;
     struct material soft = {"soft", 70e9, 0.33, 1.0, 1e8, 0.0};
     struct material later = soft, hard = soft;
-    near(contact_family_place(&soft, &soft).share, 1.0, 1e-15);
+    near_relative(contact_family_place(&soft, &soft).share, 1.0, 1e-15);
     later.yield = 1.5e8;
     hard.yield = 2.5e8;
     assert_true(contact_family_both_yield(&soft, &later));
     assert_false(contact_family_both_yield(&hard, &soft));
     double part = contact_family_place(&soft, &later).share;
     assert_true(part > 0.5 && part < 0.6);
-    near(contact_family_place(&hard, &soft).share, 0.5, 1e-15);
+    near_relative(contact_family_place(&hard, &soft).share, 0.5, 1e-15);
 }
 
 /* Outside the axes the answer is still one that a law can follow, and it is said how far out. */

@@ -3,22 +3,8 @@
 
 /* Mirrors service/contact/hertz.c: stiffness, ellipse and pressure against mpmath and closed forms,
  * from the circle to the line. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "contact/hertz.h"
-
-static void near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g (relative %.2e)", value, expected,
-                 fabs(value / expected - 1.0));
-}
 
 static const struct material steel = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};
 static const struct material aluminium = {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0};
@@ -26,9 +12,9 @@ static const struct material aluminium = {"aluminium", 70e9, 0.33, 2700.0, INFIN
 static void combines_moduli(void **state)
 {
     (void)state;
-    near(hertz_effective_modulus(&steel, &aluminium),
-         1.0 / ((1.0 - 0.09) / 210e9 + (1.0 - 0.1089) / 70e9), 1e-15);
-    near(hertz_effective_modulus(&steel, &steel), 0.5 * 210e9 / (1.0 - 0.09), 1e-15);
+    near_relative(hertz_effective_modulus(&steel, &aluminium),
+                  1.0 / ((1.0 - 0.09) / 210e9 + (1.0 - 0.1089) / 70e9), 1e-15);
+    near_relative(hertz_effective_modulus(&steel, &steel), 0.5 * 210e9 / (1.0 - 0.09), 1e-15);
 }
 
 /* B/A, b/a and k for E* = 1, A = 1, from Johnson's formulas with mpmath's K and E at 50 digits, the
@@ -52,11 +38,11 @@ static void matches_mpmath_from_circle_to_line(void **state)
     for (size_t i = 0; i < sizeof digits / sizeof *digits; i++) {
         struct hertz_contact contact = hertz_contact_make(1.0, 1.0, digits[i][0]);
         /* k is stationary-like in the axis ratio: both to some roundings */
-        near(contact.axis_ratio, digits[i][1], 2e-14);
-        near(contact.stiffness, digits[i][2], 1e-14);
+        near_relative(contact.axis_ratio, digits[i][1], 2e-14);
+        near_relative(contact.stiffness, digits[i][2], 1e-14);
         /* scales with E* and 1/sqrt(A) */
         contact = hertz_contact_make(3e10, 25.0, 25.0 * digits[i][0]);
-        near(contact.stiffness, 3e10 / 5.0 * digits[i][2], 1e-13);
+        near_relative(contact.stiffness, 3e10 / 5.0 * digits[i][2], 1e-13);
     }
 }
 
@@ -65,10 +51,10 @@ static void knows_the_sphere_and_the_paper_s_beam(void **state)
     (void)state;
     double modulus = hertz_effective_modulus(&steel, &aluminium);
     struct hertz_contact sphere = hertz_contact_make(modulus, 0.5 / 0.015, 0.5 / 0.015);
-    near(sphere.stiffness, 4.0 / 3.0 * modulus * sqrt(0.015), 1e-15);
+    near_relative(sphere.stiffness, 4.0 / 3.0 * modulus * sqrt(0.015), 1e-15);
     assert_true(sphere.axis_ratio == 1.0);
     /* the notes: R1 15 mm, R2 6 mm; their six digits */
-    near(hertz_contact_make(modulus, 0.5 / 0.015, 0.5 / 0.006).stiffness, 7.74365e9, 6e-7);
+    near_relative(hertz_contact_make(modulus, 0.5 / 0.015, 0.5 / 0.006).stiffness, 7.74365e9, 6e-7);
 }
 
 /* Rounding may turn equal curvatures around: that is a circle still. */
@@ -78,7 +64,7 @@ static void survives_rounding_at_the_circle(void **state)
     double circle = hertz_contact_make(1.0, 1.0, 1.0).stiffness;
     for (int ulps = -4; ulps <= 4; ulps++) {
         double b = 1.0 + ulps * 0x1p-52;
-        near(hertz_contact_make(1.0, 1.0, b).stiffness, circle, 1e-15);
+        near_relative(hertz_contact_make(1.0, 1.0, b).stiffness, circle, 1e-15);
     }
 }
 
@@ -104,18 +90,19 @@ static void ellipse_and_pressure(void **state)
     double depth = cbrt(force / sphere.stiffness) * cbrt(force / sphere.stiffness);
     double axes[2];
     hertz_ellipse(&sphere, force, axes);
-    near(axes[0], sqrt(0.01 * depth), 1e-14);
-    near(axes[1], axes[0], 1e-15);
-    near(hertz_peak_pressure(&sphere, force), 2.0 * 4e10 / M_PI * sqrt(depth / 0.01), 1e-14);
+    near_relative(axes[0], sqrt(0.01 * depth), 1e-14);
+    near_relative(axes[1], axes[0], 1e-15);
+    near_relative(hertz_peak_pressure(&sphere, force), 2.0 * 4e10 / M_PI * sqrt(depth / 0.01),
+                  1e-14);
     for (size_t i = 0; i < sizeof digits / sizeof *digits; i++) {
         struct hertz_contact contact = hertz_contact_make(4e10, 3.0, 3.0 * digits[i][0]);
         hertz_ellipse(&contact, force, axes);
-        near(axes[1] / axes[0], digits[i][1], 2e-14);
-        near(2.0 / 3.0 * M_PI * axes[0] * axes[1] * hertz_peak_pressure(&contact, force), force,
-             1e-14);
+        near_relative(axes[1] / axes[0], digits[i][1], 2e-14);
+        near_relative(2.0 / 3.0 * M_PI * axes[0] * axes[1] * hertz_peak_pressure(&contact, force),
+                      force, 1e-14);
         /* eight times the force, twice the pressure */
-        near(hertz_peak_pressure(&contact, 8.0 * force), 2.0 * hertz_peak_pressure(&contact, force),
-             1e-14);
+        near_relative(hertz_peak_pressure(&contact, 8.0 * force),
+                      2.0 * hertz_peak_pressure(&contact, force), 1e-14);
     }
     assert_true(hertz_peak_pressure(&sphere, 0.0) == 0.0);
 }

@@ -3,21 +3,8 @@
 
 /* Mirrors service/contact/law_hertz.c and law_linear.c: force, slope, stored energy and inverse of
  * one law fit together. The pattern for the test of a new law. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "contact/law.h"
-
-static void near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g", value, expected);
-}
 
 /* What every elastic law owes its callers. */
 static void check_law(const struct contact_law *law)
@@ -37,9 +24,10 @@ static void check_law(const struct contact_law *law)
         double below = contact_law_force(law, d - step, &ignored);
         assert_true(force > before);
         /* central differences: second order, (1e-5)^2 */
-        near(slope, (above - below) / (2.0 * step), 1e-9);
-        near(force, (of->stored(law, d + step) - of->stored(law, d - step)) / (2.0 * step), 1e-9);
-        near(of->indentation(law, force), d, 4e-15); /* a few roundings */
+        near_relative(slope, (above - below) / (2.0 * step), 1e-9);
+        near_relative(force, (of->stored(law, d + step) - of->stored(law, d - step)) / (2.0 * step),
+                      1e-9);
+        near_relative(of->indentation(law, force), d, 4e-15); /* a few roundings */
         before = force;
     }
     assert_true(isnan(contact_law_force(law, NAN, &slope)) ||
@@ -53,9 +41,9 @@ static void hertz_fits_together(void **state)
     double slope;
     check_law(&law);
     assert_int_equal(law.operations->model, PERCUSS_CONTACT_HERTZ);
-    near(contact_law_force(&law, 1e-4, &slope), 7.7e9 * 1e-6, 1e-15);
-    near(slope, 1.5 * 7.7e9 * 1e-2, 1e-15);
-    near(law.operations->stored(&law, 1e-4), 0.4 * 7.7e9 * 1e-10, 1e-15);
+    near_relative(contact_law_force(&law, 1e-4, &slope), 7.7e9 * 1e-6, 1e-15);
+    near_relative(slope, 1.5 * 7.7e9 * 1e-2, 1e-15);
+    near_relative(law.operations->stored(&law, 1e-4), 0.4 * 7.7e9 * 1e-10, 1e-15);
 }
 
 static void linear_fits_together(void **state)
@@ -64,9 +52,9 @@ static void linear_fits_together(void **state)
     struct contact_law law = contact_law_linear(3e6);
     double slope;
     check_law(&law);
-    near(contact_law_force(&law, 1e-4, &slope), 300.0, 1e-15);
-    near(slope, 3e6, 0.0);
-    near(law.operations->stored(&law, 1e-4), 0.015, 1e-15);
+    near_relative(contact_law_force(&law, 1e-4, &slope), 300.0, 1e-15);
+    near_relative(slope, 3e6, 0.0);
+    near_relative(law.operations->stored(&law, 1e-4), 0.015, 1e-15);
 }
 
 int main(void)

@@ -3,26 +3,13 @@
 
 /* Mirrors service/contact/law_closed_form.c and plastic.c: the loading curve is smooth and rises,
  * branches lead back to it, and every loop dissipates its area. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "contact/law_closed_form.h"
 #include "contact/plastic.h"
 
 static const struct material steel = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};
 static const struct material soft = {"al-205", 70e9, 0.33, 2700.0, 205e6, 0.0};
 static const struct material hard = {"al-575", 70e9, 0.33, 2700.0, 575e6, 0.0};
-
-static void near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g", value, expected);
-}
 
 /* The paper's sphere on a plane. */
 static struct hertz_contact sphere_on(const struct material *plane)
@@ -60,7 +47,7 @@ static void loading_is_hertz_then_the_published_curve(void **state)
     struct contact_law elastic = contact_law_hertz(hertz.stiffness);
     double yield = closed_form_yield(&hertz, &steel, &soft);
     /* (pi 1.651016 205e6 / (2 5.8610e10))^2 0.015 */
-    near(yield, 1.23444e-6, 1e-5);
+    near_relative(yield, 1.23444e-6, 1e-5);
     for (double w = 0.01; w <= 1.9; w += 0.05)
         assert_true(force_at(&law, w * yield) == force_at(&elastic, w * yield));
     /* F over Hertz's, by the formula in another program */
@@ -70,7 +57,7 @@ static void loading_is_hertz_then_the_published_curve(void **state)
                                           {1000.0, 0.1504591120488886}};
     for (size_t i = 0; i < sizeof published / sizeof *published; i++) {
         double d = published[i][0] * yield;
-        near(force_at(&law, d) / force_at(&elastic, d), published[i][1], 1e-12);
+        near_relative(force_at(&law, d) / force_at(&elastic, d), published[i][1], 1e-12);
     }
 }
 
@@ -87,8 +74,8 @@ static void value_and_slope_are_continuous(void **state)
             double slope[2];
             double below = contact_law_force(&law, joints[i] * yield * (1 - 1e-9), slope);
             double above = contact_law_force(&law, joints[i] * yield * (1 + 1e-9), slope + 1);
-            near(above, below, 4e-9);
-            near(slope[1], slope[0], 1e-7);
+            near_relative(above, below, 4e-9);
+            near_relative(slope[1], slope[0], 1e-7);
         }
         double before = 0.0;
         for (double d = 1e-9; d < 1e-2; d *= 1.01) {
@@ -97,8 +84,9 @@ static void value_and_slope_are_continuous(void **state)
             double step = 1e-5 * d;
             assert_true(force > before);
             /* central differences: second order */
-            near(slope, (force_at(&law, d + step) - force_at(&law, d - step)) / (2.0 * step), 1e-8);
-            near(law.operations->indentation(&law, force), d, 1e-13);
+            near_relative(
+                slope, (force_at(&law, d + step) - force_at(&law, d - step)) / (2.0 * step), 1e-8);
+            near_relative(law.operations->indentation(&law, force), d, 1e-13);
             before = force;
         }
     }
@@ -110,14 +98,14 @@ static void stored_energy_is_the_area(void **state)
     struct contact_law law = law_on(&soft);
     /* trapezoids: (1e-5)^2 times the bend, and the root at 0 */
     for (double d = 1e-6; d < 1e-3; d *= 3.0)
-        near(law.operations->stored(&law, d), work(&law, 0.0, d), 1e-7);
+        near_relative(law.operations->stored(&law, d), work(&law, 0.0, d), 1e-7);
     /* the rule itself, against its own value with the range halved */
     double whole = law.operations->stored(&law, 2e-4);
     double rate = (law.operations->stored(&law, 2e-4 * (1 + 1e-4)) -
                    law.operations->stored(&law, 2e-4 * (1 - 1e-4))) /
                   (2e-4 * 2e-4);
     assert_true(whole > 0.0);
-    near(rate, force_at(&law, 2e-4), 1e-7);
+    near_relative(rate, force_at(&law, 2e-4), 1e-7);
 }
 
 static void a_loop_dissipates_its_area(void **state)
@@ -132,8 +120,8 @@ static void a_loop_dissipates_its_area(void **state)
         double loading = work(&law, 0.0, peak);
         double lost = contact_law_yield(&law, peak);
         double deeper = law.history.residual - residual;
-        near(lost, loading - work(&law, 0.0, peak - deeper), 1e-6);
-        near(law.history.max_indentation, peaks[i], 1e-15);
+        near_relative(lost, loading - work(&law, 0.0, peak - deeper), 1e-6);
+        near_relative(law.history.max_indentation, peaks[i], 1e-15);
         assert_true(deeper > 0.0 && law.history.residual < peaks[i]);
         assert_true(law.history.contact_radius > sqrt(0.9 * 0.015 * peaks[i]));
     }
@@ -146,15 +134,15 @@ static void reloading_follows_the_branch_then_the_virgin_curve(void **state)
     struct contact_law law = virgin;
     contact_law_yield(&law, 1e-5);
     double span = contact_law_limit(&law);
-    near(span, 1e-5 - law.history.residual, 1e-14);
-    near(law.history.max_force, force_at(&virgin, 1e-5), 1e-15);
-    near(force_at(&law, span), law.history.max_force, 1e-14);
+    near_relative(span, 1e-5 - law.history.residual, 1e-14);
+    near_relative(law.history.max_force, force_at(&virgin, 1e-5), 1e-15);
+    near_relative(force_at(&law, span), law.history.max_force, 1e-14);
     for (double x = 0.1; x < 1.0; x += 0.1)
-        near(force_at(&law, x * span), law.history.max_force * x * sqrt(x), 1e-12);
+        near_relative(force_at(&law, x * span), law.history.max_force * x * sqrt(x), 1e-12);
     for (double d = 1.01e-5; d < 1e-3; d *= 2.0)
-        near(force_at(&law, d - law.history.residual), force_at(&virgin, d), 1e-12);
+        near_relative(force_at(&law, d - law.history.residual), force_at(&virgin, d), 1e-12);
     /* within the elastic range nothing is remembered to be lost: the same force, the same energy */
-    near(law.operations->stored(&law, span), 0.4 * law.history.max_force * span, 1e-14);
+    near_relative(law.operations->stored(&law, span), 0.4 * law.history.max_force * span, 1e-14);
 }
 
 static void what_stays_grows_from_nothing(void **state)
@@ -174,7 +162,7 @@ static void what_stays_grows_from_nothing(void **state)
             assert_true(residual < 1e-3 * yield);
         /* the published fit */
         if (w > 1.9 && w < 2000.0)
-            near(residual, 1.02 * w * yield * (1.0 - pow((w + 5.9) / 6.9, -0.54)), 1e-12);
+            near_relative(residual, 1.02 * w * yield * (1.0 - pow((w + 5.9) / 6.9, -0.54)), 1e-12);
         before = residual;
         back = rest / (w * yield);
     }
@@ -190,8 +178,9 @@ static void the_softer_body_yields(void **state)
     assert_int_equal(closed_form_softer(&hard, &soft), 1);
     assert_int_equal(closed_form_softer(&steel, &steel), -1);
     assert_true(isinf(closed_form_yield(&hertz, &steel, &steel)));
-    near(closed_form_yield(&hertz, &hard, &soft), closed_form_yield(&hertz, &soft, &steel), 1e-15);
-    near(closed_form_radius(&hertz), 0.015, 1e-14);
+    near_relative(closed_form_yield(&hertz, &hard, &soft), closed_form_yield(&hertz, &soft, &steel),
+                  1e-15);
+    near_relative(closed_form_radius(&hertz), 0.015, 1e-14);
 }
 
 static void memory_is_carried_to_another_partner_by_its_force(void **state)
@@ -208,7 +197,7 @@ static void memory_is_carried_to_another_partner_by_its_force(void **state)
         hertz_contact_make(hertz_effective_modulus(&steel, &soft), 0.5 / 0.005, 0.5 / 0.005);
     struct contact_law other = contact_law_closed_form(&small, &steel, &soft);
     contact_law_remember(&other, &dent);
-    near(other.history.max_force, dent.max_force, 1e-12);
+    near_relative(other.history.max_force, dent.max_force, 1e-12);
     assert_true(other.history.max_indentation > dent.max_indentation);
     /* one so large that this force does not make it yield remembers nothing */
     struct hertz_contact large =

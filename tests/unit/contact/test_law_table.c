@@ -3,23 +3,11 @@
 
 /* Mirrors service/contact/law_table.c: a table sampled from the closed form follows it, its curves
  * fit together, bad samples are refused. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "contact/law_closed_form.h"
 #include "unit/contact/sampled_table.h"
-
-static void near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g within %g", value, expected, relative);
-}
 
 static struct contact_law closed_form(void)
 {
@@ -54,14 +42,14 @@ static void a_sampled_table_follows_its_law(void **state)
     struct pair pair = make_pair();
     double range = contact_curves_range(pair.curves);
     double slopes[2];
-    near(contact_curves_error(pair.curves), 1e-3, 0.0);
+    near_relative(contact_curves_error(pair.curves), 1e-3, 0.0);
     /* 60 points: the law's own bend between Hertz and the second piece limits it */
     for (double d = 1e-9; d < range; d *= 1.03) {
         double force = contact_law_force(&pair.closed, d, &slopes[0]);
-        near(contact_law_force(&pair.table, d, &slopes[1]), force, 5e-4);
-        near(slopes[1], slopes[0], 1e-2);
-        near(pair.table.operations->stored(&pair.table, d),
-             pair.closed.operations->stored(&pair.closed, d), 5e-4);
+        near_relative(contact_law_force(&pair.table, d, &slopes[1]), force, 5e-4);
+        near_relative(slopes[1], slopes[0], 1e-2);
+        near_relative(pair.table.operations->stored(&pair.table, d),
+                      pair.closed.operations->stored(&pair.closed, d), 5e-4);
     }
     /* and the branches, between those sampled too */
     for (double d = 1.4e-6; d < range; d *= 1.3) {
@@ -69,13 +57,13 @@ static void a_sampled_table_follows_its_law(void **state)
         double whole = closed.operations->stored(&closed, d);
         double lost = contact_law_yield(&closed, d);
         /* of the whole work: twelve branches resolve the onset of yield to some 0.5 % */
-        near(whole + contact_law_yield(&table, d), whole + lost, 6e-3);
+        near_relative(whole + contact_law_yield(&table, d), whole + lost, 6e-3);
         if (d > 3e-6)
-            near(contact_law_limit(&table), contact_law_limit(&closed), 6e-3);
+            near_relative(contact_law_limit(&table), contact_law_limit(&closed), 6e-3);
         double span = contact_law_limit(&table);
         for (double x = 0.05; x < 1.0; x += 0.05)
-            near(contact_law_force(&table, x * span, &slopes[0]) / table.history.max_force,
-                 x * sqrt(x), 1e-3);
+            near_relative(contact_law_force(&table, x * span, &slopes[0]) / table.history.max_force,
+                          x * sqrt(x), 1e-3);
     }
     contact_curves_free(pair.curves);
 }
@@ -99,10 +87,10 @@ static void its_curves_fit_together(void **state)
             if (fabs(d - contact_law_limit(&law)) < 2.0 * step && loads)
                 continue;
             /* differences over steps of 1e-6: rounding */
-            near(slope, (above - below) / (2.0 * step), 1e-6);
+            near_relative(slope, (above - below) / (2.0 * step), 1e-6);
             double power = (of->stored(&law, d + step) - of->stored(&law, d - step)) / (2.0 * step);
-            near(power, force, 1e-6);
-            near(of->indentation(&law, force), d, 1e-9);
+            near_relative(power, force, 1e-6);
+            near_relative(of->indentation(&law, force), d, 1e-9);
         }
         /* the second one beyond the table */
         contact_law_yield(&law, 2e-5 + 1e-4 * loads - law.history.residual);
@@ -124,7 +112,8 @@ static void an_elastic_table_never_yields(void **state)
     struct contact_law law = contact_law_table(curves);
     double slope;
     assert_true(isinf(contact_law_limit(&law)));
-    near(law.operations->indentation(&law, contact_law_force(&law, 3e-5, &slope)), 3e-5, 1e-12);
+    near_relative(law.operations->indentation(&law, contact_law_force(&law, 3e-5, &slope)), 3e-5,
+                  1e-12);
     contact_curves_free(curves);
 }
 

@@ -3,15 +3,9 @@
 
 /* Tests daemon/queue.c: order, turns of batches, refusal when full or closed, draining, threads. */
 #include <pthread.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <time.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "daemon/queue.h"
 #include "endpoint/clock.h"
 

@@ -2,15 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests daemon/table_cache.c: who may have tables computed, and until when. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "daemon/table_cache.h"
 
 static const struct material steel = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};

@@ -5,16 +5,10 @@
 #ifndef PERCUSS_TESTS_ENDPOINT_SAMPLE_H
 #define PERCUSS_TESTS_ENDPOINT_SAMPLE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "endpoint/answer.h"
 #include "solve/solve.h"
 

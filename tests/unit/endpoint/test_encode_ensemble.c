@@ -3,16 +3,9 @@
 
 /* Mirrors service/endpoint/encode_ensemble.c, and the copies and digests of ensembles in
  * question.c. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "endpoint/decode_ensemble.h"
 #include "endpoint/encode_ensemble.h"
 #include "endpoint/question.h"

@@ -2,17 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/ensemble/copula.c: normal scores have the coefficients asked for. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "ensemble/copula.h"
 #include "ensemble/sampling.h"
 #include "numeric/special.h"

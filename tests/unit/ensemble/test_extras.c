@@ -2,15 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/ensemble/extras.c: the samples that are looked at again stand for all. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "ensemble/ensemble.h"
 
 /* Two inputs, nothing else. */

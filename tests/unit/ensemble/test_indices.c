@@ -4,16 +4,9 @@
 /* Mirrors service/ensemble/indices.c: Sobol indices of functions that have closed ones, and that
  * their intervals are honest: over many ensembles the nominal 95 % interval covers the truth as
  * often as it says. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "ensemble/indices.h"
 #include "ensemble/sampling.h"
 

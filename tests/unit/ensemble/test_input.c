@@ -2,17 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/ensemble/input.c: quantile functions against closed forms, and refusals. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "ensemble/input.h"
 #include "numeric/special.h"
 
@@ -39,12 +31,6 @@ static void moments(const struct ensemble_input *input, double *mean, double *de
     }
     *mean = sum / N;
     *deviation = sqrt(squares / N - *mean * *mean);
-}
-
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
 }
 
 static void uniform_and_constant(void **state)

@@ -3,26 +3,14 @@
 
 /* Mirrors service/ensemble/interval.c: intervals by hand, and that they are honest: over many small
  * ensembles the nominal 95 % interval covers the truth as often as it says. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "ensemble/input.h"
 #include "ensemble/interval.h"
 #include "ensemble/sampling.h"
 
-static void near(double value, double expected)
-{
-    if (!(fabs(value - expected) <= 1e-10 * fmax(1.0, fabs(expected))))
-        fail_msg("%.17g is not %.17g", value, expected);
-}
+#define agrees(value, expected) near(value, expected, 1e-10 * fmax(1.0, fabs(expected)))
 
 static void plain_intervals_by_hand(void **state)
 {
@@ -34,14 +22,14 @@ static void plain_intervals_by_hand(void **state)
     struct moments moments = summary_moments(values, 10);
     /* t = 2.262157 with 9 degrees; s = sqrt(110/12) */
     struct interval mean = interval_mean(&sample, &moments);
-    near(mean.high - 5.5, 2.2621571628540993 * sqrt(110.0 / 12.0) / sqrt(10.0));
-    near(mean.low + mean.high, 11.0);
+    agrees(mean.high - 5.5, 2.2621571628540993 * sqrt(110.0 / 12.0) / sqrt(10.0));
+    agrees(mean.low + mean.high, 11.0);
     /* of ten, x_(2) is above the median with probability 11/1024, x_(3) with 56/1024: the bound for
      * 0.025 lies on the way, as Nyblom interpolates */
     struct interval median = interval_quantile(&sample, 0.5);
     double way = 1.0 / (1.0 + 2.0 * (56.0 / 1024.0 - 0.025) / (8.0 * (0.025 - 11.0 / 1024.0)));
-    near(median.low, 2.0 + way);
-    near(median.high, 9.0 - way);
+    agrees(median.low, 2.0 + way);
+    agrees(median.high, 9.0 - way);
     /* ten values say nothing about what lies below the 5 % quantile */
     assert_true(isnan(interval_quantile(&sample, 0.05).low));
     assert_true(isnan(interval_quantile(&sample, 0.99).high));
@@ -59,7 +47,7 @@ static void replicated_mean_by_hand(void **state)
     struct moments moments = summary_moments(values, 32);
     struct interval mean = interval_mean(&sample, &moments);
     /* the means 0.25 .. 15.25 have the variance 16 * 17/12; t with 15 degrees */
-    near(mean.high - moments.mean, 2.1314495455597742 * sqrt(16.0 * 17.0 / 12.0) / 4.0);
+    agrees(mean.high - moments.mean, 2.1314495455597742 * sqrt(16.0 * 17.0 / 12.0) / 4.0);
 }
 
 /* A rough bimodal answer to a smooth input, as the restitution is to the speed. */

@@ -3,17 +3,9 @@
 
 /* Mirrors service/ensemble/sampling.c and sobol.c: points are functions of their index, strata are
  * hit once, Sobol's nets are nets. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "ensemble/sampling.h"
 
 static struct sampling make(enum sampling_method method, size_t dimensions, uint64_t count)

@@ -2,25 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/ensemble/shape.c: intervals by hand, Beta fits of Beta and of other samples. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "ensemble/shape.h"
 #include "numeric/special.h"
-
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
 
 static const struct shape_range unit = {0.0, 1.0};
 

@@ -2,24 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/ensemble/summary.c: statistics of samples that can be reckoned by hand. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "ensemble/summary.h"
 
-static void near(double value, double expected)
-{
-    if (!(fabs(value - expected) <= 1e-13 * fmax(1.0, fabs(expected))))
-        fail_msg("%.17g is not %.17g", value, expected);
-}
+#define agrees(value, expected) near(value, expected, 1e-13 * fmax(1.0, fabs(expected)))
 
 /* 2 4 4 4 5 5 7 9: mean 5, squares 32, cubes 42, fourth powers 356 */
 static const double eight[] = {9.0, 2.0, NAN, 4.0, 5.0, 4.0, 7.0, 4.0, 5.0};
@@ -29,12 +17,12 @@ static void moments(void **state)
     (void)state;
     struct moments m = summary_moments(eight, 9);
     assert_int_equal(m.count, 8);
-    near(m.mean, 5.0);
-    near(m.deviation, sqrt(32.0 / 7.0));
-    near(m.skewness, sqrt(56.0) / 6.0 * (42.0 / 8.0) / 8.0);
-    near(m.fourth, 356.0 / 8.0);
-    near(m.lowest, 2.0);
-    near(m.highest, 9.0);
+    agrees(m.mean, 5.0);
+    agrees(m.deviation, sqrt(32.0 / 7.0));
+    agrees(m.skewness, sqrt(56.0) / 6.0 * (42.0 / 8.0) / 8.0);
+    agrees(m.fourth, 356.0 / 8.0);
+    agrees(m.lowest, 2.0);
+    agrees(m.highest, 9.0);
 }
 
 /* A large offset costs no digits of the deviation. */
@@ -43,8 +31,8 @@ static void moments_of_an_offset(void **state)
     (void)state;
     double values[] = {1e9 + 1.0, 1e9 + 2.0, 1e9 + 3.0};
     struct moments m = summary_moments(values, 3);
-    near(m.deviation, 1.0);
-    near(m.skewness, 0.0);
+    agrees(m.deviation, 1.0);
+    agrees(m.skewness, 0.0);
 }
 
 static void moments_of_few(void **state)
@@ -52,7 +40,7 @@ static void moments_of_few(void **state)
     (void)state;
     double one = 3.0, none = NAN;
     struct moments m = summary_moments(&one, 1);
-    near(m.mean, 3.0);
+    agrees(m.mean, 3.0);
     assert_true(isnan(m.deviation) && isnan(m.skewness));
     m = summary_moments(&none, 1);
     assert_int_equal(m.count, 0);
@@ -85,14 +73,14 @@ static void quantiles(void **state)
     double sorted[9];
     size_t n = summary_sort(eight, 9, sorted);
     assert_int_equal(n, 8);
-    near(summary_quantile(sorted, n, 0.5), 4.5);
-    near(summary_quantile(sorted, n, 0.0), 2.0);
-    near(summary_quantile(sorted, n, 1.0), 9.0);
-    near(summary_quantile(sorted, n, 0.9), 7.0 + 0.3 * 2.0); /* place 6.3 */
-    near(summary_share(sorted, n, 4.0), 0.5);
-    near(summary_share(sorted, n, 3.9), 0.125);
-    near(summary_share(sorted, n, 9.0), 1.0);
-    near(summary_share(sorted, n, 1.0), 0.0);
+    agrees(summary_quantile(sorted, n, 0.5), 4.5);
+    agrees(summary_quantile(sorted, n, 0.0), 2.0);
+    agrees(summary_quantile(sorted, n, 1.0), 9.0);
+    agrees(summary_quantile(sorted, n, 0.9), 7.0 + 0.3 * 2.0); /* place 6.3 */
+    agrees(summary_share(sorted, n, 4.0), 0.5);
+    agrees(summary_share(sorted, n, 3.9), 0.125);
+    agrees(summary_share(sorted, n, 9.0), 1.0);
+    agrees(summary_share(sorted, n, 1.0), 0.0);
     assert_true(isnan(summary_quantile(sorted, 0, 0.5)));
 }
 
@@ -105,9 +93,9 @@ static void histogram(void **state)
     summary_histogram(sorted, 6, 4, edges, counts);
     const uint64_t expected[] = {2, 2, 1, 1};
     assert_memory_equal(counts, expected, sizeof expected);
-    near(edges[0], 0.0);
-    near(edges[3], 3.0);
-    near(edges[4], 4.0);
+    agrees(edges[0], 0.0);
+    agrees(edges[3], 3.0);
+    agrees(edges[4], 4.0);
     assert_int_equal(summary_bins(10), 8);
     assert_int_equal(summary_bins(400), 20);
     assert_int_equal(summary_bins(1000000), 50);

@@ -3,14 +3,7 @@
 
 /* Mirrors service/fe/active_set.c: the conditions of contact on full matrices, three ways to ask.
  */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/active_set.h"
 
 enum { N = 12 };

@@ -3,14 +3,7 @@
 
 /* Mirrors service/fe/boussinesq.c: stresses from the displacements by Hooke's law and differences,
  * the load they carry, a free surface. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/boussinesq.h"
 
 static void stress_follows_displacement(void **state)

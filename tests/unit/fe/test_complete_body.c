@@ -2,15 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/fe/complete_body.c. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/complete_body.h"
 
 static const struct material aluminium = {"al", 70e9, 0.33, 2700.0, 205e6, 1e9};

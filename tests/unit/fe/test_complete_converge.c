@@ -3,25 +3,8 @@
 
 /* Mirrors service/fe/complete_converge.c: known swings and limits, and scenes against finer meshes
  * and another program's. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/complete_converge.h"
-
-static void near(const char *what, double value, double expected, double allowed)
-{
-    if (getenv("PERCUSS_MEASURE"))
-        print_message("    %-30s %.9g expected %.9g error %.1e allowed %.1e\n", what, value,
-                      expected, fabs(value - expected), allowed);
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%s: %.17g is not %.17g within %g", what, value, expected, allowed);
-}
 
 /* A swing with harmonics 1 and 2, which six phases hold exactly. */
 static double swing_at(double phase)
@@ -43,8 +26,8 @@ static void a_swing_has_a_mean(void **unused)
     (void)unused;
     struct complete_swing three = known_swing(3);
     struct complete_swing six = known_swing(6);
-    near("three", three.mean, 0.5, 1e-15);
-    near("six", six.mean, 0.5, 1e-15);
+    measured("three", three.mean, 0.5, 1e-15);
+    measured("six", six.mean, 0.5, 1e-15);
     assert_true(six.jitter < three.jitter && six.jitter > 0.0);
 }
 
@@ -58,8 +41,8 @@ static void a_swing_says_where_it_passes(void **unused)
         double phase = complete_swing_phase(&swing, wanted[i], &bracket);
         assert_true(phase > bracket.phase[0] && phase < bracket.phase[1]);
         assert_true(bracket.off[0] * bracket.off[1] < 0.0);
-        near("end", wanted[i] + bracket.off[0], swing_at(bracket.phase[0]), 1e-15);
-        near("passes", swing_at(phase), wanted[i], 1e-9);
+        measured("end", wanted[i] + bracket.off[0], swing_at(bracket.phase[0]), 1e-15);
+        measured("passes", swing_at(phase), wanted[i], 1e-9);
     }
     assert_true(isnan(complete_swing_phase(&swing, 0.6, &bracket)));
     assert_true(isnan(complete_swing_phase(&swing, 0.4, &bracket)));
@@ -84,20 +67,20 @@ static void known_limits_are_found(void **unused)
 {
     (void)unused;
     struct complete_convergence found = known_means(0.25, 3);
-    near("second order", found.restitution, 0.5, 1e-15);
-    near("order", found.order, 2.0, 1e-12);
-    near("error", found.error, 0.75 / 4.0, 1e-15);
+    measured("second order", found.restitution, 0.5, 1e-15);
+    measured("order", found.order, 2.0, 1e-12);
+    measured("error", found.error, 0.75 / 4.0, 1e-15);
     found = known_means(0.5, 3);
-    near("first order", found.restitution, 0.5, 1e-15);
-    near("error", found.error, 0.25, 1e-15);
+    measured("first order", found.restitution, 0.5, 1e-15);
+    measured("error", found.error, 0.25, 1e-15);
     /* two meshes: all that the finer one changed; one knows nothing */
     found = known_means(0.5, 2);
-    near("two", found.error, 0.5, 1e-15);
+    measured("two", found.error, 0.5, 1e-15);
     assert_true(isinf(known_means(0.5, 1).error));
     /* one that turns round is not extrapolated */
     found = known_means(-0.5, 3);
-    near("turns", found.restitution, 0.75, 1e-15);
-    near("its error", found.error, 0.75, 1e-15);
+    measured("turns", found.restitution, 0.75, 1e-15);
+    measured("its error", found.error, 0.75, 1e-15);
 }
 
 /* Means that agree do not hide a swing: a twelfth of its width, and what six phases leave. */
@@ -108,7 +91,7 @@ static void a_swing_is_never_less_than_its_share(void **unused)
     found.swing[0] = known_swing(6);
     found.swing[1] = known_swing(6);
     complete_converge_judge(&found);
-    near("error", found.error, (1.0 / 12.0 + 0.03) * found.swing[1].width, 1e-15);
+    measured("error", found.error, (1.0 / 12.0 + 0.03) * found.swing[1].width, 1e-15);
 }
 
 static struct complete_problem sphere_on_rod(double sphere, double rod, double yield,
@@ -130,8 +113,8 @@ static struct complete_convergence found_for(const struct complete_problem *prob
     struct fault fault = {""};
     if (complete_converge(problem, tolerance, &found, &fault) != PERCUSS_OK)
         fail_msg("%s", fault.text);
-    near("one whole solution", found.result.restitution, found.restitution,
-         found.result_error - found.error + 1e-15);
+    measured("one whole solution", found.result.restitution, found.restitution,
+             found.result_error - found.error + 1e-15);
     return found;
 }
 
@@ -173,7 +156,7 @@ static void finer_meshes_lie_within_the_error(void **unused)
             cases[i].sphere, cases[i].rod, cases[i].yield, cases[i].tangent, cases[i].speed);
         problem.b.length = cases[i].length;
         struct complete_convergence found = found_for(&problem, 5e-3);
-        near("e", found.result.restitution, cases[i].fine, found.result_error + 0.0003);
+        measured("e", found.result.restitution, cases[i].fine, found.result_error + 0.0003);
         assert_true(found.result_error <= 5e-3);
     }
 }

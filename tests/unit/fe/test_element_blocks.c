@@ -3,15 +3,9 @@
 
 /* Mirrors service/fe/element_blocks.c and element_kernel.c: fours of elements against one element
  * with the scalar radial return of fe/plasticity.c. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/element_blocks.h"
 
 enum { NODES = 10, EMPTY = NODES };
@@ -21,12 +15,6 @@ static const struct material metal = {"metal", 70e9, 0.33, 2700.0, 205e6, 3e9};
 /* a row of four skewed elements of differing size: bottom nodes 0 ... 4, top nodes 5 ... 9 */
 static double at[NODES][2];
 static double scale[NODES];
-
-static void near(double value, double expected, double size, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(size)))
-        fail_msg("%.17g is not %.17g", value, expected);
-}
 
 static void set_row(void)
 {
@@ -120,7 +108,7 @@ static void compare(const double *v, const double *force, double step)
         largest = fmax(largest, step * fabs(force[i]));
     assert_true(largest > 0.0);
     for (int i = 0; i < 2 * NODES; i++)
-        near(v[i], -step * force[i], largest, 1e-12);
+        near_scaled(v[i], -step * force[i], largest, 1e-12);
 }
 
 static void elastic_fours_are_stiffness_times_displacement(void **unused)
@@ -145,8 +133,8 @@ static void elastic_fours_are_stiffness_times_displacement(void **unused)
         work += 0.5 * force[i] * y[i];
     elastic_block_energy(&elastic, y, energy);
     plastic_block_energy(&plastic, y, &stored, &lost);
-    near(energy[0] + energy[1] + energy[2], work, work, 1e-12);
-    near(stored, work, work, 1e-12);
+    near_scaled(energy[0] + energy[1] + energy[2], work, work, 1e-12);
+    near_scaled(stored, work, work, 1e-12);
     assert_true(energy[3] == 0.0 && lost == 0.0);
 }
 
@@ -197,11 +185,11 @@ static void plastic_fours_flow_like_one_point(void **unused)
         for (int p = 0; p < 4; p++) {
             double path = states[e][p].accumulated;
             assert_true(path > 0.0);
-            near(plastic.accumulated[p][e], path, path, 1e-11);
+            near_scaled(plastic.accumulated[p][e], path, path, 1e-11);
             expected += plastic.weight[p][e] * path * (law.yield + 0.5 * law.hardening * path);
         }
     plastic_block_energy(&plastic, y, &stored, &lost);
-    near(lost, expected, expected, 1e-11);
+    near_scaled(lost, expected, expected, 1e-11);
 }
 
 int main(void)

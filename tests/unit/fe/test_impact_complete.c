@@ -3,27 +3,15 @@
 
 /* Mirrors service/fe/impact_complete.c, complete_setup.c and node_contact.c: Hertz, a rod
  * by one-dimensional waves, plastic flow, several contacts, errors. Coarse meshes. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/impact_complete.h"
 #include "fe/matched.h"
 
 static const struct material steel = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};
 static const struct material aluminium = {"al", 70e9, 0.33, 2700.0, INFINITY, 0.0};
 static const struct material glass = {"glass", 48e9, 0.20, 2800.0, INFINITY, 0.0};
-
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
 
 static struct complete_problem sphere_on_rod(unsigned cells)
 {

@@ -3,15 +3,9 @@
 
 /* Mirrors service/fe/indentation.c and indentation_run.c: the table of the paper's rod 1, its
  * stated errors, branches, an elastic pair, progress, refusals. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/indentation.h"
 
 static const struct region_input rod_1 = {

@@ -4,16 +4,9 @@
 /* Mirrors service/fe/matched.c and matched_cylinder.c: the rod end's numbers, and whole bodies
  * meshed and loaded by Hertz's pressure on a small patch, which know nothing of the correction's
  * idea. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/matched.h"
 #include "fe/mesh.h"
 #include "fe/quad.h"
@@ -167,12 +160,6 @@ static double above_half_space(struct body_case *c, double (*normal)(double))
 /* 30 elements in the patch: the half-space's share, 12 or more, is held to 1e-3 of itself */
 static const struct mesh_grade fine = {
     .size = 0.05 / 30.0, .core = 36, .growth = 1.04, .matched = 0.06, .coarse = 0.1};
-
-static void near(double value, double expected, double tolerance)
-{
-    if (!(fabs(value - expected) <= tolerance))
-        fail_msg("%.6f is not %.6f", value, expected);
-}
 
 static void agrees_with_a_whole_rod(void **state)
 {

@@ -3,15 +3,9 @@
 
 /* Mirrors service/fe/mesh.c and mesh_rings.c: volumes, positive elements, boundary lists, matching
  * contact nodes, refusals. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/mesh.h"
 
 static const struct mesh_grade grade = {

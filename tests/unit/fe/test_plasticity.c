@@ -3,25 +3,13 @@
 
 /* Mirrors service/fe/plasticity.c: uniaxial curve, shear, unloading, tangent against differences.
  */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/plasticity.h"
 
 static const struct material hardening = {"hard", 70e9, 0.33, 2700.0, 205e6, 5e9};
 static const struct material ideal = {"ideal", 70e9, 0.33, 2700.0, 205e6, 0.0};
-
-static void near(double value, double expected, double scale, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(scale)))
-        fail_msg("%.17g is not %.17g", value, expected);
-}
 
 /* strains each material point to `axial` in zz with free sides, by Newton on the lateral strain */
 static double uniaxial(const struct plastic_law *law, struct plastic_state *state, double axial)
@@ -36,7 +24,7 @@ static double uniaxial(const struct plastic_law *law, struct plastic_state *stat
         strain[2] += step;
     }
     *state = after;
-    near(stress[0], 0.0, law->yield, 1e-9);
+    near_scaled(stress[0], 0.0, law->yield, 1e-9);
     return stress[1];
 }
 
@@ -46,19 +34,20 @@ static void follows_the_bilinear_curve(void **unused)
     struct plastic_law law = plastic_law_make(&hardening);
     struct plastic_state state = {0};
     double first = hardening.yield / hardening.young;
-    near(uniaxial(&law, &state, 0.9 * first), 0.9 * hardening.yield, hardening.yield, 1e-12);
+    near_scaled(uniaxial(&law, &state, 0.9 * first), 0.9 * hardening.yield, hardening.yield, 1e-12);
     assert_true(state.accumulated == 0.0);
     for (double strain = 1.5 * first; strain < 6.0 * first; strain += 0.5 * first)
-        near(uniaxial(&law, &state, strain), hardening.yield + hardening.tangent * (strain - first),
-             hardening.yield, 1e-9);
+        near_scaled(uniaxial(&law, &state, strain),
+                    hardening.yield + hardening.tangent * (strain - first), hardening.yield, 1e-9);
     /* back: elastic by twice the present yield stress, then flow in compression */
     double top = uniaxial(&law, &state, 6.0 * first);
     double before = state.accumulated;
-    near(uniaxial(&law, &state, 6.0 * first - 1.9 * top / hardening.young), -0.9 * top, top, 1e-9);
+    near_scaled(uniaxial(&law, &state, 6.0 * first - 1.9 * top / hardening.young), -0.9 * top, top,
+                1e-9);
     assert_true(state.accumulated == before);
     assert_true(uniaxial(&law, &state, 6.0 * first - 2.5 * top / hardening.young) < -top);
     assert_true(state.accumulated > before);
-    near(state.strain[0] + state.strain[1] + state.strain[2], 0.0, state.accumulated, 1e-12);
+    near_scaled(state.strain[0] + state.strain[1] + state.strain[2], 0.0, state.accumulated, 1e-12);
 }
 
 static void ideal_shear_stays_at_yield(void **unused)
@@ -71,9 +60,10 @@ static void ideal_shear_stays_at_yield(void **unused)
     for (double gamma = 0.0; gamma < 5.0 * first; gamma += 0.25 * first) {
         double strain[4] = {0.0, 0.0, 0.0, gamma};
         plasticity_return(&law, &state, strain, &state, stress, NULL);
-        near(stress[3], fmin(gamma * law.shear, ideal.yield / sqrt(3.0)), ideal.yield, 1e-12);
+        near_scaled(stress[3], fmin(gamma * law.shear, ideal.yield / sqrt(3.0)), ideal.yield,
+                    1e-12);
     }
-    near(stress_equivalent(stress), ideal.yield, ideal.yield, 1e-12);
+    near_scaled(stress_equivalent(stress), ideal.yield, ideal.yield, 1e-12);
 }
 
 static void elastic_matches_hooke(void **unused)
@@ -87,8 +77,8 @@ static void elastic_matches_hooke(void **unused)
     assert_false(plasticity_return(&law, &state, strain, &state, stress, NULL));
     double lame = elastic.young * elastic.poisson / (1.33 * 0.34);
     for (size_t i = 0; i < 3; i++)
-        near(stress[i], lame * 9e-3 + 2.0 * law.shear * strain[i], lame * 9e-3, 1e-13);
-    near(stress[3], law.shear * 4e-3, lame * 9e-3, 1e-13);
+        near_scaled(stress[i], lame * 9e-3 + 2.0 * law.shear * strain[i], lame * 9e-3, 1e-13);
+    near_scaled(stress[3], law.shear * 4e-3, lame * 9e-3, 1e-13);
 }
 
 /* the consistent tangent is the derivative of the returned stress */
@@ -113,8 +103,8 @@ static void tangent_is_the_derivative(void **unused)
         moved[j] = strain[j] - h;
         plasticity_return(&law, &before, moved, &after, low, NULL);
         for (size_t i = 0; i < 4; i++) {
-            near(tangent[4 * i + j], (high[i] - low[i]) / (2.0 * h), law.shear, 1e-6);
-            near(tangent[4 * i + j], tangent[4 * j + i], law.shear, 1e-14);
+            near_scaled(tangent[4 * i + j], (high[i] - low[i]) / (2.0 * h), law.shear, 1e-6);
+            near_scaled(tangent[4 * i + j], tangent[4 * j + i], law.shear, 1e-14);
         }
     }
 }

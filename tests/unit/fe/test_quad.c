@@ -3,15 +3,9 @@
 
 /* Mirrors service/fe/quad.c: constant strain, rigid motion, refusals, and no locking: a thick tube
  * at nu = 0.4999 and at its plastic limit load. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/quad.h"
 #include "numeric/linear.h"
 

@@ -3,15 +3,9 @@
 
 /* Mirrors service/fe/region.c, solid.c and active_set.c: Hertz, yield onset, Jackson-Green, the
  * dent that stays, energy, stepping. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "fe/region.h"
 
 static const struct material steel = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};

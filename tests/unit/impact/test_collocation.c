@@ -2,21 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/impact/collocation.c: every number of the table from its definition. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "impact/collocation.h"
-
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
 
 /* Lagrange's polynomial j at s, by its product. */
 static double lagrange(int j, double s)

@@ -6,12 +6,6 @@
 #include "impact/contact_step.h"
 #include "unit/impact/toy_scene.h"
 
-static void near(const char *what, double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%s: %.17g is not %.17g within %g", what, value, expected, allowed);
-}
-
 static const double omegas[] = {2.0, 11.0, 60.0};
 /* contact by contact */
 static const double shapes[] = {0.6, -0.4, 0.3, 0.2, 0.5, -0.3};
@@ -143,7 +137,7 @@ static void a_step_matches_runge_kutta(void **state)
         make(&toy, dampings[i]);
         /* one step of 1/32 s, a third of the fastest radian: eighth order and more; Runge and
          * Kutta's own (60/32/8000)^4 is below 1e-14 */
-        near("a step of 1/32", difference(&toy, dampings[i], 5, 1, &loss), 0.0, 1e-9);
+        measured("a step of 1/32", difference(&toy, dampings[i], 5, 1, &loss), 0.0, 1e-9);
         assert_true(dampings[i] > 0.0 ? loss > 0.0 : loss == 0.0);
         toy_free(&toy);
     }
@@ -182,13 +176,13 @@ static void a_mass_on_a_spring(void **state)
     motion_start(&motion, &toy.scene);
     struct contact_start start = {1.0, 0.0, -9.0, 0.0};
     assert_true(contact_step_solve(&step, &toy.scene, &motion, active, 3, &start));
-    near("gap", step.end.gap[0], -cos(3.0 / 8.0), 1e-10);
-    near("rate", step.end.gap_rate[0], 3.0 * sin(3.0 / 8.0), 1e-10);
-    near("indentation", step.end_indentation[0], cos(3.0 / 8.0), 1e-10);
+    measured("gap", step.end.gap[0], -cos(3.0 / 8.0), 1e-10);
+    measured("rate", step.end.gap_rate[0], 3.0 * sin(3.0 / 8.0), 1e-10);
+    measured("indentation", step.end_indentation[0], cos(3.0 / 8.0), 1e-10);
     for (int i = 0; i < NODES; i++)
-        near("force", step.force[0][i], 9.0 * cos(3.0 / 8.0 * collocation.node[i]), 1e-5);
-    near("time", step.end.time, 0.125, 0.0);
-    near("untouched", motion.gap[0], -1.0, 0.0);
+        measured("force", step.force[0][i], 9.0 * cos(3.0 / 8.0 * collocation.node[i]), 1e-5);
+    measured("time", step.end.time, 0.125, 0.0);
+    measured("untouched", motion.gap[0], -1.0, 0.0);
     toy_free(&toy);
 }
 
@@ -206,16 +200,16 @@ static void local_indentations(void **state)
         assert_true(contact_local_indentation(&toy.scene, active, approaches, d, force, matrix));
         local(&toy, approaches, expected, forces);
         for (int c = 0; c < 2; c++) {
-            near("both", d[c], expected[c], 1e-12 * approach);
-            near("force", force[c], forces[c], 1e-11 * forces[c]);
+            measured("both", d[c], expected[c], 1e-12 * approach);
+            measured("force", force[c], forces[c], 1e-11 * forces[c]);
         }
         active[1] = false;
         assert_true(contact_local_indentation(&toy.scene, active, approaches, d, force, matrix));
         double slope;
-        near("closed", d[0] + 0.02 * force[0], approaches[0], 1e-13 * approach);
-        near("its force", force[0], contact_law_force(&toy.laws[0], d[0], &slope),
-             1e-11 * force[0]);
-        near("open", d[1], approaches[1] + 0.005 * force[0], 1e-13 * approach);
+        measured("closed", d[0] + 0.02 * force[0], approaches[0], 1e-13 * approach);
+        measured("its force", force[0], contact_law_force(&toy.laws[0], d[0], &slope),
+                 1e-11 * force[0]);
+        measured("open", d[1], approaches[1] + 0.005 * force[0], 1e-13 * approach);
         assert_true(force[1] == 0.0);
     }
     toy_free(&toy);

@@ -6,12 +6,6 @@
 #include "impact/flight_root.h"
 #include "unit/impact/toy_scene.h"
 
-static void near(double value, double expected, double allowed)
-{
-    if (!(value == expected || fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
-
 static void parabolas_exceed(void **state)
 {
     (void)state;

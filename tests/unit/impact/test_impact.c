@@ -5,12 +5,6 @@
  * both methods, with their scales, starts and audits. */
 #include "unit/impact/toy_scene.h"
 
-static void near(const char *what, double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%s: %.17g is not %.17g within %g", what, value, expected, allowed);
-}
-
 static struct impact_outcome run(struct toy *toy, bool cvode, double accuracy, double horizon)
 {
     struct impact_outcome outcome;
@@ -38,13 +32,13 @@ static void a_mass_bounces_off_a_spring(void **state)
         assert_int_equal(outcome.tracks[0].count, 1);
         assert_int_equal(outcome.end_reason, PERCUSS_END_SEPARATED);
         /* accuracy 1e-9 of an impulse; the instants as good, the peak on a polynomial */
-        near("impulse", outcome.tracks[0].impulse, 8.0, 1e-8);
-        near("end", sub->end, M_PI / omega, 1e-7);
-        near("rate after", sub->gap_rate_after, 2.0, 1e-8);
-        near("indentation", sub->max_indentation, 2.0 / omega, 1e-6);
-        near("force", sub->peak_force, 200.0 / omega, 1e-4);
-        near("available", outcome.energy.available, 4.0, 1e-15);
-        near("closure", outcome.energy.closure, 0.0, 1e-7);
+        measured("impulse", outcome.tracks[0].impulse, 8.0, 1e-8);
+        measured("end", sub->end, M_PI / omega, 1e-7);
+        measured("rate after", sub->gap_rate_after, 2.0, 1e-8);
+        measured("indentation", sub->max_indentation, 2.0 / omega, 1e-6);
+        measured("force", sub->peak_force, 200.0 / omega, 1e-4);
+        measured("available", outcome.energy.available, 4.0, 1e-15);
+        measured("closure", outcome.energy.closure, 0.0, 1e-7);
         toy_free(&toy);
     }
 }
@@ -69,17 +63,17 @@ static void the_closed_form_of_a_rigid_pair_agrees(void **state)
         struct impact_outcome modal = run(&toy, false, 1e-11, 1e3);
         const struct sub_impact *a = closed.tracks[0].list, *b = modal.tracks[0].list;
         double impulse = 2.0 * v / w, lasts = a->end - a->start;
-        near("impulse", closed.tracks[0].impulse, impulse, 1e-15 * impulse);
+        measured("impulse", closed.tracks[0].impulse, impulse, 1e-15 * impulse);
         /* accuracy 1e-11, a thousand steps' rounding */
-        near("impulse, modal", modal.tracks[0].impulse, impulse, 1e-10 * impulse);
-        near("start", b->start, a->start, 1e-15 * (1.0 + fabs(a->start)));
-        near("end", b->end, a->end, 1e-8 * lasts);
+        measured("impulse, modal", modal.tracks[0].impulse, impulse, 1e-10 * impulse);
+        measured("start", b->start, a->start, 1e-15 * (1.0 + fabs(a->start)));
+        measured("end", b->end, a->end, 1e-8 * lasts);
         /* a flat top, on a polynomial */
-        near("compression end", b->compression_end, a->compression_end, 1e-4 * lasts);
-        near("indentation", b->max_indentation, a->max_indentation, 1e-7 * a->max_indentation);
-        near("force", b->peak_force, a->peak_force, 1e-6 * a->peak_force);
-        near("window", modal.window, closed.window, 1e-4 * lasts);
-        near("available", modal.energy.available, closed.energy.available, 0.0);
+        measured("compression end", b->compression_end, a->compression_end, 1e-4 * lasts);
+        measured("indentation", b->max_indentation, a->max_indentation, 1e-7 * a->max_indentation);
+        measured("force", b->peak_force, a->peak_force, 1e-6 * a->peak_force);
+        measured("window", modal.window, closed.window, 1e-4 * lasts);
+        measured("available", modal.energy.available, closed.energy.available, 0.0);
         toy_free(&toy);
     }
 }
@@ -105,15 +99,15 @@ static void both_methods_agree_on_toys(void **state)
         const struct track *a = outcomes[0].tracks, *b = outcomes[1].tracks;
         assert_int_equal(a->count, b->count);
         assert_int_equal(outcomes[0].end_reason, outcomes[1].end_reason);
-        near("impulse", a->impulse, b->impulse, 1e-6);
-        near("shift", outcomes[0].time_shift, outcomes[1].time_shift, 1e-9);
+        measured("impulse", a->impulse, b->impulse, 1e-6);
+        measured("shift", outcomes[0].time_shift, outcomes[1].time_shift, 1e-9);
         for (size_t k = 0; k < a->count; k++) {
-            near("start", a->list[k].start, b->list[k].start, 1e-6);
-            near("sub-impulse", a->list[k].impulse, b->list[k].impulse, 1e-6);
+            measured("start", a->list[k].start, b->list[k].start, 1e-6);
+            measured("sub-impulse", a->list[k].impulse, b->list[k].impulse, 1e-6);
         }
         for (int cvode = 0; cvode < 2; cvode++)
-            near("closure", outcomes[cvode].energy.closure / outcomes[cvode].energy.available, 0.0,
-                 1e-7);
+            measured("closure", outcomes[cvode].energy.closure / outcomes[cvode].energy.available,
+                     0.0, 1e-7);
         toy_free(&toy);
     }
 }
@@ -130,9 +124,9 @@ static void scales_follow_from_the_energy(void **state)
             toy.laws[0] = contact_law_hertz(k);
             struct impact_scale scale = impact_scale_of(&toy.scene, 0, -v);
             double depth = pow(1.25 * 0.25 * v * v / k, 0.4);
-            near("indentation", scale.indentation, depth, 1e-9 * depth);
-            near("duration", scale.duration, depth / v, 1e-9 * depth / v);
-            near("force", scale.force, k * pow(depth, 1.5), 1e-8 * k * pow(depth, 1.5));
+            measured("indentation", scale.indentation, depth, 1e-9 * depth);
+            measured("duration", scale.duration, depth / v, 1e-9 * depth / v);
+            measured("force", scale.force, k * pow(depth, 1.5), 1e-8 * k * pow(depth, 1.5));
         }
     }
     struct impact_scale rest = impact_scale_of(&toy.scene, 0, 0.0);
@@ -155,10 +149,10 @@ static void overlaps_go_back_to_their_touch(void **state)
     motion_start(&motion, &toy.scene);
     struct rewind rewind = {1.0, 1000, &toy.arena, NULL, false};
     assert_int_equal(impact_find_start(&toy.scene, &rewind, &motion, &shift), START_FOUND);
-    near("shift", shift, -0.15, 1e-16);
-    near("gap", motion.gap[0], 0.05, 1e-16);
-    near("gap", motion.gap[1], 0.0, 1e-16);
-    near("time", motion.time, -0.15, 1e-16);
+    measured("shift", shift, -0.15, 1e-16);
+    measured("gap", motion.gap[0], 0.05, 1e-16);
+    measured("gap", motion.gap[1], 0.0, 1e-16);
+    measured("time", motion.time, -0.15, 1e-16);
     toy.gap_rate[1] = 0.1; /* opens: it was never apart */
     motion_start(&motion, &toy.scene);
     assert_int_equal(impact_find_start(&toy.scene, &rewind, &motion, &shift), START_NONE);
@@ -185,7 +179,7 @@ static void contacts_that_were_never_apart_are_refused(void **state)
         assert_int_equal(impact_modal(&toy.scene, &settings, &toy.arena, &outcome), PERCUSS_OK);
         assert_int_equal(outcome.always_overlapped, !apart);
         if (apart)
-            near("energy", outcome.energy.closure, 0.0, 1e-4);
+            measured("energy", outcome.energy.closure, 0.0, 1e-4);
         toy_free(&toy);
     }
 }

@@ -3,16 +3,9 @@
 
 /* Mirrors service/impact/kernel.c: each loop against its sum written out, in any length of lanes.
  */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "impact/kernel.h"
 #include "impact/oscillator.h"
 
@@ -51,12 +44,8 @@ static void make(struct vectors *x, size_t count)
     x->stride = x->set->stride;
 }
 
-static void near(double value, double expected)
-{
-    /* sums of at most 40 terms of order one in another order */
-    if (!(fabs(value - expected) <= 2e-14 * (1.0 + fabs(expected))))
-        fail_msg("%.17g is not %.17g", value, expected);
-}
+/* sums of at most 40 terms of order one in another order */
+#define agrees(value, expected) near(value, expected, 2e-14 * (1.0 + fabs(expected)))
 
 static void nodes_and_dots(void **state)
 {
@@ -72,15 +61,15 @@ static void nodes_and_dots(void **state)
             for (size_t k = 0; k < count; k++)
                 expected +=
                     x.phi[k] * (x.table->node_q[i][k] * x.q[k] + x.table->node_v[i][k] * x.v[k]);
-            near(sums[i], expected);
+            agrees(sums[i], expected);
         }
         kernel_dot2(x.stride, x.phi, x.q, x.v, &a, &b);
         for (size_t k = 0; k < count; k++) {
             pq += x.phi[k] * x.q[k];
             pv += x.phi[k] * x.v[k];
         }
-        near(a, pq);
-        near(b, pv);
+        agrees(a, pq);
+        agrees(b, pv);
         oscillators_free(x.set);
     }
 }
@@ -105,7 +94,7 @@ static void derivatives_are_a_series_of_the_motion(void **state)
             oscillator_advance(x.set->omega[k], dampings[i], t, &x.q[k], &x.v[k]);
             expected += x.phi[k] * x.q[k];
         }
-        near(series, expected);
+        agrees(series, expected);
         oscillators_free(x.set);
     }
 }
@@ -126,8 +115,8 @@ static void advance_and_push(void **state)
                 q += x.phi[k] * x.table->force_q[j][k] * force[j];
                 v += x.phi[k] * x.table->force_v[j][k] * force[j];
             }
-            near(x.q_end[k], q);
-            near(x.v_end[k], v);
+            agrees(x.q_end[k], q);
+            agrees(x.v_end[k], v);
         }
         for (size_t k = count; k < x.stride; k++)
             assert_true(x.q_end[k] == 0.0 && x.v_end[k] == 0.0);
@@ -156,7 +145,7 @@ static void responses(void **state)
                 double expected = i == 1 && j == 2 ? 7.0 : 0.0;
                 for (size_t k = 0; k < count; k++)
                     expected += x.phi[k] * x.psi[k] * x.table->response[i][j][k];
-                near(sums[i][j], expected);
+                agrees(sums[i][j], expected);
             }
         }
         oscillators_free(x.set);

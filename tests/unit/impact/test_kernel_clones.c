@@ -3,14 +3,9 @@
 
 /* Mirrors service/impact/kernel.c: the vector unit chosen at start gives the bits of the baseline.
  */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "check.h"
 
 /* The source once more, under other names and for the baseline only. */
 #define PERCUSS_ONE_KERNEL

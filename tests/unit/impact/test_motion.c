@@ -10,12 +10,6 @@ static const double shapes[] = {1.0, -0.5, 0.25, 0.0, 2.0, -1.0}; /* two contact
 static const double q0[] = {1e-3, -2e-4, 3e-6};
 static const double v0[] = {0.01, 0.0, -0.02};
 
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
-
 static void make(struct toy *toy, double damping)
 {
     toy_init(toy, 2);

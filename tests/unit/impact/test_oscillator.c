@@ -3,22 +3,10 @@
 
 /* Mirrors service/impact/oscillator.c: exact propagation against mpmath, against composition of
  * steps and against a brute integration. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "impact/oscillator.h"
-
-static void near(const char *what, double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%s: %.17g is not %.17g within %g", what, value, expected, allowed);
-}
 
 /* omega, damping, h, c and the maps to q and v: Duhamel's integrals with Lagrange's polynomials
  * through the Gauss nodes, by confluent hypergeometric functions in mpmath at 40 digits. */
@@ -106,8 +94,8 @@ static void maps_match_mpmath(void **state)
         for (int k = 0; k < NODES + 2; k++) {
             /* what a unit input moves q by, at most: 1, time, time^2 */
             double reach = k == 0 ? 1.0 : k == 1 ? time : time * time;
-            near("to q", to_q[k], digits[i].to_q[k], part * reach);
-            near("to v", to_v[k], digits[i].to_v[k], part * reach / time);
+            measured("to q", to_q[k], digits[i].to_q[k], part * reach);
+            measured("to v", to_v[k], digits[i].to_v[k], part * reach / time);
         }
     }
 }
@@ -128,13 +116,13 @@ static void steps_compose(void **state)
             oscillator_advance(omega, damping, h, &q[0], &v[0]);
             oscillator_advance(omega, damping, 0.5 * h, &q[1], &v[1]);
             oscillator_advance(omega, damping, 0.5 * h, &q[1], &v[1]);
-            near("q", q[1], q[0], scale);
-            near("v", v[1], v[0], scale * omega);
+            measured("q", q[1], q[0], scale);
+            measured("v", v[1], v[0], scale * omega);
             if (damping * omega * h > 1.0)
                 continue; /* the way back blows rounding up */
             oscillator_advance(omega, damping, -h, &q[0], &v[0]);
-            near("q back", q[0], 0.3, 4.0 * scale * exp(damping * omega * h));
-            near("v back", v[0], -0.2 * omega, 4.0 * scale * omega * exp(damping * omega * h));
+            measured("q back", q[0], 0.3, 4.0 * scale * exp(damping * omega * h));
+            measured("v back", v[0], -0.2 * omega, 4.0 * scale * omega * exp(damping * omega * h));
         }
     }
 }
@@ -173,8 +161,8 @@ static void forced_motion_matches_runge_kutta(void **state)
             v_end += to_v[k] * x[k];
         }
         /* (omega dt)^4 = 1.6e-11 per radian of 8 */
-        near("q", q_end, q, 1e-12);
-        near("v", v_end, v, 4e-11);
+        measured("q", q_end, q, 1e-12);
+        measured("v", v_end, v, 4e-11);
     }
 }
 
@@ -190,7 +178,7 @@ static void free_loss_is_the_missing_energy(void **state)
             oscillator_advance(omega, damping, angle / omega, &q, &v);
             double left = 0.5 * (v * v + omega * omega * q * q);
             /* rounding of the phase, and of energies of one */
-            near("loss", loss, 0.68 - left, 1e-15 * (10.0 + angle) / sqrt(1.0 - damping));
+            measured("loss", loss, 0.68 - left, 1e-15 * (10.0 + angle) / sqrt(1.0 - damping));
             assert_true(damping > 0.0 ? loss > 0.0 : loss == 0.0);
         }
     }
@@ -208,12 +196,12 @@ static void moments_are_continuous(void **state)
         for (int m = 0; m < NODES; m++)
             /* the step of 2e-10 times a derivative of at most the moment itself, and e^3 roundings
              */
-            near("moment", cabs(above[m] - below[m]), 0.0, 4e-10 * cabs(below[m]) + 1e-13);
+            measured("moment", cabs(above[m] - below[m]), 0.0, 4e-10 * cabs(below[m]) + 1e-13);
     }
     double complex zero[NODES];
     oscillator_moments(0.0, 0.5, zero);
     for (int m = 0; m < NODES; m++)
-        near("moment of zero", creal(zero[m]), pow(0.5, m + 1) / (m + 1), 1e-17);
+        measured("moment of zero", creal(zero[m]), pow(0.5, m + 1) / (m + 1), 1e-17);
 }
 
 int main(void)

@@ -3,22 +3,9 @@
 
 /* Mirrors service/impact/oscillator_loss.c: the quadratic form of the damper's work against a fine
  * quadrature and against the energy that forces, motion and damper share. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "impact/oscillator.h"
 #include "impact/oscillator_loss.h"
-
-static void near(const char *what, double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%s: %.17g is not %.17g within %g", what, value, expected, allowed);
-}
 
 static double apply(double form[LOSS_INPUTS][LOSS_INPUTS], const double x[LOSS_INPUTS])
 {
@@ -83,7 +70,7 @@ static void matches_quadrature(void **state)
         works(omega, damping, h, 40 + (int)(4.0 * angle), x, work);
         /* the audit promises 1e-9; measured 1e-12, near critical damping 6e-11 (its quadrature's
          * panels below omega h = 2, two nearly equal exponentials above) */
-        near("loss", apply(form, x), work[0], 1e-10 * work[0]);
+        measured("loss", apply(form, x), work[0], 1e-10 * work[0]);
         assert_true(work[0] > 0.0);
         for (int r = 0; r < LOSS_INPUTS; r++)
             for (int s = 0; s < LOSS_INPUTS; s++)
@@ -113,7 +100,7 @@ static void closes_the_balance(void **state)
         double before = 0.5 * (x[1] * x[1] + omega * omega * x[0] * x[0]);
         double after = 0.5 * (v * v + omega * omega * q * q);
         double scale = before + after + fabs(work[1]);
-        near("balance", before + work[1] - after, apply(form, x), 1e-10 * scale); /* as above */
+        measured("balance", before + work[1] - after, apply(form, x), 1e-10 * scale); /* as above */
     }
 }
 

@@ -6,12 +6,6 @@
 #include "impact/rewind.h"
 #include "unit/impact/toy_scene.h"
 
-static void near(double value, double expected, double allowed)
-{
-    if (!(value == expected || fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
-
 /* Approach -gap - rate t + cos(omega t) by one mode of unit amplitude that starts at its far end.
  */
 static void ring(struct toy *toy, double omega, double gap, double rate)

@@ -3,14 +3,7 @@
 
 /* Mirrors service/impact/step_table.c: the ladder of steps and tables that hold the oscillators'
  * maps bit by bit. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "impact/oscillator.h"
 #include "impact/oscillator_loss.h"
 #include "impact/step_table.h"

@@ -5,12 +5,6 @@
 #include "impact/track.h"
 #include "unit/impact/toy_scene.h"
 
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
-
 /* Feeds half a sine of a period of 2, of `steps` steps, indentation and force alike. */
 static void feed_sine(struct track *track, int steps)
 {

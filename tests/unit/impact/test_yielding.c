@@ -8,15 +8,6 @@
 #include "unit/contact/sampled_table.h"
 #include "unit/impact/toy_scene.h"
 
-static void near(const char *what, double value, double expected, double allowed)
-{
-    if (getenv("PERCUSS_MEASURE"))
-        print_message("    %-30s %.12g expected %.12g error %.2e allowed %.1e\n", what, value,
-                      expected, fabs(value - expected), allowed);
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%s: %.17g is not %.17g within %g", what, value, expected, allowed);
-}
-
 /* The paper's sphere on its rod 1. */
 static struct contact_law soft_law(void)
 {
@@ -76,10 +67,10 @@ static void a_rigid_pair_rebounds_by_its_energy(void **state)
             double expected = rebound(&toy.laws[0], speeds[i], toy.w[0]) / speeds[i];
             /* the step control's own statement, see docs/accuracy.md, and rounding */
             double allowed = 0.1 * pow(accuracy, 0.8) + 1e-12;
-            near("restitution", e, expected, allowed);
+            measured("restitution", e, expected, allowed);
             /* what solve/accuracy.c counts on: tolerance ten times, or 1e-3, the accuracy */
-            near("closure", outcome.energy.closure / outcome.energy.available, 0.0,
-                 100.0 * accuracy + 1e-12);
+            measured("closure", outcome.energy.closure / outcome.energy.available, 0.0,
+                     100.0 * accuracy + 1e-12);
             assert_true((outcome.energy.plastic > 0.0) == (e < 1.0 - 1e-4));
             last = fabs(e - expected);
             toy_free(&toy);
@@ -105,8 +96,8 @@ static void a_weak_blow_is_hertz(void **state)
                          PERCUSS_OK);
     }
     assert_true(outcome[0].tracks[0].impulse == outcome[1].tracks[0].impulse);
-    near("depth", outcome[0].tracks[0].list[0].max_indentation * 1e6,
-         outcome[1].tracks[0].list[0].max_indentation * 1e6, 1e-14);
+    measured("depth", outcome[0].tracks[0].list[0].max_indentation * 1e6,
+             outcome[1].tracks[0].list[0].max_indentation * 1e6, 1e-14);
     toy_free(&toy);
     toy_on_soft(&toy, 0.012);
     assert_false(impact_is_rigid_pair(&toy.scene));
@@ -126,18 +117,18 @@ static void a_dent_hardens(void **state)
         toy.gap_rate[0] = -speeds[i];
         struct impact_outcome second = run(&toy, false, 1e-11);
         double expected = rebound(&toy.laws[0], speeds[i], toy.w[0]);
-        near("rebound", second.motion.gap_rate[0] / speeds[i], expected / speeds[i], 1e-9);
-        near("closure", second.energy.closure / second.energy.available, 0.0, 1e-9);
+        measured("rebound", second.motion.gap_rate[0] / speeds[i], expected / speeds[i], 1e-9);
+        measured("closure", second.energy.closure / second.energy.available, 0.0, 1e-9);
         const struct sub_impact *sub = second.tracks[0].list;
         if (speeds[i] < 0.3) {
             assert_true(second.energy.plastic == 0.0);
-            near("rebound, elastic", expected / speeds[i], 1.0, 1e-12);
+            measured("rebound, elastic", expected / speeds[i], 1.0, 1e-12);
         } else {
             assert_true(second.laws[0].history.residual > first.laws[0].history.residual);
-            near("depth", sub->max_indentation + first.laws[0].history.residual,
-                 second.laws[0].history.max_indentation, 1e-14);
-            near("force", sub->peak_force, second.laws[0].history.max_force,
-                 1e-9 * sub->peak_force);
+            measured("depth", sub->max_indentation + first.laws[0].history.residual,
+                     second.laws[0].history.max_indentation, 1e-14);
+            measured("force", sub->peak_force, second.laws[0].history.max_force,
+                     1e-9 * sub->peak_force);
         }
         toy_free(&toy);
     }
@@ -162,16 +153,16 @@ static void both_methods_agree(void **state)
         add_modes(&toy, i < 4 ? 0.0 : 0.02);
         struct impact_outcome modal = run(&toy, false, 1e-11);
         struct impact_outcome cvode = run(&toy, true, 1e-10);
-        near("rate after", modal.motion.gap_rate[0] / speeds[i % 4],
-             cvode.motion.gap_rate[0] / speeds[i % 4], 1e-7);
-        near("plastic", modal.energy.plastic / modal.energy.available,
-             cvode.energy.plastic / cvode.energy.available, 1e-7);
-        near("dent", modal.laws[0].history.residual / 1e-6, cvode.laws[0].history.residual / 1e-6,
-             1e-6);
-        near("closure", modal.energy.closure / modal.energy.available, 0.0, 1e-9);
+        measured("rate after", modal.motion.gap_rate[0] / speeds[i % 4],
+                 cvode.motion.gap_rate[0] / speeds[i % 4], 1e-7);
+        measured("plastic", modal.energy.plastic / modal.energy.available,
+                 cvode.energy.plastic / cvode.energy.available, 1e-7);
+        measured("dent", modal.laws[0].history.residual / 1e-6,
+                 cvode.laws[0].history.residual / 1e-6, 1e-6);
+        measured("closure", modal.energy.closure / modal.energy.available, 0.0, 1e-9);
         assert_int_equal(modal.tracks[0].count, cvode.tracks[0].count);
-        near("depth", modal.tracks[0].list[0].max_indentation / 1e-6,
-             cvode.tracks[0].list[0].max_indentation / 1e-6, 1e-6);
+        measured("depth", modal.tracks[0].list[0].max_indentation / 1e-6,
+                 cvode.tracks[0].list[0].max_indentation / 1e-6, 1e-6);
         toy_free(&toy);
     }
 }

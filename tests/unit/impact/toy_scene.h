@@ -5,16 +5,9 @@
 #ifndef PERCUSS_TEST_TOY_SCENE_H
 #define PERCUSS_TEST_TOY_SCENE_H
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "impact/impact.h"
 
 enum { TOY_CONTACTS = 4, TOY_GROUPS = 4 };

@@ -3,22 +3,9 @@
 
 /* Tests client/measured/distance.c against SciPy 1.17 (ks_2samp, energy_distance squared, t.ppf),
  * and that p-values are uniform when both samples come from one distribution. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "distance.h"
 #include "random.h"
-
-static void near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g", value, expected);
-}
 
 static const double x[] = {0.1, 0.35, 0.2, 0.5, 0.9, 0.42, 0.77};
 static const double y[] = {0.3, 0.6, 0.65, 0.8, 1.1, 0.95, 1.2, 0.7, 0.85};
@@ -29,19 +16,19 @@ static void agrees_with_scipy(void **state)
     struct distance distance;
     double waves[40], others[53];
     assert_true(distance_kolmogorov(x, 7, y, 9, &distance));
-    near(distance.value, 0.6031746031746031, 1e-14);
-    near(distance.p, 0.07867132867132867, 1e-12);
+    near_relative(distance.value, 0.6031746031746031, 1e-14);
+    near_relative(distance.p, 0.07867132867132867, 1e-12);
     assert_true(distance_energy(x, 7, y, 9, 9, 1, &distance));
-    near(distance.value, 0.24448979591836736, 1e-13);
+    near_relative(distance.value, 0.24448979591836736, 1e-13);
     for (int i = 0; i < 40; ++i)
         waves[i] = sin((i + 1) * 1.7);
     for (int i = 0; i < 53; ++i)
         others[i] = sin((i + 1) * 2.3) + 0.2;
     assert_true(distance_kolmogorov(waves, 40, others, 53, &distance));
-    near(distance.value, 0.225, 1e-14);
-    near(distance.p, 0.1614372435447382, 1e-11);
+    near_relative(distance.value, 0.225, 1e-14);
+    near_relative(distance.p, 0.1614372435447382, 1e-11);
     assert_true(distance_energy(waves, 40, others, 53, 9, 1, &distance));
-    near(distance.value, 0.04904979606678079, 1e-12);
+    near_relative(distance.value, 0.04904979606678079, 1e-12);
 }
 
 /* The same samples of a thousand values each: exact and asymptotic p-values meet. */
@@ -102,20 +89,20 @@ static void small_p_values_are_rare_by_chance(void **state)
 static void quantiles_of_student(void **state)
 {
     (void)state;
-    near(student_quantile(0.975, 1), 12.706204736174694, 1e-9);
-    near(student_quantile(0.975, 4), 2.7764451051977934, 1e-9);
-    near(student_quantile(0.95, 10), 1.8124611228116756, 1e-9);
-    near(student_quantile(0.995, 48), 2.6822040269502154, 1e-9);
-    near(student_quantile(0.975, 1000.5), 1.962337892459348, 1e-8);
-    near(student_quantile(0.025, 7), -2.3646242515927844, 1e-9);
+    near_relative(student_quantile(0.975, 1), 12.706204736174694, 1e-9);
+    near_relative(student_quantile(0.975, 4), 2.7764451051977934, 1e-9);
+    near_relative(student_quantile(0.95, 10), 1.8124611228116756, 1e-9);
+    near_relative(student_quantile(0.995, 48), 2.6822040269502154, 1e-9);
+    near_relative(student_quantile(0.975, 1000.5), 1.962337892459348, 1e-8);
+    near_relative(student_quantile(0.025, 7), -2.3646242515927844, 1e-9);
 }
 
 static void moments_and_medians(void **state)
 {
     (void)state;
     double values[] = {4.0, 1.0, 3.0, 2.0};
-    near(sample_mean(values, 4), 2.5, 1e-15);
-    near(sample_deviation(values, 4), 1.2909944487358056, 1e-14);
+    near_relative(sample_mean(values, 4), 2.5, 1e-15);
+    near_relative(sample_deviation(values, 4), 1.2909944487358056, 1e-14);
     assert_true(sample_median(values, 4) == 2.5);
     assert_true(sample_median(values, 3) == 2.0);
     assert_true(isnan(sample_median(values, 0)) && isnan(sample_mean(values, 0)));

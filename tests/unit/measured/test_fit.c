@@ -3,15 +3,9 @@
 
 /* Tests client/measured/fit.c: a line with its textbook intervals, a curve whose intervals cover
  * the truth as often as they say, and parameters that the data do not determine. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "fit.h"
 #include "random.h"
 
@@ -20,12 +14,6 @@ enum { POINTS = 40 };
 struct data {
     double x[POINTS], y[POINTS];
 };
-
-static void near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.12g is not %.12g", value, expected);
-}
 
 static bool line(void *context, const double *p, double *residuals)
 {
@@ -58,13 +46,13 @@ static void a_line_has_its_textbook_intervals(void **state)
     struct fit_problem problem = {2, POINTS, line, &data, 1e-4, NULL, 0};
     struct fit fit = {.x = {1.0, 1.0}};
     assert_true(fit_solve(&problem, &fit));
-    near(fit.x[0], intercept, 1e-6);
-    near(fit.x[1], slope, 1e-6);
-    near(fit.deviation[1], sigma / sqrt(spread), 1e-6);
-    near(fit.deviation[0], sigma * sqrt(1.0 / POINTS + mean * mean / spread), 1e-6);
-    near(fit.correlation[0][1], -mean / sqrt(sxx / POINTS), 1e-6);
-    near(fit.half_width[1] / fit.deviation[1], 2.0243941644, 1e-6); /* t.ppf(0.975, 38) */
-    near(fit.sum, sum, 1e-6);
+    near_relative(fit.x[0], intercept, 1e-6);
+    near_relative(fit.x[1], slope, 1e-6);
+    near_relative(fit.deviation[1], sigma / sqrt(spread), 1e-6);
+    near_relative(fit.deviation[0], sigma * sqrt(1.0 / POINTS + mean * mean / spread), 1e-6);
+    near_relative(fit.correlation[0][1], -mean / sqrt(sxx / POINTS), 1e-6);
+    near_relative(fit.half_width[1] / fit.deviation[1], 2.0243941644, 1e-6); /* t.ppf(0.975, 38) */
+    near_relative(fit.sum, sum, 1e-6);
     assert_true(fit.freedom == POINTS - 2);
 }
 
@@ -151,7 +139,7 @@ static void what_is_not_determined_is_told(void **state)
     struct fit_problem problem = {3, POINTS, degenerate, &data, 1e-4, NULL, 0};
     struct fit fit = {.x = {1.0, 1.0, 1.0}};
     assert_true(fit_solve(&problem, &fit));
-    near(fit.x[0] + fit.x[1], 3.0, 1e-2);
+    near_relative(fit.x[0] + fit.x[1], 3.0, 1e-2);
     assert_true(isinf(fit.deviation[0]) || isinf(fit.deviation[1]));
     assert_true(isinf(fit.deviation[2]) && isinf(fit.half_width[2]));
     problem.residuals = 3;

@@ -3,18 +3,11 @@
 
 /* Tests client/measured/history.c, impact.c and table.c: sub-impacts of known start, length and
  * jump are found again in noisy readings, and bad files are refused by line. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "history.h"
 #include "random.h"
 
@@ -63,12 +56,6 @@ static struct history make(const struct pulse *pulses, int count, double rate, d
     return history;
 }
 
-static void near(const char *what, double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%s: %.9g is not %.9g within %g", what, value, expected, allowed);
-}
-
 static const struct pulse pulses[] = {
     {0.0, 180e-6, 0.25}, {3.99e-3, 80e-6, 0.02}, {5.29e-3, 190e-6, 0.17}};
 
@@ -86,23 +73,23 @@ static void finds_sub_impacts(void **state)
                 fail_msg("%s", fault.text);
             assert_int_equal(found.count, 3);
             /* a mean over hundreds of readings */
-            near("before", found.before, -0.3, 1e-6 + 0.2 * noises[n]);
-            near("noise", found.noise, noises[n], 1e-6 + 0.1 * noises[n]);
+            measured("before", found.before, -0.3, 1e-6 + 0.2 * noises[n]);
+            measured("noise", found.noise, noises[n], 1e-6 + 0.1 * noises[n]);
             for (int k = 0; k < 3; ++k) {
                 /* the extrapolation misses some per cent of the length, the noise more */
                 double slack = (0.05 + 1.5 * noises[n] / pulses[k].jump) * pulses[k].length;
-                near("jump", found.list[k].jump, pulses[k].jump, 2e-6 + 0.5 * noises[n]);
-                near("start", found.list[k].start, pulses[k].start, slack + 1.0 / rates[r]);
-                near("end", found.list[k].end, pulses[k].start + pulses[k].length,
-                     slack + 1.0 / rates[r]);
+                measured("jump", found.list[k].jump, pulses[k].jump, 2e-6 + 0.5 * noises[n]);
+                measured("start", found.list[k].start, pulses[k].start, slack + 1.0 / rates[r]);
+                measured("end", found.list[k].end, pulses[k].start + pulses[k].length,
+                         slack + 1.0 / rates[r]);
             }
             struct measured_impact impact = history_impact(&found);
-            near("second", impact.second_start, 3.99e-3, 20e-6);
-            near("momentum", impact.momentum, 0.44, 1e-5 + noises[n]);
+            measured("second", impact.second_start, 3.99e-3, 20e-6);
+            measured("momentum", impact.momentum, 0.44, 1e-5 + noises[n]);
             measured_complete(&impact, 0.11, 10.0);
-            near("impulse", impact.impulse, 0.11 * 0.44, 0.11 * (1e-5 + noises[n]));
-            near("restitution", impact.restitution, 0.11 * 0.44 * 10.0 / 0.3 - 1.0,
-                 1e-4 + 10.0 * noises[n]);
+            measured("impulse", impact.impulse, 0.11 * 0.44, 0.11 * (1e-5 + noises[n]));
+            measured("restitution", impact.restitution, 0.11 * 0.44 * 10.0 / 0.3 - 1.0,
+                     1e-4 + 10.0 * noises[n]);
         }
     }
 }
@@ -142,8 +129,8 @@ static void takes_what_instruments_give(void **state)
     history.velocity_b = b;
     assert_true(history_find(&history, &other, &fault));
     assert_int_equal(other.count, found.count);
-    near("before", other.before, found.before - 0.05, 1e-12);
-    near("jump", other.list[2].jump, found.list[2].jump, 1e-12);
+    measured("before", other.before, found.before - 0.05, 1e-12);
+    measured("jump", other.list[2].jump, found.list[2].jump, 1e-12);
 }
 
 static char folder[] = "/tmp/percuss-measured-XXXXXX";
@@ -198,10 +185,10 @@ static void reads_tables(void **state)
     /* the row's speed stands, the rest is the history's */
     assert_true(set.impacts[1].speed == 0.25);
     assert_true(set.impacts[1].sub_impacts == 3.0);
-    near("momentum", set.impacts[1].momentum, 0.44, 1e-4);
+    measured("momentum", set.impacts[1].momentum, 0.44, 1e-4);
     measured_complete(&set.impacts[0], 0.11, 10.0);
-    near("impulse", set.impacts[0].impulse, 1.7 * 0.2 / 10.0, 1e-15);
-    near("first impulse", set.impacts[0].first_impulse, 1.7 * 0.2 / 10.0, 1e-15);
+    measured("impulse", set.impacts[0].impulse, 1.7 * 0.2 / 10.0, 1e-15);
+    measured("first impulse", set.impacts[0].first_impulse, 1.7 * 0.2 / 10.0, 1e-15);
     measured_set_free(&set);
 }
 

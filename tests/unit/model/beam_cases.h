@@ -5,18 +5,8 @@
 #ifndef PERCUSS_TEST_BEAM_CASES_H
 #define PERCUSS_TEST_BEAM_CASES_H
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "model/beam.h"
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* Length, EI and rho A are one, so that omega is b. */
 __attribute__((unused)) static const struct beam_plane slim = {1.0, 1.0, INFINITY,
@@ -45,12 +35,6 @@ static inline struct beam_mode *solve(const struct beam_plane *plane, size_t cou
     assert_non_null(modes);
     beam_modes(plane, count, modes);
     return modes;
-}
-
-static inline void near(double value, double expected, double tolerance)
-{
-    if (!(fabs(value - expected) <= tolerance))
-        fail_msg("%.17g is not %.17g within %g", value, expected, tolerance);
 }
 
 #endif

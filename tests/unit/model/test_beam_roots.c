@@ -2,14 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/model/beam_roots.c: no root is missed, none is doubled. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "model/beam_roots.h"
 
 /* The independent judge: the dynamic stiffness matrix of Wittrick and Williams 1971. */

@@ -3,15 +3,9 @@
 
 /* Tests model/body.c, body_check.c and limits.c: masses and inertias against integrals over the
  * body, and the refusal of what cannot exist. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "model/body.h"
 
 static struct body aluminium(enum shape shape)
@@ -46,12 +40,6 @@ static void complete(struct body *body)
     struct fault fault = {0};
     if (body_complete(body, &fault))
         fail_msg("%s", fault.text);
-}
-
-static void near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g", value, expected);
 }
 
 /* Whether a point belongs to the body, from the shape's definition alone. */
@@ -112,18 +100,18 @@ static void matches_integrals_over_the_body(void **state)
         double sum[4];
         complete(&body);
         integrate(&body, cases[i].half, sum);
-        near(body.mass, sum[0], 2e-3);
+        near_relative(body.mass, sum[0], 2e-3);
         for (int axis = 0; axis < 3; axis++)
-            near(body.inertia[axis], sum[1 + axis], 2e-3);
+            near_relative(body.inertia[axis], sum[1 + axis], 2e-3);
     }
     /* a Timoshenko beam turns like the solid block it is, in each plane */
     struct body beam = rectangular(THEORY_TIMOSHENKO);
     double sum[4];
     complete(&beam);
     integrate(&beam, (double[]){0.15, 0.01, 0.025}, sum);
-    near(beam.mass, sum[0], 1e-12);
+    near_relative(beam.mass, sum[0], 1e-12);
     for (int axis = 0; axis < 3; axis++)
-        near(beam.inertia[axis], sum[1 + axis], 1e-4);
+        near_relative(beam.inertia[axis], sum[1 + axis], 1e-4);
 }
 
 static void matches_closed_forms(void **state)
@@ -132,12 +120,12 @@ static void matches_closed_forms(void **state)
     const double pi = acos(-1.0);
     struct body beam = aluminium(SHAPE_BEAM);
     complete(&beam);
-    near(beam.area, pi * 1e-4, 1e-15);
-    near(beam.mass, 2700.0 * pi * 1e-4 * 0.3, 1e-15);
-    near(beam.second_moment[0], pi / 64.0 * 0.02 * 0.02 * 0.02 * 0.02, 1e-14);
+    near_relative(beam.area, pi * 1e-4, 1e-15);
+    near_relative(beam.mass, 2700.0 * pi * 1e-4 * 0.3, 1e-15);
+    near_relative(beam.second_moment[0], pi / 64.0 * 0.02 * 0.02 * 0.02 * 0.02, 1e-14);
     assert_true(beam.second_moment[1] == beam.second_moment[0]);
-    near(beam.inertia[1], beam.mass * (0.09 / 12.0 + 1e-4 / 4.0), 1e-15);
-    near(beam.inertia[0], beam.mass * 1e-4 / 2.0, 1e-14);
+    near_relative(beam.inertia[1], beam.mass * (0.09 / 12.0 + 1e-4 / 4.0), 1e-15);
+    near_relative(beam.inertia[0], beam.mass * 1e-4 / 2.0, 1e-14);
 
     struct body wall = aluminium(SHAPE_HALF_SPACE);
     complete(&wall);
@@ -158,10 +146,10 @@ static void gives_each_theory_its_rotatory_inertia(void **state)
     struct body thick = rectangular(THEORY_TIMOSHENKO);
     complete(&thick);
     /* about y the section's height counts, about z its width */
-    near(thick.inertia[1], thick.mass * (0.09 + 0.05 * 0.05) / 12.0, 1e-14);
-    near(thick.inertia[2], thick.mass * (0.09 + 0.02 * 0.02) / 12.0, 1e-14);
-    near(thick.second_moment[0], 0.05 * 0.02 * 0.02 * 0.02 / 12.0, 1e-14);
-    near(thick.second_moment[1], 0.02 * 0.05 * 0.05 * 0.05 / 12.0, 1e-14);
+    near_relative(thick.inertia[1], thick.mass * (0.09 + 0.05 * 0.05) / 12.0, 1e-14);
+    near_relative(thick.inertia[2], thick.mass * (0.09 + 0.02 * 0.02) / 12.0, 1e-14);
+    near_relative(thick.second_moment[0], 0.05 * 0.02 * 0.02 * 0.02 / 12.0, 1e-14);
+    near_relative(thick.second_moment[1], 0.02 * 0.05 * 0.05 * 0.05 / 12.0, 1e-14);
 }
 
 static void follows_the_shear_rule(void **state)
@@ -169,10 +157,11 @@ static void follows_the_shear_rule(void **state)
     (void)state;
     struct body beam = aluminium(SHAPE_BEAM);
     complete(&beam);
-    near(beam.shear_factor[1], 6.0 * 1.33 / (7.0 + 6.0 * 0.33), 1e-14); /* Cowper 1966 */
+    near_relative(beam.shear_factor[1], 6.0 * 1.33 / (7.0 + 6.0 * 0.33), 1e-14); /* Cowper 1966 */
     beam.shear_rule = SHEAR_HUTCHINSON;
     complete(&beam);
-    near(beam.shear_factor[1], 6.0 * 1.33 * 1.33 / (7.0 + 12.0 * 0.33 + 4.0 * 0.33 * 0.33), 1e-14);
+    near_relative(beam.shear_factor[1], 6.0 * 1.33 * 1.33 / (7.0 + 12.0 * 0.33 + 4.0 * 0.33 * 0.33),
+                  1e-14);
     beam.shear_rule = SHEAR_NUMBER;
     beam.shear_number = 0.85;
     complete(&beam);
@@ -180,7 +169,8 @@ static void follows_the_shear_rule(void **state)
 
     struct body flat = rectangular(THEORY_TIMOSHENKO);
     complete(&flat);
-    near(flat.shear_factor[0], 10.0 * 1.33 / (12.0 + 11.0 * 0.33), 1e-14); /* Cowper 1966 */
+    near_relative(flat.shear_factor[0], 10.0 * 1.33 / (12.0 + 11.0 * 0.33),
+                  1e-14); /* Cowper 1966 */
     assert_true(flat.shear_factor[0] == flat.shear_factor[1]);
     /* turned by a quarter, Hutchinson's two planes change places */
     struct body turned = flat;

@@ -4,23 +4,11 @@
 /* Mirrors service/model/half_space.c: Rayleigh's speed, the radiated power by a contour in the
  * complex plane, and what of it runs off as which wave. */
 #include <complex.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "model/half_space.h"
 
 static const double pi = 3.14159265358979323846;
-
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
 
 /* mu = 1 Pa, c_T = 1 m/s. */
 static struct material unit_material(double poisson)

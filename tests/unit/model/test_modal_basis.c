@@ -3,21 +3,8 @@
 
 /* Mirrors service/model/modal_basis.c: which families a load drives, frequencies and participations
  * of rods in closed form, and compliances that the modal sums approach. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "model/modal_basis.h"
-
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
 
 static struct body bar(enum shape shape, enum support left, enum support right)
 {

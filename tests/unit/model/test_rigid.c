@@ -3,22 +3,9 @@
 
 /* Mirrors service/model/rigid.c: inverse masses and velocity changes from the mass matrix written
  * out, for free, pinned and held bodies. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "model/rigid.h"
 #include "model/vector.h"
-
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
 
 static struct body beam(enum support left, enum support right)
 {

@@ -3,23 +3,11 @@
 
 /* Mirrors service/model/site.c: faces, normals, curvatures and edges of every shape, in any pose,
  * and what is refused with which words. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "model/site.h"
 #include "model/vector.h"
-
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
 
 static struct body make(enum shape shape)
 {

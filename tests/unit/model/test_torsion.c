@@ -3,22 +3,9 @@
 
 /* Mirrors service/model/torsion.c: the section's constants, modes against Vlasov's equation, static
  * compliances that the modal sums approach, and d'Alembert's waves. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "model/modal_basis.h"
 #include "model/torsion.h"
-
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
 
 static struct body strip(double width, double height, enum support left, enum support right)
 {

@@ -3,15 +3,9 @@
 
 /* Mirrors service/numeric/band.c: solutions against elimination, a factor whose leading part is
  * kept, refusals. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "numeric/band.h"
 #include "numeric/linear.h"
 
@@ -40,10 +34,10 @@ static void expect(size_t from, double more, const double *b, double *x)
     assert_true(linear_solve(N, dense, x));
 }
 
-static void near(const double *x, const double *y)
+static void same(const double *x, const double *y)
 {
     for (size_t i = 0; i < N; i++)
-        assert_true(fabs(x[i] - y[i]) <= 1e-14);
+        near(x[i], y[i], 1e-14);
 }
 
 static void solves(void **state)
@@ -58,7 +52,7 @@ static void solves(void **state)
     assert_true(band_factor(&band));
     band_forward(&band, 0, N, b);
     band_backward(&band, 0, N, b);
-    near(b, x);
+    same(b, x);
 }
 
 static void keeps_the_leading_part(void **state)
@@ -81,7 +75,7 @@ static void keeps_the_leading_part(void **state)
         band_backward(&band, first, N, b);
         band_carry_backward(&leading, first, b, b);
         band_backward(&leading, 0, first, b);
-        near(b, x);
+        same(b, x);
     }
 }
 

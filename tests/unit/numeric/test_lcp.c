@@ -2,17 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/numeric/lcp.c: Lemke's method judged by the complementarity of its answers. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "numeric/lcp.h"
 
 static double uniform(uint64_t *state)

@@ -2,25 +2,12 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/numeric/linear.c: elimination, symmetric eigenvalues, pseudo-inverse. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "numeric/linear.h"
 
 enum { N = 12 };
-
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
 
 static double uniform(uint64_t *state)
 {

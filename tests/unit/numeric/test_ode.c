@@ -2,22 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/numeric/ode.c: CVODE behind four verbs, on problems with closed solutions. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "numeric/ode.h"
-
-static void near(double value, double expected, double allowed)
-{
-    if (!(fabs(value - expected) <= allowed))
-        fail_msg("%.17g is not %.17g within %g", value, expected, allowed);
-}
 
 static void oscillator(double t, const double *y, double *rate, void *context)
 {

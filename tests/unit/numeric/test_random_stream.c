@@ -3,17 +3,9 @@
 
 /* Mirrors service/numeric/random_stream.c: the published vector of Philox 4x64-10, uniformity, and
  * permutations. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "numeric/random_stream.h"
 
 /* Random123's kat_vectors: counter and key zero. */

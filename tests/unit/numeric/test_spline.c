@@ -2,14 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors service/numeric/spline.c: order, monotony, continuity, and the straight end. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "numeric/spline.h"
 
 enum { MOST = 65 };

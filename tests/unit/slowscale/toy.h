@@ -6,26 +6,11 @@
 #ifndef PERCUSS_TEST_TOY_H
 #define PERCUSS_TEST_TOY_H
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include <percuss/slowscale.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-#include <percuss/slowscale.h>
-
-#define near(value, expected, allowed)                                                             \
-    do {                                                                                           \
-        double near_value = (value), near_expected = (expected);                                   \
-        if (!(fabs(near_value - near_expected) <= (allowed)))                                      \
-            fail_msg("%s: %.17g is not %.17g within %g", #value, near_value, near_expected,        \
-                     (double)(allowed));                                                           \
-    } while (0)
+#include "check.h"
 
 enum { TOY_BODIES = 4, TOY_REPLIES = 8, TOY_SUBS = 6 };
 

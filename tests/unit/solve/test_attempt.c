@@ -2,14 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests solve/attempt.c: when a solution that was cut off says something of the restitution. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "check.h"
 #include "solve/attempt.h"
 
 /* Two contacts that approach, and what a solution found of them. */

@@ -5,17 +5,10 @@
 #ifndef PERCUSS_TEST_SMALL_TABLE_H
 #define PERCUSS_TEST_SMALL_TABLE_H
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "store/table_key.h"
 
 static const struct material small_steel = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};

@@ -3,18 +3,11 @@
 
 /* Mirrors service/store/family_file.c: what is saved comes back, damaged files are named, a store
  * of tables takes the family of its folder. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
+#include "check.h"
 #include "contact/plastic.h"
 #include "store/family_file.h"
 #include "store/table_store.h"

@@ -3,21 +3,14 @@
 
 /* Tests store/specimens.c: what is committed is there after reopening, together or not at all;
  * whose specimen it is; how many replies are kept; files that are refused. */
-#include <math.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include <sqlite3.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-#include <sqlite3.h>
-
+#include "check.h"
 #include "store/specimens.h"
 
 static char folder[64], path[128];

@@ -17,12 +17,6 @@ static struct contact_curves *curves_of_table(const struct indentation_table *ta
     return curves;
 }
 
-static void near(double value, double expected, double tolerance)
-{
-    if (!(fabs(value - expected) <= tolerance * fabs(expected)))
-        fail_msg("%.12g, not %.12g", value, expected);
-}
-
 static void the_law_is_the_computed_curve(void **state)
 {
     (void)state;
@@ -30,18 +24,20 @@ static void the_law_is_the_computed_curve(void **state)
     struct contact_law law = contact_law_table(curves);
     double slope;
     for (size_t i = 0; i < small_table.points; i++)
-        near(contact_law_force(&law, small_table.indentation[i], &slope), small_table.force[i],
-             1e-12);
+        near_relative(contact_law_force(&law, small_table.indentation[i], &slope),
+                      small_table.force[i], 1e-12);
     double below = 0.3 * small_table.indentation[0];
     /* what the bend at first yield leaves of the straight line five points before it */
-    near(contact_law_force(&law, below, &slope), small_table.hertz * pow(below, 1.5), 1e-6);
+    near_relative(contact_law_force(&law, below, &slope), small_table.hertz * pow(below, 1.5),
+                  1e-6);
     assert_true(contact_law_limit(&law) == small_table.indentation[0]);
-    near(contact_curves_range(curves), small_table.indentation[small_table.points - 1], 0.0);
+    near_relative(contact_curves_range(curves), small_table.indentation[small_table.points - 1],
+                  0.0);
     assert_true(contact_curves_error(curves) == small_table.force_error);
     for (size_t b = 1; b < small_table.branches; b++) {
         struct contact_law used = contact_law_table(curves);
         contact_law_yield(&used, small_table.largest[b]);
-        near(used.history.residual, small_table.residual[b], 1e-9);
+        near_relative(used.history.residual, small_table.residual[b], 1e-9);
         double span = small_table.largest[b] - small_table.residual[b];
         /* a spline through 21 samples, read at 41 places, is read between those; the computation
          * itself states an error of 2.5e-3 of the way */
@@ -65,22 +61,24 @@ static void laws_scale_with_the_radius(void **state)
     struct contact_law two = contact_law_table_at(curves, 0.030);
     double slopes[2];
     for (double d = 1e-7; d < 1.2e-5; d *= 1.3) {
-        near(contact_law_force(&two, 2 * d, &slopes[1]), 4 * contact_law_force(&one, d, &slopes[0]),
-             1e-13);
-        near(slopes[1], 2 * slopes[0], 1e-13);
-        near(two.operations->stored(&two, 2 * d), 8 * one.operations->stored(&one, d), 1e-12);
+        near_relative(contact_law_force(&two, 2 * d, &slopes[1]),
+                      4 * contact_law_force(&one, d, &slopes[0]), 1e-13);
+        near_relative(slopes[1], 2 * slopes[0], 1e-13);
+        near_relative(two.operations->stored(&two, 2 * d), 8 * one.operations->stored(&one, d),
+                      1e-12);
     }
-    near(contact_law_yield(&two, 1e-5), 8 * contact_law_yield(&one, 5e-6), 1e-11);
-    near(two.history.residual, 2 * one.history.residual, 1e-12);
-    near(two.history.contact_radius, 2 * one.history.contact_radius, 1e-12);
-    near(two.history.max_force, 4 * one.history.max_force, 1e-12);
+    near_relative(contact_law_yield(&two, 1e-5), 8 * contact_law_yield(&one, 5e-6), 1e-11);
+    near_relative(two.history.residual, 2 * one.history.residual, 1e-12);
+    near_relative(two.history.contact_radius, 2 * one.history.contact_radius, 1e-12);
+    near_relative(two.history.max_force, 4 * one.history.max_force, 1e-12);
     for (double share = 0.1; share < 1.0; share += 0.1) {
         double d = share * contact_law_limit(&one);
-        near(contact_law_force(&two, 2 * d, &slopes[1]), 4 * contact_law_force(&one, d, &slopes[0]),
-             1e-12);
-        near(two.operations->stored(&two, 2 * d), 8 * one.operations->stored(&one, d), 1e-11);
+        near_relative(contact_law_force(&two, 2 * d, &slopes[1]),
+                      4 * contact_law_force(&one, d, &slopes[0]), 1e-12);
+        near_relative(two.operations->stored(&two, 2 * d), 8 * one.operations->stored(&one, d),
+                      1e-11);
     }
-    near(contact_law_table_range(&two), 2 * contact_law_table_range(&one), 1e-15);
+    near_relative(contact_law_table_range(&two), 2 * contact_law_table_range(&one), 1e-15);
     contact_curves_free(curves);
 }
 
@@ -101,8 +99,8 @@ static void a_table_for_another_radius_is_the_scaled_one(void **state)
     struct contact_law b = contact_law_table_at(other, input.radius);
     double slope;
     for (double d = 1e-8; d < input.indentation; d *= 1.2)
-        near(contact_law_force(&a, d, &slope), contact_law_force(&b, d, &slope), 1e-6);
-    near(contact_law_yield(&a, 5e-7), contact_law_yield(&b, 5e-7), 1e-5);
+        near_relative(contact_law_force(&a, d, &slope), contact_law_force(&b, d, &slope), 1e-6);
+    near_relative(contact_law_yield(&a, 5e-7), contact_law_yield(&b, 5e-7), 1e-5);
     indentation_table_free(&table);
     contact_curves_free(own);
     contact_curves_free(other);
@@ -157,7 +155,7 @@ static void an_elastic_pair_has_hertz(void **state)
     struct contact_curves *curves = curves_of_table(&table);
     struct contact_law law = contact_law_table(curves);
     double slope;
-    near(contact_law_force(&law, 2e-6, &slope), table.hertz * pow(2e-6, 1.5), 1e-12);
+    near_relative(contact_law_force(&law, 2e-6, &slope), table.hertz * pow(2e-6, 1.5), 1e-12);
     assert_true(isinf(contact_law_limit(&law)));
     contact_curves_free(curves);
 }
@@ -219,7 +217,8 @@ static void the_deepest_table_is_taken(void **state)
         assert_int_equal(table_store_add(store, first ? &cut : &small_table, &fault), PERCUSS_OK);
         assert_int_equal(table_store_add(store, first ? &small_table : &cut, &fault), PERCUSS_OK);
         const struct contact_curves *found = table_store_find(store, &small_steel, &small_soft);
-        near(contact_curves_range(found), small_table.indentation[small_table.points - 1], 0.0);
+        near_relative(contact_curves_range(found), small_table.indentation[small_table.points - 1],
+                      0.0);
         table_store_free(store);
     }
 }

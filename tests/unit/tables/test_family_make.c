@@ -4,26 +4,13 @@
 /* Mirrors service/tables/family_make.c and family_point.c: the mesh's error goes, what is beyond
  * the computed depths follows the powers that are known, nothing gives back more than it took; and
  * the shipped family is what the program computes. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "base/arena.h"
+#include "check.h"
 #include "contact/curves.h"
 #include "store/family_file.h"
 #include "tables/family_make.h"
-
-static void near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g within %g", value, expected, relative);
-}
 
 /* A fully plastic contact: force over Hertz's and what springs back like d^(-1/2), area like d,
  * each with an error of first order in the mesh. */
@@ -66,21 +53,21 @@ static void the_mesh_s_error_goes(void **state)
     assert_int_equal(asked[FAMILY_COARSE] + asked[FAMILY_FINE], family_passages());
     assert_int_equal(asked[FAMILY_FINE], family_fine_passages());
     /* of the fine mesh: 0.1/12 */
-    near(samples.error, order / FAMILY_FINE / (1.0 - order / FAMILY_FINE), 1e-12);
+    near_relative(samples.error, order / FAMILY_FINE / (1.0 - order / FAMILY_FINE), 1e-12);
     for (size_t t = 0; t < tables; t++) {
         struct contact_family_place place = {samples.axis[0][t / 12], 0.0, 0.0};
         for (size_t i = 0; i < samples.depths; i++) {
             double expected = plastic(&place, samples.depth[i]);
             bool powers = samples.depth[i] <= samples.computed || place.hardening == 0.0;
             if (powers)
-                near(samples.force[t * samples.depths + i], expected, 1e-9);
+                near_relative(samples.force[t * samples.depths + i], expected, 1e-9);
             if (place.hardening < 1.0)
-                near(samples.area[t * samples.depths + i], 2.0, 1e-9);
+                near_relative(samples.area[t * samples.depths + i], 2.0, 1e-9);
         }
         for (size_t i = 0; i < samples.springs && place.hardening < 1.0; i++)
             if (samples.largest[i] > 5.0 && samples.largest[i] <= samples.computed)
-                near(samples.back[t * samples.springs + i],
-                     0.9 * plastic(&place, samples.largest[i]), 1e-9);
+                near_relative(samples.back[t * samples.springs + i],
+                              0.9 * plastic(&place, samples.largest[i]), 1e-9);
     }
     struct contact_family *family = contact_family_create(&samples, &fault);
     if (!family)
@@ -153,7 +140,7 @@ static void the_shipped_family_is_what_the_program_computes(void **state)
         double slope, d = family_depth(i);
         double ratio =
             spline_at(&curves[1]->loading, d, &slope) / spline_at(&curves[0]->loading, d, &slope);
-        near(ratio, curves_two_thirds(points[1]->force[i] / points[0]->force[i]), 1e-6);
+        near_relative(ratio, curves_two_thirds(points[1]->force[i] / points[0]->force[i]), 1e-6);
     }
     for (size_t i = 0; i < FAMILY_SPRINGS; i++) {
         double slope, at = log(family_largest(i));
@@ -161,7 +148,7 @@ static void the_shipped_family_is_what_the_program_computes(void **state)
             spline_at(&curves[1]->spring, at, &slope) / spline_at(&curves[0]->spring, at, &slope);
         /* where dents begin the file loses what a contact would have gained */
         if (family_largest(i) > 2.0)
-            near(ratio, points[1]->back[i] / points[0]->back[i], 1e-6);
+            near_relative(ratio, points[1]->back[i] / points[0]->back[i], 1e-6);
     }
     free(points[0]);
     free(points[1]);

@@ -3,19 +3,11 @@
 
 /* idl/wire_loopback.c: whose sockets get a filter. That it keeps others out is shown in
  * tests/service/28_this_machine_only.sh. */
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
-
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "check.h"
 #include "domain.h"
 #include "wire.h"
 #include "wire_loopback.h"

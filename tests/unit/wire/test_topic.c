@@ -2,19 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* idl/wire_topic.c: what its types take from the network, in a domain of its own on loopback. */
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
+#include <dds/ddsi/ddsi_serdata.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-#include <dds/ddsi/ddsi_serdata.h>
-
 #include "any_sample.h"
+#include "check.h"
 #include "domain.h"
 #include "wire_topic.h"
 

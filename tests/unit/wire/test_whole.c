@@ -3,17 +3,10 @@
 
 /* idl/wire_whole.c: samples of every type, whole, cut and damaged, in both byte orders. What passes
  * is given to Cyclone DDS, which must not leave it; tests with a daemon are in tests/service. */
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "any_sample.h"
+#include "check.h"
 #include "wire_whole.h"
 
 /* More than the half of fifty numbers by which Cyclone DDS can run over our samples. */
