@@ -4,80 +4,105 @@
 #include "daemon/dispatch.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "daemon/clear_job.h"
+#include "daemon/cost.h"
+#include "daemon/delivery.h"
+#include "daemon/ensemble_job.h"
+#include "daemon/impact_job.h"
 #include "daemon/log.h"
+#include "daemon/queue.h"
+#include "daemon/responder.h"
 #include "endpoint/clock.h"
-#include "endpoint/encode.h"
 #include "endpoint/question.h"
-
-/* Finer solutions than these take tens of milliseconds, which the reading thread must not; or
- * seconds, for which there is the long lane. */
-static const double cheap_tolerance = 1e-4, short_tolerance = 1e-9;
 
 /* Two clients that ask within this time, s, are served side by side by the workers. */
 static const double company_seconds = 0.01;
 
-/* Warm solves of what is_cheap says take some 0.02 to 0.5 ms; what takes longer than this, s, is
- * not cheap whatever it looks like. */
+/* What takes longer than this, s, is not cheap whatever it looks like. */
 static const double inline_seconds = 0.005;
 
-static struct answer *refusal(const struct envelope *envelope, enum exchange exchange,
-                              enum percuss_status status, const char *message)
+struct dispatch {
+    struct shared *shared;
+    struct responder *responder; /* for what is cheap */
+    uint8_t last_client[16];
+    double company_until; /* monotonic, s: till then several clients count as asking */
+};
+
+struct dispatch *dispatch_create(struct shared *shared)
 {
-    if (exchange == EXCHANGE_BATCH)
-        return encode_batch_refusal(envelope, status, message);
-    if (exchange == EXCHANGE_ENSEMBLE)
-        return encode_ensemble_refusal(envelope, status, message);
-    return encode_refusal(envelope, status, message);
+    struct dispatch *dispatch = calloc(1, sizeof *dispatch);
+    if (!dispatch)
+        return NULL;
+    dispatch->shared = shared;
+    dispatch->responder = responder_create(shared, false);
+    if (dispatch->responder)
+        return dispatch;
+    free(dispatch);
+    return NULL;
 }
 
-/* Sends a reply that is not stored: a refusal, after which the number may be used again, or the
- * answer to a ping. */
-static void reply_at_once(struct service *service, const struct request_name *name,
-                          enum percuss_status status, const char *message)
+void dispatch_free(struct dispatch *dispatch)
 {
-    struct snapshot *snapshot = snapshots_hold(&service->snapshots);
-    struct envelope envelope = service_envelope(service, name, snapshot);
-    struct answer *answer = refusal(&envelope, name->exchange, status, message);
-    snapshots_release(&service->snapshots, snapshot);
-    if (!answer)
+    if (!dispatch)
         return;
-    endpoint_reply(service->endpoint, name->client, answer);
-    answer_release(answer);
-    if (status != PERCUSS_OK)
-        atomic_fetch_add(&service->refused, 1);
+    responder_free(dispatch->responder);
+    free(dispatch);
 }
 
-/* A refusal of an admitted request for how things stand. */
-static void turn_away(struct service *service, const struct request_name *name)
+/* Refuses an admitted request for how things stand: asked again it is new. */
+static void turn_away(struct shared *shared, const struct request_name *name,
+                      enum percuss_status status, const char *message)
+{
+    reply_store_forget(shared->replies, name);
+    deliver_at_once(shared, name, status, message);
+}
+
+/* False: the request, which was admitted, is refused, as the server ends. */
+static bool is_open(struct shared *shared, const struct request_name *name)
+{
+    bool draining = atomic_load(&shared->draining);
+    if (draining)
+        turn_away(shared, name, PERCUSS_BUSY, SHARED_SHUTTING_DOWN);
+    return !draining;
+}
+
+/* Hands a job (NULL: there was no memory for it) to the workers, or refuses it at once. */
+static void enqueue(struct shared *shared, const struct request_name *name, struct client_job *job)
 {
     char message[128];
-    reply_store_forget(service->replies, name);
-    if (atomic_load(&service->draining))
-        snprintf(message, sizeof message, "the server is shutting down: ask another one");
-    else
-        snprintf(message, sizeof message, "%u requests are waiting: ask again later",
-                 service->settings->queue_capacity);
-    reply_at_once(service, name, PERCUSS_BUSY, message);
+    if (!job) {
+        turn_away(shared, name, PERCUSS_INTERNAL, "out of memory");
+        return;
+    }
+    if (queue_put(shared->lanes[job->lane], &job->job))
+        return;
+    job->job.kind->release(&job->job);
+    if (!is_open(shared, name))
+        return;
+    snprintf(message, sizeof message, "%u requests are waiting: ask again later",
+             shared->settings->queue_capacity);
+    turn_away(shared, name, PERCUSS_BUSY, message);
 }
 
 /* Answers what has been asked before, and what misuses its number. True: the request is new. */
-static bool admit(struct service *service, const struct request_name *name, struct digest content,
+static bool admit(struct shared *shared, const struct request_name *name, struct digest content,
                   double now)
 {
     struct answer *stored;
     char message[160];
-    switch (reply_store_admit(service->replies, name, content, now, &stored)) {
+    switch (reply_store_admit(shared->replies, name, content, now, &stored)) {
     case ADMISSION_REPEATED:
-        endpoint_reply(service->endpoint, name->client, stored);
+        endpoint_reply(shared->endpoint, name->client, stored);
         answer_release(stored);
         return false;
     case ADMISSION_CONFLICT:
         snprintf(message, sizeof message,
                  "sequence: %llu: was used for another request: must be a new number",
                  (unsigned long long)name->sequence);
-        reply_at_once(service, name, PERCUSS_BAD_REQUEST, message);
+        deliver_at_once(shared, name, PERCUSS_BAD_REQUEST, message);
         return false;
     case ADMISSION_PENDING:
         return false;
@@ -87,85 +112,25 @@ static bool admit(struct service *service, const struct request_name *name, stru
     return true;
 }
 
-static bool is_at_least(const percuss_v1_Options *options, double tolerance)
-{
-    return options->tolerance == 0.0 || options->tolerance >= tolerance;
-}
-
-static bool is_long(const percuss_v1_Options *options)
-{
-    return options->method != PERCUSS_METHOD_MODAL ||
-           options->contact_model > PERCUSS_CONTACT_TABLE || !is_at_least(options, short_tolerance);
-}
-
-static bool is_durable(const struct service *service, const percuss_v1_Request *request)
-{
-    return service->specimens && specimen_lane_concerns(request);
-}
-
-/* A batch is as long as its longest member, its specimens are refused by any worker; ensembles are
- * long. */
-static enum lane lane_for(const struct service *service, const struct job *job)
-{
-    size_t i = 0, count = job->count;
-    const percuss_v1_Request *requests = job->requests;
-    if (job->exchange == EXCHANGE_SINGLE && !job->ensemble && is_durable(service, requests))
-        return LANE_SPECIMENS;
-    while (i < count && !is_long(&requests[i].options) &&
-           !table_cache_lacks(&service->tables, job->snapshot->set, &requests[i]))
-        i++;
-    return i < count || job->ensemble ? LANE_LONG : LANE_SHORT;
-}
-
-/* Hands a job (NULL: it could not be made) to the workers, or refuses it at once. */
-static void enqueue(struct service *service, const struct request_name *name, struct job *job,
-                    double arrival)
-{
-    if (!job) {
-        turn_away(service, name);
-        return;
-    }
-    memcpy(job->client, name->client, sizeof job->client);
-    job->sequence = name->sequence;
-    job->arrival = arrival;
-    job->snapshot = snapshots_hold(&service->snapshots);
-    if (job->ensemble)
-        ensembles_enter(&service->ensembles, job);
-    if (!queue_put(service->lanes[lane_for(service, job)], job)) {
-        if (job->ensemble)
-            ensembles_leave(&service->ensembles, job);
-        snapshots_release(&service->snapshots, job->snapshot);
-        job_free(job);
-        turn_away(service, name);
-    }
-}
-
-static void enqueue_requests(struct service *service, const struct request_name *name,
-                             const percuss_v1_Request *requests, size_t count, double arrival)
-{
-    bool draining = atomic_load(&service->draining);
-    enqueue(service, name, draining ? NULL : job_create(name->exchange, requests, count), arrival);
-}
-
-static bool is_cheap(const percuss_v1_Request *request)
-{
-    const percuss_v1_Options *options = &request->options;
-    return request->contacts._length <= 1 && options->method == PERCUSS_METHOD_MODAL &&
-           options->contact_model <= PERCUSS_CONTACT_CLOSED_FORM && !options->conditioning &&
-           !options->trace && is_at_least(options, cheap_tolerance);
-}
-
 /* Whether no other client has asked lately: while the reading thread solves, nobody else is heard.
  */
-static bool is_sole(struct service *service, const uint8_t client[16], double now)
+static bool is_sole(struct dispatch *dispatch, const uint8_t client[16], double now)
 {
-    if (memcmp(service->last_client, client, sizeof service->last_client) != 0)
-        service->company_until = now + company_seconds;
-    memcpy(service->last_client, client, sizeof service->last_client);
-    return now >= service->company_until;
+    if (memcmp(dispatch->last_client, client, sizeof dispatch->last_client) != 0)
+        dispatch->company_until = now + company_seconds;
+    memcpy(dispatch->last_client, client, sizeof dispatch->last_client);
+    return now >= dispatch->company_until;
 }
 
-/* How long a solve may keep the reading thread: nobody else is heard meanwhile. */
+/* Whether the reading thread may solve it. */
+static bool is_for_here(const struct shared *shared, const percuss_v1_Request *request)
+{
+    return shared->settings->inline_solves && cost_is_cheap(request) &&
+           !impact_job_is_durable(shared, request) && !atomic_load(&shared->draining) &&
+           queue_length(shared->lanes[LANE_SHORT]) == 0;
+}
+
+/* How long a solve may keep the reading thread. */
 struct patience {
     double end; /* monotonic, s */
     bool over;
@@ -179,112 +144,110 @@ static enum percuss_status is_quick(void *context, struct fault *fault)
 }
 
 /* False: it takes longer than the reading thread has; nothing is answered yet. */
-static bool answer_here(struct service *service, const struct request_name *name,
+static bool answer_here(struct dispatch *dispatch, const struct request_name *name,
                         const percuss_v1_Request *request, double arrival)
 {
+    struct shared *shared = dispatch->shared;
     struct patience patience = {.end = arrival + inline_seconds};
-    struct snapshot *snapshot = snapshots_hold(&service->snapshots);
+    struct snapshot *snapshot = snapshots_hold(&shared->snapshots);
     struct question question = {
         .request = request,
-        .set = snapshot->set,
-        .envelope = service_envelope(service, name, snapshot),
+        .snapshot = snapshot,
+        .envelope = delivery_envelope(shared, name, snapshot),
         .arrival = arrival,
         .still_wanted = is_quick,
         .context = &patience,
     };
-    struct answer *answer = responder_answer(service->inline_responder, service->tokens, &question);
+    struct answer *answer = responder_answer(dispatch->responder, &question);
     if (!patience.over)
-        service_deliver(service, name, answer);
+        deliver(shared, name, answer);
     answer_release(answer);
-    snapshots_release(&service->snapshots, snapshot);
+    snapshots_release(&shared->snapshots, snapshot);
     return !patience.over;
 }
 
 static void receive_single(void *context, const percuss_v1_Request *request, bool alone)
 {
-    struct service *service = context;
+    struct dispatch *dispatch = context;
+    struct shared *shared = dispatch->shared;
     double arrival = clock_now();
     struct request_name name = {request->client, EXCHANGE_SINGLE, request->sequence};
+    /* a ping */
     if (request->sequence == 0) {
-        reply_at_once(service, &name, PERCUSS_OK, "");
+        deliver_at_once(shared, &name, PERCUSS_OK, "");
         return;
     }
-    if (!admit(service, &name, question_digest_single(request), arrival))
+    /* what was asked before */
+    if (!admit(shared, &name, question_digest_single(request), arrival))
         return;
-    bool sole = is_sole(service, request->client, arrival);
-    bool here = alone && sole && service->settings->inline_solves && is_cheap(request) &&
-                !is_durable(service, request) && !atomic_load(&service->draining) &&
-                queue_length(service->lanes[LANE_SHORT]) == 0;
-    /* what does not end soon the workers solve from its beginning: the same bits */
-    if (!here || !answer_here(service, &name, request, arrival))
-        enqueue_requests(service, &name, request, 1, arrival);
+    /* what does not end soon here the workers solve from its beginning: the same bits */
+    bool sole = is_sole(dispatch, request->client, arrival);
+    if (alone && sole && is_for_here(shared, request) &&
+        answer_here(dispatch, &name, request, arrival))
+        return;
+    if (is_open(shared, &name))
+        enqueue(shared, &name, impact_job_create(shared, &name, request, 1, arrival));
 }
 
 static void receive_batch(void *context, const percuss_v1_BatchRequest *batch)
 {
-    struct service *service = context;
+    struct shared *shared = ((struct dispatch *)context)->shared;
     double arrival = clock_now();
     struct request_name name = {batch->client, EXCHANGE_BATCH, batch->sequence};
-    if (batch->sequence == 0)
-        reply_at_once(service, &name, PERCUSS_BAD_REQUEST, "sequence: 0: must be > 0 for a batch");
-    else if (batch->requests._length == 0)
-        reply_at_once(service, &name, PERCUSS_BAD_REQUEST,
-                      "requests: none given: must be 1 to 256");
-    else if (admit(service, &name, question_digest_batch(batch), arrival))
-        enqueue_requests(service, &name, batch->requests._buffer, batch->requests._length, arrival);
+    const char *problem = batch->sequence == 0           ? "sequence: 0: must be > 0 for a batch"
+                          : batch->requests._length == 0 ? "requests: none given: must be 1 to 256"
+                                                         : NULL;
+    if (problem)
+        deliver_at_once(shared, &name, PERCUSS_BAD_REQUEST, problem);
+    else if (admit(shared, &name, question_digest_batch(batch), arrival) && is_open(shared, &name))
+        enqueue(shared, &name,
+                impact_job_create(shared, &name, batch->requests._buffer, batch->requests._length,
+                                  arrival));
 }
 
 static void receive_ensemble(void *context, const percuss_v1_EnsembleRequest *request)
 {
-    struct service *service = context;
+    struct shared *shared = ((struct dispatch *)context)->shared;
     double arrival = clock_now();
     struct request_name name = {request->client, EXCHANGE_ENSEMBLE, request->sequence};
-    if (request->cancel) {
-        ensembles_cancel(&service->ensembles, request->client, request->sequence);
-        return;
-    }
-    if (request->sequence == 0) {
-        reply_at_once(service, &name, PERCUSS_BAD_REQUEST,
-                      "sequence: 0: must be > 0 for an ensemble");
-        return;
-    }
-    if (!admit(service, &name, question_digest_ensemble(request), arrival))
-        return;
-    bool draining = atomic_load(&service->draining);
-    enqueue(service, &name, draining ? NULL : job_create_ensemble(request), arrival);
+    if (request->cancel)
+        ensembles_cancel(&shared->ensembles, request->client, request->sequence);
+    else if (request->sequence == 0)
+        deliver_at_once(shared, &name, PERCUSS_BAD_REQUEST,
+                        "sequence: 0: must be > 0 for an ensemble");
+    else if (admit(shared, &name, question_digest_ensemble(request), arrival) &&
+             is_open(shared, &name))
+        enqueue(shared, &name, ensemble_job_create(shared, &name, request, arrival));
 }
 
 /* In its turn among the requests; a client that sees no effect asks again. */
 static void receive_clear(void *context, const char *specimen)
 {
-    static const percuss_v1_Request nothing;
-    struct service *service = context;
-    if (!specimen[0] || atomic_load(&service->draining))
+    struct shared *shared = ((struct dispatch *)context)->shared;
+    if (!specimen[0] || atomic_load(&shared->draining))
         return;
-    struct job *job = job_create(EXCHANGE_SINGLE, &nothing, 1);
-    if (!job)
+    struct job *job = clear_job_create(shared, specimen);
+    if (job && queue_put(shared->lanes[LANE_SPECIMENS], job))
         return;
-    snprintf(job->clears, sizeof job->clears, "%s", specimen);
-    job->snapshot = snapshots_hold(&service->snapshots);
-    if (!queue_put(service->lanes[LANE_SPECIMENS], job)) {
-        snapshots_release(&service->snapshots, job->snapshot);
-        job_free(job);
-    }
+    log_line(LEVEL_WARNING, "specimen %s: not cleared: %s", specimen,
+             job ? "too many requests are waiting" : "out of memory");
+    if (job)
+        job->kind->release(job);
 }
 
 static void note_presence(void *context, const uint8_t client[16], bool present)
 {
-    struct service *service = context;
+    struct shared *shared = ((struct dispatch *)context)->shared;
     char name[WIRE_PARTITION_SIZE];
     wire_partition_name(client, name);
     log_line(LEVEL_DEBUG, "client %s: a reader of replies has %s", name, present ? "come" : "gone");
-    reply_store_set_present(service->replies, client, present, clock_now());
+    reply_store_set_present(shared->replies, client, present, clock_now());
 }
 
-struct endpoint_handler dispatch_handler(struct service *service)
+struct endpoint_handler dispatch_handler(struct dispatch *dispatch)
 {
     return (struct endpoint_handler){
-        .context = service,
+        .context = dispatch,
         .single = receive_single,
         .batch = receive_batch,
         .ensemble = receive_ensemble,

@@ -6,9 +6,15 @@
 #ifndef PERCUSS_DAEMON_DISPATCH_H
 #define PERCUSS_DAEMON_DISPATCH_H
 
-#include "daemon/service.h"
+#include "daemon/shared.h"
 
-/* The callbacks; their context is the service. */
-struct endpoint_handler dispatch_handler(struct service *service);
+/* What the reading thread keeps for itself. */
+struct dispatch;
+
+struct dispatch *dispatch_create(struct shared *shared); /* NULL: out of memory */
+void dispatch_free(struct dispatch *dispatch);           /* NULL is allowed */
+
+/* The callbacks for endpoint_run. */
+struct endpoint_handler dispatch_handler(struct dispatch *dispatch);
 
 #endif

@@ -1,16 +1,17 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* One ensemble answered: decoded, its samples solved by several threads with progress on the wire,
- * and reported. */
+/* An ensemble that a client asks for: decoded, its samples solved by several threads with progress
+ * on the wire, and reported. It ends early, with the samples solved so far, when it is cancelled or
+ * its deadline passes; without a reply when its client is gone. */
 #ifndef PERCUSS_DAEMON_ENSEMBLE_JOB_H
 #define PERCUSS_DAEMON_ENSEMBLE_JOB_H
 
-#include "daemon/service.h"
+#include "daemon/client_job.h"
 
-/* The reply, whatever it says. It ends early, with the samples solved so far, when it is cancelled
- * or its deadline passes; without a reply (NULL, the job is abandoned then) when its client is
- * gone. NULL otherwise: out of memory. */
-struct answer *ensemble_respond(struct service *service, struct job *job);
+/* A job for a copy of the request, among shared->ensembles until it is released. NULL: out of
+ * memory. */
+struct client_job *ensemble_job_create(struct shared *shared, const struct request_name *name,
+                                       const percuss_v1_EnsembleRequest *request, double arrival);
 
 #endif

@@ -3,8 +3,6 @@
 
 #include "daemon/ensembles.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 void ensembles_create(struct ensembles *ensembles)
@@ -18,71 +16,51 @@ void ensembles_release(struct ensembles *ensembles)
     pthread_mutex_destroy(&ensembles->lock);
 }
 
-void ensembles_enter(struct ensembles *ensembles, struct job *job)
+void ensembles_enter(struct ensembles *ensembles, struct ensemble_entry *entry)
 {
     pthread_mutex_lock(&ensembles->lock);
-    LIST_INSERT_HEAD(&ensembles->all, job, ensembles);
+    LIST_INSERT_HEAD(&ensembles->all, entry, all);
     pthread_mutex_unlock(&ensembles->lock);
 }
 
-void ensembles_leave(struct ensembles *ensembles, struct job *job)
+void ensembles_leave(struct ensembles *ensembles, struct ensemble_entry *entry)
 {
     pthread_mutex_lock(&ensembles->lock);
-    LIST_REMOVE(job, ensembles);
+    LIST_REMOVE(entry, all);
     pthread_mutex_unlock(&ensembles->lock);
 }
 
 void ensembles_cancel(struct ensembles *ensembles, const uint8_t client[16], uint64_t sequence)
 {
-    struct job *job;
+    struct ensemble_entry *entry;
     pthread_mutex_lock(&ensembles->lock);
-    LIST_FOREACH(job, &ensembles->all, ensembles)
+    LIST_FOREACH(entry, &ensembles->all, all)
     {
-        if (job->sequence == sequence && memcmp(job->client, client, sizeof job->client) == 0)
-            atomic_store(&job->cancelled, true);
-    }
-    pthread_mutex_unlock(&ensembles->lock);
-}
-
-void ensembles_tell_waiting(struct ensembles *ensembles, const struct job *running,
-                            void (*tell)(void *context, const struct job *waiting), void *context)
-{
-    struct job *job;
-    pthread_mutex_lock(&ensembles->lock);
-    LIST_FOREACH(job, &ensembles->all, ensembles)
-    {
-        if (job != running)
-            tell(context, job);
+        if (entry->sequence == sequence && memcmp(entry->client, client, 16) == 0)
+            atomic_store(&entry->cancelled, true);
     }
     pthread_mutex_unlock(&ensembles->lock);
 }
 
 void ensembles_cancel_all(struct ensembles *ensembles)
 {
-    struct job *job;
+    struct ensemble_entry *entry;
     pthread_mutex_lock(&ensembles->lock);
-    LIST_FOREACH(job, &ensembles->all, ensembles)
-    atomic_store(&job->cancelled, true);
+    LIST_FOREACH(entry, &ensembles->all, all)
+    atomic_store(&entry->cancelled, true);
     pthread_mutex_unlock(&ensembles->lock);
 }
 
-void ensembles_note(struct ensembles *ensembles, uint64_t done, uint64_t samples)
+void ensembles_visit_waiting(struct ensembles *ensembles, const struct ensemble_entry *running,
+                             void (*visit)(void *context, const struct ensemble_entry *waiting),
+                             void *context)
 {
+    struct ensemble_entry *entry;
     pthread_mutex_lock(&ensembles->lock);
-    ensembles->done = done;
-    ensembles->samples = samples;
-    pthread_mutex_unlock(&ensembles->lock);
-}
-
-void ensembles_describe(struct ensembles *ensembles, char text[256], double *progress)
-{
-    pthread_mutex_lock(&ensembles->lock);
-    *progress = NAN;
-    text[0] = '\0';
-    if (ensembles->samples > 0) {
-        *progress = (double)ensembles->done / (double)ensembles->samples;
-        snprintf(text, 256, "ensemble: %llu of %llu samples", (unsigned long long)ensembles->done,
-                 (unsigned long long)ensembles->samples);
+    LIST_FOREACH(entry, &ensembles->all, all)
+    {
+        if (entry != running)
+            visit(context, entry);
     }
     pthread_mutex_unlock(&ensembles->lock);
 }

@@ -3,46 +3,19 @@
 
 #include "daemon/job.h"
 
-#include <stdlib.h>
-
-#include "endpoint/question.h"
-
-struct job *job_create(enum exchange exchange, const percuss_v1_Request *requests, size_t count)
+void job_init(struct job *job, const struct job_kind *kind, size_t items)
 {
-    struct job *job = calloc(1, sizeof *job);
-    if (!job)
-        return NULL;
-    job->exchange = exchange;
-    job->count = count;
-    atomic_init(&job->left, count);
-    job->requests = question_copy(requests, count);
-    job->answers = calloc(count, sizeof(struct answer *));
-    if (job->requests && job->answers)
-        return job;
-    job_free(job);
-    return NULL;
+    job->kind = kind;
+    job->items = items;
+    job->next = 0;
+    atomic_init(&job->left, items);
 }
 
-struct job *job_create_ensemble(const percuss_v1_EnsembleRequest *request)
+void job_work(struct job *job, size_t item, struct responder *responder)
 {
-    struct job *job = job_create(EXCHANGE_ENSEMBLE, &request->scene, 1);
-    if (!job)
-        return NULL;
-    job->ensemble = question_copy_ensemble(request);
-    if (!job->ensemble) {
-        job_free(job);
-        return NULL;
-    }
-    job->ensemble->scene = job->requests[0];
-    return job;
-}
-
-void job_free(struct job *job)
-{
-    for (size_t i = 0; job->answers && i < job->count; i++)
-        answer_release(job->answers[i]);
-    free(job->answers);
-    free(job->requests);
-    free(job->ensemble);
-    free(job);
+    job->kind->run(job, item, responder);
+    if (atomic_fetch_sub(&job->left, 1) > 1)
+        return;
+    job->kind->report(job);
+    job->kind->release(job);
 }

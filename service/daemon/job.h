@@ -1,43 +1,37 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A request, or a batch of them, that waits for workers. */
+/* Work in items that a pool of workers runs, whatever it is about. */
 #ifndef PERCUSS_DAEMON_JOB_H
 #define PERCUSS_DAEMON_JOB_H
 
 #include <stdatomic.h>
-#include <stdbool.h>
-#include <sys/queue.h>
+#include <stddef.h>
 
-#include "daemon/snapshot.h"
-#include "endpoint/answer.h"
+struct job;
+struct responder;
 
-struct job {
-    enum exchange exchange;
-    uint8_t client[16];
-    uint64_t sequence;
-    double arrival; /* monotonic, s */
-    struct snapshot *snapshot;
-    percuss_v1_Request *requests; /* copies; one, or the members of a batch */
-    size_t count;
-    size_t next;             /* first request no worker has taken; the queue's */
-    atomic_size_t left;      /* to be answered; whoever answers the last one sends the reply */
-    struct answer **answers; /* of the requests */
-    atomic_bool abandoned;   /* nobody waits for the reply any more */
-    percuss_v1_EnsembleRequest *ensemble; /* a copy whose scene is requests[0]; NULL: none */
-    atomic_bool cancelled;                /* its client wants no more samples */
-    LIST_ENTRY(job) ensembles;
-    char clears[PERCUSS_ID_SIZE]; /* no request: a specimen to be forgotten; empty: a request */
+/* What jobs of a kind do. */
+struct job_kind {
+    /* Does one item. Several threads may do several items at once, each with its own responder. */
+    void (*run)(struct job *job, size_t item, struct responder *responder);
+    /* All items are done: tells whoever waits, if anybody does. */
+    void (*report)(struct job *job);
+    /* Frees the job, whether it has run or not. */
+    void (*release)(struct job *job);
 };
 
-/* A job for copies of `count` >= 1 requests; client, sequence, arrival and snapshot are the
- * caller's to set. NULL: out of memory. */
-struct job *job_create(enum exchange exchange, const percuss_v1_Request *requests, size_t count);
+/* The first member of every job. */
+struct job {
+    const struct job_kind *kind;
+    size_t items;       /* >= 1 */
+    size_t next;        /* first item no worker has taken: the queue's, under its lock */
+    atomic_size_t left; /* items that are not done */
+};
 
-/* A job for a copy of an ensemble, likewise. */
-struct job *job_create_ensemble(const percuss_v1_EnsembleRequest *request);
+void job_init(struct job *job, const struct job_kind *kind, size_t items);
 
-/* Releases all but the snapshot. */
-void job_free(struct job *job);
+/* Does an item; whoever does the last one reports the job and releases it. */
+void job_work(struct job *job, size_t item, struct responder *responder);
 
 #endif

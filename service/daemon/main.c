@@ -114,8 +114,6 @@ int main(int argc, char **argv)
         log_line(LEVEL_ERROR, "%s", fault.text);
         return EXIT_FAILURE;
     }
-    log_line(LEVEL_INFO, "ready: domain %u, %zu bodies, catalogue revision %s", settings.domain,
-             service->snapshots.current->set->count, service->snapshots.current->set->revision);
     serve(service, &signals);
     if (!drain(service, &signals, settings.drain_seconds)) {
         /* a thread still works, so nothing is taken apart */

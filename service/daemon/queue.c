@@ -11,7 +11,7 @@ struct queue {
     pthread_mutex_t lock;
     pthread_cond_t filled, drained;
     size_t capacity, first, length;
-    size_t running; /* requests handed out and not yet done */
+    size_t running; /* items handed out and not yet done */
     bool closed;
     struct job *jobs[]; /* a ring */
 };
@@ -62,7 +62,7 @@ bool queue_put(struct queue *queue, struct job *job)
     bool accepted = !queue->closed && queue->length < queue->capacity;
     if (accepted) {
         push(queue, job);
-        if (job->count > 1)
+        if (job->items > 1)
             pthread_cond_broadcast(&queue->filled);
         else
             pthread_cond_signal(&queue->filled);
@@ -71,7 +71,7 @@ bool queue_put(struct queue *queue, struct job *job)
     return accepted;
 }
 
-struct job *queue_take(struct queue *queue, size_t *index)
+struct job *queue_take(struct queue *queue, size_t *item)
 {
     struct job *job = NULL;
     pthread_mutex_lock(&queue->lock);
@@ -79,9 +79,9 @@ struct job *queue_take(struct queue *queue, size_t *index)
         pthread_cond_wait(&queue->filled, &queue->lock);
     if (queue->length > 0) {
         job = pop(queue);
-        *index = job->next++;
-        /* the rest of a batch goes to the end: others need not wait for all of it */
-        if (job->next < job->count)
+        *item = job->next++;
+        /* the other items go to the end: others need not wait for all of it */
+        if (job->next < job->items)
             push(queue, job);
         queue->running++;
     }

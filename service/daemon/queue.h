@@ -17,10 +17,10 @@ void queue_free(struct queue *queue);        /* must be empty */
 /* False: full or closed, and the job stays the caller's. */
 bool queue_put(struct queue *queue, struct job *job);
 
-/* Waits for a request: job->requests[*index] is the caller's to answer, and then to be reported by
- * queue_done. The members of a batch are handed out one by one, taking turns with other jobs.
- * NULL: the queue is closed and empty. */
-struct job *queue_take(struct queue *queue, size_t *index);
+/* Waits for an item of a job, the caller's to do, and then to be reported by queue_done. The items
+ * of a job are handed out one by one, taking turns with other jobs. NULL: the queue is closed and
+ * empty. */
+struct job *queue_take(struct queue *queue, size_t *item);
 void queue_done(struct queue *queue);
 
 /* Takes no more jobs. */

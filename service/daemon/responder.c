@@ -13,7 +13,7 @@
 #include "endpoint/decode.h"
 #include "endpoint/encode.h"
 
-struct responder *responder_create(struct table_cache *cache, bool makes)
+struct responder *responder_create(struct shared *shared, bool makes_tables)
 {
     struct responder *responder = calloc(1, sizeof *responder);
     if (!responder)
@@ -23,7 +23,8 @@ struct responder *responder_create(struct table_cache *cache, bool makes)
         free(responder);
         return NULL;
     }
-    table_maker_init(&responder->maker, cache, makes);
+    responder->tokens = shared->tokens;
+    table_maker_init(&responder->maker, shared, makes_tables);
     return responder;
 }
 
@@ -67,7 +68,7 @@ static struct token_subject subject_of(const struct question *question, size_t i
                  (unsigned long long)digest.first, (unsigned long long)digest.second);
     else
         snprintf(name->text, sizeof name->text, "%s", body->id);
-    return (struct token_subject){question->set->revision, name->text};
+    return (struct token_subject){question->snapshot->set->revision, name->text};
 }
 
 /* Whether a question is to be answered, and if not, what it is refused with. */
@@ -81,7 +82,7 @@ static bool still_wanted(struct inquiry *inquiry, const char *when)
 {
     const struct question *question = inquiry->question;
     inquiry->status = check_deadline(question, when, &inquiry->fault);
-    if (!inquiry->status && question->still_wanted)
+    if (!inquiry->status)
         inquiry->status = question->still_wanted(question->context, &inquiry->fault);
     return inquiry->status == PERCUSS_OK;
 }
@@ -112,9 +113,8 @@ static enum percuss_status hold_specimen(const struct question *question, size_t
     return PERCUSS_OK;
 }
 
-static enum percuss_status hold_state(struct responder *responder, struct token_store *tokens,
-                                      const struct question *question, size_t index,
-                                      struct fault *fault)
+static enum percuss_status hold_state(struct responder *responder, const struct question *question,
+                                      size_t index, struct fault *fault)
 {
     const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[index];
     const char *token = wire->state;
@@ -122,31 +122,30 @@ static enum percuss_status hold_state(struct responder *responder, struct token_
     if (wire->specimen[0])
         return hold_specimen(question, index, body, fault);
     /* an unknown body is the solver's to refuse */
-    if (!*token || !body_set_find(question->set, body->id))
+    if (!*token || !body_set_find(question->snapshot->set, body->id))
         return PERCUSS_OK;
     struct subject_name name;
     struct token_subject subject = subject_of(question, index, &name);
     struct fault reason;
-    body->state = token_store_hold(tokens, token, &subject, clock_now(), &reason);
+    body->state = token_store_hold(responder->tokens, token, &subject, clock_now(), &reason);
     if (body->state)
         return PERCUSS_OK;
     return fault_set(fault, PERCUSS_UNKNOWN_STATE, "bodies[%zu].state: %.500s", index, reason.text);
 }
 
-static void release_states(struct responder *responder, struct token_store *tokens,
-                           const struct question *question)
+static void release_states(struct responder *responder, const struct question *question)
 {
     for (size_t i = 0; i < responder->request.body_count; i++) {
         bool is_token = question->request->bodies._buffer[i].state[0] != '\0';
         if (is_token && responder->request.bodies[i].state)
-            token_store_release(tokens, responder->request.bodies[i].state);
+            token_store_release(responder->tokens, responder->request.bodies[i].state);
         responder->request.bodies[i].state = NULL;
     }
 }
 
 /* Fills responder->request; after a failure it holds no states. */
-static enum percuss_status prepare(struct responder *responder, struct token_store *tokens,
-                                   const struct question *question, struct fault *fault)
+static enum percuss_status prepare(struct responder *responder, const struct question *question,
+                                   struct fault *fault)
 {
     enum percuss_status status = decode_request(question->request, &responder->request, fault);
     if (!status && question->in_batch && responder->request.options.trace)
@@ -155,48 +154,40 @@ static enum percuss_status prepare(struct responder *responder, struct token_sto
     if (status)
         return status;
     for (size_t i = 0; !status && i < responder->request.body_count; i++)
-        status = hold_state(responder, tokens, question, i, fault);
+        status = hold_state(responder, question, i, fault);
     if (status)
-        release_states(responder, tokens, question);
+        release_states(responder, question);
     return status;
 }
 
-static void name_states(struct responder *responder, struct token_store *tokens,
-                        const struct question *question)
+static void name_states(struct responder *responder, const struct question *question)
 {
     double now = clock_now();
     for (size_t i = 0; i < responder->result.body_count; i++) {
         const struct solve_body_result *body = &responder->result.bodies[i];
         struct subject_name name;
         struct token_subject subject = subject_of(question, i, &name);
-        responder->tokens[i][0] = '\0';
+        responder->states_after[i][0] = '\0';
         if (body->state_after)
-            token_store_put(tokens, &subject, body->state_after, now, responder->tokens[i]);
+            token_store_put(responder->tokens, &subject, body->state_after, now,
+                            responder->states_after[i]);
     }
 }
 
-/* Who leaves the choice takes the tables that are there. */
-static void use_tables(struct responder *responder, const struct question *question)
-{
-    bool insists = responder->request.options.contact_model == PERCUSS_CONTACT_TABLE;
-    const struct contact_table_source *made = table_maker_begin(
-        &responder->maker, question->request, question->envelope.client, question->arrival);
-    solve_workspace_set_tables(responder->workspace,
-                               insists ? made : table_store_source(responder->maker.cache->loaded));
-}
-
 /* Solves responder->request and makes the reply. */
-static struct answer *compute(struct responder *responder, struct token_store *tokens,
-                              const struct question *question)
+static struct answer *compute(struct responder *responder, const struct question *question)
 {
     const struct envelope *envelope = &question->envelope;
     struct solve_result *result = &responder->result;
     struct inquiry inquiry = {.question = question};
     if (!still_wanted(&inquiry, "before the solve began"))
         return refuse(&inquiry);
-    use_tables(responder, question);
+    solve_workspace_set_tables(responder->workspace,
+                               table_maker_begin(&responder->maker, question->snapshot->tables,
+                                                 question->request, envelope->client,
+                                                 question->arrival));
     solve_workspace_watch(responder->workspace, (struct watch){goes_on, &inquiry});
-    solve(responder->workspace, question->set, &responder->request, result);
+    solve(responder->workspace, question->snapshot->set, &responder->request, result);
     solve_workspace_watch(responder->workspace, (struct watch){0});
     if (responder->maker.status)
         return encode_refusal(envelope, responder->maker.status, responder->maker.fault.text);
@@ -209,23 +200,22 @@ static struct answer *compute(struct responder *responder, struct token_store *t
         return refuse(&inquiry);
     if (!encode_status_has_result(result->status))
         return encode_refusal(envelope, result->status, result->fault.text);
-    name_states(responder, tokens, question);
-    const char(*names)[PERCUSS_ID_SIZE] = (const char(*)[PERCUSS_ID_SIZE])responder->tokens;
+    name_states(responder, question);
+    const char(*names)[PERCUSS_ID_SIZE] = (const char(*)[PERCUSS_ID_SIZE])responder->states_after;
     if (question->in_batch)
         return batch_encode_member(envelope, result, names);
     return encode_result(envelope, result, names, PERCUSS_MAX_SUB_IMPACTS);
 }
 
-struct answer *responder_answer(struct responder *responder, struct token_store *tokens,
-                                const struct question *question)
+struct answer *responder_answer(struct responder *responder, const struct question *question)
 {
     struct fault fault;
     double start = clock_now();
-    enum percuss_status status = prepare(responder, tokens, question, &fault);
+    enum percuss_status status = prepare(responder, question, &fault);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
-    struct answer *answer = compute(responder, tokens, question);
-    release_states(responder, tokens, question);
+    struct answer *answer = compute(responder, question);
+    release_states(responder, question);
     if (answer) {
         answer->reply->timing.queue = start - question->arrival;
         answer->reply->timing.solve = clock_now() - start;

@@ -7,34 +7,34 @@
 
 #include <stdbool.h>
 
-#include "daemon/table_cache.h"
+#include "daemon/table_maker.h"
 #include "endpoint/answer.h"
-#include "endpoint/token_store.h"
 #include "solve/solve.h"
 
 /* What one thread needs to answer requests. */
 struct responder {
+    struct token_store *tokens;
     struct solve_workspace *workspace;
     struct table_maker maker; /* of contact tables that requests insist on */
     struct solve_request request;
     struct solve_result result;
-    char tokens[PERCUSS_MAX_BODIES][PERCUSS_ID_SIZE]; /* of the states afterwards */
+    char states_after[PERCUSS_MAX_BODIES][PERCUSS_ID_SIZE]; /* their tokens */
 };
 
-/* Contact tables come from `cache`, borrowed; with `makes` missing ones are computed when asked
- * for, which takes seconds to minutes. NULL: out of memory. */
-struct responder *responder_create(struct table_cache *cache, bool makes);
-void responder_free(struct responder *responder);
+/* With `makes_tables` contact tables that are missing are computed when a request insists on them,
+ * which takes seconds to minutes. NULL: out of memory. */
+struct responder *responder_create(struct shared *shared, bool makes_tables);
+void responder_free(struct responder *responder); /* NULL is allowed */
 
 /* A request with where it came from. */
 struct question {
     const percuss_v1_Request *request;
-    const struct body_set *set; /* the catalogue it is answered from */
-    struct envelope envelope;   /* of the reply */
-    double arrival;             /* monotonic, s */
+    const struct snapshot *snapshot; /* it is answered from */
+    struct envelope envelope;        /* of the reply */
+    double arrival;                  /* monotonic, s */
     bool in_batch;
     /* OK while somebody waits for the answer, otherwise what to refuse it with; asked about once a
-     * millisecond of the solve. NULL: always */
+     * millisecond of the solve */
     enum percuss_status (*still_wanted)(void *context, struct fault *fault);
     void *context;                             /* of that */
     const struct body_state *const *specimens; /* by body; NULL: specimens are refused */
@@ -43,7 +43,6 @@ struct question {
 /* The reply, whatever it says; it differs with the thread, the load and the time in its timing
  * only, and where a deadline passed or nobody waits any more: then it is not to be kept
  * (answer.passing). NULL: out of memory. */
-struct answer *responder_answer(struct responder *responder, struct token_store *tokens,
-                                const struct question *question);
+struct answer *responder_answer(struct responder *responder, const struct question *question);
 
 #endif

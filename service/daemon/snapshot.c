@@ -7,27 +7,29 @@
 
 #include "catalogue/catalogue.h"
 
-static enum percuss_status snapshot_load(const char *path, struct snapshot **snapshot,
-                                         struct fault *fault)
+static enum percuss_status snapshot_load(const char *path, struct table_cache *tables,
+                                         struct snapshot **snapshot, struct fault *fault)
 {
-    *snapshot = calloc(1, sizeof **snapshot);
-    if (!*snapshot)
+    struct snapshot *loaded = calloc(1, sizeof *loaded);
+    *snapshot = NULL;
+    if (!loaded)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    (*snapshot)->holders = 1;
-    enum percuss_status status = catalogue_load(path, &(*snapshot)->set, fault);
+    enum percuss_status status = catalogue_load(path, &loaded->set, fault);
     if (status) {
-        free(*snapshot);
-        *snapshot = NULL;
+        free(loaded);
+        return status;
     }
-    return status;
+    loaded->tables = tables;
+    loaded->holders = 1;
+    *snapshot = loaded;
+    return PERCUSS_OK;
 }
 
 enum percuss_status snapshots_open(struct snapshots *snapshots, const char *path,
-                                   struct fault *fault)
+                                   struct table_cache *tables, struct fault *fault)
 {
-    *snapshots = (struct snapshots){0};
     pthread_mutex_init(&snapshots->lock, NULL);
-    return snapshot_load(path, &snapshots->current, fault);
+    return snapshot_load(path, tables, &snapshots->current, fault);
 }
 
 void snapshots_close(struct snapshots *snapshots)
@@ -42,7 +44,7 @@ enum percuss_status snapshots_reload(struct snapshots *snapshots, const char *pa
 {
     struct snapshot *fresh;
     *before = NULL;
-    enum percuss_status status = snapshot_load(path, &fresh, fault);
+    enum percuss_status status = snapshot_load(path, snapshots->current->tables, &fresh, fault);
     if (status)
         return status;
     pthread_mutex_lock(&snapshots->lock);

@@ -1,34 +1,36 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Loaded catalogues. A reload makes a new snapshot; requests that are being answered keep theirs.
- */
+/* What requests are answered from: a loaded catalogue, and the contact tables. A reload makes a new
+ * snapshot; jobs that have begun keep theirs. */
 #ifndef PERCUSS_DAEMON_SNAPSHOT_H
 #define PERCUSS_DAEMON_SNAPSHOT_H
 
 #include <pthread.h>
 
 #include "base/fault.h"
+#include "daemon/table_cache.h"
 #include "model/body.h"
 
 struct snapshot {
     struct body_set *set;
-    unsigned holders;
+    struct table_cache *tables; /* borrowed: of all snapshots */
+    unsigned holders;           /* under the lock of the snapshots */
 };
 
 /* The snapshot in force. */
 struct snapshots {
     pthread_mutex_t lock;
-    struct snapshot *current;
+    struct snapshot *current; /* under the lock; NULL: none was read */
 };
 
-/* Reads the first snapshot. Its status is the catalogue's. */
+/* Reads the first catalogue. Its status is the catalogue's. */
 enum percuss_status snapshots_open(struct snapshots *snapshots, const char *path,
-                                   struct fault *fault);
+                                   struct table_cache *tables, struct fault *fault);
 void snapshots_close(struct snapshots *snapshots);
 
-/* Reads a new snapshot and puts it in force; *before, to be released by the caller, is the old one.
- * After a failure the old one stays and *before is NULL. */
+/* Reads the catalogue again and puts it in force; *before, to be released by the caller, is the
+ * snapshot until now. After a failure that one stays and *before is NULL. */
 enum percuss_status snapshots_reload(struct snapshots *snapshots, const char *path,
                                      struct snapshot **before, struct fault *fault);
 

@@ -96,7 +96,7 @@ static enum percuss_status load(struct specimen_lane *lane, const struct questio
 {
     for (uint32_t i = 0; i < question->request->bodies._length; i++) {
         const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[i];
-        const struct body *body = body_set_find(question->set, wire->id);
+        const struct body *body = body_set_find(question->snapshot->set, wire->id);
         struct fault reason;
         /* an unknown body is the solver's to refuse */
         if (!wire->specimen[0] || !body)
@@ -119,9 +119,9 @@ static size_t find_changes(const struct question *question, const struct respond
     for (uint32_t i = 0; i < question->request->bodies._length; i++) {
         const percuss_v1_BodyMotion *wire = &question->request->bodies._buffer[i];
         if (wire->specimen[0])
-            changes[count++] =
-                (struct specimen_change){wire->specimen, body_set_find(question->set, wire->id),
-                                         responder->result.bodies[i].state_after};
+            changes[count++] = (struct specimen_change){
+                wire->specimen, body_set_find(question->snapshot->set, wire->id),
+                responder->result.bodies[i].state_after};
     }
     return count;
 }
@@ -150,8 +150,7 @@ static enum percuss_status store(struct specimen_lane *lane, const struct questi
 }
 
 static struct answer *compute(struct specimen_lane *lane, struct responder *responder,
-                              struct token_store *tokens, const struct question *question,
-                              struct stored_reply *reply)
+                              const struct question *question, struct stored_reply *reply)
 {
     struct fault fault;
     enum percuss_status status = load(lane, question, &fault);
@@ -159,7 +158,7 @@ static struct answer *compute(struct specimen_lane *lane, struct responder *resp
         return encode_refusal(&question->envelope, status, fault.text);
     struct question posed = *question;
     posed.specimens = (const struct body_state *const *)lane->states;
-    struct answer *answer = responder_answer(responder, tokens, &posed);
+    struct answer *answer = responder_answer(responder, &posed);
     if (!answer || !encode_status_has_result(answer->reply->status) ||
         store(lane, question, responder, answer, reply) == PERCUSS_OK)
         return answer;
@@ -218,7 +217,7 @@ static struct answer *recall(const struct question *question, const struct store
 }
 
 struct answer *specimen_lane_respond(struct specimen_lane *lane, struct responder *responder,
-                                     struct token_store *tokens, const struct question *question)
+                                     const struct question *question)
 {
     struct digest content = question_digest_single(question->request);
     struct stored_reply reply = {.sequence = question->envelope.sequence,
@@ -233,8 +232,8 @@ struct answer *specimen_lane_respond(struct specimen_lane *lane, struct responde
                             : refuse_for_now(question, fault.text);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
-    struct answer *answer = kept.bytes ? recall(question, &kept, content)
-                                       : compute(lane, responder, tokens, question, &reply);
+    struct answer *answer =
+        kept.bytes ? recall(question, &kept, content) : compute(lane, responder, question, &reply);
     free(kept.bytes);
     release(lane);
     return answer;

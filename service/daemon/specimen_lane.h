@@ -23,7 +23,7 @@ void specimen_lane_announce(struct specimen_lane *lane, struct endpoint *endpoin
 /* The reply to a request that names specimens: the stored one if there is one of this client and
  * number. NULL: out of memory. */
 struct answer *specimen_lane_respond(struct specimen_lane *lane, struct responder *responder,
-                                     struct token_store *tokens, const struct question *question);
+                                     const struct question *question);
 
 /* Forgets a specimen. */
 void specimen_lane_clear(struct specimen_lane *lane, const char *specimen);

@@ -9,10 +9,10 @@
 #include "daemon/queue.h"
 #include "endpoint/clock.h"
 
-/* The queue looks at nothing of a job but how many requests it has. */
-static struct job job_of(size_t count)
+/* The queue looks at nothing of a job but how many items it has. */
+static struct job job_of(size_t items)
 {
-    return (struct job){.count = count};
+    return (struct job){.items = items};
 }
 
 /* The next request must be this one. */
@@ -164,7 +164,7 @@ static void threads_take_every_request_once(void **state)
         pthread_join(threads[i], NULL);
     for (size_t i = 0; i < JOBS; i++) {
         for (size_t j = 0; j < MOST_REQUESTS; j++)
-            assert_int_equal(atomic_load(&crowd.taken[i][j]), j < crowd.jobs[i].count);
+            assert_int_equal(atomic_load(&crowd.taken[i][j]), j < crowd.jobs[i].items);
     }
     queue_free(crowd.queue);
 }

@@ -1,0 +1,43 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/activity.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+void activity_create(struct activity *activity)
+{
+    pthread_mutex_init(&activity->lock, NULL);
+    activity_clear(activity);
+}
+
+void activity_release(struct activity *activity)
+{
+    pthread_mutex_destroy(&activity->lock);
+}
+
+void activity_set(struct activity *activity, double progress, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    pthread_mutex_lock(&activity->lock);
+    vsnprintf(activity->text, sizeof activity->text, format, arguments);
+    activity->progress = progress;
+    pthread_mutex_unlock(&activity->lock);
+    va_end(arguments);
+}
+
+void activity_clear(struct activity *activity)
+{
+    activity_set(activity, NAN, "%s", "");
+}
+
+void activity_read(struct activity *activity, char *text, size_t size, double *progress)
+{
+    pthread_mutex_lock(&activity->lock);
+    snprintf(text, size, "%s", activity->text);
+    *progress = activity->progress;
+    pthread_mutex_unlock(&activity->lock);
+}

@@ -1,0 +1,46 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/clear_job.h"
+
+#include <stdlib.h>
+
+#include "daemon/specimen_lane.h"
+#include "daemon/status.h"
+#include "endpoint/text.h"
+
+struct clear_job {
+    struct job job;
+    struct shared *shared;
+    char specimen[PERCUSS_ID_SIZE];
+};
+
+static void run(struct job *job, size_t item, struct responder *responder)
+{
+    const struct clear_job *clear = (const struct clear_job *)job;
+    (void)item, (void)responder;
+    specimen_lane_clear(clear->shared->specimens, clear->specimen);
+}
+
+static void report(struct job *job)
+{
+    status_announce(((const struct clear_job *)job)->shared);
+}
+
+static void release(struct job *job)
+{
+    free(job);
+}
+
+static const struct job_kind clear_kind = {run, report, release};
+
+struct job *clear_job_create(struct shared *shared, const char *specimen)
+{
+    struct clear_job *clear = calloc(1, sizeof *clear);
+    if (!clear)
+        return NULL;
+    clear->shared = shared;
+    COPY_TEXT(clear->specimen, specimen);
+    job_init(&clear->job, &clear_kind, 1);
+    return &clear->job;
+}

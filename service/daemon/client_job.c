@@ -1,0 +1,55 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/client_job.h"
+
+#include <string.h>
+
+#include "daemon/delivery.h"
+
+void client_job_begin(struct client_job *job, struct shared *shared,
+                      const struct request_name *name, double arrival)
+{
+    job->shared = shared;
+    memcpy(job->client, name->client, sizeof job->client);
+    job->name = (struct request_name){job->client, name->exchange, name->sequence};
+    job->arrival = arrival;
+    job->snapshot = snapshots_hold(&shared->snapshots);
+    atomic_init(&job->abandoned, false);
+}
+
+void client_job_end(struct client_job *job)
+{
+    snapshots_release(&job->shared->snapshots, job->snapshot);
+}
+
+struct envelope client_job_envelope(const struct client_job *job)
+{
+    return delivery_envelope(job->shared, &job->name, job->snapshot);
+}
+
+bool client_job_is_gone(struct client_job *job)
+{
+    bool gone = reply_store_is_gone(job->shared->replies, job->client);
+    if (gone)
+        atomic_store(&job->abandoned, true);
+    return gone;
+}
+
+enum percuss_status client_job_wanted(void *context, struct fault *fault)
+{
+    struct client_job *job = context;
+    if (atomic_load(&job->shared->ending))
+        return fault_set(fault, PERCUSS_BUSY, "%s", SHARED_SHUTTING_DOWN);
+    if (client_job_is_gone(job))
+        return fault_set(fault, PERCUSS_TIMEOUT, "%s", SHARED_CLIENT_GONE);
+    return PERCUSS_OK;
+}
+
+void client_job_deliver(struct client_job *job, struct answer *answer)
+{
+    if (atomic_load(&job->abandoned) && client_job_is_gone(job))
+        reply_store_forget(job->shared->replies, &job->name);
+    else
+        deliver(job->shared, &job->name, answer);
+}

@@ -1,0 +1,43 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Jobs that a client waits for: who asked what and when, and how he hears of it. */
+#ifndef PERCUSS_DAEMON_CLIENT_JOB_H
+#define PERCUSS_DAEMON_CLIENT_JOB_H
+
+#include <stdbool.h>
+
+#include "daemon/job.h"
+#include "daemon/shared.h"
+
+/* All but `abandoned` stays as it was begun. */
+struct client_job {
+    struct job job;
+    struct shared *shared;
+    enum lane lane; /* whose workers do it: set by its kind */
+    uint8_t client[16];
+    struct request_name name;  /* of that client */
+    double arrival;            /* monotonic, s */
+    struct snapshot *snapshot; /* it is answered from, held */
+    atomic_bool abandoned;     /* its client was found gone */
+};
+
+/* Begins a job on the present snapshot; `name` is copied. */
+void client_job_begin(struct client_job *job, struct shared *shared,
+                      const struct request_name *name, double arrival);
+void client_job_end(struct client_job *job);
+
+/* The head of its reply. */
+struct envelope client_job_envelope(const struct client_job *job);
+
+/* OK while it is to go on, otherwise what to refuse it with; the context is the job. */
+enum percuss_status client_job_wanted(void *context, struct fault *fault);
+
+/* Whether its client has gone by now, which is noted as abandoned. */
+bool client_job_is_gone(struct client_job *job);
+
+/* Delivers its reply (NULL: there was no memory for one), which stays the caller's; a client that
+ * has gone gets none, one that has come back is told. */
+void client_job_deliver(struct client_job *job, struct answer *answer);
+
+#endif

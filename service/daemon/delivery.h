@@ -1,0 +1,23 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Replies on their way: stored, counted and written. Any thread. */
+#ifndef PERCUSS_DAEMON_DELIVERY_H
+#define PERCUSS_DAEMON_DELIVERY_H
+
+#include "daemon/shared.h"
+
+/* The head of the reply to that request, answered from that snapshot, which must stay. */
+struct envelope delivery_envelope(const struct shared *shared, const struct request_name *name,
+                                  const struct snapshot *snapshot);
+
+/* Sends the answer to an admitted request, stores it and counts it; the caller keeps his reference.
+ * NULL: there was no memory for one, and the request is refused for that. */
+void deliver(struct shared *shared, const struct request_name *name, struct answer *answer);
+
+/* Sends a reply that is not stored: a refusal, after which the number may be used again, or, with
+ * PERCUSS_OK, the answer to a ping. */
+void deliver_at_once(struct shared *shared, const struct request_name *name,
+                     enum percuss_status status, const char *message);
+
+#endif

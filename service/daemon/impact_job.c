@@ -1,0 +1,140 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/impact_job.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "daemon/cost.h"
+#include "daemon/responder.h"
+#include "daemon/specimen_lane.h"
+#include "daemon/status.h"
+#include "endpoint/batch.h"
+#include "endpoint/question.h"
+
+/* Each request is an item. */
+struct impact_job {
+    struct client_job base;
+    percuss_v1_Request *requests; /* copies */
+    struct answer *answers[];     /* of the requests; NULL: not yet, or no memory for it */
+};
+
+static struct question question_of(struct impact_job *impact, size_t item)
+{
+    struct client_job *base = &impact->base;
+    struct question question = {
+        .request = &impact->requests[item],
+        .snapshot = base->snapshot,
+        .envelope = client_job_envelope(base),
+        .arrival = base->arrival,
+        .in_batch = base->name.exchange == EXCHANGE_BATCH,
+        .still_wanted = client_job_wanted,
+        .context = base,
+    };
+    question.envelope.sequence = impact->requests[item].sequence;
+    return question;
+}
+
+static void run_impact(struct job *job, size_t item, struct responder *responder)
+{
+    struct impact_job *impact = (struct impact_job *)job;
+    struct question question = question_of(impact, item);
+    impact->answers[item] = responder_answer(responder, &question);
+}
+
+static void run_on_specimens(struct job *job, size_t item, struct responder *responder)
+{
+    struct impact_job *impact = (struct impact_job *)job;
+    struct shared *shared = impact->base.shared;
+    struct question question = question_of(impact, item);
+    size_t before = specimen_lane_count(shared->specimens);
+    impact->answers[item] = specimen_lane_respond(shared->specimens, responder, &question);
+    /* who has seen the reply finds its specimen announced */
+    if (specimen_lane_count(shared->specimens) != before)
+        status_announce(shared);
+}
+
+static void report_impact(struct job *job)
+{
+    struct impact_job *impact = (struct impact_job *)job;
+    client_job_deliver(&impact->base, impact->answers[0]);
+}
+
+/* The replies as one answer, in the order of the requests; NULL: no memory. */
+static struct answer *gather(struct impact_job *impact)
+{
+    size_t count = impact->base.job.items;
+    struct envelope envelope = client_job_envelope(&impact->base);
+    for (size_t i = 0; i < count; i++) {
+        if (!impact->answers[i])
+            return NULL;
+    }
+    struct answer *answer = batch_answer(&envelope, impact->answers, count);
+    /* it has taken the references over */
+    if (answer)
+        memset(impact->answers, 0, count * sizeof *impact->answers);
+    return answer;
+}
+
+static void report_batch(struct job *job)
+{
+    struct impact_job *impact = (struct impact_job *)job;
+    struct answer *answer = gather(impact);
+    client_job_deliver(&impact->base, answer);
+    answer_release(answer);
+}
+
+static void release(struct job *job)
+{
+    struct impact_job *impact = (struct impact_job *)job;
+    for (size_t i = 0; i < job->items; i++)
+        answer_release(impact->answers[i]);
+    client_job_end(&impact->base);
+    free(impact->requests);
+    free(impact);
+}
+
+static const struct job_kind impact_kind = {run_impact, report_impact, release};
+static const struct job_kind batch_kind = {run_impact, report_batch, release};
+static const struct job_kind specimen_kind = {run_on_specimens, report_impact, release};
+
+bool impact_job_is_durable(const struct shared *shared, const percuss_v1_Request *request)
+{
+    return shared->specimens && specimen_lane_concerns(request);
+}
+
+/* A batch is as long as its longest member. */
+static enum lane lane_for(const struct client_job *job, const percuss_v1_Request *requests,
+                          size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (cost_is_long(&requests[i].options) ||
+            table_cache_lacks(job->snapshot->tables, job->snapshot->set, &requests[i]))
+            return LANE_LONG;
+    }
+    return LANE_SHORT;
+}
+
+struct client_job *impact_job_create(struct shared *shared, const struct request_name *name,
+                                     const percuss_v1_Request *requests, size_t count,
+                                     double arrival)
+{
+    struct impact_job *impact = calloc(1, sizeof *impact + count * sizeof *impact->answers);
+    if (!impact)
+        return NULL;
+    impact->requests = question_copy(requests, count);
+    if (!impact->requests) {
+        free(impact);
+        return NULL;
+    }
+    struct client_job *base = &impact->base;
+    client_job_begin(base, shared, name, arrival);
+    /* the specimens that a batch names are refused by any worker */
+    bool in_batch = name->exchange == EXCHANGE_BATCH;
+    bool durable = !in_batch && impact_job_is_durable(shared, requests);
+    base->lane = durable ? LANE_SPECIMENS : lane_for(base, requests, count);
+    const struct job_kind *single_kind = durable ? &specimen_kind : &impact_kind;
+    job_init(&base->job, in_batch ? &batch_kind : single_kind, count);
+    return base;
+}

@@ -1,0 +1,68 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/pool.h"
+
+#include <assert.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "daemon/responder.h"
+
+struct worker {
+    struct queue *queue;
+    struct responder *responder;
+    int nice;
+    pthread_t thread;
+};
+
+struct pool {
+    size_t most, count; /* of workers */
+    struct worker workers[];
+};
+
+struct pool *pool_create(size_t most)
+{
+    struct pool *pool = calloc(1, sizeof *pool + most * sizeof *pool->workers);
+    if (pool)
+        pool->most = most;
+    return pool;
+}
+
+static void *work(void *argument)
+{
+    const struct worker *worker = argument;
+    struct job *job;
+    size_t item;
+    if (worker->nice)
+        setpriority(PRIO_PROCESS, (id_t)gettid(), worker->nice);
+    while ((job = queue_take(worker->queue, &item))) {
+        job_work(job, item, worker->responder);
+        queue_done(worker->queue);
+    }
+    return NULL;
+}
+
+bool pool_add(struct pool *pool, struct queue *queue, struct responder *responder, int nice)
+{
+    assert(pool->count < pool->most);
+    struct worker *worker = &pool->workers[pool->count];
+    *worker = (struct worker){.queue = queue, .responder = responder, .nice = nice};
+    if (pthread_create(&worker->thread, NULL, work, worker) != 0) {
+        responder_free(responder);
+        return false;
+    }
+    pool->count++;
+    return true;
+}
+
+void pool_join(struct pool *pool)
+{
+    for (size_t i = 0; pool && i < pool->count; i++) {
+        pthread_join(pool->workers[i].thread, NULL);
+        responder_free(pool->workers[i].responder);
+    }
+    free(pool);
+}

@@ -1,0 +1,61 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/shared.h"
+
+#include "daemon/queue.h"
+#include "endpoint/clock.h"
+
+enum { REMEMBERED_CLIENTS = 4096 };
+
+static const double megabyte = 1048576.0;
+
+static bool create_stores(struct shared *shared)
+{
+    const struct settings *settings = shared->settings;
+    struct token_limits tokens = {
+        .count = settings->token_count,
+        .bytes = (size_t)(settings->token_megabytes * megabyte),
+        .seconds = 60.0 * settings->token_minutes,
+    };
+    struct reply_limits replies = {
+        .per_client = settings->replies_per_client,
+        .bytes = (size_t)(settings->reply_megabytes * megabyte),
+        .clients = REMEMBERED_CLIENTS,
+        .seconds = 60.0 * settings->session_minutes,
+    };
+    shared->tokens = token_store_create(&tokens);
+    shared->replies = reply_store_create(&replies);
+    bool good = shared->tokens && shared->replies;
+    for (int lane = 0; lane < LANE_COUNT; lane++) {
+        shared->lanes[lane] = queue_create(settings->queue_capacity);
+        good = good && shared->lanes[lane];
+    }
+    return table_cache_create(&shared->tables, settings->tables) && good;
+}
+
+bool shared_create(struct shared *shared, const struct settings *settings, struct fault *fault)
+{
+    shared->settings = settings;
+    shared->started = clock_now();
+    ensembles_create(&shared->ensembles);
+    activity_create(&shared->activity);
+    if (snapshots_open(&shared->snapshots, settings->catalogue, &shared->tables, fault))
+        return false;
+    if (create_stores(shared))
+        return true;
+    fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    return false;
+}
+
+void shared_release(struct shared *shared)
+{
+    for (int lane = 0; lane < LANE_COUNT; lane++)
+        queue_free(shared->lanes[lane]);
+    table_cache_release(&shared->tables);
+    reply_store_free(shared->replies);
+    token_store_free(shared->tokens);
+    snapshots_close(&shared->snapshots);
+    activity_release(&shared->activity);
+    ensembles_release(&shared->ensembles);
+}

@@ -1,0 +1,65 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What the threads of the daemon share: the reading thread, the workers, and the main thread, which
+ * makes it before the others start and takes it apart after they have ended. */
+#ifndef PERCUSS_DAEMON_SHARED_H
+#define PERCUSS_DAEMON_SHARED_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+
+#include "daemon/activity.h"
+#include "daemon/ensembles.h"
+#include "daemon/settings.h"
+#include "daemon/snapshot.h"
+#include "daemon/table_cache.h"
+#include "endpoint/endpoint.h"
+#include "endpoint/reply_store.h"
+#include "endpoint/token_store.h"
+
+struct queue;
+struct specimen_lane;
+
+/* What is solved within milliseconds does not wait behind what takes seconds. The long lane has one
+ * worker of low priority; that of specimens has one so that they see one impact after the other. */
+enum lane { LANE_SHORT, LANE_LONG, LANE_SPECIMENS, LANE_COUNT };
+
+struct shared {
+    /* never changed while the threads run */
+    const struct settings *settings;
+    double started; /* monotonic, s */
+
+    /* for any thread: each has a lock of its own */
+    struct snapshots snapshots;
+    struct token_store *tokens;
+    struct reply_store *replies;
+    struct table_cache tables;
+    struct ensembles ensembles; /* in the long lane */
+    struct activity activity;   /* of the long lane's worker */
+    struct queue *lanes[LANE_COUNT];
+
+    /* for the threads that their headers name */
+    struct endpoint *endpoint;
+    struct specimen_lane *specimens; /* NULL: no store */
+
+    /* the main thread sets them, any thread looks */
+    atomic_bool draining; /* new requests are refused */
+    atomic_bool ending;   /* what is being solved is to be given up */
+
+    /* any thread counts, the main thread looks */
+    atomic_ullong answered, refused; /* replies with and without results */
+    atomic_ullong undelivered;       /* replies their clients did not take */
+};
+
+/* What clients are told by more than one module. */
+#define SHARED_SHUTTING_DOWN "the server is shutting down: ask another one"
+#define SHARED_CLIENT_GONE   "the client had gone: ask again"
+
+/* Loads the catalogue and the tables into what is zeroed; the endpoint and the specimens are the
+ * caller's to open and to close. `settings` is borrowed. False with a fault; release it all the
+ * same. */
+bool shared_create(struct shared *shared, const struct settings *settings, struct fault *fault);
+void shared_release(struct shared *shared);
+
+#endif

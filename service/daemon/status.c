@@ -1,0 +1,43 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/status.h"
+
+#include <unistd.h>
+
+#include "daemon/queue.h"
+#include "daemon/specimen_lane.h"
+#include "endpoint/clock.h"
+#include "endpoint/text.h"
+
+static uint32_t waiting(const struct shared *shared)
+{
+    size_t length = 0;
+    for (int lane = 0; lane < LANE_COUNT; lane++)
+        length += queue_length(shared->lanes[lane]);
+    return (uint32_t)length;
+}
+
+void status_announce(struct shared *shared)
+{
+    struct snapshot *snapshot = snapshots_hold(&shared->snapshots);
+    percuss_v1_ServerStatus status = {
+        .process = (uint32_t)getpid(),
+        .workers = shared->settings->workers,
+        .bodies = (uint32_t)snapshot->set->count,
+        .queue_length = waiting(shared),
+        .queue_capacity = LANE_COUNT * shared->settings->queue_capacity,
+        .answered = atomic_load(&shared->answered),
+        .refused = atomic_load(&shared->refused),
+        .uptime = clock_now() - shared->started,
+        .specimens = shared->specimens ? (uint32_t)specimen_lane_count(shared->specimens) : 0,
+    };
+    activity_read(&shared->activity, status.activity, sizeof status.activity, &status.progress);
+    COPY_TEXT(status.version, PERCUSS_VERSION);
+    COPY_TEXT(status.state, atomic_load(&shared->draining) ? "draining" : "ready");
+    COPY_TEXT(status.catalogue_revision, snapshot->set->revision);
+    COPY_TEXT(status.catalogue, shared->settings->catalogue);
+    snapshots_release(&shared->snapshots, snapshot);
+    gethostname(status.host, sizeof status.host - 1);
+    endpoint_announce_status(shared->endpoint, &status);
+}

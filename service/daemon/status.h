@@ -1,0 +1,13 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What the server says of itself. */
+#ifndef PERCUSS_DAEMON_STATUS_H
+#define PERCUSS_DAEMON_STATUS_H
+
+#include "daemon/shared.h"
+
+/* Publishes the status. Any thread. */
+void status_announce(struct shared *shared);
+
+#endif

@@ -1,0 +1,131 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/table_maker.h"
+
+#include <time.h>
+
+#include "contact/law_closed_form.h"
+#include "endpoint/clock.h"
+#include "fe/indentation.h"
+#include "store/table_key.h"
+
+/* How deep tables made here go: fixed, so that the table does not depend on who asks first. */
+static const double covered_speed = 1.0;
+
+/* Asked by the computation; false stops it. */
+static bool go_on(void *context, double done)
+{
+    struct table_maker *maker = context;
+    double deadline = maker->request->options.deadline;
+    activity_set(&maker->shared->activity, done, "computing a contact table");
+    if (atomic_load(&maker->shared->draining))
+        maker->status = fault_set(&maker->fault, PERCUSS_BUSY, SHARED_SHUTTING_DOWN);
+    else if (maker->cancelled && atomic_load(maker->cancelled))
+        maker->status =
+            fault_set(&maker->fault, PERCUSS_TIMEOUT,
+                      "cancelled with %.0f %% of the contact table computed", 100.0 * done);
+    else if (reply_store_is_gone(maker->shared->replies, maker->client))
+        maker->status = fault_set(&maker->fault, PERCUSS_TIMEOUT, SHARED_CLIENT_GONE);
+    else if (deadline > 0.0 && clock_now() - maker->arrival > deadline)
+        maker->status = fault_set(
+            &maker->fault, PERCUSS_TIMEOUT,
+            "options.deadline: %g: had passed with %.0f %% of the contact table computed: "
+            "allow more time, or compute it ahead by percuss-tables",
+            deadline, 100.0 * done);
+    return maker->status == PERCUSS_OK;
+}
+
+static double thread_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static const struct contact_curves *make(struct table_maker *maker, const struct material *a,
+                                         const struct material *b)
+{
+    struct region_input input = table_input(a, b, covered_speed);
+    struct indentation_progress progress = {go_on, maker};
+    struct indentation_table table;
+    struct fault fault;
+    double start = thread_seconds();
+    enum percuss_status status = indentation_table_make(&input, &progress, &table, &fault);
+    activity_clear(&maker->shared->activity);
+    if (!status) {
+        status = table_cache_add(maker->cache, &table, thread_seconds() - start, &fault);
+        indentation_table_free(&table);
+    }
+    if (status && !maker->status)
+        maker->status = fault_set(&maker->fault, PERCUSS_INTERNAL,
+                                  "the contact table of %s on %s could not be computed: %.300s",
+                                  a->name, b->name, fault.text);
+    return status ? NULL : table_cache_find(maker->cache, a, b);
+}
+
+static const struct contact_curves *find_or_make(void *context, const struct contact_pair *pair)
+{
+    struct table_maker *maker = context;
+    const struct material *a = pair->a, *b = pair->b;
+    if (!table_store_is_circular(pair->curvature) || closed_form_softer(a, b) < 0)
+        return NULL;
+    const struct contact_curves *curves = table_cache_find(maker->cache, a, b);
+    if (curves || maker->status)
+        return curves;
+    if (maker->makes)
+        return make(maker, a, b);
+    /* the catalogue was reloaded while the request was on its way here */
+    maker->status =
+        fault_set(&maker->fault, PERCUSS_BUSY, "the contact table is not computed yet: ask again");
+    return NULL;
+}
+
+static const struct contact_curves *find_only(void *context, const struct contact_pair *pair)
+{
+    const struct table_maker *maker = context;
+    return table_store_is_circular(pair->curvature)
+               ? table_cache_find(maker->cache, pair->a, pair->b)
+               : NULL;
+}
+
+static bool overrides_material(const percuss_v1_Request *request)
+{
+    for (size_t b = 0; b < request->bodies._length; b++) {
+        const percuss_v1_BodyMotion *body = &request->bodies._buffer[b];
+        for (size_t i = 0; i < body->overrides._length; i++) {
+            unsigned parameter = body->overrides._buffer[i].parameter;
+            if (parameter == PERCUSS_PARAMETER_YOUNG || parameter == PERCUSS_PARAMETER_POISSON ||
+                parameter == PERCUSS_PARAMETER_YIELD || parameter == PERCUSS_PARAMETER_TANGENT)
+                return true;
+        }
+    }
+    return false;
+}
+
+void table_maker_init(struct table_maker *maker, struct shared *shared, bool makes)
+{
+    *maker = (struct table_maker){.source.context = maker, .shared = shared, .makes = makes};
+}
+
+const struct contact_table_source *table_maker_begin(struct table_maker *maker,
+                                                     struct table_cache *cache,
+                                                     const percuss_v1_Request *request,
+                                                     const uint8_t *client, double arrival)
+{
+    maker->cache = cache;
+    maker->request = request;
+    maker->arrival = arrival;
+    maker->client = client;
+    maker->cancelled = NULL;
+    maker->status = PERCUSS_OK;
+    maker->source.find = overrides_material(request) ? find_only : find_or_make;
+    return request->options.contact_model == PERCUSS_CONTACT_TABLE
+               ? &maker->source
+               : table_store_source(cache->loaded);
+}
+
+void table_maker_only_finds(struct table_maker *maker)
+{
+    maker->source.find = find_only;
+}

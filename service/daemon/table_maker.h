@@ -1,0 +1,40 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The contact tables for one request at a time: those that are there, and those that are computed
+ * because it insists on them. */
+#ifndef PERCUSS_DAEMON_TABLE_MAKER_H
+#define PERCUSS_DAEMON_TABLE_MAKER_H
+
+#include "daemon/shared.h"
+
+/* Of one thread, unless it only finds. */
+struct table_maker {
+    struct contact_table_source source;
+    struct shared *shared;
+    bool makes;                /* may take its time: the long lane */
+    struct table_cache *cache; /* of the request at hand, as all below */
+    const percuss_v1_Request *request;
+    double arrival;               /* of it, monotonic, s */
+    const uint8_t *client;        /* who asks */
+    const atomic_bool *cancelled; /* its client wants no answer any more; NULL: cannot say so */
+    enum percuss_status status;   /* why a table could not be had */
+    struct fault fault;
+};
+
+/* With `makes` missing tables are computed, which takes seconds to minutes. */
+void table_maker_init(struct table_maker *maker, struct shared *shared, bool makes);
+
+/* Begins with a request of a client (16 octets; a member of a batch need not name him): what
+ * answers it. Who leaves the choice of the contact model takes the tables that were there at the
+ * start; who insists on `table` has missing ones computed, but for materials that `overrides` of
+ * the request give: those are nobody else's. */
+const struct contact_table_source *table_maker_begin(struct table_maker *maker,
+                                                     struct table_cache *cache,
+                                                     const percuss_v1_Request *request,
+                                                     const uint8_t *client, double arrival);
+
+/* From now on the tables that are there are all: several threads may look them up. */
+void table_maker_only_finds(struct table_maker *maker);
+
+#endif
