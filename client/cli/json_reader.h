@@ -10,6 +10,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "json_fields.h"
+
 /* Where the reader is, for messages. */
 struct json_path {
     const struct json_path *parent; /* NULL: the outermost object */
@@ -19,25 +21,6 @@ struct json_path {
 
 struct json_fault {
     char text[512];
-};
-
-enum json_kind {
-    JSON_KIND_NUMBER, /* double */
-    JSON_KIND_VECTOR, /* `size` doubles */
-    JSON_KIND_TEXT,   /* char[size] */
-    JSON_KIND_INDEX,  /* uint32_t */
-    JSON_KIND_FLAG,   /* bool */
-    JSON_KIND_NAMED,  /* `size` doubles, an object's members by the names that `name_of` gives their
-                         indices; absent ones stay as they are */
-    JSON_KIND_CHOICE  /* unsigned, by the name that `name_of` gives its numbers below `size` */
-};
-
-struct json_member {
-    const char *name;
-    enum json_kind kind;
-    size_t offset; /* in the struct */
-    size_t size;
-    const char *(*name_of)(unsigned number);
 };
 
 /* Writes the path ("bodies[0].velocity") and the message; returns false. */

@@ -14,48 +14,20 @@ struct json_body {
     double overrides[PERCUSS_PARAMETER_COUNT]; /* NAN: not given */
 };
 
-#define BODY(member)    offsetof(struct json_body, motion.member)
-#define CONTACT(member) offsetof(struct percuss_contact, member)
-#define OPTION(member)  offsetof(struct percuss_options, member)
-
+#define JSON_STRUCT struct percuss_body_motion
 static const struct json_member body_members[] = {
-    {"id", JSON_KIND_TEXT, BODY(id), PERCUSS_ID_SIZE, NULL},
-    {"position", JSON_KIND_VECTOR, BODY(position), 3, NULL},
-    {"orientation", JSON_KIND_VECTOR, BODY(orientation), 4, NULL},
-    {"velocity", JSON_KIND_VECTOR, BODY(velocity), 3, NULL},
-    {"angular_velocity", JSON_KIND_VECTOR, BODY(angular_velocity), 3, NULL},
-    {"state", JSON_KIND_TEXT, BODY(state), PERCUSS_ID_SIZE, NULL},
-    {"elapsed", JSON_KIND_NUMBER, BODY(elapsed), 0, NULL},
-    {"specimen", JSON_KIND_TEXT, BODY(specimen), PERCUSS_ID_SIZE, NULL},
+    PERCUSS_BODY_FIELDS(JSON_MEMBER) /* at the beginning of a json_body */
     {"overrides", JSON_KIND_NAMED, offsetof(struct json_body, overrides), PERCUSS_PARAMETER_COUNT,
      percuss_parameter_name},
     {0},
 };
-
-static const struct json_member contact_members[] = {
-    {"a", JSON_KIND_INDEX, CONTACT(a), 0, NULL},
-    {"b", JSON_KIND_INDEX, CONTACT(b), 0, NULL},
-    {"point", JSON_KIND_VECTOR, CONTACT(point), 3, NULL},
-    {"normal", JSON_KIND_VECTOR, CONTACT(normal), 3, NULL},
-    {"gap", JSON_KIND_NUMBER, CONTACT(gap), 0, NULL},
-    {"gap_acceleration", JSON_KIND_NUMBER, CONTACT(gap_acceleration), 0, NULL},
-    {0},
-};
-
-static const struct json_member option_members[] = {
-    {"tolerance", JSON_KIND_NUMBER, OPTION(tolerance), 0, NULL},
-    {"horizon", JSON_KIND_NUMBER, OPTION(horizon), 0, NULL},
-    {"contact_model", JSON_KIND_CHOICE, OPTION(contact_model), PERCUSS_CONTACT_COUNT,
-     percuss_contact_model_name},
-    {"method", JSON_KIND_CHOICE, OPTION(method), PERCUSS_METHOD_COUNT, percuss_method_name},
-    {"compliance", JSON_KIND_CHOICE, OPTION(compliance), PERCUSS_COMPLIANCE_COUNT,
-     percuss_compliance_name},
-    {"dents", JSON_KIND_CHOICE, OPTION(dents), PERCUSS_DENTS_COUNT, percuss_dents_name},
-    {"conditioning", JSON_KIND_FLAG, OPTION(conditioning), 0, NULL},
-    {"trace", JSON_KIND_FLAG, OPTION(trace), 0, NULL},
-    {"deadline", JSON_KIND_NUMBER, OPTION(deadline), 0, NULL},
-    {0},
-};
+#undef JSON_STRUCT
+#define JSON_STRUCT struct percuss_contact
+static const struct json_member contact_members[] = {PERCUSS_CONTACT_FIELDS(JSON_MEMBER){0}};
+#undef JSON_STRUCT
+#define JSON_STRUCT struct percuss_options
+static const struct json_member option_members[] = {PERCUSS_OPTION_FIELDS(JSON_MEMBER){0}};
+#undef JSON_STRUCT
 
 /* Whether it is an array of at most `most` elements. */
 static bool check_array(const json_t *array, const struct json_path *path, size_t most,

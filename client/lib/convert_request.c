@@ -5,73 +5,49 @@
 
 #include "convert.h"
 #include "error.h"
+#include "percuss/fields.h"
 
-/* Copies a public string of PERCUSS_ID_SIZE bytes that a caller may have filled to the brim. */
-static bool copy_text(char *target, const char *source)
+/* The text that a caller has filled to the brim; NULL: none. */
+static const char *find_unterminated(const struct percuss_body_motion *body)
 {
-    size_t length = strnlen(source, PERCUSS_ID_SIZE);
-    if (length == PERCUSS_ID_SIZE)
-        return false;
-    memcpy(target, source, length + 1);
-    return true;
+    if (!memchr(body->id, '\0', sizeof body->id))
+        return "id";
+    if (!memchr(body->state, '\0', sizeof body->state))
+        return "state";
+    return memchr(body->specimen, '\0', sizeof body->specimen) ? NULL : "specimen";
 }
 
-static enum percuss_result convert_body(const struct percuss_body_motion *body, size_t index,
+static enum percuss_result convert_body(const struct percuss_body_motion *from, size_t index,
                                         struct request_storage *storage)
 {
-    percuss_v1_BodyMotion *wire = &storage->bodies[index];
-    const char *field = NULL;
-    if (!copy_text(wire->id, body->id))
-        field = "id";
-    else if (!copy_text(wire->state, body->state))
-        field = "state";
-    else if (!copy_text(wire->specimen, body->specimen))
-        field = "specimen";
+    percuss_v1_BodyMotion *to = &storage->bodies[index];
+    const char *field = find_unterminated(from);
     if (field)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "bodies[%zu].%s: not terminated; up to %d bytes are allowed", index, field,
                          PERCUSS_ID_SIZE - 1);
-    if (body->override_count > PERCUSS_PARAMETER_COUNT)
+    if (from->override_count > PERCUSS_PARAMETER_COUNT)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "bodies[%zu].override_count: %u are too many; up to %d are allowed", index,
-                         body->override_count, PERCUSS_PARAMETER_COUNT);
-    for (uint32_t i = 0; i < body->override_count; ++i)
+                         from->override_count, PERCUSS_PARAMETER_COUNT);
+    PERCUSS_BODY_FIELDS(PERCUSS_COPY)
+    for (uint32_t i = 0; i < from->override_count; ++i)
         storage->overrides[index][i] =
-            (percuss_v1_Override){body->overrides[i].parameter, body->overrides[i].value};
-    wire->overrides._buffer = storage->overrides[index];
-    wire->overrides._length = wire->overrides._maximum = body->override_count;
-    wire->overrides._release = false;
-    memcpy(wire->position, body->position, sizeof wire->position);
-    memcpy(wire->orientation, body->orientation, sizeof wire->orientation);
-    memcpy(wire->velocity, body->velocity, sizeof wire->velocity);
-    memcpy(wire->angular_velocity, body->angular_velocity, sizeof wire->angular_velocity);
-    wire->elapsed = body->elapsed;
+            (percuss_v1_Override){from->overrides[i].parameter, from->overrides[i].value};
+    to->overrides._buffer = storage->overrides[index];
+    to->overrides._length = to->overrides._maximum = from->override_count;
+    to->overrides._release = false;
     return PERCUSS_RESULT_OK;
 }
 
-static void convert_contact(const struct percuss_contact *contact, percuss_v1_Contact *wire)
+static void convert_contact(const struct percuss_contact *from, percuss_v1_Contact *to)
 {
-    wire->a = contact->a;
-    wire->b = contact->b;
-    memcpy(wire->point, contact->point, sizeof wire->point);
-    memcpy(wire->normal, contact->normal, sizeof wire->normal);
-    wire->gap = contact->gap;
-    wire->gap_acceleration = contact->gap_acceleration;
+    PERCUSS_CONTACT_FIELDS(PERCUSS_COPY)
 }
 
-static percuss_v1_Options convert_options(const struct percuss_options *options)
+static void convert_options(const struct percuss_options *from, percuss_v1_Options *to)
 {
-    return (percuss_v1_Options){
-        .tolerance = options->tolerance,
-        .horizon = options->horizon,
-        .contact_model = options->contact_model,
-        .method = options->method,
-        .compliance = options->compliance,
-        .dents = options->dents,
-        .conditioning = options->conditioning,
-        .trace = options->trace,
-        .deadline = options->deadline,
-    };
+    PERCUSS_OPTION_FIELDS(PERCUSS_COPY)
 }
 
 static enum percuss_result check_count(const char *field, size_t count, size_t most)
@@ -96,7 +72,8 @@ enum percuss_result convert_request(const struct percuss_request *request,
         convert_contact(&request->contacts[i], &storage->contacts[i]);
 
     uint32_t contacts = (uint32_t)request->contact_count;
-    *wire = (percuss_v1_Request){.options = convert_options(&request->options)};
+    *wire = (percuss_v1_Request){0};
+    convert_options(&request->options, &wire->options);
     wire->bodies._buffer = storage->bodies;
     wire->bodies._length = wire->bodies._maximum = (uint32_t)request->body_count;
     wire->contacts._buffer = storage->contacts;

@@ -23,6 +23,7 @@ const char *end_reason_name(unsigned end_reason);
 const char *contact_model_name(unsigned contact_model);
 const char *method_name(unsigned method);
 const char *compliance_name(unsigned compliance);
+const char *dents_name(unsigned dents);
 const char *parameter_name(unsigned parameter);
 
 #endif

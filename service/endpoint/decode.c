@@ -8,16 +8,35 @@
 
 #include "endpoint/check.h"
 #include "endpoint/text.h"
+#include "percuss/fields.h"
 
-/* Beyond these no impact makes sense and sums of squares would lose their digits or overflow. */
-static const double max_length = 1e6;                         /* m */
-static const double max_speed = 1e6;                          /* m/s */
-static const double max_rotation = 1e6;                       /* rad/s */
-static const double max_acceleration = 1e9;                   /* m/s^2 */
-static const double max_time = 1e9;                           /* s */
-static const double least_horizon = 1e-9, max_horizon = 10.0; /* s */
-static const double least_tolerance = 1e-12;   /* of double precision nothing finer is left */
 static const double delassus_asymmetry = 1e-9; /* of the two contacts' own inverse masses */
+
+/* Checks a member of *from and puts it into *to. Indices are checked before, against the bodies;
+ * tokens and specimens are not the solver's. */
+#define TAKE(kind, name, ...) TAKE_##kind(name, __VA_ARGS__)
+
+#define TAKE_NUMBER(name, low, high, ...)                                                          \
+    check_range(check, #name, from->name, low, high);                                              \
+    to->name = from->name;
+#define TAKE_DEFAULTED(name, low, high, ...)                                                       \
+    check_range_or_zero(check, #name, from->name, low, high);                                      \
+    to->name = from->name;
+#define TAKE_VECTOR(name, limit, ...)                                                              \
+    check_vector(check, #name, from->name, limit);                                                 \
+    memcpy(to->name, from->name, sizeof to->name);
+#define TAKE_UNIT(name, size, ...) check_unit(check, #name, from->name, size, to->name);
+#define TAKE_CHOICE(name, choice, count, ...)                                                      \
+    check_choice(check, #name, from->name, count, choice##_name);                                  \
+    to->name = from->name;
+#define TAKE_FLAG(name, ...)  to->name = from->name;
+#define TAKE_INDEX(name, ...) to->name = from->name;
+#define TAKE_TEXT(name, ...)  check_text(check, #name, from->name);
+#define TAKE_ID(name, ...)                                                                         \
+    check_text(check, #name, from->name);                                                          \
+    check_that(check, from->name[0] != '\0',                                                       \
+               #name ": empty: must be the id of a body of the catalogue");                        \
+    COPY_TEXT(to->name, from->name);
 
 /* Ranges are the catalogue's, and the solver's to check. */
 static void decode_overrides(struct check *check, const percuss_v1_BodyMotion *wire,
@@ -36,28 +55,15 @@ static void decode_overrides(struct check *check, const percuss_v1_BodyMotion *w
     }
 }
 
-static void decode_body(struct check *check, const percuss_v1_BodyMotion *wire,
-                        struct solve_body *body)
+static void decode_body(struct check *check, const percuss_v1_BodyMotion *from,
+                        struct solve_body *to)
 {
-    check_text(check, "id", wire->id);
-    check_that(check, wire->id[0] != '\0', "id: empty: must be the id of a body of the catalogue");
-    check_vector(check, "position", wire->position, max_length);
-    check_unit(check, "orientation", wire->orientation, 4, body->orientation);
-    check_vector(check, "velocity", wire->velocity, max_speed);
-    check_vector(check, "angular_velocity", wire->angular_velocity, max_rotation);
-    check_text(check, "state", wire->state);
-    check_range(check, "elapsed", wire->elapsed, 0.0, max_time);
-    check_text(check, "specimen", wire->specimen);
-    check_that(check, !wire->specimen[0] || !wire->state[0],
+    PERCUSS_BODY_FIELDS(TAKE)
+    check_that(check, !from->specimen[0] || !from->state[0],
                "specimen: %s: must be empty where a state is given: a specimen is at rest",
-               wire->specimen);
-    COPY_TEXT(body->id, wire->id);
-    memcpy(body->position, wire->position, sizeof body->position);
-    memcpy(body->velocity, wire->velocity, sizeof body->velocity);
-    memcpy(body->angular_velocity, wire->angular_velocity, sizeof body->angular_velocity);
-    body->state = NULL;
-    body->elapsed = wire->elapsed;
-    decode_overrides(check, wire, body);
+               from->specimen);
+    to->state = NULL;
+    decode_overrides(check, from, to);
 }
 
 static void check_index(struct check *check, const char *field, unsigned index, size_t count)
@@ -66,50 +72,19 @@ static void check_index(struct check *check, const char *field, unsigned index, 
                count - 1);
 }
 
-static void decode_contact(struct check *check, const percuss_v1_Contact *wire, size_t body_count,
-                           struct solve_contact *contact)
+static void decode_contact(struct check *check, const percuss_v1_Contact *from, size_t body_count,
+                           struct solve_contact *to)
 {
-    check_index(check, "a", wire->a, body_count);
-    check_index(check, "b", wire->b, body_count);
-    check_that(check, wire->a != wire->b, "b: %u: must be another body than a", wire->b);
-    check_vector(check, "point", wire->point, max_length);
-    check_unit(check, "normal", wire->normal, 3, contact->normal);
-    check_range(check, "gap", wire->gap, -max_length, max_length);
-    check_range(check, "gap_acceleration", wire->gap_acceleration, -max_acceleration,
-                max_acceleration);
-    contact->a = wire->a;
-    contact->b = wire->b;
-    memcpy(contact->point, wire->point, sizeof contact->point);
-    contact->gap = wire->gap;
-    contact->gap_acceleration = wire->gap_acceleration;
+    check_index(check, "a", from->a, body_count);
+    check_index(check, "b", from->b, body_count);
+    check_that(check, from->a != from->b, "b: %u: must be another body than a", from->b);
+    PERCUSS_CONTACT_FIELDS(TAKE)
 }
 
-static const char *dents_name(unsigned number)
+static void decode_options(struct check *check, const percuss_v1_Options *from,
+                           struct solve_options *to)
 {
-    return number == PERCUSS_DENTS_KEEP ? "keep" : "ignore";
-}
-
-static void decode_options(struct check *check, const percuss_v1_Options *wire,
-                           struct solve_options *options)
-{
-    check_range_or_zero(check, "tolerance", wire->tolerance, least_tolerance, 1.0);
-    check_range_or_zero(check, "horizon", wire->horizon, least_horizon, max_horizon);
-    check_choice(check, "contact_model", wire->contact_model, PERCUSS_CONTACT_COUNT,
-                 contact_model_name);
-    check_choice(check, "method", wire->method, PERCUSS_METHOD_COUNT, method_name);
-    check_choice(check, "compliance", wire->compliance, PERCUSS_COMPLIANCE_COUNT, compliance_name);
-    check_choice(check, "dents", wire->dents, PERCUSS_DENTS_COUNT, dents_name);
-    check_range(check, "deadline", wire->deadline, 0.0, max_time);
-    *options = (struct solve_options){
-        .tolerance = wire->tolerance,
-        .horizon = wire->horizon,
-        .contact_model = wire->contact_model,
-        .method = wire->method,
-        .compliance = wire->compliance,
-        .dents = wire->dents,
-        .conditioning = wire->conditioning,
-        .trace = wire->trace,
-    };
+    PERCUSS_OPTION_FIELDS(TAKE)
 }
 
 /* Rounding of a coupling that is none is as large as that of the diagonals. */

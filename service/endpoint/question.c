@@ -7,44 +7,39 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void hash_body(struct hasher *hasher, const percuss_v1_BodyMotion *body)
+#include "percuss/fields.h"
+
+/* Adds a member of *from. Where it stands in the lists matters: stored questions are compared. */
+#define HASH(kind, name, ...) HASH_##kind(name)
+
+#define HASH_NUMBER(name)    hash_bytes(hasher, &from->name, sizeof from->name);
+#define HASH_DEFAULTED(name) HASH_NUMBER(name)
+#define HASH_VECTOR(name)    HASH_NUMBER(name)
+#define HASH_UNIT(name)      HASH_NUMBER(name)
+#define HASH_INDEX(name)     hash_number(hasher, from->name);
+#define HASH_CHOICE(name)    HASH_INDEX(name)
+#define HASH_FLAG(name)      HASH_INDEX(name)
+#define HASH_TEXT(name)      hash_text(hasher, from->name);
+#define HASH_ID(name)        HASH_TEXT(name)
+
+static void hash_body(struct hasher *hasher, const percuss_v1_BodyMotion *from)
 {
-    hash_text(hasher, body->id);
-    hash_bytes(hasher, body->position, sizeof body->position);
-    hash_bytes(hasher, body->orientation, sizeof body->orientation);
-    hash_bytes(hasher, body->velocity, sizeof body->velocity);
-    hash_bytes(hasher, body->angular_velocity, sizeof body->angular_velocity);
-    hash_text(hasher, body->state);
-    hash_bytes(hasher, &body->elapsed, sizeof body->elapsed);
-    hash_text(hasher, body->specimen);
-    hash_number(hasher, body->overrides._length);
-    for (uint32_t i = 0; i < body->overrides._length; i++) {
-        hash_number(hasher, body->overrides._buffer[i].parameter);
-        hash_bytes(hasher, &body->overrides._buffer[i].value, sizeof(double));
+    PERCUSS_BODY_FIELDS(HASH)
+    hash_number(hasher, from->overrides._length);
+    for (uint32_t i = 0; i < from->overrides._length; i++) {
+        hash_number(hasher, from->overrides._buffer[i].parameter);
+        hash_bytes(hasher, &from->overrides._buffer[i].value, sizeof(double));
     }
 }
 
-static void hash_contact(struct hasher *hasher, const percuss_v1_Contact *contact)
+static void hash_contact(struct hasher *hasher, const percuss_v1_Contact *from)
 {
-    hash_number(hasher, contact->a);
-    hash_number(hasher, contact->b);
-    hash_bytes(hasher, contact->point, sizeof contact->point);
-    hash_bytes(hasher, contact->normal, sizeof contact->normal);
-    hash_bytes(hasher, &contact->gap, sizeof contact->gap);
-    hash_bytes(hasher, &contact->gap_acceleration, sizeof contact->gap_acceleration);
+    PERCUSS_CONTACT_FIELDS(HASH)
 }
 
-static void hash_options(struct hasher *hasher, const percuss_v1_Options *options)
+static void hash_options(struct hasher *hasher, const percuss_v1_Options *from)
 {
-    hash_bytes(hasher, &options->tolerance, sizeof options->tolerance);
-    hash_bytes(hasher, &options->horizon, sizeof options->horizon);
-    hash_number(hasher, options->contact_model);
-    hash_number(hasher, options->method);
-    hash_number(hasher, options->compliance);
-    hash_number(hasher, options->dents);
-    hash_number(hasher, options->conditioning);
-    hash_number(hasher, options->trace);
-    hash_bytes(hasher, &options->deadline, sizeof options->deadline);
+    PERCUSS_OPTION_FIELDS(HASH)
 }
 
 static void hash_request(struct hasher *hasher, const percuss_v1_Request *request)

@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* What is asked of the solver: bodies by their ids, where they are and how they move, and where
- * they touch. Units SI; conventions as in docs/architecture.md. */
+ * they touch: percuss/fields.h says what the members mean. Units SI; conventions as in
+ * docs/architecture.md. */
 #ifndef PERCUSS_SOLVE_REQUEST_H
 #define PERCUSS_SOLVE_REQUEST_H
 
@@ -11,36 +12,33 @@
 
 #include "contact/body_state.h"
 #include "model/body.h"
+#include "percuss/fields.h"
+
+/* The members that requests have on the wire, but for the texts that name a body's past. */
+#define SOLVE_MEMBER(kind, name, ...)      SOLVE_MEMBER_##kind(name, __VA_ARGS__)
+#define SOLVE_MEMBER_NUMBER(name, ...)     double name;
+#define SOLVE_MEMBER_DEFAULTED(name, ...)  double name;
+#define SOLVE_MEMBER_VECTOR(name, ...)     double name[3];
+#define SOLVE_MEMBER_UNIT(name, size, ...) double name[size];
+#define SOLVE_MEMBER_ID(name, ...)         char name[PERCUSS_ID_SIZE];
+#define SOLVE_MEMBER_TEXT(name, ...)
+#define SOLVE_MEMBER_INDEX(name, ...)          unsigned name;
+#define SOLVE_MEMBER_CHOICE(name, choice, ...) enum percuss_##choice name;
+#define SOLVE_MEMBER_FLAG(name, ...)           bool name;
 
 struct solve_body {
-    char id[PERCUSS_ID_SIZE];
-    double position[3];
-    double orientation[4]; /* (w, x, y, z) */
-    double velocity[3];
-    double angular_velocity[3];
+    PERCUSS_BODY_FIELDS(SOLVE_MEMBER)
     const struct body_state *state; /* NULL: at rest, without dents; borrowed */
-    double elapsed;                 /* s since that state */
     size_t variation_count;
     struct body_variation variations[PERCUSS_PARAMETER_COUNT]; /* instead of the catalogue's */
 };
 
 struct solve_contact {
-    unsigned a, b; /* indices into bodies */
-    double point[3];
-    double normal[3];
-    double gap;
-    double gap_acceleration;
+    PERCUSS_CONTACT_FIELDS(SOLVE_MEMBER)
 };
 
 struct solve_options {
-    double tolerance; /* on e; 0: 1e-3 */
-    double horizon;   /* s; 0: max(20 ms, two longest periods) */
-    enum percuss_contact_model contact_model;
-    enum percuss_method method;
-    enum percuss_compliance compliance;
-    enum percuss_dents dents;
-    bool conditioning;
-    bool trace; /* also the time histories */
+    PERCUSS_OPTION_FIELDS(SOLVE_MEMBER) /* the deadline is for the watch, the solver has no clock */
 };
 
 struct solve_request {
