@@ -9,7 +9,10 @@
 #include "impact/contact_step.h"
 #include "impact/energy.h"
 #include "impact/flight.h"
+#include "impact/impact_scale.h"
 #include "impact/kernel.h"
+#include "impact/rewind.h"
+#include "impact/step_cost.h"
 
 enum { MAX_PRESSES = 40, MAX_STEPS = 100000 };
 
@@ -247,7 +250,7 @@ static enum percuss_end_reason fly(struct concurrent *run)
     double allowed = run->settings->horizon - run->motion->time;
     enum flight_end end =
         flight_find(&run->flight, run->scene, run->motion, allowed, MAX_STEPS, &time, &contact);
-    if (end == FLIGHT_LIMIT)
+    if (end == FLIGHT_LIMIT || end == FLIGHT_MEMORY)
         return PERCUSS_END_LIMIT;
     run->damping += motion_free_loss(run->motion, run->scene, time);
     motion_advance(run->motion, run->scene, time);
@@ -306,15 +309,15 @@ enum percuss_status impact_concurrent(const struct scene *scene, struct region *
     if (!run_create(&run, arena))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     run.flight.pace = settings->pace;
-    run.flight.cost = impact_step_cost(scene);
+    run.flight.cost = step_cost(scene);
     motion_start(run.motion, scene);
     struct rewind rewind = {settings->horizon, MAX_STEPS, arena, settings->pace, false};
-    enum impact_start start = impact_find_start(scene, &rewind, run.motion, &outcome->time_shift);
-    outcome->always_overlapped = start == START_NONE;
+    enum rewind_end start = rewind_to_touch(&rewind, scene, run.motion, &outcome->time_shift);
+    outcome->always_overlapped = start == REWIND_NEVER;
     outcome->beyond_horizon = rewind.beyond;
     if (outcome->always_overlapped)
         return PERCUSS_OK;
-    if (start == START_LIMIT)
+    if (start == REWIND_LIMIT || start == REWIND_MEMORY)
         return fault_set(fault, pace_status(settings->pace) ? PERCUSS_TIMEOUT : PERCUSS_INTERNAL,
                          "the way back to the touch was not found in time");
     while (status == PERCUSS_OK && (end = fly(&run)) == PERCUSS_END_NONE) {

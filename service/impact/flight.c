@@ -168,8 +168,8 @@ static void find_approaches(struct flight *flight, const struct scene *scene)
         motion_approach(&flight->probe, scene, c, &flight->approach[c], &flight->rate[c]);
 }
 
-/* The next step of the scan, along exact motion. */
-static bool move_probe(struct flight *flight, const struct scene *scene, int level)
+/* The next step of the scan, along exact motion. OK, INTERNAL (no memory) or TIMEOUT. */
+static enum percuss_status move_probe(struct flight *flight, const struct scene *scene, int level)
 {
     double h = step_length(level);
     for (size_t c = 0; c < scene->contacts; c++) {
@@ -178,19 +178,17 @@ static bool move_probe(struct flight *flight, const struct scene *scene, int lev
         flight->probe.gap_rate[c] += a * h;
     }
     for (size_t g = 0; g < scene->groups; g++) {
-        struct oscillators *set = scene->group[g].set;
-        /* a level's tables take milliseconds to make */
-        if (!set->tables[level] && !pace_ask(flight->pace, 0.0))
-            return false;
-        const struct step_table *table = oscillators_table(set, level);
-        if (!table)
-            return false;
+        const struct step_table *table;
+        enum percuss_status status =
+            oscillators_prepare(scene->group[g].set, level, flight->pace, &table);
+        if (status != PERCUSS_OK)
+            return status;
         kernel_advance(table, scene->group[g].stride, flight->probe.q[g], flight->probe.v[g],
                        flight->probe.q[g], flight->probe.v[g]);
     }
     flight->probe.time += h;
     find_approaches(flight, scene);
-    return true;
+    return PERCUSS_OK;
 }
 
 /* Looks into the shortest interval [from, from + h] contact by contact. */
@@ -245,7 +243,10 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
             *time < fmin(complete, allowed))
             return FLIGHT_TOUCH;
         double before = flight->probe.time;
-        if (!move_probe(flight, scene, level) || i >= intervals)
+        enum percuss_status moved = move_probe(flight, scene, level);
+        if (moved == PERCUSS_INTERNAL)
+            return FLIGHT_MEMORY;
+        if (moved != PERCUSS_OK || i >= intervals)
             return FLIGHT_LIMIT;
         /* what is left to the end is rounding of the time */
         if (!(flight->probe.time > before))

@@ -16,7 +16,8 @@ enum flight_end {
     FLIGHT_TOUCH,    /* `contact` touches after `time` */
     FLIGHT_COMPLETE, /* from `time` on the rigid gaps exceed the vibration for good */
     FLIGHT_TIMEOUT,  /* neither within the time allowed */
-    FLIGHT_LIMIT     /* too many intervals, out of memory, or stopped by the pace */
+    FLIGHT_LIMIT,    /* too many intervals, or stopped by the pace */
+    FLIGHT_MEMORY    /* it ran out */
 };
 
 struct flight {

@@ -10,7 +10,6 @@
 #include "impact/force_log.h"
 #include "impact/motion.h"
 #include "impact/result.h"
-#include "impact/rewind.h"
 #include "impact/track.h"
 
 struct impact_settings {
@@ -66,32 +65,10 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
 enum percuss_status impact_cvode(const struct scene *scene, const struct impact_settings *settings,
                                  struct arena *arena, struct impact_outcome *outcome);
 
-enum impact_start {
-    START_FOUND,
-    START_NONE, /* the bodies overlap and never touched before, see rewind.beyond */
-    START_LIMIT /* the search was given up, see rewind_find */
-};
-
-/* Brings the state to the touch when the bodies overlap at the stated instant: sets time_shift. */
-enum impact_start impact_find_start(const struct scene *scene, struct rewind *rewind,
-                                    struct motion *motion, double *time_shift);
-
-/* The work of one step or interval, see impact_settings.max_work. */
-double impact_step_cost(const struct scene *scene);
-
 /* How many steps and intervals the work allowed is on a scene. */
 unsigned long impact_max_steps(const struct scene *scene, const struct impact_settings *settings);
 
 /* The work that a solution took, in the same unit. */
 double impact_work(const struct scene *scene, const struct impact_outcome *outcome);
-
-/* Scales of a contact that begins at an approach rate: those of an elastic collision of the masses
- * that it feels meanwhile. */
-struct impact_scale {
-    double duration; /* indentation / rate, s */
-    double indentation;
-    double force;
-};
-struct impact_scale impact_scale_of(const struct scene *scene, size_t contact, double rate);
 
 #endif

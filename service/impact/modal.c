@@ -9,6 +9,8 @@
 #include "impact/energy.h"
 #include "impact/flight.h"
 #include "impact/impact.h"
+#include "impact/rewind.h"
+#include "impact/step_cost.h"
 #include "impact/step_limits.h"
 #include "impact/yielding.h"
 
@@ -339,7 +341,7 @@ static enum percuss_end_reason fly(struct modal_run *run)
     enum flight_end end =
         flight_find(&run->flight, run->scene, run->motion, allowed, left, &time, &contact);
     run->used += run->flight.intervals - before;
-    if (end == FLIGHT_LIMIT || run->used > run->max_steps)
+    if ((end == FLIGHT_LIMIT || end == FLIGHT_MEMORY) || run->used > run->max_steps)
         return PERCUSS_END_LIMIT;
     run->damping += motion_free_loss(run->motion, run->scene, time);
     motion_advance(run->motion, run->scene, time);
@@ -397,17 +399,18 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
     outcome->steps = outcome->rejected = 0;
     motion_start(run.motion, scene);
     run.max_steps = impact_max_steps(scene, settings);
-    run.step_cost = run.flight.cost = impact_step_cost(scene);
+    run.step_cost = run.flight.cost = step_cost(scene);
     run.flight.pace = run.step.pace = settings->pace;
     struct rewind rewind = {settings->horizon, run.max_steps, arena, settings->pace, false};
-    enum impact_start start = impact_find_start(scene, &rewind, run.motion, &outcome->time_shift);
-    outcome->always_overlapped = start == START_NONE;
+    enum rewind_end start = rewind_to_touch(&rewind, scene, run.motion, &outcome->time_shift);
+    outcome->always_overlapped = start == REWIND_NEVER;
     outcome->beyond_horizon = rewind.beyond;
     if (outcome->always_overlapped)
         return PERCUSS_OK;
     run.used = run.max_steps - rewind.intervals;
     bool touched = false;
-    enum percuss_end_reason end = start == START_LIMIT ? PERCUSS_END_LIMIT : PERCUSS_END_NONE;
+    enum percuss_end_reason end =
+        (start == REWIND_LIMIT || start == REWIND_MEMORY) ? PERCUSS_END_LIMIT : PERCUSS_END_NONE;
     while (end == PERCUSS_END_NONE) {
         end = fly(&run);
         if (end != PERCUSS_END_NONE)

@@ -12,6 +12,9 @@
 #include "impact/energy.h"
 #include "impact/flight_root.h"
 #include "impact/impact.h"
+#include "impact/impact_scale.h"
+#include "impact/rewind.h"
+#include "impact/step_cost.h"
 #include "numeric/ode.h"
 
 /* y: [contacts] gaps, [contacts] gap rates, [contacts] impulses, 1 damping loss, then every group's
@@ -289,7 +292,7 @@ static enum percuss_end_reason integrate(struct reference *run, struct ode *ode,
     int found[3 * PERCUSS_MAX_CONTACTS];
     unsigned long max_steps = impact_max_steps(run->scene, settings);
     /* some ten passes over the modes in a step: right-hand sides, and the history of the steps */
-    double cost = 10.0 * impact_step_cost(run->scene);
+    double cost = 10.0 * step_cost(run->scene);
     for (unsigned long used = 0; used < max_steps && pace_keeps(settings->pace, cost); used++) {
         enum ode_event event = ode_step(ode, settings->horizon, t, run->y, found);
         if (event == ODE_FAILED)
@@ -321,16 +324,16 @@ static enum percuss_end_reason integrate(struct reference *run, struct ode *ode,
     return PERCUSS_END_LIMIT;
 }
 
-static enum impact_start start(struct reference *run, const struct impact_settings *settings,
-                               struct arena *arena, struct impact_outcome *outcome)
+static enum rewind_end start(struct reference *run, const struct impact_settings *settings,
+                             struct arena *arena, struct impact_outcome *outcome)
 {
     const struct scene *scene = run->scene;
     struct rewind rewind = {settings->horizon, impact_max_steps(scene, settings), arena,
                             settings->pace, false};
     motion_start(&run->motion, scene);
-    enum impact_start found = impact_find_start(scene, &rewind, &run->motion, &outcome->time_shift);
+    enum rewind_end found = rewind_to_touch(&rewind, scene, &run->motion, &outcome->time_shift);
     outcome->beyond_horizon = rewind.beyond;
-    if (found == START_NONE)
+    if (found == REWIND_NEVER)
         return found;
     set_absolute(run, 0.01 * settings->accuracy);
     pack(run, &run->motion, run->y);
@@ -390,8 +393,8 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
     if (!reference_create(&run, scene, arena))
         return PERCUSS_INTERNAL;
     run.own.laws = outcome->laws;
-    enum impact_start found = start(&run, settings, arena, outcome);
-    outcome->always_overlapped = found == START_NONE;
+    enum rewind_end found = start(&run, settings, arena, outcome);
+    outcome->always_overlapped = found == REWIND_NEVER;
     if (outcome->always_overlapped)
         return PERCUSS_OK;
     struct ode *ode = ode_create(&(struct ode_problem){
@@ -408,7 +411,7 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
     double t = outcome->time_shift;
     /* CVODE sees roots between its steps only: at least eight of them in the fastest period */
     double fastest = scene_highest_frequency(scene);
-    bool ready = found == START_FOUND && ode_set(ode, t, run.y) &&
+    bool ready = found == REWIND_TOUCHED && ode_set(ode, t, run.y) &&
                  (fastest == 0.0 || ode_set_longest_step(ode, 0.25 * M_PI / fastest));
     outcome->end_reason = ready ? integrate(&run, ode, settings, outcome, &t) : PERCUSS_END_LIMIT;
     unsigned long evaluations;

@@ -26,7 +26,7 @@ struct impact_energy {
     double available;
     double rigid_after;
     double vibration; /* all bodies */
-    double damping; /* with what half-spaces radiate, see solve/radiation.h */
+    double damping;   /* with what half-spaces radiate, see solve/radiation.h */
     double plastic;
     double stored;
     double closure; /* available - all the others */

@@ -6,15 +6,23 @@
 #include <math.h>
 
 #include "impact/flight.h"
-#include "impact/impact.h"
+#include "impact/step_cost.h"
+
+/* Most touches that are gone back to, one after the other. */
+enum { MOST_TOUCHES = 64 };
+
+/* What rounding leaves of a touch that two contacts share, over the deepest overlap: as energy,
+ * with its power 5/2, it is 1e-15 of the whole. */
+static const double SHARED_TOUCH = 1e-6;
 
 /* The nearer root behind us of the rigid approach d + rate t - a t^2/2. */
-static double rigid_root(double d, double rate, double a)
+static enum rewind_end rigid_root(double d, double rate, double a, double *time)
 {
     double discriminant = rate * rate + 2.0 * a * d;
     if (!(rate > 0.0) || discriminant < 0.0)
-        return -INFINITY;
-    return -2.0 * d / (rate + sqrt(discriminant));
+        return REWIND_NEVER;
+    *time = -2.0 * d / (rate + sqrt(discriminant));
+    return isfinite(*time) ? REWIND_TOUCHED : REWIND_NEVER;
 }
 
 static bool is_still(const struct motion *motion, const struct scene *scene, size_t contact)
@@ -66,35 +74,92 @@ static bool mirror_create(struct mirror *mirror, const struct scene *scene,
     return true;
 }
 
-static double find_ringing(struct rewind *rewind, const struct scene *scene,
-                           const struct motion *motion, size_t contact)
+static enum rewind_end find_ringing(struct rewind *rewind, const struct scene *scene,
+                                    const struct motion *motion, size_t contact, double *time)
 {
     struct mirror mirror;
     struct flight flight;
-    double time;
     size_t only;
     if (!mirror_create(&mirror, scene, motion, contact, rewind->arena) ||
         !flight_create(&flight, &mirror.scene, rewind->arena))
-        return NAN;
+        return REWIND_MEMORY;
     flight.pace = rewind->pace;
-    flight.cost = impact_step_cost(scene);
+    flight.cost = step_cost(scene);
     enum flight_end end = flight_find(&flight, &mirror.scene, &mirror.motion, rewind->longest,
-                                      rewind->intervals, &time, &only);
+                                      rewind->intervals, time, &only);
     rewind->intervals -=
         flight.intervals < rewind->intervals ? flight.intervals : rewind->intervals;
-    if (end == FLIGHT_LIMIT)
-        return NAN;
+    if (end == FLIGHT_LIMIT || end == FLIGHT_MEMORY)
+        return end == FLIGHT_LIMIT ? REWIND_LIMIT : REWIND_MEMORY;
     rewind->beyond = rewind->beyond || end == FLIGHT_TIMEOUT;
-    return end == FLIGHT_TOUCH ? -time : -INFINITY;
+    *time = -*time;
+    return end == FLIGHT_TOUCH ? REWIND_TOUCHED : REWIND_NEVER;
 }
 
-double rewind_find(struct rewind *rewind, const struct scene *scene, const struct motion *motion,
-                   size_t contact)
+enum rewind_end rewind_find(struct rewind *rewind, const struct scene *scene,
+                            const struct motion *motion, size_t contact, double *time)
 {
     double d;
     double rate;
     motion_approach(motion, scene, contact, &d, &rate);
     if (is_still(motion, scene, contact))
-        return rigid_root(d, rate, scene->gap_acceleration[contact]);
-    return find_ringing(rewind, scene, motion, contact);
+        return rigid_root(d, rate, scene->gap_acceleration[contact], time);
+    return find_ringing(rewind, scene, motion, contact, time);
+}
+
+/* The earliest of the last touches of the contacts that overlap by more than `allowed`; 0: none
+ * does. `at` is left out and becomes its contact. */
+static enum rewind_end find_touch(const struct scene *scene, struct rewind *rewind,
+                                  const struct motion *motion, double allowed, size_t *at,
+                                  double *earliest)
+{
+    size_t left_out = *at;
+    *earliest = 0.0;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double d;
+        double rate;
+        motion_approach(motion, scene, c, &d, &rate);
+        if (d <= allowed || c == left_out)
+            continue;
+        double back;
+        enum rewind_end end = rewind_find(rewind, scene, motion, c, &back);
+        if (end != REWIND_TOUCHED)
+            return end;
+        if (back < *earliest) {
+            *earliest = back;
+            *at = c;
+        }
+    }
+    return REWIND_TOUCHED;
+}
+
+static double deepest_overlap(const struct scene *scene, const struct motion *motion)
+{
+    double deepest = 0.0;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double d;
+        double rate;
+        motion_approach(motion, scene, c, &d, &rate);
+        deepest = fmax(deepest, d);
+    }
+    return deepest;
+}
+
+enum rewind_end rewind_to_touch(struct rewind *rewind, const struct scene *scene,
+                                struct motion *motion, double *shift)
+{
+    /* where one contact touched another one may overlap, from a touch further back */
+    double allowed = SHARED_TOUCH * deepest_overlap(scene, motion);
+    size_t at = scene->contacts;
+    *shift = 0.0;
+    for (int round = 0; round < MOST_TOUCHES; round++) {
+        double earliest;
+        enum rewind_end found =
+            find_touch(scene, rewind, motion, round ? allowed : 0.0, &at, &earliest);
+        if (found != REWIND_TOUCHED || earliest == 0.0)
+            return found;
+        motion_rewind(motion, scene, -earliest);
+        *shift += earliest;
+    }
+    return REWIND_NEVER;
 }

@@ -17,12 +17,23 @@ struct rewind {
     bool beyond;             /* result: vibrating bodies overlapped for all of `longest` */
 };
 
+enum rewind_end {
+    REWIND_TOUCHED,
+    REWIND_NEVER, /* overlapped for all of the past, or of what was looked at: `beyond` */
+    REWIND_LIMIT, /* the intervals were spent, or the pace stopped the search */
+    REWIND_MEMORY /* it ran out */
+};
+
 /* The latest touch before the motion's instant, for a contact that overlaps now, along the motion
- * that motion_rewind takes: negative time, s; -INFINITY: there was none; NAN: given up, as the
- * intervals were spent, the pace stopped the search, or memory ran out. Bodies at rest but for
- * their rigid motion: any time ago; vibrating ones: within `longest`, and `beyond` says where that
- * was not enough to know. */
-double rewind_find(struct rewind *rewind, const struct scene *scene, const struct motion *motion,
-                   size_t contact);
+ * that motion_rewind takes: *time < 0, s, where it touched. Bodies at rest but for their rigid
+ * motion: any time ago; vibrating ones: within `longest`, and `beyond` says where that was not
+ * enough to know. */
+enum rewind_end rewind_find(struct rewind *rewind, const struct scene *scene,
+                            const struct motion *motion, size_t contact, double *time);
+
+/* Brings a motion back to the touch where bodies overlap at its instant: the latest instant at
+ * which all contacts were open, *shift <= 0, s. */
+enum rewind_end rewind_to_touch(struct rewind *rewind, const struct scene *scene,
+                                struct motion *motion, double *shift);
 
 #endif

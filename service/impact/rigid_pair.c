@@ -8,6 +8,7 @@
 #include "contact/plastic.h"
 #include "impact/energy.h"
 #include "impact/impact.h"
+#include "impact/impact_scale.h"
 
 /* Whether the approach is too weak to make a law yield. */
 static bool stays_elastic(const struct scene *scene)

@@ -5,7 +5,7 @@
 #ifndef PERCUSS_IMPACT_STEP_LIMITS_H
 #define PERCUSS_IMPACT_STEP_LIMITS_H
 
-#include "impact/impact.h"
+#include "impact/impact_scale.h"
 
 struct step_limits {
     /* A force's cubic is accurate enough when its highest Legendre coefficient is this share of the

@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/watch.h"
 #include "impact/collocation.h"
 
 enum { STEP_LEVELS = 72, LOSS_TERMS = (NODES + 2) * (NODES + 3) / 2 };
@@ -51,5 +52,10 @@ int step_level(double h);
 
 /* The table of a level, computed when first asked for. NULL: out of memory. */
 const struct step_table *oscillators_table(struct oscillators *set, int level);
+
+/* The same, but asks before it makes one, which takes milliseconds. INTERNAL: out of memory;
+ * TIMEOUT: the pace stopped it. */
+enum percuss_status oscillators_prepare(struct oscillators *set, int level, struct pace *pace,
+                                        const struct step_table **table);
 
 #endif

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "impact/kernel.h"
+#include "impact/step_cost.h"
 
 /* Bounds of the instants: of one contact, of all contacts together. */
 enum { MOST_INSTANTS = 4096, MOST_VALUES = 16384, LEAST_INSTANTS = 256 };
@@ -285,7 +286,7 @@ enum percuss_status trace_make(const struct trace_task *task, struct arena *aren
                             .trace = trace,
                             .stride = 1,
                             .pace = task->pace,
-                            .cost = impact_step_cost(task->scene),
+                            .cost = step_cost(task->scene),
                             .left = task->max_work};
     if (!task->log->complete || !create(&tracer, arena))
         return PERCUSS_INTERNAL;

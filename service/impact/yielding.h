@@ -13,6 +13,7 @@
 #include "base/arena.h"
 #include "impact/contact_step.h"
 #include "impact/impact.h"
+#include "impact/impact_scale.h"
 
 /* What it looks at belongs to the contact phase. */
 struct yielding {

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "impact/impact.h"
+#include "impact/impact_scale.h"
 
 /* One contact that may excite the family. */
 struct demand {

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "contact/plastic.h"
-#include "impact/impact.h"
+#include "impact/impact_scale.h"
 #include "model/half_space.h"
 #include "solve/compliance.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/vector_clones.h"
-#include "impact/impact.h"
+#include "impact/impact_scale.h"
 #include "impact/kernel.h"
 
 /* Four numbers at any address; compiled twice like the library's own kernels. */

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "impact/impact_scale.h"
+
 static const unsigned long MAX_INTERVALS = 100000000;
 
 /* Eq. (6) with the compression impulse -gap rate / W: a rebound at the rate of approach is 1. */

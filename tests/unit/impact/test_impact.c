@@ -3,6 +3,9 @@
 
 /* Mirrors service/impact/impact.c, modal.c, reference.c and energy.c: whole impacts of toys, by
  * both methods, with their scales, starts and audits. */
+#include "impact/impact_scale.h"
+#include "impact/rewind.h"
+#include "impact/step_cost.h"
 #include "unit/impact/toy_scene.h"
 
 static struct impact_outcome run(struct toy *toy, bool cvode, double accuracy, double horizon)
@@ -148,14 +151,14 @@ static void overlaps_go_back_to_their_touch(void **state)
     assert_true(motion_create(&motion, &toy.scene, &toy.arena));
     motion_start(&motion, &toy.scene);
     struct rewind rewind = {1.0, 1000, &toy.arena, NULL, false};
-    assert_int_equal(impact_find_start(&toy.scene, &rewind, &motion, &shift), START_FOUND);
+    assert_int_equal(rewind_to_touch(&rewind, &toy.scene, &motion, &shift), REWIND_TOUCHED);
     measured("shift", shift, -0.15, 1e-16);
     measured("gap", motion.gap[0], 0.05, 1e-16);
     measured("gap", motion.gap[1], 0.0, 1e-16);
     measured("time", motion.time, -0.15, 1e-16);
     toy.gap_rate[1] = 0.1; /* opens: it was never apart */
     motion_start(&motion, &toy.scene);
-    assert_int_equal(impact_find_start(&toy.scene, &rewind, &motion, &shift), START_NONE);
+    assert_int_equal(rewind_to_touch(&rewind, &toy.scene, &motion, &shift), REWIND_NEVER);
     toy_free(&toy);
 }
 
@@ -235,7 +238,7 @@ static void no_flight_goes_on_when_the_work_is_spent(void **state)
     for (int scene = 0; scene < 100; scene++) {
         struct toy toy;
         ring_before_a_group(&toy, &seed);
-        double cost = impact_step_cost(&toy.scene);
+        double cost = step_cost(&toy.scene);
         for (unsigned long most = 1; most < 150; most++) {
             struct impact_outcome outcome;
             struct impact_settings settings = {

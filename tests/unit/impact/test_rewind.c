@@ -28,7 +28,10 @@ enum { AMPLE = 1000000 };
 static double back(struct toy *toy, const struct motion *motion, double longest)
 {
     struct rewind rewind = {longest, AMPLE, &toy->arena, NULL, false};
-    return rewind_find(&rewind, &toy->scene, motion, 0);
+    double time;
+    enum rewind_end end = rewind_find(&rewind, &toy->scene, motion, 0, &time);
+    assert_true(end == REWIND_TOUCHED || end == REWIND_NEVER);
+    return end == REWIND_TOUCHED ? time : -INFINITY;
 }
 
 static void finds_the_touch_behind(void **state)
@@ -116,11 +119,12 @@ static void many_modes_are_passed_by_bounds(void **state)
         motion_approach(&motion, &toy.scene, 0, &d, &rate);
         toy.gap[0] = motion.gap[0] = d - 1e-6 * (1 + trial); /* overlaps by so much */
         struct rewind rewind = {0.02, AMPLE, &toy.arena, NULL, false};
-        double touch = rewind_find(&rewind, &toy.scene, &motion, 0);
+        double touch;
+        bool touched = rewind_find(&rewind, &toy.scene, &motion, 0, &touch) == REWIND_TOUCHED;
         for (d = 1.0; d > 0.0 && t > -0.02; t -= 1e-7)
             motion_approach_at(&motion, &toy.scene, 0, t - 1e-7, &d, &rate);
-        assert_true(isfinite(touch) == (d <= 0.0));
-        if (isfinite(touch)) {
+        assert_true(touched == (d <= 0.0));
+        if (touched) {
             assert_true(fabs(touch - t) <= 1.01e-7);
             motion_approach_at(&motion, &toy.scene, 0, touch, &d, &rate);
             near(d, 0.0, 1e-17);
@@ -131,7 +135,7 @@ static void many_modes_are_passed_by_bounds(void **state)
         /* the way is not cut short without saying so */
         struct rewind poor = {0.02, taken > 1 ? taken / 2 : 1, &toy.arena, NULL, false};
         if (taken > 2)
-            assert_true(isnan(rewind_find(&poor, &toy.scene, &motion, 0)));
+            assert_int_equal(rewind_find(&poor, &toy.scene, &motion, 0, &touch), REWIND_LIMIT);
         toy_free(&toy);
     }
     assert_true(found > 30);
