@@ -32,7 +32,7 @@ static void release(struct job *job)
     free(job);
 }
 
-static const struct job_kind clear_kind = {run, report, release};
+static const struct job_kind clear_kind = {.run = run, .report = report, .release = release};
 
 struct job *clear_job_create(struct shared *shared, const char *specimen)
 {

@@ -36,16 +36,6 @@ bool client_job_is_gone(struct client_job *job)
     return gone;
 }
 
-enum percuss_status client_job_wanted(void *context, struct fault *fault)
-{
-    struct client_job *job = context;
-    if (atomic_load(&job->shared->ending))
-        return fault_set(fault, PERCUSS_BUSY, "%s", SHARED_SHUTTING_DOWN);
-    if (client_job_is_gone(job))
-        return fault_set(fault, PERCUSS_TIMEOUT, "%s", SHARED_CLIENT_GONE);
-    return PERCUSS_OK;
-}
-
 void client_job_deliver(struct client_job *job, struct answer *answer)
 {
     if (atomic_load(&job->abandoned) && client_job_is_gone(job))

@@ -30,9 +30,6 @@ void client_job_end(struct client_job *job);
 /* The head of its reply. */
 struct envelope client_job_envelope(const struct client_job *job);
 
-/* OK while it is to go on, otherwise what to refuse it with; the context is the job. */
-enum percuss_status client_job_wanted(void *context, struct fault *fault);
-
 /* Whether its client has gone by now, which is noted as abandoned. */
 bool client_job_is_gone(struct client_job *job);
 

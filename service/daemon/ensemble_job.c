@@ -314,6 +314,11 @@ static void report(struct job *job)
     client_job_deliver(&ensemble->base, ensemble->answer);
 }
 
+static void cancel(struct job *job)
+{
+    atomic_store(&((struct ensemble_job *)job)->entry.cancelled, true);
+}
+
 static void release(struct job *job)
 {
     struct ensemble_job *ensemble = (struct ensemble_job *)job;
@@ -331,7 +336,7 @@ static void release(struct job *job)
     free(ensemble);
 }
 
-static const struct job_kind ensemble_kind = {run, report, release};
+static const struct job_kind ensemble_kind = {run, report, cancel, release};
 
 struct client_job *ensemble_job_create(struct shared *shared, const struct request_name *name,
                                        const percuss_v1_EnsembleRequest *request, double arrival)

@@ -42,15 +42,6 @@ void ensembles_cancel(struct ensembles *ensembles, const uint8_t client[16], uin
     pthread_mutex_unlock(&ensembles->lock);
 }
 
-void ensembles_cancel_all(struct ensembles *ensembles)
-{
-    struct ensemble_entry *entry;
-    pthread_mutex_lock(&ensembles->lock);
-    LIST_FOREACH(entry, &ensembles->all, all)
-    atomic_store(&entry->cancelled, true);
-    pthread_mutex_unlock(&ensembles->lock);
-}
-
 void ensembles_visit_waiting(struct ensembles *ensembles, const struct ensemble_entry *running,
                              void (*visit)(void *context, const struct ensemble_entry *waiting),
                              void *context)

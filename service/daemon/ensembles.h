@@ -35,9 +35,6 @@ void ensembles_leave(struct ensembles *ensembles, struct ensemble_entry *entry);
 /* The client does not want it any more; nothing happens if there is no such ensemble. */
 void ensembles_cancel(struct ensembles *ensembles, const uint8_t client[16], uint64_t sequence);
 
-/* The server ends. */
-void ensembles_cancel_all(struct ensembles *ensembles);
-
 /* Shows each that waits for `running` to end. */
 void ensembles_visit_waiting(struct ensembles *ensembles, const struct ensemble_entry *running,
                              void (*visit)(void *context, const struct ensemble_entry *waiting),

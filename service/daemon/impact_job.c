@@ -16,9 +16,20 @@
 /* Each request is an item. */
 struct impact_job {
     struct client_job base;
+    atomic_bool cancelled;
     percuss_v1_Request *requests; /* copies */
     struct answer *answers[];     /* of the requests; NULL: not yet, or no memory for it */
 };
+
+static enum percuss_status is_wanted(void *context, struct fault *fault)
+{
+    struct impact_job *impact = context;
+    if (atomic_load(&impact->cancelled))
+        return fault_set(fault, PERCUSS_BUSY, SHARED_SHUTTING_DOWN);
+    if (client_job_is_gone(&impact->base))
+        return fault_set(fault, PERCUSS_TIMEOUT, SHARED_CLIENT_GONE);
+    return PERCUSS_OK;
+}
 
 static struct question question_of(struct impact_job *impact, size_t item)
 {
@@ -29,8 +40,8 @@ static struct question question_of(struct impact_job *impact, size_t item)
         .envelope = client_job_envelope(base),
         .arrival = base->arrival,
         .in_batch = base->name.exchange == EXCHANGE_BATCH,
-        .still_wanted = client_job_wanted,
-        .context = base,
+        .still_wanted = is_wanted,
+        .context = impact,
     };
     question.envelope.sequence = impact->requests[item].sequence;
     return question;
@@ -85,6 +96,12 @@ static void report_batch(struct job *job)
     answer_release(answer);
 }
 
+/* Only the server's end does. */
+static void cancel(struct job *job)
+{
+    atomic_store(&((struct impact_job *)job)->cancelled, true);
+}
+
 static void release(struct job *job)
 {
     struct impact_job *impact = (struct impact_job *)job;
@@ -95,9 +112,9 @@ static void release(struct job *job)
     free(impact);
 }
 
-static const struct job_kind impact_kind = {run_impact, report_impact, release};
-static const struct job_kind batch_kind = {run_impact, report_batch, release};
-static const struct job_kind specimen_kind = {run_on_specimens, report_impact, release};
+static const struct job_kind impact_kind = {run_impact, report_impact, cancel, release};
+static const struct job_kind batch_kind = {run_impact, report_batch, cancel, release};
+static const struct job_kind specimen_kind = {run_on_specimens, report_impact, cancel, release};
 
 bool impact_job_is_durable(const struct shared *shared, const percuss_v1_Request *request)
 {

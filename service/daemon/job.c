@@ -11,11 +11,11 @@ void job_init(struct job *job, const struct job_kind *kind, size_t items)
     atomic_init(&job->left, items);
 }
 
-void job_work(struct job *job, size_t item, struct responder *responder)
+bool job_run(struct job *job, size_t item, struct responder *responder)
 {
     job->kind->run(job, item, responder);
     if (atomic_fetch_sub(&job->left, 1) > 1)
-        return;
+        return false;
     job->kind->report(job);
-    job->kind->release(job);
+    return true;
 }

@@ -6,7 +6,9 @@
 #define PERCUSS_DAEMON_JOB_H
 
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stddef.h>
+#include <sys/queue.h>
 
 struct job;
 struct responder;
@@ -17,6 +19,9 @@ struct job_kind {
     void (*run)(struct job *job, size_t item, struct responder *responder);
     /* All items are done: tells whoever waits, if anybody does. */
     void (*report)(struct job *job);
+    /* What is left of it is to be given up soon. Any thread, at any time. NULL: it takes no time.
+     */
+    void (*cancel)(struct job *job);
     /* Frees the job, whether it has run or not. */
     void (*release)(struct job *job);
 };
@@ -25,13 +30,15 @@ struct job_kind {
 struct job {
     const struct job_kind *kind;
     size_t items;       /* >= 1 */
-    size_t next;        /* first item no worker has taken: the queue's, under its lock */
     atomic_size_t left; /* items that are not done */
+    /* the queue's, under its lock */
+    size_t next; /* first item no worker has taken */
+    LIST_ENTRY(job) live;
 };
 
 void job_init(struct job *job, const struct job_kind *kind, size_t items);
 
-/* Does an item; whoever does the last one reports the job and releases it. */
-void job_work(struct job *job, size_t item, struct responder *responder);
+/* Does an item. True: it was the last one, and the job has been reported and is to be released. */
+bool job_run(struct job *job, size_t item, struct responder *responder);
 
 #endif

@@ -39,8 +39,10 @@ static void *work(void *argument)
     if (worker->nice)
         setpriority(PRIO_PROCESS, (id_t)gettid(), worker->nice);
     while ((job = queue_take(worker->queue, &item))) {
-        job_work(job, item, worker->responder);
-        queue_done(worker->queue);
+        bool ended = job_run(job, item, worker->responder);
+        queue_done(worker->queue, ended ? job : NULL);
+        if (ended)
+            job->kind->release(job);
     }
     return NULL;
 }

@@ -13,7 +13,8 @@ struct queue {
     size_t capacity, first, length;
     size_t running; /* items handed out and not yet done */
     bool closed;
-    struct job *jobs[]; /* a ring */
+    LIST_HEAD(live_jobs, job) live; /* that wait or are being done */
+    struct job *jobs[];             /* a ring */
 };
 
 struct queue *queue_create(size_t capacity)
@@ -22,6 +23,7 @@ struct queue *queue_create(size_t capacity)
     if (!queue)
         return NULL;
     queue->capacity = capacity;
+    LIST_INIT(&queue->live);
     pthread_condattr_t monotonic;
     pthread_condattr_init(&monotonic);
     pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
@@ -62,6 +64,7 @@ bool queue_put(struct queue *queue, struct job *job)
     bool accepted = !queue->closed && queue->length < queue->capacity;
     if (accepted) {
         push(queue, job);
+        LIST_INSERT_HEAD(&queue->live, job, live);
         if (job->items > 1)
             pthread_cond_broadcast(&queue->filled);
         else
@@ -89,9 +92,11 @@ struct job *queue_take(struct queue *queue, size_t *item)
     return job;
 }
 
-void queue_done(struct queue *queue)
+void queue_done(struct queue *queue, struct job *ended)
 {
     pthread_mutex_lock(&queue->lock);
+    if (ended)
+        LIST_REMOVE(ended, live);
     if (--queue->running == 0 && queue->length == 0)
         pthread_cond_broadcast(&queue->drained);
     pthread_mutex_unlock(&queue->lock);
@@ -102,6 +107,19 @@ void queue_close(struct queue *queue)
     pthread_mutex_lock(&queue->lock);
     queue->closed = true;
     pthread_cond_broadcast(&queue->filled);
+    pthread_mutex_unlock(&queue->lock);
+}
+
+void queue_cancel(struct queue *queue)
+{
+    struct job *job;
+    queue_close(queue);
+    pthread_mutex_lock(&queue->lock);
+    LIST_FOREACH(job, &queue->live, live)
+    {
+        if (job->kind->cancel)
+            job->kind->cancel(job);
+    }
     pthread_mutex_unlock(&queue->lock);
 }
 

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The jobs that wait: bounded, and full means refused. */
+/* The jobs that wait for workers: bounded, and full means refused. Any thread. */
 #ifndef PERCUSS_DAEMON_QUEUE_H
 #define PERCUSS_DAEMON_QUEUE_H
 
@@ -21,10 +21,16 @@ bool queue_put(struct queue *queue, struct job *job);
  * of a job are handed out one by one, taking turns with other jobs. NULL: the queue is closed and
  * empty. */
 struct job *queue_take(struct queue *queue, size_t *item);
-void queue_done(struct queue *queue);
+
+/* That item is done. `ended`: its job, if that has no other items left, which may be released from
+ * now on; otherwise NULL. */
+void queue_done(struct queue *queue, struct job *ended);
 
 /* Takes no more jobs. */
 void queue_close(struct queue *queue);
+
+/* The same, and cancels the jobs that wait or are being done. */
+void queue_cancel(struct queue *queue);
 
 /* Waits until nothing is queued or being answered, at most `seconds`. False: something is. */
 bool queue_drain(struct queue *queue, double seconds);

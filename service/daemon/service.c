@@ -209,7 +209,7 @@ bool service_drain(struct service *service, double seconds)
 
 bool service_cut_short(struct service *service)
 {
-    atomic_store(&service->shared.ending, true);
-    ensembles_cancel_all(&service->shared.ensembles);
+    for (int lane = 0; lane < LANE_COUNT; lane++)
+        queue_cancel(service->shared.lanes[lane]);
     return service_drain(service, cut_seconds);
 }

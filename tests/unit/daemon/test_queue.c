@@ -41,7 +41,7 @@ static void hands_out_in_order_and_refuses_when_full(void **state)
         assert_int_equal(queue_length(queue), 0);
         for (int i = 0; i < 4; i++) {
             jobs[i].next = 0;
-            queue_done(queue);
+            queue_done(queue, &jobs[i]);
         }
     }
     queue_free(queue);
@@ -92,19 +92,49 @@ static void is_drained_when_all_is_done(void **state)
     assert_false(queue_drain(queue, 0.0)); /* waits */
     takes(queue, &batch, 0);
     takes(queue, &batch, 1);
-    queue_done(queue);
+    queue_done(queue, NULL);
     double start = clock_now();
     assert_false(queue_drain(queue, 0.05)); /* one still runs */
     assert_true(clock_now() - start >= 0.05);
-    queue_done(queue);
+    queue_done(queue, &batch);
     assert_true(queue_drain(queue, 0.0));
+    queue_free(queue);
+}
+
+static int cancelled;
+
+static void note_cancelled(struct job *job)
+{
+    cancelled += (int)job->items;
+}
+
+static void cancels_what_waits_and_what_runs(void **state)
+{
+    (void)state;
+    static const struct job_kind patient = {.cancel = note_cancelled}, quick = {0};
+    struct job ended = job_of(1), running = job_of(10), waiting = job_of(100), other = job_of(1);
+    struct queue *queue = queue_create(4);
+    ended.kind = running.kind = waiting.kind = &patient;
+    other.kind = &quick;
+    assert_true(queue_put(queue, &ended));
+    assert_true(queue_put(queue, &running));
+    assert_true(queue_put(queue, &waiting));
+    assert_true(queue_put(queue, &other));
+    takes(queue, &ended, 0);
+    takes(queue, &running, 0);
+    queue_done(queue, &ended);
+    queue_cancel(queue);
+    assert_int_equal(cancelled, 110);
+    assert_false(queue_put(queue, &ended));
+    /* what waits is still handed out, to say so */
+    takes(queue, &waiting, 0);
     queue_free(queue);
 }
 
 static void *done_later(void *queue)
 {
     nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
-    queue_done(queue);
+    queue_done(queue, NULL);
     return NULL;
 }
 
@@ -140,7 +170,7 @@ static void *take_all(void *argument)
     size_t index;
     while ((job = queue_take(crowd->queue, &index))) {
         atomic_fetch_add(&crowd->taken[job - crowd->jobs][index], 1);
-        queue_done(crowd->queue);
+        queue_done(crowd->queue, NULL);
     }
     return NULL;
 }
@@ -176,6 +206,7 @@ int main(void)
         cmocka_unit_test(a_batch_lets_others_in_between),
         cmocka_unit_test(a_closed_queue_gives_what_it_has),
         cmocka_unit_test(is_drained_when_all_is_done),
+        cmocka_unit_test(cancels_what_waits_and_what_runs),
         cmocka_unit_test(draining_ends_with_the_last_request),
         cmocka_unit_test(threads_take_every_request_once),
     };
