@@ -1,0 +1,33 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Tests daemon/activity.c: what is read is what was set last, cut to fit. */
+#include "check.h"
+#include "daemon/activity.h"
+
+static void says_what_runs(void **state)
+{
+    (void)state;
+    struct activity activity;
+    char text[12];
+    double progress;
+    activity_create(&activity);
+    activity_read(&activity, text, sizeof text, &progress);
+    assert_string_equal(text, "");
+    assert_true(isnan(progress));
+    activity_set(&activity, 0.25, "%d of %d samples", 1, 4);
+    activity_read(&activity, text, sizeof text, &progress);
+    assert_string_equal(text, "1 of 4 samp");
+    assert_true(progress == 0.25);
+    activity_clear(&activity);
+    activity_read(&activity, text, sizeof text, &progress);
+    assert_string_equal(text, "");
+    assert_true(isnan(progress));
+    activity_release(&activity);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(says_what_runs)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
