@@ -104,6 +104,9 @@ static bool admit(struct shared *shared, const struct request_name *name, struct
                  (unsigned long long)name->sequence);
         deliver_at_once(shared, name, PERCUSS_BAD_REQUEST, message);
         return false;
+    case ADMISSION_NO_MEMORY:
+        deliver_at_once(shared, name, PERCUSS_INTERNAL, "out of memory");
+        return false;
     case ADMISSION_PENDING:
         return false;
     case ADMISSION_NEW:
@@ -241,7 +244,8 @@ static void note_presence(void *context, const uint8_t client[16], bool present)
     char name[WIRE_PARTITION_SIZE];
     wire_partition_name(client, name);
     log_line(LEVEL_DEBUG, "client %s: a reader of replies has %s", name, present ? "come" : "gone");
-    reply_store_set_present(shared->replies, client, present, clock_now());
+    if (!reply_store_set_present(shared->replies, client, present, clock_now()))
+        log_line(LEVEL_WARNING, "client %s: out of memory: its leaving will not be noticed", name);
 }
 
 struct endpoint_handler dispatch_handler(struct dispatch *dispatch)

@@ -160,7 +160,8 @@ static enum percuss_status prepare(struct responder *responder, const struct que
     return status;
 }
 
-static void name_states(struct responder *responder, const struct question *question)
+/* False: out of memory. */
+static bool name_states(struct responder *responder, const struct question *question)
 {
     double now = clock_now();
     for (size_t i = 0; i < responder->result.body_count; i++) {
@@ -168,10 +169,11 @@ static void name_states(struct responder *responder, const struct question *ques
         struct subject_name name;
         struct token_subject subject = subject_of(question, i, &name);
         responder->states_after[i][0] = '\0';
-        if (body->state_after)
-            token_store_put(responder->tokens, &subject, body->state_after, now,
-                            responder->states_after[i]);
+        if (body->state_after && !token_store_put(responder->tokens, &subject, body->state_after,
+                                                  now, responder->states_after[i]))
+            return false;
     }
+    return true;
 }
 
 /* Solves responder->request and makes the reply. */
@@ -200,7 +202,8 @@ static struct answer *compute(struct responder *responder, const struct question
         return refuse(&inquiry);
     if (!encode_status_has_result(result->status))
         return encode_refusal(envelope, result->status, result->fault.text);
-    name_states(responder, question);
+    if (!name_states(responder, question))
+        return encode_refusal(envelope, PERCUSS_INTERNAL, "out of memory");
     const char(*names)[PERCUSS_ID_SIZE] = (const char(*)[PERCUSS_ID_SIZE])responder->states_after;
     if (question->in_batch)
         return batch_encode_member(envelope, result, names);

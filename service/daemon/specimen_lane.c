@@ -126,27 +126,27 @@ static size_t find_changes(const struct question *question, const struct respond
     return count;
 }
 
-/* Makes an answer durable with what the impact did. */
-static enum percuss_status store(struct specimen_lane *lane, const struct question *question,
-                                 const struct responder *responder, const struct answer *answer,
-                                 struct stored_reply *reply)
+/* Makes an answer durable with what the impact did. NULL, or what to refuse the request with. */
+static const char *store(struct specimen_lane *lane, const struct question *question,
+                         const struct responder *responder, const struct answer *answer,
+                         struct stored_reply *reply)
 {
     struct specimen_change changes[PERCUSS_MAX_BODIES];
     struct fault fault;
     size_t count = find_changes(question, responder, changes);
     reply->bytes = reply_bytes_write(answer, &reply->size);
     if (!reply->bytes)
-        return PERCUSS_INTERNAL;
+        return "out of memory: nothing has changed, ask again";
     enum percuss_status status = specimen_store_commit(lane->store, changes, count, reply, &fault);
     free(reply->bytes);
     if (status) {
         log_line(LEVEL_ERROR, "%s", fault.text);
-        return status;
+        return "the store of specimens failed: nothing has changed, ask again";
     }
     atomic_store(&lane->count, specimen_store_count(lane->store));
     for (size_t i = 0; i < count; i++)
         announce_again(lane, changes[i].name);
-    return PERCUSS_OK;
+    return NULL;
 }
 
 static struct answer *compute(struct specimen_lane *lane, struct responder *responder,
@@ -159,12 +159,13 @@ static struct answer *compute(struct specimen_lane *lane, struct responder *resp
     struct question posed = *question;
     posed.specimens = (const struct body_state *const *)lane->states;
     struct answer *answer = responder_answer(responder, &posed);
-    if (!answer || !encode_status_has_result(answer->reply->status) ||
-        store(lane, question, responder, answer, reply) == PERCUSS_OK)
+    if (!answer || !encode_status_has_result(answer->reply->status))
+        return answer;
+    const char *problem = store(lane, question, responder, answer, reply);
+    if (!problem)
         return answer;
     answer_release(answer);
-    return encode_refusal(&question->envelope, PERCUSS_INTERNAL,
-                          "the store of specimens failed: nothing has changed, ask again");
+    return encode_refusal(&question->envelope, PERCUSS_INTERNAL, problem);
 }
 
 /* Kept nowhere, so that the request whose number it is still finds its own reply. */
@@ -207,8 +208,9 @@ static struct answer *recall(const struct question *question, const struct store
     if (reply->content[0] != content.first || reply->content[1] != content.second)
         return refuse_number(question, PERCUSS_BAD_REQUEST,
                              "was used for another request: must be a new number");
-    struct answer *answer = reply_bytes_read(reply->bytes, reply->size);
-    if (answer)
+    bool damaged;
+    struct answer *answer = reply_bytes_read(reply->bytes, reply->size, &damaged);
+    if (answer || !damaged)
         return answer;
     char problem[96];
     snprintf(problem, sizeof problem, "the stored reply to request %llu is damaged",

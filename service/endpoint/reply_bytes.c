@@ -41,21 +41,22 @@ static bool decode(char *bytes, uint32_t size, percuss_v1_Reply *reply)
     return true;
 }
 
-struct answer *reply_bytes_read(const void *bytes, size_t size)
+struct answer *reply_bytes_read(const void *bytes, size_t size, bool *damaged)
 {
     struct answer *answer = answer_create(EXCHANGE_SINGLE, 0);
     char *copy = malloc(size);
-    bool good = answer && copy && size <= UINT32_MAX;
-    if (good) {
+    bool good = answer && copy;
+    *damaged = good && size > UINT32_MAX;
+    if (good && !*damaged) {
         memcpy(copy, bytes, size);
         answer->decoded = answer->reply = dds_alloc(sizeof *answer->reply);
         memset(answer->reply, 0, sizeof *answer->reply);
         /* about as much in memory as on the wire */
         answer->bytes += sizeof *answer->reply + size;
-        good = decode(copy, (uint32_t)size, answer->reply);
+        *damaged = !decode(copy, (uint32_t)size, answer->reply);
     }
     free(copy);
-    if (good)
+    if (good && !*damaged)
         return answer;
     answer_release(answer);
     return NULL;

@@ -11,7 +11,7 @@
 /* The bytes of an answer of EXCHANGE_SINGLE, for the caller to free(); NULL: no memory. */
 void *reply_bytes_write(const struct answer *answer, size_t *size);
 
-/* The answer again; NULL: damaged bytes, or no memory. */
-struct answer *reply_bytes_read(const void *bytes, size_t size);
+/* The answer again; NULL: damaged bytes, or else no memory. */
+struct answer *reply_bytes_read(const void *bytes, size_t size, bool *damaged);
 
 #endif

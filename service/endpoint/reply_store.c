@@ -151,13 +151,13 @@ static struct kept_reply *reply_find(const struct session *session, const struct
     return node ? KEY_MAP_OWNER(node, struct kept_reply, node) : NULL;
 }
 
-/* Without memory the request is answered all the same, its reply is just not kept. */
-static void reply_open(struct reply_store *store, struct session *session,
+/* False: out of memory. */
+static bool reply_open(struct reply_store *store, struct session *session,
                        const struct request_name *name, struct digest content)
 {
     struct kept_reply *reply = calloc(1, sizeof *reply);
     if (!reply)
-        return;
+        return false;
     reply->node.key = (struct digest){name->sequence, name->exchange};
     reply->session = session;
     reply->content = content;
@@ -167,6 +167,7 @@ static void reply_open(struct reply_store *store, struct session *session,
     store->bytes += reply_bytes(reply);
     while (session->replies.count > store->limits.per_client)
         reply_drop(store, TAILQ_FIRST(&session->turns));
+    return true;
 }
 
 static enum admission judge(const struct kept_reply *reply, struct digest content)
@@ -179,7 +180,7 @@ static enum admission judge(const struct kept_reply *reply, struct digest conten
 enum admission reply_store_admit(struct reply_store *store, const struct request_name *name,
                                  struct digest content, double now, struct answer **answer)
 {
-    enum admission admission = ADMISSION_NEW;
+    enum admission admission = ADMISSION_NO_MEMORY;
     *answer = NULL;
     pthread_mutex_lock(&store->lock);
     struct session *session = session_open(store, name->client, now);
@@ -188,8 +189,8 @@ enum admission reply_store_admit(struct reply_store *store, const struct request
         admission = judge(reply, content);
         if (admission == ADMISSION_REPEATED)
             *answer = answer_hold(reply->answer);
-    } else if (session) {
-        reply_open(store, session, name, content);
+    } else if (session && reply_open(store, session, name, content)) {
+        admission = ADMISSION_NEW;
         drop_gone(store, now);
     }
     pthread_mutex_unlock(&store->lock);
@@ -228,7 +229,7 @@ void reply_store_forget(struct reply_store *store, const struct request_name *na
     pthread_mutex_unlock(&store->lock);
 }
 
-void reply_store_set_present(struct reply_store *store, const uint8_t client[16], bool present,
+bool reply_store_set_present(struct reply_store *store, const uint8_t client[16], bool present,
                              double now)
 {
     pthread_mutex_lock(&store->lock);
@@ -242,6 +243,7 @@ void reply_store_set_present(struct reply_store *store, const uint8_t client[16]
         session_seen(store, session, now);
     }
     pthread_mutex_unlock(&store->lock);
+    return session || !present;
 }
 
 bool reply_store_is_gone(struct reply_store *store, const uint8_t client[16])

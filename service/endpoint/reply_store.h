@@ -30,7 +30,8 @@ enum admission {
     ADMISSION_NEW,      /* to be answered, then given to reply_store_keep or _forget */
     ADMISSION_PENDING,  /* being answered: the reply will come once */
     ADMISSION_REPEATED, /* answered before: here is the reply */
-    ADMISSION_CONFLICT  /* the number was used for another question */
+    ADMISSION_CONFLICT, /* the number was used for another question */
+    ADMISSION_NO_MEMORY /* to be refused: it could not be told from its repetition */
 };
 
 struct reply_store;
@@ -50,8 +51,9 @@ void reply_store_keep(struct reply_store *store, const struct request_name *name
  * is new. */
 void reply_store_forget(struct reply_store *store, const struct request_name *name);
 
-/* Whether the client is there to read replies. */
-void reply_store_set_present(struct reply_store *store, const uint8_t client[16], bool present,
+/* Whether the client is there to read replies. False: out of memory, and its leaving will not be
+ * noticed. */
+bool reply_store_set_present(struct reply_store *store, const uint8_t client[16], bool present,
                              double now);
 
 /* Whether the client was there to read replies and is not any more. */

@@ -117,19 +117,21 @@ static struct stored_state *stored_create(struct digest key, const struct token_
     return stored;
 }
 
-/* The stored copy, old or new; NULL: no memory, or another state of the same hash, which must not
- * be mistaken for this one. */
+static bool is_same(const struct stored_state *stored, const struct token_subject *subject,
+                    const struct body_state *state, size_t size)
+{
+    return is_of(stored, subject) && stored->size == size &&
+           memcmp(stored->state, state, size) == 0;
+}
+
+/* The state of that token, whatever it is, or else this one; NULL: out of memory. */
 static struct stored_state *find_or_store(struct token_store *store, struct digest key,
                                           const struct token_subject *subject,
                                           const struct body_state *state, size_t size)
 {
     struct key_node *node = key_map_find(&store->map, key);
-    if (node) {
-        struct stored_state *stored = KEY_MAP_OWNER(node, struct stored_state, node);
-        bool same = is_of(stored, subject) && stored->size == size &&
-                    memcmp(stored->state, state, size) == 0;
-        return same ? stored : NULL;
-    }
+    if (node)
+        return KEY_MAP_OWNER(node, struct stored_state, node);
     struct stored_state *stored = stored_create(key, subject, state, size);
     if (stored) {
         key_map_insert(&store->map, &stored->node);
@@ -149,7 +151,7 @@ static void print_token(struct digest key, char token[PERCUSS_ID_SIZE])
     token[32] = '\0';
 }
 
-void token_store_put(struct token_store *store, const struct token_subject *subject,
+bool token_store_put(struct token_store *store, const struct token_subject *subject,
                      const struct body_state *state, double now, char token[PERCUSS_ID_SIZE])
 {
     size_t size = body_state_size(state);
@@ -157,12 +159,14 @@ void token_store_put(struct token_store *store, const struct token_subject *subj
     token[0] = '\0';
     pthread_mutex_lock(&store->lock);
     struct stored_state *stored = find_or_store(store, key, subject, state, size);
-    if (stored) {
+    bool good = stored != NULL;
+    if (good && is_same(stored, subject, state, size)) {
         touch(store, stored, now);
         print_token(key, token);
         drop_excess(store, now);
     }
     pthread_mutex_unlock(&store->lock);
+    return good;
 }
 
 /* Exactly what print_token writes. */

@@ -30,9 +30,9 @@ struct token_subject {
     const char *body;     /* below TOKEN_BODY_SIZE: its id, and a hash of the request's overrides */
 };
 
-/* Keeps a copy of the state and writes its token. Without memory the token is empty: the state is
- * then simply not kept. `now` is a monotonic time, s. */
-void token_store_put(struct token_store *store, const struct token_subject *subject,
+/* Keeps a copy of the state and writes its token; an empty one where another state has the same
+ * hash. `now` is a monotonic time, s. False: out of memory. */
+bool token_store_put(struct token_store *store, const struct token_subject *subject,
                      const struct body_state *state, double now, char token[PERCUSS_ID_SIZE]);
 
 /* The state of that token, kept alive until token_store_release; NULL: unknown, expired, of another

@@ -56,7 +56,7 @@ static void every_item_is_worked_on_once(void **state)
 static void what_is_done_has_no_gaps(void **state)
 {
     (void)state;
-    /* stopped by the watch, after about 0.1 s of the 0.5 s that two threads would need */
+    /* stopped by the watch, after about 0.1 s of the 0.5 s that four threads would need */
     struct count stopped = {.refused = ITEMS, .slow = true, .stops = true};
     uint64_t done = run(&stopped, 4);
     assert_int_equal(stopped.watched > 0, true);
