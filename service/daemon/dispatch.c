@@ -238,14 +238,19 @@ static void receive_clear(void *context, const char *specimen)
         job->kind->release(job);
 }
 
-static void note_presence(void *context, const uint8_t client[16], bool present)
+static void note_presence(void *context, const uint8_t client[16], enum presence presence)
 {
     struct shared *shared = ((struct dispatch *)context)->shared;
     char name[WIRE_PARTITION_SIZE];
     wire_partition_name(client, name);
+    if (presence == READER_REFUSED) {
+        log_line(LEVEL_WARNING, "client %s: gets no replies: %u clients are there, or no memory",
+                 name, (unsigned)endpoint_clients(shared->endpoint));
+        return;
+    }
+    bool present = presence == READER_COME;
     log_line(LEVEL_DEBUG, "client %s: a reader of replies has %s", name, present ? "come" : "gone");
-    if (!reply_store_set_present(shared->replies, client, present, clock_now()))
-        log_line(LEVEL_WARNING, "client %s: out of memory: its leaving will not be noticed", name);
+    reply_store_set_present(shared->replies, client, present, clock_now());
 }
 
 struct endpoint_handler dispatch_handler(struct dispatch *dispatch)

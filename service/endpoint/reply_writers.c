@@ -4,17 +4,13 @@
 #include "endpoint/reply_writers.h"
 
 #include <pthread.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/queue.h>
 
 #include "endpoint/clock.h"
 #include "endpoint/key_map.h"
-
-enum { TAKEN_AT_ONCE = 32 };
-
-/* Replies of every exchange, and what goes with them on a topic of its own. */
+#include "endpoint/subscriptions.h"
 
 static const double stall_pause = 1.0; /* s */
 
@@ -68,11 +64,7 @@ static bool create_entities(struct reply_writers *writers, struct fault *fault)
             return false;
         }
     }
-    writers->source =
-        dds_create_reader(writers->participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, NULL, NULL);
-    if (writers->source < 0)
-        fault_set(fault, PERCUSS_INTERNAL, "reader of subscriptions: %s",
-                  dds_strretcode(writers->source));
+    writers->source = subscriptions_open(writers->participant, fault);
     return writers->source > 0;
 }
 
@@ -207,33 +199,6 @@ static void remove_reader(struct reply_writers *writers, struct remote_reader *r
         dds_delete(unused);
 }
 
-/* The client whose partition this is: "c_" and 32 lower-case hexadecimal digits. */
-static bool parse_partition(const char *name, uint8_t client[16])
-{
-    if (strlen(name) != WIRE_PARTITION_SIZE - 1 || name[0] != 'c' || name[1] != '_' ||
-        strspn(name + 2, "0123456789abcdef") != 32)
-        return false;
-    for (size_t i = 0; i < 16; i++)
-        sscanf(name + 2 + 2 * i, "%2hhx", &client[i]);
-    return true;
-}
-
-/* Looks for a client's partition among those of a reader; the first one counts. */
-static bool find_client(const dds_qos_t *qos, uint8_t client[16])
-{
-    uint32_t count = 0;
-    char **names = NULL;
-    bool found = false;
-    if (!dds_qget_partition(qos, &count, &names))
-        return false;
-    for (uint32_t i = 0; i < count; i++) {
-        found = found || parse_partition(names[i], client);
-        dds_free(names[i]);
-    }
-    dds_free(names);
-    return found;
-}
-
 static unsigned find_channel(const char *topic)
 {
     int i = 0;
@@ -242,44 +207,53 @@ static unsigned find_channel(const char *topic)
     return i;
 }
 
-static void follow_one(struct reply_writers *writers, const dds_builtintopic_endpoint_t *endpoint,
-                       const dds_sample_info_t *info, presence_function *presence, void *context)
+/* What a visit of the subscriptions needs. */
+struct follow {
+    struct reply_writers *writers;
+    presence_function *presence;
+    void *context;
+};
+
+static void note_gone(const struct follow *follow, struct key_node *node)
 {
-    struct digest key = digest_of_octets(endpoint->key.v);
-    struct key_node *node = key_map_find(&writers->readers, key);
-    bool alive = info->instance_state == DDS_ALIVE_INSTANCE_STATE;
-    if (node && !alive) {
-        struct remote_reader *reader = KEY_MAP_OWNER(node, struct remote_reader, node);
-        uint8_t client[16];
-        memcpy(client, reader->destination->client, sizeof client);
-        remove_reader(writers, reader);
-        presence(context, client, false);
-        return;
-    }
+    struct remote_reader *reader = KEY_MAP_OWNER(node, struct remote_reader, node);
     uint8_t client[16];
-    if (node || !alive || !info->valid_data || !find_client(endpoint->qos, client))
+    memcpy(client, reader->destination->client, sizeof client);
+    remove_reader(follow->writers, reader);
+    follow->presence(follow->context, client, READER_GONE);
+}
+
+static void note_come(const struct follow *follow, const struct subscription *subscription)
+{
+    unsigned channel = find_channel(subscription->topic);
+    if (channel == CHANNEL_COUNT)
         return;
-    unsigned channel = find_channel(endpoint->topic_name);
-    struct remote_reader *reader = channel < CHANNEL_COUNT ? calloc(1, sizeof *reader) : NULL;
-    if (!reader)
-        return;
-    reader->node.key = key;
-    if (add_reader(writers, reader, client, channel))
-        presence(context, client, true);
-    else
-        free(reader);
+    struct remote_reader *reader = calloc(1, sizeof *reader);
+    enum presence presence = READER_REFUSED;
+    if (reader) {
+        reader->node.key = subscription->key;
+        if (add_reader(follow->writers, reader, subscription->client, channel))
+            presence = READER_COME;
+        else
+            free(reader);
+    }
+    follow->presence(follow->context, subscription->client, presence);
+}
+
+static void follow_one(void *context, const struct subscription *subscription)
+{
+    const struct follow *follow = context;
+    struct key_node *node = key_map_find(&follow->writers->readers, subscription->key);
+    if (node && !subscription->alive)
+        note_gone(follow, node);
+    else if (!node && subscription->alive && subscription->is_client)
+        note_come(follow, subscription);
 }
 
 void reply_writers_follow(struct reply_writers *writers, presence_function *presence, void *context)
 {
-    void *samples[TAKEN_AT_ONCE] = {NULL};
-    dds_sample_info_t infos[TAKEN_AT_ONCE];
-    dds_return_t count;
-    while ((count = dds_take(writers->source, samples, infos, TAKEN_AT_ONCE, TAKEN_AT_ONCE)) > 0) {
-        for (dds_return_t i = 0; i < count; i++)
-            follow_one(writers, samples[i], &infos[i], presence, context);
-        dds_return_loan(writers->source, samples, count);
-    }
+    struct follow follow = {writers, presence, context};
+    subscriptions_take(writers->source, follow_one, &follow);
 }
 
 /* The writer for a client's replies; 0 with the reason if there is none to be used now. */
@@ -309,6 +283,17 @@ static void mark_stalled(struct reply_writers *writers, const uint8_t client[16]
     pthread_mutex_unlock(&writers->lock);
 }
 
+/* What became of a sample. */
+static enum delivery judge(struct reply_writers *writers, const uint8_t client[16],
+                           unsigned channel, dds_return_t result)
+{
+    if (result == DDS_RETCODE_TIMEOUT) {
+        mark_stalled(writers, client, channel);
+        return DELIVERY_STALLED;
+    }
+    return result == DDS_RETCODE_OK ? DELIVERY_DONE : DELIVERY_NO_READER;
+}
+
 static dds_return_t write_all(dds_entity_t writer, const struct answer *answer)
 {
     if (answer->exchange == EXCHANGE_ENSEMBLE)
@@ -330,8 +315,7 @@ static void write_traces(struct reply_writers *writers, const uint8_t client[16]
     dds_return_t result = DDS_RETCODE_OK;
     for (size_t i = 0; writer && !result && i < answer->trace_count; i++)
         result = dds_write(writer, &answer->traces[i]);
-    if (result == DDS_RETCODE_TIMEOUT)
-        mark_stalled(writers, client, CHANNEL_TRACE);
+    judge(writers, client, CHANNEL_TRACE, result);
 }
 
 enum delivery reply_writers_write(struct reply_writers *writers, const uint8_t client[16],
@@ -344,11 +328,7 @@ enum delivery reply_writers_write(struct reply_writers *writers, const uint8_t c
     if (answer->trace_count > 0)
         write_traces(writers, client, answer);
     dds_return_t result = write_all(writer, answer);
-    if (result == DDS_RETCODE_TIMEOUT) {
-        mark_stalled(writers, client, answer->exchange);
-        return DELIVERY_STALLED;
-    }
-    return result == DDS_RETCODE_OK ? DELIVERY_DONE : DELIVERY_NO_READER;
+    return judge(writers, client, answer->exchange, result);
 }
 
 enum delivery reply_writers_publish(struct reply_writers *writers, const uint8_t client[16],
@@ -361,11 +341,7 @@ enum delivery reply_writers_publish(struct reply_writers *writers, const uint8_t
     dds_return_t result = dds_write(writer, sample);
     for (unsigned i = 1; result == DDS_RETCODE_TIMEOUT && i < patience; i++)
         result = dds_write(writer, sample);
-    if (result == DDS_RETCODE_TIMEOUT) {
-        mark_stalled(writers, client, channel);
-        return DELIVERY_STALLED;
-    }
-    return result == DDS_RETCODE_OK ? DELIVERY_DONE : DELIVERY_NO_READER;
+    return judge(writers, client, channel, result);
 }
 
 void reply_writers_flush(struct reply_writers *writers, double seconds)

@@ -27,8 +27,13 @@ void reply_writers_free(struct reply_writers *writers);
 /* The reader of subscriptions, to wait on. */
 dds_entity_t reply_writers_source(const struct reply_writers *writers);
 
-/* Told that a reader of replies of this client has come or gone. */
-typedef void presence_function(void *context, const uint8_t client[16], bool present);
+/* Told what has become of a reader of replies of this client. */
+enum presence {
+    READER_COME,
+    READER_GONE,
+    READER_REFUSED /* it gets no replies: too many clients, or no memory */
+};
+typedef void presence_function(void *context, const uint8_t client[16], enum presence presence);
 
 /* Creates and deletes writers for the readers that came and went since the last call. One thread
  * only. */

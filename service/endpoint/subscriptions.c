@@ -1,0 +1,71 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "endpoint/subscriptions.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "endpoint/key_map.h"
+
+enum { TAKEN_AT_ONCE = 32 };
+
+dds_entity_t subscriptions_open(dds_entity_t participant, struct fault *fault)
+{
+    dds_entity_t reader =
+        dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, NULL, NULL);
+    if (reader > 0)
+        return reader;
+    fault_set(fault, PERCUSS_INTERNAL, "reader of subscriptions: %s", dds_strretcode(reader));
+    return 0;
+}
+
+/* The client whose partition this is: "c_" and 32 lower-case hexadecimal digits. */
+static bool parse_partition(const char *name, uint8_t client[16])
+{
+    if (strlen(name) != WIRE_PARTITION_SIZE - 1 || name[0] != 'c' || name[1] != '_' ||
+        strspn(name + 2, "0123456789abcdef") != 32)
+        return false;
+    for (size_t i = 0; i < 16; i++)
+        sscanf(name + 2 + 2 * i, "%2hhx", &client[i]);
+    return true;
+}
+
+/* Looks for a client's partition among those of a reader; the first one counts. */
+static bool find_client(const dds_qos_t *qos, uint8_t client[16])
+{
+    uint32_t count = 0;
+    char **names = NULL;
+    bool found = false;
+    if (!dds_qget_partition(qos, &count, &names))
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        found = found || parse_partition(names[i], client);
+        dds_free(names[i]);
+    }
+    dds_free(names);
+    return found;
+}
+
+void subscriptions_take(dds_entity_t reader,
+                        void (*visit)(void *context, const struct subscription *subscription),
+                        void *context)
+{
+    void *samples[TAKEN_AT_ONCE] = {NULL};
+    dds_sample_info_t infos[TAKEN_AT_ONCE];
+    dds_return_t count;
+    while ((count = dds_take(reader, samples, infos, TAKEN_AT_ONCE, TAKEN_AT_ONCE)) > 0) {
+        for (dds_return_t i = 0; i < count; i++) {
+            const dds_builtintopic_endpoint_t *endpoint = samples[i];
+            struct subscription subscription = {
+                .key = digest_of_octets(endpoint->key.v),
+                .alive = infos[i].instance_state == DDS_ALIVE_INSTANCE_STATE,
+                .topic = infos[i].valid_data ? endpoint->topic_name : "",
+            };
+            subscription.is_client =
+                infos[i].valid_data && find_client(endpoint->qos, subscription.client);
+            visit(context, &subscription);
+        }
+        dds_return_loan(reader, samples, count);
+    }
+}
