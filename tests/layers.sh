@@ -70,7 +70,6 @@ service/ensemble choice ensemble remarks report verification worker
 service/fe complete_setup impact_complete indentation indentation_run mesh mesh_rings region
 service/fe region_parts solid solid_parts
 service/model beam body body_check torsion
-service/solve assemble attempt compliance geometry nearby radiation roll
 service/store table_file table_json
 END
 )

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "solve/formulation.h"
+
 /* d(restitution)/d(speed) of the contact with the largest impulse, by central difference with all
  * gap rates scaled. */
 static enum percuss_status find_conditioning(struct attempt_context *context,
@@ -14,7 +16,7 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
     const double step = 1e-5;
     const struct track *tracks = best->outcome.tracks;
     size_t main_contact = 0;
-    for (size_t c = 1; c < context->geometry->contact_count; c++)
+    for (size_t c = 1; c < context->problem->contact_count; c++)
         if (tracks[c].impulse > tracks[main_contact].impulse)
             main_contact = c;
     double restitution[2];
@@ -25,18 +27,18 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
             attempt_run_scaled(context, &shifted, side == 0 ? 1.0 - step : 1.0 + step);
         if (status || attempt_is_spent(&shifted))
             return status;
-        restitution[side] = attempt_restitution(context->geometry, &shifted.outcome, main_contact);
+        restitution[side] = attempt_restitution(context->problem, &shifted.outcome, main_contact);
     }
     *by_speed = (restitution[1] - restitution[0]) /
-                (2.0 * step * fabs(context->geometry->gap_rate[main_contact]));
+                (2.0 * step * fabs(context->problem->gap_rate[main_contact]));
     return PERCUSS_OK;
 }
 
-static double largest_compression(const struct geometry *geometry)
+static double largest_compression(const struct problem *problem)
 {
     double largest = 0.0;
-    for (size_t c = 0; c < geometry->contact_count; c++)
-        largest = fmax(largest, geometry->impulse_compression[c]);
+    for (size_t c = 0; c < problem->contact_count; c++)
+        largest = fmax(largest, problem->impulse_compression[c]);
     return largest;
 }
 
@@ -44,8 +46,8 @@ static double largest_compression(const struct geometry *geometry)
 static double possible_range(const struct attempt_context *context, const struct attempt *best)
 {
     double most = 1.0;
-    for (size_t c = 0; c < context->geometry->contact_count; c++)
-        most = fmax(most, attempt_restitution(context->geometry, &best->outcome, c));
+    for (size_t c = 0; c < context->problem->contact_count; c++)
+        most = fmax(most, attempt_restitution(context->problem, &best->outcome, c));
     return 1.0 + most;
 }
 
@@ -55,13 +57,13 @@ static void widen(const struct attempt_context *context, const struct attempt *b
                   struct accuracy *accuracy)
 {
     struct mode_error *modes = &accuracy->modes;
-    double distance = nearby_distance(context->nearby, context->geometry, &best->outcome);
+    double distance = nearby_distance(context->nearby, context->problem, &best->outcome);
     bool alone = context->nearby->solutions < 2;
     double error = alone && !unknown ? 0.0 : SEQUENCE_FACTOR * distance;
     error = fmax(error, unknown ? context->tolerance : 0.0) - accuracy->steps.restitution;
     if (error > modes->restitution) {
         modes->restitution = error;
-        modes->impulse = fmax(modes->impulse, error * largest_compression(context->geometry));
+        modes->impulse = fmax(modes->impulse, error * largest_compression(context->problem));
     }
 }
 
@@ -90,35 +92,33 @@ static void conclude(const struct attempt_context *context, const struct attempt
         widen(context, best, unknown, accuracy);
     /* what sequences amplify beyond all bounds */
     double range = possible_range(context, best);
-    double compression = largest_compression(context->geometry);
+    double compression = largest_compression(context->problem);
     bound(range, compression, &accuracy->steps.restitution, &accuracy->steps.impulse);
     bound(range, compression, &accuracy->modes.restitution, &accuracy->modes.impulse);
 }
 
-enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geometry *geometry,
-                                   const struct solve_request *request,
-                                   const struct attempt_means *means, struct fault *fault)
+static enum percuss_status search(struct accuracy *accuracy, const struct problem *problem,
+                                  struct pace *pace, struct fault *fault)
 {
-    const struct solve_options *options = &request->options;
+    const struct solve_options *options = &problem->request->options;
     struct attempt_context context = {
-        .geometry = geometry,
-        .request = request,
-        .cache = means->cache,
-        .arena = means->arena,
-        .pace = means->pace,
-        .tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3,
-        .work = attempt_work_allowed(request->options.method),
+        .problem = problem,
+        .request = problem->request,
+        .arena = problem->arena,
+        .pace = pace,
+        .tolerance = problem->tolerance,
+        .work = attempt_work_allowed(problem->request->options.method),
         .nearby = &accuracy->nearby,
     };
-    bool sequence = mode_search_expects_sequence(geometry);
+    bool sequence = mode_search_expects_sequence(problem);
     struct attempt best = {.accuracy = step_search_first_accuracy(context.tolerance, sequence,
-                                                                  geometry->contact_count > 1)};
+                                                                  problem->contact_count > 1)};
     memset(accuracy, 0, sizeof *accuracy);
     accuracy->restitution_by_speed = NAN;
     enum percuss_status status = mode_search(&context, &best, &accuracy->modes);
     if (!status && best.outcome.always_overlapped)
         return attempt_refuse_overlap(&context, &best,
-                                      attempt_horizon(request, &best.assembly->scene), fault);
+                                      attempt_horizon(problem, &best.assembly->scene), fault);
     if (!status)
         status = step_search(&context, &best, &accuracy->modes, &accuracy->steps);
     if (!status && options->conditioning)
@@ -129,4 +129,14 @@ enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geome
     accuracy->spent = context.work < 1e-3 * attempt_work_allowed(options->method);
     conclude(&context, &best, accuracy);
     return PERCUSS_OK;
+}
+
+enum percuss_status accuracy_reach(struct accuracy *accuracy, struct problem *problem,
+                                   struct pace *pace, struct fault *fault)
+{
+    enum percuss_status status;
+    do
+        status = search(accuracy, problem, pace, fault);
+    while (!status && formulation_revise(problem, &accuracy->assembly->scene, &accuracy->outcome));
+    return status;
 }

@@ -7,6 +7,7 @@
 #define PERCUSS_SOLVE_ACCURACY_H
 
 #include "solve/mode_search.h"
+#include "solve/nearby.h"
 #include "solve/step_search.h"
 
 struct accuracy {
@@ -21,10 +22,10 @@ struct accuracy {
     bool spent; /* the effort allowed ended the search */
 };
 
-/* Solves until the estimated error fits the tolerance or the effort allowed is spent. The arena
- * holds everything that is returned. PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT. */
-enum percuss_status accuracy_solve(struct accuracy *accuracy, const struct geometry *geometry,
-                                   const struct solve_request *request,
-                                   const struct attempt_means *means, struct fault *fault);
+/* Solves until the estimated error fits the tolerance or the effort allowed is spent, and nothing
+ * is left to revise of the problem, whose arena holds everything that is returned. PERCUSS_OK,
+ * PERCUSS_INTERNAL or PERCUSS_TIMEOUT; BAD_REQUEST: an overlap that contradicts itself. */
+enum percuss_status accuracy_reach(struct accuracy *accuracy, struct problem *problem,
+                                   struct pace *pace, struct fault *fault);
 
 #endif

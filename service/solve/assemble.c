@@ -18,20 +18,19 @@ static const double NODE_SHARE = 1e-9;
 /* What one family of one body adds. */
 struct addition {
     struct assembly *assembly;
-    const struct geometry *geometry;
+    const struct problem *problem;
     const struct body_state *state;
     double elapsed;
     size_t body;
     enum mode_family family;
     const struct prepared_family *prepared;
     size_t count; /* modes of the family that take part */
-    struct arena *arena;
 };
 
-static bool family_is_loaded(const struct geometry *geometry, size_t body, enum mode_family family)
+static bool family_is_loaded(const struct problem *problem, size_t body, enum mode_family family)
 {
-    for (size_t c = 0; c < geometry->contact_count; c++)
-        if (geometry_load(geometry, c, body, family))
+    for (size_t c = 0; c < problem->contact_count; c++)
+        if (problem_load(problem, c, body, family))
             return true;
     return false;
 }
@@ -43,8 +42,8 @@ static bool set_initial(const struct addition *add, struct scene_group *group,
     if (!add->state || add->state->count[add->family] == 0)
         return true;
     const double *pairs = body_state_family(add->state, (int)add->family);
-    double *q = arena_take(add->arena, group->stride, sizeof *q);
-    double *v = arena_take(add->arena, group->stride, sizeof *v);
+    double *q = arena_take(add->problem->arena, group->stride, sizeof *q);
+    double *v = arena_take(add->problem->arena, group->stride, sizeof *v);
     if (!q || !v)
         return false;
     for (size_t k = 0; k < group->count; k++) {
@@ -64,7 +63,7 @@ static bool set_initial(const struct addition *add, struct scene_group *group,
 static double fill_row(const struct addition *add, const struct prepared_group *source,
                        const struct site_load *load, size_t count, double *row)
 {
-    const struct body *body = add->geometry->bodies[add->body];
+    const struct body *body = add->problem->bodies[add->body];
     double largest = 0.0;
     for (size_t k = 0; k < count; k++) {
         row[k] = modal_participation(body, add->prepared->modes, source->mode[k], load);
@@ -83,22 +82,22 @@ static double participation_scale(const struct body *body)
 static bool add_group(const struct addition *add, const struct prepared_group *source, bool *added)
 {
     struct assembly *assembly = add->assembly;
-    size_t n = add->geometry->contact_count;
+    size_t n = add->problem->contact_count;
     struct scene_group *group = &assembly->groups[assembly->scene.groups];
     *group = (struct scene_group){.set = source->set, .body = add->body};
     while (group->count < source->set->count && source->mode[group->count] < add->count)
         group->count++;
     group->stride = (group->count + LANES - 1) / LANES * LANES;
-    group->participation = arena_take(add->arena, n, sizeof *group->participation);
+    group->participation = arena_take(add->problem->arena, n, sizeof *group->participation);
     if (!group->participation)
         return false;
-    double scale = participation_scale(add->geometry->bodies[add->body]);
+    double scale = participation_scale(add->problem->bodies[add->body]);
     *added = false;
     for (size_t c = 0; c < n && group->count; c++) {
-        const struct site_load *load = geometry_load(add->geometry, c, add->body, add->family);
+        const struct site_load *load = problem_load(add->problem, c, add->body, add->family);
         if (!load)
             continue;
-        double *row = arena_take(add->arena, group->stride, sizeof *row);
+        double *row = arena_take(add->problem->arena, group->stride, sizeof *row);
         if (!row)
             return false;
         if (fill_row(add, source, load, group->count, row) <= NODE_SHARE * scale)
@@ -125,11 +124,11 @@ static double held_compliance(const struct scene_group *group, size_t i, size_t 
 static void add_omitted(const struct addition *add, size_t first)
 {
     struct assembly *assembly = add->assembly;
-    const struct body *body = add->geometry->bodies[add->body];
+    const struct body *body = add->problem->bodies[add->body];
     double omega = add->prepared->modes->omega[add->count];
     double stand_in = modal_remainder_frequency(body, add->prepared->modes, add->count);
-    for (size_t i = 0; i < add->geometry->contact_count; i++) {
-        const struct site_load *load = geometry_load(add->geometry, i, add->body, add->family);
+    for (size_t i = 0; i < add->problem->contact_count; i++) {
+        const struct site_load *load = problem_load(add->problem, i, add->body, add->family);
         if (!load)
             continue;
         double left = modal_compliance(body, add->family, load, load);
@@ -147,14 +146,14 @@ static void add_omitted(const struct addition *add, size_t first)
 static bool add_family(const struct addition *add, double *residual)
 {
     struct assembly *assembly = add->assembly;
-    const struct geometry *geometry = add->geometry;
-    const struct body *body = geometry->bodies[add->body];
-    size_t n = geometry->contact_count;
+    const struct problem *problem = add->problem;
+    const struct body *body = problem->bodies[add->body];
+    size_t n = problem->contact_count;
     size_t first_group = assembly->scene.groups;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++) {
-            const struct site_load *a = geometry_load(geometry, i, add->body, add->family);
-            const struct site_load *b = geometry_load(geometry, j, add->body, add->family);
+            const struct site_load *a = problem_load(problem, i, add->body, add->family);
+            const struct site_load *b = problem_load(problem, j, add->body, add->family);
             if (a && b)
                 residual[i * n + j] += modal_compliance(body, add->family, a, b);
         }
@@ -180,94 +179,90 @@ static bool add_family(const struct addition *add, double *residual)
     return true;
 }
 
-static bool fill_scene(struct assembly *assembly, const struct geometry *geometry,
-                       const struct solve_request *request, struct arena *arena)
+static bool fill_scene(struct assembly *assembly, const struct problem *problem)
 {
-    size_t n = geometry->contact_count;
-    double *gap = arena_take(arena, n, sizeof *gap);
-    double *acceleration = arena_take(arena, n, sizeof *acceleration);
+    size_t n = problem->contact_count;
+    double *gap = arena_take(problem->arena, n, sizeof *gap);
+    double *acceleration = arena_take(problem->arena, n, sizeof *acceleration);
     if (!gap || !acceleration)
         return false;
     for (size_t c = 0; c < n; c++) {
-        gap[c] = request->contacts[c].gap + geometry->contact_model->depth[c];
-        acceleration[c] = request->contacts[c].gap_acceleration;
+        gap[c] = problem->request->contacts[c].gap + problem->contact_model.depth[c];
+        acceleration[c] = problem->request->contacts[c].gap_acceleration;
     }
     assembly->scene.contacts = n;
-    assembly->scene.bodies = geometry->body_count;
-    assembly->scene.w = geometry->w;
+    assembly->scene.bodies = problem->body_count;
+    assembly->scene.w = problem->w;
     assembly->scene.gap = gap;
-    assembly->scene.gap_rate = geometry->gap_rate;
+    assembly->scene.gap_rate = problem->gap_rate;
     assembly->scene.gap_acceleration = acceleration;
-    assembly->scene.laws = geometry->contact_model->laws;
+    assembly->scene.laws = problem->contact_model.laws;
     assembly->scene.group = assembly->groups;
     return true;
 }
 
 /* How many modes of the family take part. */
 static size_t wanted(const struct addition *add, const struct scene *rigid,
-                     struct prepared_cache *cache, const struct mode_choice *choice)
+                     const struct mode_choice *choice)
 {
-    size_t fixed = add->geometry->bodies[add->body]->modes;
+    size_t fixed = add->problem->bodies[add->body]->modes;
     size_t count =
-        fixed ? fixed
-              : mode_choice_count(choice, add->geometry, rigid, cache, add->body, add->family);
+        fixed ? fixed : mode_choice_count(choice, add->problem, rigid, add->body, add->family);
     if (add->state && add->state->count[add->family] > count)
         count = add->state->count[add->family];
     return count;
 }
 
-static bool create(struct assembly *assembly, const struct geometry *geometry, struct arena *arena)
+static bool create(struct assembly *assembly, const struct problem *problem)
 {
     /* two parities of every family of a body, and what half-spaces radiate of each contact */
-    size_t groups = 2 * FAMILY_COUNT * geometry->body_count + geometry->contact_count;
+    size_t groups = 2 * FAMILY_COUNT * problem->body_count + problem->contact_count;
     *assembly = (struct assembly){.lowest_omitted = INFINITY};
-    assembly->groups = arena_take(arena, groups, sizeof *assembly->groups);
-    assembly->sources = arena_take(arena, groups, sizeof(struct prepared_group *));
-    assembly->families = arena_take(arena, groups, sizeof *assembly->families);
+    assembly->groups = arena_take(problem->arena, groups, sizeof *assembly->groups);
+    assembly->sources = arena_take(problem->arena, groups, sizeof(struct prepared_group *));
+    assembly->families = arena_take(problem->arena, groups, sizeof *assembly->families);
     /* either side of a contact, every family */
-    assembly->parts =
-        arena_take(arena, 2 * FAMILY_COUNT * geometry->contact_count, sizeof *assembly->parts);
-    assembly->omitted = arena_take(arena, geometry->contact_count, sizeof *assembly->omitted);
+    assembly->parts = arena_take(problem->arena, 2 * FAMILY_COUNT * problem->contact_count,
+                                 sizeof *assembly->parts);
+    assembly->omitted =
+        arena_take(problem->arena, problem->contact_count, sizeof *assembly->omitted);
     return assembly->groups && assembly->sources && assembly->families && assembly->parts &&
            assembly->omitted;
 }
 
-bool assemble(struct assembly *assembly, const struct geometry *geometry,
-              const struct solve_request *request, struct prepared_cache *cache,
-              const struct mode_choice *choice, struct arena *arena)
+bool assemble(struct assembly *assembly, const struct problem *problem,
+              const struct mode_choice *choice)
 {
-    size_t n = geometry->contact_count;
-    double *residual = arena_take(arena, n * n, sizeof *residual);
-    if (!residual || !create(assembly, geometry, arena) ||
-        !fill_scene(assembly, geometry, request, arena))
+    size_t n = problem->contact_count;
+    double *residual = arena_take(problem->arena, n * n, sizeof *residual);
+    if (!residual || !create(assembly, problem) || !fill_scene(assembly, problem))
         return false;
-    for (size_t c = 0; geometry->compliance && c < n; c++)
-        residual[c * n + c] = geometry->compliance->series[c];
+    for (size_t c = 0; problem->compliance.series && c < n; c++)
+        residual[c * n + c] = problem->compliance.series[c];
     assembly->scene.residual = residual;
     const struct scene rigid = assembly->scene;
-    for (size_t b = 0; b < geometry->body_count; b++) {
-        const struct body *body = geometry->bodies[b];
+    for (size_t b = 0; b < problem->body_count; b++) {
+        const struct body *body = problem->bodies[b];
         for (int f = 0; f < FAMILY_COUNT && body_is_flexible(body); f++) {
             struct addition add = {.assembly = assembly,
-                                   .geometry = geometry,
-                                   .state = geometry->states[b],
-                                   .elapsed = request->bodies[b].elapsed,
+                                   .problem = problem,
+                                   .state = problem->states[b],
+                                   .elapsed = problem->request->bodies[b].elapsed,
                                    .body = b,
-                                   .family = (enum mode_family)f,
-                                   .arena = arena};
-            if (!family_is_loaded(geometry, b, add.family))
+                                   .family = (enum mode_family)f};
+            if (!family_is_loaded(problem, b, add.family))
                 continue;
-            add.count = wanted(&add, &rigid, cache, choice);
+            add.count = wanted(&add, &rigid, choice);
             if (add.count > MODE_CHOICE_MOST)
                 return false;
             assembly->adjustable = assembly->adjustable || body->modes == 0;
             assembly->capped = assembly->capped || add.count == choice->most;
-            add.prepared = prepared_family_get(cache, body, add.family, add.count + 1);
+            add.prepared = prepared_family_get(problem->cache, body, add.family, add.count + 1);
             if (!add.prepared || !add_family(&add, residual))
                 return false;
         }
     }
-    return radiation_add(geometry, request, cache, arena, assembly, residual);
+    return radiation_add(problem, assembly, residual);
 }
 
 bool assembly_same_modes(const struct assembly *a, const struct assembly *b)
@@ -279,13 +274,14 @@ bool assembly_same_modes(const struct assembly *a, const struct assembly *b)
     return same;
 }
 
-bool assemble_remainder(const struct assembly *assembly, const struct geometry *geometry,
-                        struct prepared_cache *cache, struct arena *arena, struct scene *scene)
+bool assemble_remainder(const struct assembly *assembly, const struct problem *problem,
+                        struct scene *scene)
 {
-    size_t n = geometry->contact_count;
+    size_t n = problem->contact_count;
     *scene = assembly->scene;
-    scene->group = arena_take(arena, scene->groups + assembly->part_count, sizeof *scene->group);
-    double *residual = arena_take(arena, n * n, sizeof *residual);
+    scene->group =
+        arena_take(problem->arena, scene->groups + assembly->part_count, sizeof *scene->group);
+    double *residual = arena_take(problem->arena, n * n, sizeof *residual);
     if (!scene->group || !residual)
         return false;
     memcpy(scene->group, assembly->groups, scene->groups * sizeof *scene->group);
@@ -294,11 +290,11 @@ bool assemble_remainder(const struct assembly *assembly, const struct geometry *
     for (size_t p = 0; p < assembly->part_count; p++) {
         const struct omitted_part *part = &assembly->parts[p];
         struct scene_group *group = &scene->group[scene->groups++];
-        double *row = arena_take(arena, LANES, sizeof *row);
+        double *row = arena_take(problem->arena, LANES, sizeof *row);
         *group = (struct scene_group){.body = part->body, .count = 1, .stride = LANES};
-        group->participation = arena_take(arena, n, sizeof *group->participation);
-        group->set =
-            prepared_remainder_get(cache, geometry->bodies[part->body], part->family, part->first);
+        group->participation = arena_take(problem->arena, n, sizeof *group->participation);
+        group->set = prepared_remainder_get(problem->cache, problem->bodies[part->body],
+                                            part->family, part->first);
         if (!row || !group->participation || !group->set)
             return false;
         row[0] = sqrt(part->compliance) * group->set->omega[0];

@@ -1,52 +1,18 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* From geometry to the fast scale's scene: which modes take part, and the residual flexibility of
+/* From a problem to the fast scale's scene: which modes take part, and the residual flexibility of
  * those that do not. */
 #ifndef PERCUSS_SOLVE_ASSEMBLE_H
 #define PERCUSS_SOLVE_ASSEMBLE_H
 
-#include "impact/scene.h"
+#include "solve/assembly.h"
 #include "solve/mode_choice.h"
 
-/* The modes from `first` on of a family of a body, omitted, as one contact on it sees them. */
-struct omitted_part {
-    size_t body, contact;
-    enum mode_family family;
-    size_t first;
-    double compliance; /* m/N */
-};
-
-/* What the omitted modes of all bodies do to a contact besides residual flexibility: their response
- * to a slow force F is C F - viscosity F' - inertia F'' + ... */
-struct omitted {
-    double inertia;   /* sum phi^2/omega^4, m s^2/N */
-    double viscosity; /* sum 2 damping phi^2/omega^3, m s/N */
-};
-
-/* A scene with what is needed to read its result. */
-struct assembly {
-    struct scene scene;
-    struct scene_group *groups;
-    const struct prepared_group **sources; /* of each group; NULL: a half-space's */
-    enum mode_family *families;            /* of each group; FAMILY_COUNT: a half-space's */
-    struct omitted_part *parts;
-    size_t part_count;
-    struct omitted *omitted;          /* [contact] */
-    size_t modes[PERCUSS_MAX_BODIES]; /* taking part, by body */
-    size_t all_modes;                 /* taking part, of all bodies */
-    bool adjustable;                  /* the choice decided about some of them */
-    bool capped;                      /* a family wants more modes than are allowed */
-    double highest;                   /* of the frequencies that take part, rad/s */
-    double lowest_omitted;            /* rad/s; INFINITY: no more modes to be had */
-    double radiated_error;            /* in e, by what radiation.h leaves out of the waves */
-};
-
-/* Modes of a given initial state always take part. Arrays come from the arena. False: out of
- * memory. */
-bool assemble(struct assembly *assembly, const struct geometry *geometry,
-              const struct solve_request *request, struct prepared_cache *cache,
-              const struct mode_choice *choice, struct arena *arena);
+/* Modes of a given initial state always take part. Arrays come from the problem's arena. False: out
+ * of memory. */
+bool assemble(struct assembly *assembly, const struct problem *problem,
+              const struct mode_choice *choice);
 
 /* Whether two assemblies of a request have the same modes, and so the same scene. */
 bool assembly_same_modes(const struct assembly *a, const struct assembly *b);
@@ -54,7 +20,7 @@ bool assembly_same_modes(const struct assembly *a, const struct assembly *b);
 /* The same scene with one oscillator for the omitted modes of each body at each contact in the
  * place of their own residual flexibility: the next better model, for an error estimate. Valid as
  * long as the assembly. False: out of memory. */
-bool assemble_remainder(const struct assembly *assembly, const struct geometry *geometry,
-                        struct prepared_cache *cache, struct arena *arena, struct scene *scene);
+bool assemble_remainder(const struct assembly *assembly, const struct problem *problem,
+                        struct scene *scene);
 
 #endif

@@ -21,10 +21,10 @@ double attempt_work_allowed(enum percuss_method method)
     return method == PERCUSS_METHOD_CVODE ? MAX_WORK_CVODE : MAX_WORK;
 }
 
-double attempt_horizon(const struct solve_request *request, const struct scene *scene)
+double attempt_horizon(const struct problem *problem, const struct scene *scene)
 {
-    double asked = request->options.horizon;
-    return asked > 0.0 ? asked : fmax(0.020, 2.0 * scene_longest_period(scene));
+    double asked = problem->request->options.horizon;
+    return asked > 0.0 ? asked : fmax(SOLVE_HORIZON, 2.0 * scene_longest_period(scene));
 }
 
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
@@ -32,14 +32,14 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
 {
     struct impact_settings settings = {
         .accuracy = attempt->accuracy,
-        .horizon = attempt_horizon(context->request, scene),
+        .horizon = attempt_horizon(context->problem, scene),
         .max_work = context->work,
         .pace = context->pace,
     };
     if (!impact_create(&attempt->outcome, scene, context->arena))
         return PERCUSS_INTERNAL;
     enum percuss_status status;
-    if (context->request->options.method == PERCUSS_METHOD_CVODE)
+    if (context->problem->request->options.method == PERCUSS_METHOD_CVODE)
         status = impact_cvode(scene, &settings, context->arena, &attempt->outcome);
     else if (impact_is_rigid_pair(scene))
         status = impact_rigid_pair(scene, &settings, context->arena, &attempt->outcome);
@@ -52,8 +52,7 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
 enum percuss_status attempt_assemble(struct attempt_context *context, struct attempt *attempt)
 {
     attempt->assembly = arena_take(context->arena, 1, sizeof *attempt->assembly);
-    return attempt->assembly && assemble(attempt->assembly, context->geometry, context->request,
-                                         context->cache, &attempt->choice, context->arena)
+    return attempt->assembly && assemble(attempt->assembly, context->problem, &attempt->choice)
                ? PERCUSS_OK
                : PERCUSS_INTERNAL;
 }
@@ -61,7 +60,7 @@ enum percuss_status attempt_assemble(struct attempt_context *context, struct att
 enum percuss_status attempt_run_scaled(struct attempt_context *context, struct attempt *attempt,
                                        double factor)
 {
-    size_t n = context->geometry->contact_count;
+    size_t n = context->problem->contact_count;
     struct scene scene = attempt->assembly->scene;
     double *scaled = arena_take(context->arena, n, sizeof *scaled);
     if (!scaled)
@@ -75,18 +74,18 @@ enum percuss_status attempt_run_scaled(struct attempt_context *context, struct a
     return status;
 }
 
-bool attempt_is_unsolved(const struct geometry *geometry, const struct impact_outcome *outcome)
+bool attempt_is_unsolved(const struct problem *problem, const struct impact_outcome *outcome)
 {
     bool touched = false;
-    for (size_t c = 0; c < geometry->contact_count; c++)
+    for (size_t c = 0; c < problem->contact_count; c++)
         touched = touched || outcome->tracks[c].impulse > 0.0;
     return outcome->end_reason == PERCUSS_END_LIMIT && !touched;
 }
 
-double attempt_restitution(const struct geometry *geometry, const struct impact_outcome *outcome,
+double attempt_restitution(const struct problem *problem, const struct impact_outcome *outcome,
                            size_t contact)
 {
-    double compression = geometry->impulse_compression[contact];
+    double compression = problem->impulse_compression[contact];
     return compression > 0.0 ? outcome->tracks[contact].impulse / compression - 1.0 : NAN;
 }
 
@@ -94,11 +93,12 @@ enum percuss_status attempt_refuse_overlap(const struct attempt_context *context
                                            const struct attempt *attempt, double horizon,
                                            struct fault *fault)
 {
-    const struct geometry *geometry = context->geometry;
-    bool group = geometry->contact_count > 1;
+    const struct problem *problem = context->problem;
+    bool group = problem->contact_count > 1;
     size_t deepest = 0;
-    for (size_t c = 1; c < geometry->contact_count; c++)
-        if (context->request->contacts[c].gap < context->request->contacts[deepest].gap)
+    for (size_t c = 1; c < problem->contact_count; c++)
+        if (context->problem->request->contacts[c].gap <
+            context->problem->request->contacts[deepest].gap)
             deepest = c;
     char within[96] = "";
     if (attempt->outcome.beyond_horizon)
@@ -107,7 +107,7 @@ enum percuss_status attempt_refuse_overlap(const struct attempt_context *context
         fault, PERCUSS_BAD_REQUEST,
         "contacts[%zu].gap: %g m: the bodies overlap, and at the stated gap rate (%g m/s), "
         "acceleration and vibration %s%s",
-        deepest, context->request->contacts[deepest].gap, geometry->gap_rate[deepest],
+        deepest, context->problem->request->contacts[deepest].gap, problem->gap_rate[deepest],
         group ? "there was no instant at which every contact was open" : "they never touched",
         within[0] ? within : " before");
 }
@@ -116,9 +116,9 @@ struct attempt_difference attempt_compare(const struct attempt_context *context,
                                           const struct attempt *a, const struct attempt *b)
 {
     struct attempt_difference largest = {0.0, 0.0};
-    for (size_t c = 0; c < context->geometry->contact_count; c++) {
+    for (size_t c = 0; c < context->problem->contact_count; c++) {
         double change = fabs(a->outcome.tracks[c].impulse - b->outcome.tracks[c].impulse);
-        double compression = context->geometry->impulse_compression[c];
+        double compression = context->problem->impulse_compression[c];
         largest.impulse = fmax(largest.impulse, change);
         if (compression > 0.0)
             largest.restitution = fmax(largest.restitution, change / compression);
@@ -148,11 +148,11 @@ bool attempt_is_long(const struct attempt *attempt)
     return false;
 }
 
-double attempt_energy_defect(const struct geometry *geometry, const struct impact_outcome *outcome)
+double attempt_energy_defect(const struct problem *problem, const struct impact_outcome *outcome)
 {
     double approach = 0.0;
-    for (size_t c = 0; c < geometry->contact_count; c++)
-        approach += 0.5 * geometry->impulse_compression[c] * fabs(geometry->gap_rate[c]);
+    for (size_t c = 0; c < problem->contact_count; c++)
+        approach += 0.5 * problem->impulse_compression[c] * fabs(problem->gap_rate[c]);
     double lost = fabs(outcome->energy.closure);
     // the slowest approach of all has no energy that doubles can hold
     return lost == 0.0 ? 0.0 : lost / fmax(outcome->energy.available, approach);

@@ -7,20 +7,13 @@
 
 #include "impact/impact.h"
 #include "solve/assemble.h"
-#include "solve/nearby.h"
 
-/* What solving takes besides the problem; all borrowed. */
-struct attempt_means {
-    struct prepared_cache *cache;
-    struct arena *arena;
-    struct pace *pace; /* NULL: nothing stops it; otherwise a status may be PERCUSS_TIMEOUT */
-};
+struct nearby; /* nearby.h */
 
 /* What all attempts at a request share. */
 struct attempt_context {
-    const struct geometry *geometry;
+    const struct problem *problem;
     const struct solve_request *request;
-    struct prepared_cache *cache;
     struct arena *arena;
     struct pace *pace;
     double tolerance;      /* on the restitution */
@@ -36,7 +29,7 @@ struct attempt {
 };
 
 /* Until when a scene is watched: the request's horizon, or the default, s. */
-double attempt_horizon(const struct solve_request *request, const struct scene *scene);
+double attempt_horizon(const struct problem *problem, const struct scene *scene);
 
 /* Solves a scene by the request's method: the attempt's own, or one derived from it. */
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
@@ -50,11 +43,11 @@ enum percuss_status attempt_run_scaled(struct attempt_context *context, struct a
                                        double factor);
 
 /* Whether nothing was solved: the effort was spent before any force. */
-bool attempt_is_unsolved(const struct geometry *geometry, const struct impact_outcome *outcome);
+bool attempt_is_unsolved(const struct problem *problem, const struct impact_outcome *outcome);
 
 /* Restitution of a contact, which of what is unsolved says nothing; NAN where the compression
  * impulse is 0: Eq. (6). */
-double attempt_restitution(const struct geometry *geometry, const struct impact_outcome *outcome,
+double attempt_restitution(const struct problem *problem, const struct impact_outcome *outcome,
                            size_t contact);
 
 /* PERCUSS_BAD_REQUEST: no touch lies behind an overlap (outcome.always_overlapped), or none within
@@ -75,7 +68,7 @@ double attempt_work_allowed(enum percuss_method method);
 
 /* Share of the energy that a solution gains or loses. What acceleration takes may leave next to
  * nothing available: the approach counts too. */
-double attempt_energy_defect(const struct geometry *geometry, const struct impact_outcome *outcome);
+double attempt_energy_defect(const struct problem *problem, const struct impact_outcome *outcome);
 
 /* More of its energy no solution may gain or lose. */
 static const double ATTEMPT_WORST_DEFECT = 0.01;

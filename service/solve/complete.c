@@ -66,13 +66,11 @@ static void find_axis(const struct body *body, const double direction[3], double
 }
 
 /* Whether the impact's line is the body's axis, and the body does not turn about another one. */
-static enum percuss_status check_side(const struct geometry *geometry,
-                                      const struct solve_request *request, int which,
-                                      struct fault *fault)
+static enum percuss_status check_side(const struct problem *problem, int which, struct fault *fault)
 {
-    const struct contact_side *side = &geometry->sides[0][which];
-    const struct body *body = geometry->bodies[side->body];
-    const struct solve_body *stated = &request->bodies[side->body];
+    const struct contact_side *side = &problem->sides[0][which];
+    const struct body *body = problem->bodies[side->body];
+    const struct solve_body *stated = &problem->request->bodies[side->body];
     double axis[3];
     double off[3];
     find_axis(body, side->direction, axis);
@@ -89,10 +87,10 @@ static enum percuss_status check_side(const struct geometry *geometry,
                          "of mass of %s: must be at most %g m",
                          norm3(off), body->id, ALONG * size);
     double spin[3];
-    rotate_back3(geometry->poses[side->body].rotation, stated->angular_velocity, spin);
+    rotate_back3(problem->poses[side->body].rotation, stated->angular_velocity, spin);
     cross3(spin, axis, off);
     if (body->shape != SHAPE_SPHERE &&
-        !(norm3(off) * body->length <= ALONG * fabs(geometry->gap_rate[0])))
+        !(norm3(off) * body->length <= ALONG * fabs(problem->gap_rate[0])))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "bodies[%zu].angular_velocity: complete-fe: %g rad/s across the axis of "
                          "%s: must be 0",
@@ -105,14 +103,14 @@ static enum percuss_status check_side(const struct geometry *geometry,
     return PERCUSS_OK;
 }
 
-static enum percuss_status check_sideways(const struct geometry *geometry,
-                                          const struct solve_request *request, struct fault *fault)
+static enum percuss_status check_sideways(const struct problem *problem, struct fault *fault)
 {
-    const struct solve_contact *contact = &request->contacts[0];
+    const struct solve_contact *contact = &problem->request->contacts[0];
     double relative[3];
-    sub3(request->bodies[contact->a].velocity, request->bodies[contact->b].velocity, relative);
+    sub3(problem->request->bodies[contact->a].velocity,
+         problem->request->bodies[contact->b].velocity, relative);
     add_scaled3(-dot3(relative, contact->normal), contact->normal, relative);
-    if (norm3(relative) <= ALONG * fabs(geometry->gap_rate[0]))
+    if (norm3(relative) <= ALONG * fabs(problem->gap_rate[0]))
         return PERCUSS_OK;
     return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                      "bodies[].velocity: complete-fe: %g m/s across the normal: must be at most "
@@ -120,35 +118,34 @@ static enum percuss_status check_sideways(const struct geometry *geometry,
                      norm3(relative), ALONG);
 }
 
-static enum percuss_status make_problem(const struct geometry *geometry,
-                                        const struct solve_request *request,
-                                        struct complete_problem *problem, struct fault *fault)
+static enum percuss_status make_complete(const struct problem *problem,
+                                         struct complete_problem *complete, struct fault *fault)
 {
-    struct complete_body *targets[2] = {&problem->a, &problem->b};
-    enum percuss_status status = check_options(request, fault);
+    struct complete_body *targets[2] = {&complete->a, &complete->b};
+    enum percuss_status status = check_options(problem->request, fault);
     for (int which = 0; !status && which < 2; which++) {
-        const struct contact_side *side = &geometry->sides[0][which];
-        status = complete_body_make(geometry->bodies[side->body], targets[which], fault);
+        const struct contact_side *side = &problem->sides[0][which];
+        status = complete_body_make(problem->bodies[side->body], targets[which], fault);
         if (!status)
-            status = check_side(geometry, request, which, fault);
+            status = check_side(problem, which, fault);
     }
     if (!status)
-        status = check_sideways(geometry, request, fault);
-    problem->speed = -geometry->gap_rate[0];
-    problem->horizon = request->options.horizon > 0.0 ? request->options.horizon : 0.020;
+        status = check_sideways(problem, fault);
+    complete->speed = -problem->gap_rate[0];
+    complete->horizon =
+        problem->request->options.horizon > 0.0 ? problem->request->options.horizon : SOLVE_HORIZON;
     return status;
 }
 
-static void fill_contact(const struct geometry *geometry, const struct solve_request *request,
-                         const struct complete_result *from, struct arena *arena,
+static void fill_contact(const struct problem *problem, const struct complete_result *from,
                          struct solve_result *result)
 {
-    double w = geometry->w[0];
-    double touch = request->contacts[0].gap / -geometry->gap_rate[0];
-    double rate = geometry->gap_rate[0];
+    double w = problem->w[0];
+    double touch = problem->request->contacts[0].gap / -problem->gap_rate[0];
+    double rate = problem->gap_rate[0];
     size_t listed =
         from->sub_impacts < COMPLETE_SUB_IMPACTS ? from->sub_impacts : COMPLETE_SUB_IMPACTS;
-    struct sub_impact *list = arena_take(arena, listed, sizeof *list);
+    struct sub_impact *list = arena_take(problem->arena, listed, sizeof *list);
     struct solve_contact_result *contact = &result->contacts[0];
     for (size_t i = 0; list && i < listed; i++) {
         const struct complete_sub_impact *one = &from->sub_impact[i];
@@ -168,43 +165,43 @@ static void fill_contact(const struct geometry *geometry, const struct solve_req
     }
     *contact = (struct solve_contact_result){
         .impulse = from->impulse,
-        .impulse_compression = geometry->impulse_compression[0],
-        .restitution = from->impulse / geometry->impulse_compression[0] - 1.0,
+        .impulse_compression = problem->impulse_compression[0],
+        .restitution = from->impulse / problem->impulse_compression[0] - 1.0,
         .inverse_effective_mass = w,
         .end_time = listed ? touch + from->sub_impact[listed - 1].end : 0.0,
         .sub_impact_count = from->sub_impacts,
         .sub_impacts_listed = list ? listed : 0,
         .sub_impacts = list,
     };
-    scale3(from->impulse, request->contacts[0].normal, contact->impulse_vector);
+    scale3(from->impulse, problem->request->contacts[0].normal, contact->impulse_vector);
     result->contact_count = 1;
     result->time_shift = touch;
     result->window = touch + from->end_time;
 }
 
-static void fill_bodies(const struct geometry *geometry, const struct solve_request *request,
-                        const struct complete_result *from, struct solve_result *result)
+static void fill_bodies(const struct problem *problem, const struct complete_result *from,
+                        struct solve_result *result)
 {
     result->body_count = 2;
     for (int which = 0; which < 2; which++) {
-        size_t b = geometry->sides[0][which].body;
+        size_t b = problem->sides[0][which].body;
         struct solve_body_result *out = &result->bodies[b];
         *out = (struct solve_body_result){
             .vibration = from->energy.vibration_of[which],
             .theory = "finite elements",
             .shear_factor = NAN,
         };
-        memcpy(out->id, geometry->bodies[b]->id, sizeof out->id);
+        memcpy(out->id, problem->bodies[b]->id, sizeof out->id);
     }
-    report_velocities(geometry, request, result);
+    report_velocities(problem, result);
 }
 
-static void fill_model(const struct complete_convergence *convergence, const struct geometry *g,
-                       struct solve_result *result)
+static void fill_model(const struct complete_convergence *convergence,
+                       const struct problem *problem, struct solve_result *result)
 {
     const struct complete_result *from = &convergence->result;
     const struct complete_swing *finest = &convergence->swing[convergence->meshes - 1];
-    const struct body *bodies[2] = {g->bodies[0], g->bodies[1]};
+    const struct body *bodies[2] = {problem->bodies[0], problem->bodies[1]};
     const struct complete_energy *energy = &from->energy;
     result->contact_model = PERCUSS_CONTACT_COMPLETE_FE;
     result->compliance = PERCUSS_COMPLIANCE_MATCHED;
@@ -261,26 +258,24 @@ static void fill_end(const struct complete_result *from, double error, double to
     report_warn(result, "states_after: none: complete-fe keeps neither vibration nor dents");
 }
 
-enum percuss_status complete_answer(const struct geometry *geometry,
-                                    const struct solve_request *request, struct pace *pace,
-                                    struct arena *arena, struct solve_result *result)
+enum percuss_status complete_answer(const struct problem *problem, struct pace *pace,
+                                    struct solve_result *result)
 {
-    struct complete_problem problem = {.cells = FINEST, .context = pace, .proceed = proceed};
-    struct complete_convergence *convergence = arena_take(arena, 1, sizeof *convergence);
+    struct complete_problem complete = {.cells = FINEST, .context = pace, .proceed = proceed};
+    struct complete_convergence *convergence = arena_take(problem->arena, 1, sizeof *convergence);
     if (!convergence)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = make_problem(geometry, request, &problem, &result->fault);
-    double tolerance = request->options.tolerance > 0.0 ? request->options.tolerance : 1e-3;
+    enum percuss_status status = make_complete(problem, &complete, &result->fault);
     if (status == PERCUSS_OK)
-        status = complete_converge(&problem, tolerance, convergence, &result->fault);
+        status = complete_converge(&complete, problem->tolerance, convergence, &result->fault);
     if (status)
         return status;
-    fill_contact(geometry, request, &convergence->result, arena, result);
-    fill_bodies(geometry, request, &convergence->result, result);
-    fill_model(convergence, geometry, result);
-    fill_end(&convergence->result, convergence->result_error, tolerance, result);
+    fill_contact(problem, &convergence->result, result);
+    fill_bodies(problem, &convergence->result, result);
+    fill_model(convergence, problem, result);
+    fill_end(&convergence->result, convergence->result_error, problem->tolerance, result);
     struct warnings warnings = {0};
-    validity_find_speed(geometry, &warnings);
+    validity_find_speed(problem, &warnings);
     report_warnings(&warnings, result);
     return result->status;
 }

@@ -7,7 +7,7 @@
 #define PERCUSS_SOLVE_COMPLETE_H
 
 #include "base/watch.h"
-#include "solve/geometry.h"
+#include "solve/problem.h"
 #include "solve/result.h"
 
 /* Solves on meshes of 4, 8 and 16 elements across the contact radius, with three or six places of
@@ -15,8 +15,7 @@
  * (fe/complete_converge.h); answers with the solution nearest the limit. `pace` is told the part
  * done, and stops it with TIMEOUT. Fills `result`, status and message too, and returns the status:
  * BAD_REQUEST and UNSUPPORTED_GEOMETRY name what is not axisymmetric. */
-enum percuss_status complete_answer(const struct geometry *geometry,
-                                    const struct solve_request *request, struct pace *pace,
-                                    struct arena *arena, struct solve_result *result);
+enum percuss_status complete_answer(const struct problem *problem, struct pace *pace,
+                                    struct solve_result *result);
 
 #endif

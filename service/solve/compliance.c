@@ -18,14 +18,14 @@ static const double CENTRAL = 0.1;
 
 /* Contact radius (m) of a collision of the rigid masses at the fastest approach: the correction
  * depends on its logarithm at most. */
-static double patch_radius(const struct geometry *geometry, size_t c)
+static double patch_radius(const struct problem *problem, size_t c)
 {
-    const struct hertz_contact *hertz = &geometry->hertz[c];
-    size_t n = geometry->contact_count;
+    const struct hertz_contact *hertz = &problem->hertz[c];
+    size_t n = problem->contact_count;
     double speed = 0.0;
     for (size_t i = 0; i < n; i++)
-        speed = fmax(speed, -geometry->gap_rate[i]);
-    double energy = 0.5 * speed * speed / geometry->w[c * (n + 1)];
+        speed = fmax(speed, -problem->gap_rate[i]);
+    double energy = 0.5 * speed * speed / problem->w[c * (n + 1)];
     double force = hertz->stiffness * pow(energy / (0.4 * hertz->stiffness), 0.6);
     double axes[2];
     hertz_ellipse(hertz, force, axes);
@@ -40,52 +40,51 @@ static bool is_central(const struct body *body, const double point[3])
 }
 
 /* The correction of one side of a contact, m/N. False: none is known. */
-static bool side_compliance(const struct geometry *geometry, struct prepared_cache *cache, size_t c,
-                            int which, double *compliance)
+static bool side_compliance(const struct problem *problem, size_t c, int which, double *compliance)
 {
-    const struct contact_side *side = &geometry->sides[c][which];
-    const struct body *body = geometry->bodies[side->body];
+    const struct contact_side *side = &problem->sides[c][which];
+    const struct body *body = problem->bodies[side->body];
     bool ends = body->shape == SHAPE_ROD || body->shape == SHAPE_CYLINDER;
     if (ends && !is_central(body, side->site.point))
         return false;
-    double patch = body->shape == SHAPE_SPHERE ? patch_radius(geometry, c) : 0.0;
-    return prepared_matched_get(cache, body, patch, compliance);
+    double patch = body->shape == SHAPE_SPHERE ? patch_radius(problem, c) : 0.0;
+    return prepared_matched_get(problem->cache, body, patch, compliance);
 }
 
-static void use_half_space(struct geometry *geometry, const char *why)
+static void use_half_space(struct problem *problem, const char *why)
 {
-    struct compliance *compliance = geometry->compliance;
+    struct compliance *compliance = &problem->compliance;
     compliance->used = PERCUSS_COMPLIANCE_HALF_SPACE;
-    memset(compliance->series, 0, geometry->contact_count * sizeof *compliance->series);
-    memset(compliance->sides, 0, geometry->contact_count * sizeof *compliance->sides);
+    memset(compliance->series, 0, problem->contact_count * sizeof *compliance->series);
+    memset(compliance->sides, 0, problem->contact_count * sizeof *compliance->sides);
     snprintf(compliance->reason, sizeof compliance->reason, "%s", why);
 }
 
-static bool any_flexible(const struct geometry *geometry, size_t c)
+static bool any_flexible(const struct problem *problem, size_t c)
 {
     for (int which = 0; which < 2; which++)
-        if (body_is_flexible(geometry->bodies[geometry->sides[c][which].body]))
+        if (body_is_flexible(problem->bodies[problem->sides[c][which].body]))
             return true;
     return false;
 }
 
-static void find_matched(struct geometry *geometry, struct prepared_cache *cache, bool asked)
+static void find_matched(struct problem *problem, bool asked)
 {
-    struct compliance *compliance = geometry->compliance;
+    struct compliance *compliance = &problem->compliance;
     compliance->used = PERCUSS_COMPLIANCE_MATCHED;
-    for (size_t c = 0; c < geometry->contact_count; c++) {
-        if (!asked && !any_flexible(geometry, c)) {
-            use_half_space(geometry, "");
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        if (!asked && !any_flexible(problem, c)) {
+            use_half_space(problem, "");
             return;
         }
         for (int which = 0; which < 2; which++) {
             double *part = &compliance->sides[c][which];
-            if (!side_compliance(geometry, cache, c, which, part)) {
+            if (!side_compliance(problem, c, which, part)) {
                 char why[sizeof compliance->reason];
-                const struct contact_side *side = &geometry->sides[c][which];
+                const struct contact_side *side = &problem->sides[c][which];
                 snprintf(why, sizeof why, "no matched compliance is known for %s there",
-                         geometry->bodies[side->body]->id);
-                use_half_space(geometry, why);
+                         problem->bodies[side->body]->id);
+                use_half_space(problem, why);
                 return;
             }
             compliance->series[c] += *part;
@@ -93,61 +92,55 @@ static void find_matched(struct geometry *geometry, struct prepared_cache *cache
     }
 }
 
-enum percuss_status compliance_choose(struct geometry *geometry,
-                                      const struct solve_request *request,
-                                      const struct body_set *catalogue,
-                                      struct prepared_cache *cache, struct arena *arena,
+enum percuss_status compliance_choose(struct problem *problem, enum percuss_compliance otherwise,
                                       struct fault *fault)
 {
-    struct compliance *compliance = arena_take(arena, 1, sizeof *compliance);
-    size_t n = geometry->contact_count;
-    if (compliance) {
-        compliance->series = arena_take(arena, n, sizeof *compliance->series);
-        compliance->sides = arena_take(arena, n, sizeof *compliance->sides);
-    }
-    if (!compliance || !compliance->series || !compliance->sides)
+    struct compliance *compliance = &problem->compliance;
+    size_t n = problem->contact_count;
+    *compliance =
+        (struct compliance){.series = arena_take(problem->arena, n, sizeof *compliance->series),
+                            .sides = arena_take(problem->arena, n, sizeof *compliance->sides)};
+    if (!compliance->series || !compliance->sides)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    geometry->compliance = compliance;
-    enum percuss_compliance asked = request->options.compliance;
-    enum percuss_compliance wanted =
-        asked == PERCUSS_COMPLIANCE_DEFAULT ? catalogue->compliance : asked;
+    enum percuss_compliance asked = problem->request->options.compliance;
+    enum percuss_compliance wanted = asked == PERCUSS_COMPLIANCE_DEFAULT ? otherwise : asked;
     if (wanted == PERCUSS_COMPLIANCE_HALF_SPACE)
-        use_half_space(geometry, "");
+        use_half_space(problem, "");
     else
-        find_matched(geometry, cache, asked == PERCUSS_COMPLIANCE_MATCHED);
+        find_matched(problem, asked == PERCUSS_COMPLIANCE_MATCHED);
     return PERCUSS_OK;
 }
 
 /* Hertz's slope at the largest force of a contact, N/m: 3/2 k^(2/3) F^(1/3), or that of unloading
  * from a dent. */
-static double largest_stiffness(const struct geometry *geometry,
-                                const struct impact_outcome *outcome, size_t c)
+static double largest_stiffness(const struct problem *problem, const struct impact_outcome *outcome,
+                                size_t c)
 {
     const struct track *track = &outcome->tracks[c];
-    double k = geometry->hertz[c].stiffness;
+    double k = problem->hertz[c].stiffness;
     double force = 0.0;
     for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
         force = fmax(force, track->list[i].peak_force);
     return fmax(1.5 * cbrt(k * k * force), contact_law_unloading(&outcome->laws[c]));
 }
 
-bool compliance_revise(struct geometry *geometry, const struct scene *scene,
+bool compliance_revise(struct problem *problem, const struct scene *scene,
                        const struct impact_outcome *outcome)
 {
-    bool radiates = radiation_is_in(geometry, scene);
-    if (geometry->compliance->used != PERCUSS_COMPLIANCE_MATCHED && !radiates)
+    bool radiates = radiation_is_in(problem, scene);
+    if (problem->compliance.used != PERCUSS_COMPLIANCE_MATCHED && !radiates)
         return false;
-    if (outcome->end_reason == PERCUSS_END_LIMIT && radiation_is_shared(geometry, scene)) {
-        geometry->compliance->still = true;
+    if (outcome->end_reason == PERCUSS_END_LIMIT && radiation_is_shared(problem, scene)) {
+        problem->compliance.still = true;
         return true;
     }
     for (size_t c = 0; c < scene->contacts; c++) {
-        if (!outcome->too_stiff && contact_bears(scene, c, largest_stiffness(geometry, outcome, c)))
+        if (!outcome->too_stiff && contact_bears(scene, c, largest_stiffness(problem, outcome, c)))
             continue;
         if (radiates)
-            geometry->compliance->still = true;
+            problem->compliance.still = true;
         else
-            use_half_space(geometry,
+            use_half_space(problem,
                            "the matched compliance is too negative for so stiff a contact");
         return true;
     }

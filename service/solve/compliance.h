@@ -7,32 +7,19 @@
 #define PERCUSS_SOLVE_COMPLIANCE_H
 
 #include "impact/impact.h"
-#include "solve/geometry.h"
-#include "solve/prepared.h"
+#include "solve/problem.h"
 
-struct compliance {
-    enum percuss_compliance used; /* HALF_SPACE or MATCHED, of all contacts */
-    double *series;               /* [contact], m/N; 0: half-space */
-    double (*sides)[2];           /* [contact]: the parts of either body in it */
-    bool still;                   /* no waves leave through half-spaces, see radiation.h: a contact
-                                     is too stiff for them, or too many share them */
-    char reason[128];             /* why half-space although matched was asked for, or empty */
-};
-
-/* The request's choice, or the catalogue's where it makes none: matched where every contact has it.
+/* The request's choice, or `otherwise` where it makes none: matched where every contact has it.
  * Without being asked for, contacts of bodies that do not vibrate stay Hertz's: no basis there
  * holds anything twice. PERCUSS_OK or PERCUSS_INTERNAL. */
-enum percuss_status compliance_choose(struct geometry *geometry,
-                                      const struct solve_request *request,
-                                      const struct body_set *catalogue,
-                                      struct prepared_cache *cache, struct arena *arena,
+enum percuss_status compliance_choose(struct problem *problem, enum percuss_compliance otherwise,
                                       struct fault *fault);
 
 /* Looks at a solution: true: the series compliance (residual flexibility included) is too negative
  * for the law's stiffness, |C| dF/dd >= 0.5: half-spaces are still now or, where they were, all
  * contacts' compliance is the half-space's. They are still too where the effort was spent on
  * contacts that share their waves: each by itself takes far less. */
-bool compliance_revise(struct geometry *geometry, const struct scene *scene,
+bool compliance_revise(struct problem *problem, const struct scene *scene,
                        const struct impact_outcome *outcome);
 
 #endif

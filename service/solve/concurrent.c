@@ -18,15 +18,14 @@ enum { RESOLUTIONS = sizeof resolutions / sizeof *resolutions, STEPS = 8 };
 /* Largest indentation of a region over its radius, see region.h. */
 static const double INDENTATION_LIMIT = 0.0199;
 
-static enum percuss_status check(const struct geometry *geometry,
-                                 const struct solve_request *request, struct fault *fault)
+static enum percuss_status check(const struct problem *problem, struct fault *fault)
 {
-    const struct solve_options *options = &request->options;
-    if (geometry->contact_count != 1)
+    const struct solve_options *options = &problem->request->options;
+    if (problem->contact_count != 1)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.contact_model: concurrent-fe: %zu contacts: it answers one",
-                         geometry->contact_count);
-    if (geometry->contact_model->choices[0].dented || geometry->contact_model->depth[0] > 0.0)
+                         problem->contact_count);
+    if (problem->contact_model.choices[0].dented || problem->contact_model.depth[0] > 0.0)
         return fault_set(
             fault, PERCUSS_BAD_REQUEST,
             "bodies[].state: concurrent-fe: there is a dent at contacts[0]: its region "
@@ -43,11 +42,10 @@ static enum percuss_status check(const struct geometry *geometry,
 
 /* What all meshes share. */
 struct refinement {
-    const struct geometry *geometry;
+    const struct problem *problem;
     const struct scene *scene;
     struct concurrent_settings settings;
     double expected; /* m, largest indentation */
-    struct arena *arena;
     struct concurrent_effort *effort;
     struct fault *fault;
 };
@@ -55,12 +53,12 @@ struct refinement {
 static enum percuss_status solve_on(const struct refinement *refinement, size_t resolution,
                                     struct impact_outcome *outcome)
 {
-    const struct geometry *geometry = refinement->geometry;
+    const struct problem *problem = refinement->problem;
     struct concurrent_settings settings = refinement->settings;
     struct region_input input = {
-        .materials = {geometry->bodies[geometry->sides[0][0].body]->material,
-                      geometry->bodies[geometry->sides[0][1].body]->material},
-        .radius = closed_form_radius(&geometry->hertz[0]),
+        .materials = {problem->bodies[problem->sides[0][0].body]->material,
+                      problem->bodies[problem->sides[0][1].body]->material},
+        .radius = closed_form_radius(&problem->hertz[0]),
         .resolution = resolution,
     };
     /* the mesh costs little more for an indentation twice as large as expected */
@@ -71,9 +69,9 @@ static enum percuss_status solve_on(const struct refinement *refinement, size_t 
     enum percuss_status status = region_create(&input, &region, refinement->fault);
     if (status != PERCUSS_OK)
         return status;
-    status = impact_create(outcome, refinement->scene, refinement->arena)
-                 ? impact_concurrent(refinement->scene, region, &settings, refinement->arena,
-                                     outcome, refinement->fault)
+    status = impact_create(outcome, refinement->scene, refinement->problem->arena)
+                 ? impact_concurrent(refinement->scene, region, &settings,
+                                     refinement->problem->arena, outcome, refinement->fault)
                  : fault_set(refinement->fault, PERCUSS_INTERNAL, "out of memory");
     *refinement->effort = (struct concurrent_effort){resolution, region_effort(region).newton_steps,
                                                      outcome->steps, NAN};
@@ -83,42 +81,35 @@ static enum percuss_status solve_on(const struct refinement *refinement, size_t 
 
 /* Errors of the finer one of two solutions: of first order where material flows (backward Euler
  * steps, nodes that touch one by one), so that as much is left as has just changed. */
-static void estimate(struct accuracy *accuracy, const struct geometry *geometry,
-                     const struct impact_outcome *coarse, double tolerance)
+static void estimate(struct accuracy *accuracy, const struct problem *problem,
+                     const struct impact_outcome *coarse)
 {
     const struct impact_outcome *fine = &accuracy->outcome;
     double difference =
-        fabs(attempt_restitution(geometry, fine, 0) - attempt_restitution(geometry, coarse, 0));
+        fabs(attempt_restitution(problem, fine, 0) - attempt_restitution(problem, coarse, 0));
     accuracy->steps = (struct step_error){
         .restitution = difference,
-        .impulse = difference * geometry->impulse_compression[0],
+        .impulse = difference * problem->impulse_compression[0],
         .energy_defect = fabs(fine->energy.closure) / fine->energy.available,
     };
-    accuracy->steps.energy_closes = accuracy->steps.energy_defect <= 10.0 * tolerance;
+    accuracy->steps.energy_closes = accuracy->steps.energy_defect <= 10.0 * problem->tolerance;
     accuracy->tolerance_met =
         accuracy->steps.energy_closes &&
-        accuracy->steps.restitution + accuracy->modes.restitution <= tolerance;
+        accuracy->steps.restitution + accuracy->modes.restitution <= problem->tolerance;
 }
 
-enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct geometry *geometry,
-                                      const struct solve_request *request, struct pace *pace,
-                                      struct arena *arena, struct concurrent_effort *effort,
+enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct problem *problem,
+                                      struct pace *pace, struct concurrent_effort *effort,
                                       struct fault *fault)
 {
-    enum percuss_status status = check(geometry, request, fault);
+    enum percuss_status status = check(problem, fault);
     if (status != PERCUSS_OK)
         return status;
     const struct scene *scene = &accuracy->assembly->scene;
-    const struct solve_options *options = &request->options;
-    double tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3;
     struct refinement refinement = {
-        .geometry = geometry,
+        .problem = problem,
         .scene = scene,
-        .settings = {.horizon = options->horizon > 0.0
-                                    ? options->horizon
-                                    : fmax(0.020, 2.0 * scene_longest_period(scene)),
-                     .pace = pace},
-        .arena = arena,
+        .settings = {.horizon = attempt_horizon(problem, scene), .pace = pace},
         .effort = effort,
         .fault = fault,
     };
@@ -137,18 +128,18 @@ enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct ge
         if (status != PERCUSS_OK)
             return status;
         /* what the modal solutions say is of another contact model */
-        nearby_begin(&accuracy->nearby, geometry, &accuracy->outcome);
+        nearby_begin(&accuracy->nearby, problem, &accuracy->outcome);
         if (i == 0)
             continue;
-        nearby_add(&accuracy->nearby, geometry, &coarse);
-        estimate(accuracy, geometry, &coarse, tolerance);
-        effort->extrapolated = 2.0 * attempt_restitution(geometry, &accuracy->outcome, 0) -
-                               attempt_restitution(geometry, &coarse, 0);
+        nearby_add(&accuracy->nearby, problem, &coarse);
+        estimate(accuracy, problem, &coarse);
+        effort->extrapolated = 2.0 * attempt_restitution(problem, &accuracy->outcome, 0) -
+                               attempt_restitution(problem, &coarse, 0);
     }
     return PERCUSS_OK;
 }
 
-void concurrent_report(const struct concurrent_effort *effort, const struct geometry *geometry,
+void concurrent_report(const struct concurrent_effort *effort, const struct problem *problem,
                        const struct accuracy *accuracy, struct solve_result *result)
 {
     const struct contact_history *history = &accuracy->outcome.laws[0].history;
@@ -161,7 +152,7 @@ void concurrent_report(const struct concurrent_effort *effort, const struct geom
              effort->steps, effort->resolution, effort->newton_steps, 1e6 * history->residual,
              effort->extrapolated, accuracy->assembly->all_modes,
              accuracy->assembly->highest / (2.0 * M_PI),
-             geometry->hertz[0].axis_ratio < 0.999
+             problem->hertz[0].axis_ratio < 0.999
                  ? "; elliptic: by the sphere of equal stiffness, an approximation"
                  : "");
 }

@@ -20,13 +20,12 @@ struct concurrent_effort {
  * contact regions of growing resolution until two of them differ by less than the tolerance.
  * An elliptic contact's region is that of the sphere of equal stiffness. BAD_REQUEST: what the
  * region cannot answer; TIMEOUT where the pace stopped it. */
-enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct geometry *geometry,
-                                      const struct solve_request *request, struct pace *pace,
-                                      struct arena *arena, struct concurrent_effort *effort,
+enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct problem *problem,
+                                      struct pace *pace, struct concurrent_effort *effort,
                                       struct fault *fault);
 
 /* Says so in the result. */
-void concurrent_report(const struct concurrent_effort *effort, const struct geometry *geometry,
+void concurrent_report(const struct concurrent_effort *effort, const struct problem *problem,
                        const struct accuracy *accuracy, struct solve_result *result);
 
 #endif

@@ -12,9 +12,9 @@
 #include "contact/plastic.h"
 #include "model/vector.h"
 
-static const struct body *body_of(const struct geometry *geometry, size_t contact, int side)
+static const struct body *body_of(const struct problem *problem, size_t contact, int side)
 {
-    return geometry->bodies[geometry->sides[contact][side].body];
+    return problem->bodies[problem->sides[contact][side].body];
 }
 
 /* The dent nearest to a site among those whose patch holds it; its index, or the number of dents.
@@ -38,13 +38,14 @@ static size_t find_dent(const struct body_state *state, const double point[3])
 
 /* What earlier impacts left under a contact: both bodies' dents lower the surface, the one of the
  * body that yields is remembered by the law. */
-static void find_dents(struct geometry *geometry, const struct solve_request *request, size_t c)
+static void find_dents(struct problem *problem, size_t c)
 {
-    struct contact_model *model = geometry->contact_model;
+    struct contact_model *model = &problem->contact_model;
     struct contact_choice *choice = &model->choices[c];
-    for (int which = 0; which < 2 && request->options.dents == PERCUSS_DENTS_KEEP; which++) {
-        const struct contact_side *side = &geometry->sides[c][which];
-        const struct body_state *state = request->bodies[side->body].state;
+    for (int which = 0; which < 2 && problem->request->options.dents == PERCUSS_DENTS_KEEP;
+         which++) {
+        const struct contact_side *side = &problem->sides[c][which];
+        const struct body_state *state = problem->request->bodies[side->body].state;
         size_t i = state ? find_dent(state, side->site.point) : 0;
         if (!state || i == state->dents)
             continue;
@@ -58,22 +59,15 @@ static void find_dents(struct geometry *geometry, const struct solve_request *re
     }
 }
 
-/* Where laws come from. */
-struct law_source {
-    const struct contact_table_source *tables; /* NULL: none */
-    struct arena *arena;
-};
-
 /* A table of just these materials. */
-static enum percuss_status find_table(struct geometry *geometry,
-                                      const struct solve_request *request,
+static enum percuss_status find_table(struct problem *problem,
                                       const struct contact_table_source *tables, size_t c,
                                       struct fault *fault)
 {
-    struct contact_choice *choice = &geometry->contact_model->choices[c];
-    const struct hertz_contact *hertz = &geometry->hertz[c];
-    const struct body *a = body_of(geometry, c, 0);
-    const struct body *b = body_of(geometry, c, 1);
+    struct contact_choice *choice = &problem->contact_model.choices[c];
+    const struct hertz_contact *hertz = &problem->hertz[c];
+    const struct body *a = body_of(problem, c, 0);
+    const struct body *b = body_of(problem, c, 1);
     struct contact_pair pair = {
         &a->material, &b->material, {hertz->curvature[0], hertz->curvature[1]}};
     const struct contact_curves *curves = tables ? tables->find(tables->context, &pair) : NULL;
@@ -84,7 +78,7 @@ static enum percuss_status find_table(struct geometry *geometry,
     if (curves && (!tables->family || contact_law_table_range(&law) > choice->yield)) {
         choice->plastic = law;
         choice->tabulated = true;
-    } else if (request->options.contact_model == PERCUSS_CONTACT_TABLE) {
+    } else if (problem->request->options.contact_model == PERCUSS_CONTACT_TABLE) {
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.contact_model: table: there is no table for %s on %s "
                          "(contacts[%zu]): %s; auto "
@@ -98,17 +92,17 @@ static enum percuss_status find_table(struct geometry *geometry,
 }
 
 /* The family's law: in use by auto, to compare with where the closed form is asked for. */
-static bool find_family(struct geometry *geometry, const struct contact_family *family, size_t c,
-                        struct arena *arena, bool used)
+static bool find_family(struct problem *problem, const struct contact_family *family, size_t c,
+                        bool used)
 {
-    struct contact_choice *choice = &geometry->contact_model->choices[c];
-    const struct material *a = &body_of(geometry, c, 0)->material;
-    const struct material *b = &body_of(geometry, c, 1)->material;
+    struct contact_choice *choice = &problem->contact_model.choices[c];
+    const struct material *a = &body_of(problem, c, 0)->material;
+    const struct material *b = &body_of(problem, c, 1)->material;
     struct contact_family_place place = contact_family_place(a, b);
-    const struct contact_curves *curves = contact_family_curves(family, &place, arena);
+    const struct contact_curves *curves = contact_family_curves(family, &place, problem->arena);
     if (!curves)
         return false;
-    struct contact_law law = contact_law_family(curves, &geometry->hertz[c], a, b);
+    struct contact_law law = contact_law_family(curves, &problem->hertz[c], a, b);
     if (!used) {
         choice->compared = law;
         return true;
@@ -120,77 +114,72 @@ static bool find_family(struct geometry *geometry, const struct contact_family *
     return true;
 }
 
-static enum percuss_status find_law(struct geometry *geometry, const struct solve_request *request,
-                                    const struct law_source *source, size_t c, struct fault *fault)
+static enum percuss_status find_law(struct problem *problem,
+                                    const struct contact_table_source *tables, size_t c,
+                                    struct fault *fault)
 {
-    struct contact_choice *choice = &geometry->contact_model->choices[c];
-    const struct contact_table_source *tables = source->tables;
-    const struct hertz_contact *hertz = &geometry->hertz[c];
-    const struct body *a = body_of(geometry, c, 0);
-    const struct body *b = body_of(geometry, c, 1);
-    enum percuss_contact_model asked = request->options.contact_model;
+    struct contact_choice *choice = &problem->contact_model.choices[c];
+    const struct hertz_contact *hertz = &problem->hertz[c];
+    const struct body *a = body_of(problem, c, 0);
+    const struct body *b = body_of(problem, c, 1);
+    enum percuss_contact_model asked = problem->request->options.contact_model;
     choice->side = closed_form_softer(&a->material, &b->material);
     choice->yield = closed_form_yield(hertz, &a->material, &b->material);
     choice->plastic = choice->side < 0 ? contact_law_hertz(hertz->stiffness)
                                        : contact_law_closed_form(hertz, &a->material, &b->material);
     bool may = asked == PERCUSS_CONTACT_TABLE || asked == PERCUSS_CONTACT_AUTO;
     if (may && choice->side >= 0) {
-        enum percuss_status status = find_table(geometry, request, tables, c, fault);
+        enum percuss_status status = find_table(problem, tables, c, fault);
         if (status)
             return status;
     }
     if (choice->side >= 0 && !choice->tabulated && tables && tables->family &&
-        !find_family(geometry, tables->family, c, source->arena, may))
+        !find_family(problem, tables->family, c, may))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    find_dents(geometry, request, c);
+    find_dents(problem, c);
     return PERCUSS_OK;
 }
 
 /* Hertz indentation if all of the rigid approach's energy went into the contact. */
-static double rigid_indentation(const struct geometry *geometry, size_t c)
+static double rigid_indentation(const struct problem *problem, size_t c)
 {
-    double speed = fmin(0.0, geometry->gap_rate[c]);
-    double w = geometry->w[c * (geometry->contact_count + 1)];
-    return pow(0.5 * speed * speed / w / (0.4 * geometry->hertz[c].stiffness), 0.4);
+    double speed = fmin(0.0, problem->gap_rate[c]);
+    double w = problem->w[c * (problem->contact_count + 1)];
+    return pow(0.5 * speed * speed / w / (0.4 * problem->hertz[c].stiffness), 0.4);
 }
 
-static void use(struct geometry *geometry, bool yielding)
+static void use(struct problem *problem, bool yielding)
 {
-    struct contact_model *model = geometry->contact_model;
+    struct contact_model *model = &problem->contact_model;
     model->yielding = yielding;
-    for (size_t c = 0; c < geometry->contact_count; c++)
+    for (size_t c = 0; c < problem->contact_count; c++)
         model->laws[c] =
-            yielding ? model->choices[c].plastic : contact_law_hertz(geometry->hertz[c].stiffness);
+            yielding ? model->choices[c].plastic : contact_law_hertz(problem->hertz[c].stiffness);
 }
 
-enum percuss_status contact_model_choose(struct geometry *geometry,
-                                         const struct solve_request *request,
+enum percuss_status contact_model_choose(struct problem *problem,
                                          const struct contact_table_source *tables,
-                                         struct arena *arena, struct fault *fault)
+                                         struct fault *fault)
 {
-    size_t n = geometry->contact_count;
-    enum percuss_contact_model asked = request->options.contact_model;
-    struct contact_model *model = arena_take(arena, 1, sizeof *model);
-    if (model) {
-        model->depth = arena_take(arena, n, sizeof *model->depth);
-        model->laws = arena_take(arena, n, sizeof *model->laws);
-        model->choices = arena_take(arena, n, sizeof *model->choices);
-    }
-    if (!model || !model->depth || !model->laws || !model->choices)
+    size_t n = problem->contact_count;
+    enum percuss_contact_model asked = problem->request->options.contact_model;
+    struct contact_model *model = &problem->contact_model;
+    model->depth = arena_take(problem->arena, n, sizeof *model->depth);
+    model->laws = arena_take(problem->arena, n, sizeof *model->laws);
+    model->choices = arena_take(problem->arena, n, sizeof *model->choices);
+    if (!model->depth || !model->laws || !model->choices)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    geometry->contact_model = model;
-    const struct law_source source = {tables, arena};
     bool dented = false;
     bool likely = false;
     for (size_t c = 0; c < n; c++) {
-        enum percuss_status status = find_law(geometry, request, &source, c, fault);
+        enum percuss_status status = find_law(problem, tables, c, fault);
         if (status)
             return status;
         dented = dented || model->choices[c].dented;
-        likely = likely || rigid_indentation(geometry, c) > model->choices[c].yield;
+        likely = likely || rigid_indentation(problem, c) > model->choices[c].yield;
     }
     model->decided = asked != PERCUSS_CONTACT_AUTO || dented;
-    use(geometry,
+    use(problem,
         asked != PERCUSS_CONTACT_HERTZ && (asked != PERCUSS_CONTACT_AUTO || dented || likely));
     return PERCUSS_OK;
 }
@@ -205,11 +194,11 @@ static double deepest(const struct impact_outcome *outcome, size_t c)
     return largest;
 }
 
-bool contact_model_yielded(const struct geometry *geometry, const struct impact_outcome *outcome,
+bool contact_model_yielded(const struct problem *problem, const struct impact_outcome *outcome,
                            size_t contact)
 {
     return outcome->laws[contact].history.max_indentation >
-           geometry->contact_model->laws[contact].history.max_indentation;
+           problem->contact_model.laws[contact].history.max_indentation;
 }
 
 double contact_model_beyond_table(const struct impact_outcome *outcome, size_t contact)
@@ -222,29 +211,29 @@ double contact_model_beyond_table(const struct impact_outcome *outcome, size_t c
     return fmax(0.0, depth / range - 1.0);
 }
 
-bool contact_model_revise(struct geometry *geometry, const struct impact_outcome *outcome)
+bool contact_model_revise(struct problem *problem, const struct impact_outcome *outcome)
 {
-    struct contact_model *model = geometry->contact_model;
+    struct contact_model *model = &problem->contact_model;
     if (outcome->end_reason == PERCUSS_END_LIMIT)
         return false;
     if (model->decided)
         return false;
     bool yields = false;
-    for (size_t c = 0; c < geometry->contact_count; c++)
-        yields = yields || (model->yielding ? contact_model_yielded(geometry, outcome, c)
+    for (size_t c = 0; c < problem->contact_count; c++)
+        yields = yields || (model->yielding ? contact_model_yielded(problem, outcome, c)
                                             : deepest(outcome, c) > model->choices[c].yield);
     model->decided = true;
     if (yields == model->yielding)
         return false;
-    use(geometry, yields);
+    use(problem, yields);
     return true;
 }
 
-enum percuss_contact_model contact_model_used(const struct geometry *geometry)
+enum percuss_contact_model contact_model_used(const struct problem *problem)
 {
-    const struct contact_model *model = geometry->contact_model;
+    const struct contact_model *model = &problem->contact_model;
     enum percuss_contact_model used = PERCUSS_CONTACT_HERTZ;
-    for (size_t c = 0; model->yielding && c < geometry->contact_count; c++) {
+    for (size_t c = 0; model->yielding && c < problem->contact_count; c++) {
         enum percuss_contact_model here = model->laws[c].operations->model;
         /* the approximation of a closed form counts for all */
         if (used == PERCUSS_CONTACT_HERTZ || here == PERCUSS_CONTACT_CLOSED_FORM)
@@ -264,12 +253,12 @@ __attribute__((format(printf, 3, 4))) static void append(char *text, size_t size
 }
 
 /* The contact whose indentation is largest against that of its yield. */
-static size_t hardest_hit(const struct geometry *geometry, const struct impact_outcome *outcome)
+static size_t hardest_hit(const struct problem *problem, const struct impact_outcome *outcome)
 {
     size_t hardest = 0;
     double most = -1.0;
-    for (size_t c = 0; c < geometry->contact_count; c++) {
-        double share = deepest(outcome, c) / geometry->contact_model->choices[c].yield;
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        double share = deepest(outcome, c) / problem->contact_model.choices[c].yield;
         if (share > most) {
             most = share;
             hardest = c;
@@ -278,36 +267,36 @@ static size_t hardest_hit(const struct geometry *geometry, const struct impact_o
     return hardest;
 }
 
-static void explain_elastic(const struct geometry *geometry, const struct solve_request *request,
-                            const struct impact_outcome *outcome, char *text, size_t size)
+static void explain_elastic(const struct problem *problem, const struct impact_outcome *outcome,
+                            char *text, size_t size)
 {
     double pressure = 0.0;
-    size_t hardest = hardest_hit(geometry, outcome);
-    const struct contact_choice *choice = &geometry->contact_model->choices[hardest];
-    for (size_t c = 0; c < geometry->contact_count; c++) {
+    size_t hardest = hardest_hit(problem, outcome);
+    const struct contact_choice *choice = &problem->contact_model.choices[hardest];
+    for (size_t c = 0; c < problem->contact_count; c++) {
         const struct track *track = &outcome->tracks[c];
         for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
             pressure =
-                fmax(pressure, hertz_peak_pressure(&geometry->hertz[c], track->list[i].peak_force));
+                fmax(pressure, hertz_peak_pressure(&problem->hertz[c], track->list[i].peak_force));
     }
     append(text, size, "elastic Hertz contact (peak pressure %.3g MPa) on a half-space",
            pressure / 1e6);
     double share = deepest(outcome, hardest) / choice->yield;
-    if (choice->side < 0 && request->options.contact_model == PERCUSS_CONTACT_CLOSED_FORM)
+    if (choice->side < 0 && problem->request->options.contact_model == PERCUSS_CONTACT_CLOSED_FORM)
         append(text, size, ", as neither material has a yield stress");
     if (choice->side >= 0 && share <= 1.0)
         append(text, size, ", below yield (%.2g of the indentation at which %s yields)", share,
-               body_of(geometry, hardest, choice->side)->id);
+               body_of(problem, hardest, choice->side)->id);
 }
 
-static void explain_plastic(const struct geometry *geometry, const struct solve_request *request,
-                            const struct impact_outcome *outcome, char *text, size_t size)
+static void explain_plastic(const struct problem *problem, const struct impact_outcome *outcome,
+                            char *text, size_t size)
 {
-    size_t c = hardest_hit(geometry, outcome);
-    const struct contact_choice *choice = &geometry->contact_model->choices[c];
-    const struct body *body = body_of(geometry, c, choice->side < 0 ? 0 : choice->side);
+    size_t c = hardest_hit(problem, outcome);
+    const struct contact_choice *choice = &problem->contact_model.choices[c];
+    const struct body *body = body_of(problem, c, choice->side < 0 ? 0 : choice->side);
     const struct contact_history *history = &outcome->laws[c].history;
-    bool tabulated = contact_model_used(geometry) == PERCUSS_CONTACT_TABLE;
+    bool tabulated = contact_model_used(problem) == PERCUSS_CONTACT_TABLE;
     append(text, size, "elastic-plastic contact by %s",
            !tabulated       ? "the closed form of Jackson and Green"
            : choice->family ? "the family of tables of the contact region"
@@ -321,21 +310,21 @@ static void explain_plastic(const struct geometry *geometry, const struct solve_
         append(text, size, ", in the dent of earlier impacts");
     if (contact_model_beyond_table(outcome, c) > 0.0)
         append(text, size, "; the table ends before that and goes on as a fully plastic contact");
-    if (!tabulated && request->options.contact_model == PERCUSS_CONTACT_AUTO)
+    if (!tabulated && problem->request->options.contact_model == PERCUSS_CONTACT_AUTO)
         append(text, size, "; no table for these bodies");
-    if (geometry->hertz[c].axis_ratio < 0.999)
+    if (problem->hertz[c].axis_ratio < 0.999)
         append(text, size, "; elliptic: by the sphere of equal stiffness, %.3g m, an approximation",
-               closed_form_radius(&geometry->hertz[c]));
+               closed_form_radius(&problem->hertz[c]));
     if (!tabulated && body->material.tangent > 0.0)
         append(text, size, "; hardening of %s left out", body->id);
 }
 
-void contact_model_explain(const struct geometry *geometry, const struct solve_request *request,
-                           const struct impact_outcome *outcome, char *text, size_t size)
+void contact_model_explain(const struct problem *problem, const struct impact_outcome *outcome,
+                           char *text, size_t size)
 {
     *text = '\0';
-    if (contact_model_used(geometry) == PERCUSS_CONTACT_HERTZ)
-        explain_elastic(geometry, request, outcome, text, size);
+    if (contact_model_used(problem) == PERCUSS_CONTACT_HERTZ)
+        explain_elastic(problem, outcome, text, size);
     else
-        explain_plastic(geometry, request, outcome, text, size);
+        explain_plastic(problem, outcome, text, size);
 }

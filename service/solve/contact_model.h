@@ -7,7 +7,7 @@
 
 #include "contact/family.h"
 #include "impact/impact.h"
-#include "solve/geometry.h"
+#include "solve/problem.h"
 
 /* One contact. */
 struct contact_choice {
@@ -23,38 +23,29 @@ struct contact_choice {
                                     operations: there is none */
 };
 
-struct contact_model {
-    bool yielding;                  /* the laws in use are the plastic ones; false: Hertz */
-    bool decided;                   /* by the request, or by a solution */
-    double *depth;                  /* [contact]: of the dents under it, m */
-    struct contact_law *laws;       /* [contact]: in use */
-    struct contact_choice *choices; /* [contact] */
-};
-
 /* Finds the laws that the request asks for, the likely ones where it leaves the choice, and makes
- * them the geometry's. `tables` may be NULL. PERCUSS_OK, BAD_REQUEST (a table is asked for that
+ * them the problem's. `tables` may be NULL. PERCUSS_OK, BAD_REQUEST (a table is asked for that
  * does not exist), INTERNAL. */
-enum percuss_status contact_model_choose(struct geometry *geometry,
-                                         const struct solve_request *request,
+enum percuss_status contact_model_choose(struct problem *problem,
                                          const struct contact_table_source *tables,
-                                         struct arena *arena, struct fault *fault);
+                                         struct fault *fault);
 
 /* Looks at a solution: true: other laws are in order (Hertz exceeded yield, a law that yields was
- * not needed) and are now the geometry's. At most once. */
-bool contact_model_revise(struct geometry *geometry, const struct impact_outcome *outcome);
+ * not needed) and are now the problem's. At most once. */
+bool contact_model_revise(struct problem *problem, const struct impact_outcome *outcome);
 
 /* What the reply names: HERTZ, CLOSED_FORM or TABLE. */
-enum percuss_contact_model contact_model_used(const struct geometry *geometry);
+enum percuss_contact_model contact_model_used(const struct problem *problem);
 
 /* Whether a contact left more than it found. */
-bool contact_model_yielded(const struct geometry *geometry, const struct impact_outcome *outcome,
+bool contact_model_yielded(const struct problem *problem, const struct impact_outcome *outcome,
                            size_t contact);
 
 /* How far beyond the end of its table a contact went, over that end; 0: not at all, or no table. */
 double contact_model_beyond_table(const struct impact_outcome *outcome, size_t contact);
 
 /* Writes why, and what it approximates. */
-void contact_model_explain(const struct geometry *geometry, const struct solve_request *request,
-                           const struct impact_outcome *outcome, char *text, size_t size);
+void contact_model_explain(const struct problem *problem, const struct impact_outcome *outcome,
+                           char *text, size_t size);
 
 #endif

@@ -12,14 +12,14 @@
 #include "solve/report.h"
 
 /* Compliance between two contacts of one body that no mode of the scene holds. */
-static double residual_of_side(const struct geometry *geometry, const struct assembly *assembly,
+static double residual_of_side(const struct problem *problem, const struct assembly *assembly,
                                const struct contact_side *i, const struct contact_side *j,
                                size_t contact_i, size_t contact_j)
 {
     double sum = 0.0;
     for (int f = 0; f < FAMILY_COUNT; f++)
         if (i->load.acts[f] && j->load.acts[f])
-            sum += modal_compliance(geometry->bodies[i->body], f, &i->load, &j->load);
+            sum += modal_compliance(problem->bodies[i->body], f, &i->load, &j->load);
     for (size_t g = 0; g < assembly->scene.groups; g++) {
         const struct scene_group *group = &assembly->groups[g];
         const double *a = group->participation[contact_i];
@@ -33,21 +33,21 @@ static double residual_of_side(const struct geometry *geometry, const struct ass
 }
 
 /* The part of the coupling of two contacts that goes through side `which` of the first. */
-static void share_of_side(const struct geometry *geometry, const struct assembly *assembly,
-                          size_t c, int which, double *w, double *residual)
+static void share_of_side(const struct problem *problem, const struct assembly *assembly, size_t c,
+                          int which, double *w, double *residual)
 {
-    const struct contact_side *side = &geometry->sides[c][which];
-    const struct body *body = geometry->bodies[side->body];
-    size_t n = geometry->contact_count;
-    residual[c * n + c] = geometry->compliance->sides[c][which];
+    const struct contact_side *side = &problem->sides[c][which];
+    const struct body *body = problem->bodies[side->body];
+    size_t n = problem->contact_count;
+    residual[c * n + c] = problem->compliance.sides[c][which];
     for (size_t j = 0; j < n; j++) {
         for (int q = 0; q < 2; q++) {
-            const struct contact_side *other = &geometry->sides[j][q];
+            const struct contact_side *other = &problem->sides[j][q];
             if (other->body != side->body)
                 continue;
             w[c * n + j] += rigid_inverse_mass(body, side->site.point, side->direction,
                                                other->site.point, other->direction);
-            residual[c * n + j] += residual_of_side(geometry, assembly, side, other, c, j);
+            residual[c * n + j] += residual_of_side(problem, assembly, side, other, c, j);
         }
     }
 }
@@ -65,13 +65,13 @@ static double velocity_along_normal(const struct solve_request *request, size_t 
 }
 
 /* How the two bodies share each contact. With the client's own W nobody knows. */
-static bool find_sides(const struct geometry *geometry, const struct solve_request *request,
-                       const struct assembly *assembly, struct arena *arena,
+static bool find_sides(const struct problem *problem, const struct assembly *assembly,
                        struct trace_sides *sides)
 {
-    size_t n = geometry->contact_count;
+    struct arena *arena = problem->arena;
+    size_t n = problem->contact_count;
     *sides = (struct trace_sides){0};
-    for (int s = 0; s < 2 && !geometry->from_client; s++) {
+    for (int s = 0; s < 2 && !problem->from_client; s++) {
         double *w = arena_take(arena, n * n, sizeof *w);
         double *residual = arena_take(arena, n * n, sizeof *residual);
         double *velocity = arena_take(arena, n, sizeof *velocity);
@@ -79,9 +79,9 @@ static bool find_sides(const struct geometry *geometry, const struct solve_reque
         if (!w || !residual || !velocity || !body)
             return false;
         for (size_t c = 0; c < n; c++) {
-            body[c] = geometry->sides[c][s].body;
-            velocity[c] = velocity_along_normal(request, c, body[c]);
-            share_of_side(geometry, assembly, c, s, w, residual);
+            body[c] = problem->sides[c][s].body;
+            velocity[c] = velocity_along_normal(problem->request, c, body[c]);
+            share_of_side(problem, assembly, c, s, w, residual);
         }
         sides->w[s] = w;
         sides->residual[s] = residual;
@@ -92,14 +92,14 @@ static bool find_sides(const struct geometry *geometry, const struct solve_reque
 }
 
 /* Largest difference of the contacts' impulses, against what stops the approach. */
-static double difference(const struct geometry *geometry, const struct accuracy *accuracy,
+static double difference(const struct problem *problem, const struct accuracy *accuracy,
                          const struct impact_outcome *again)
 {
     double worst = 0.0;
-    for (size_t c = 0; c < geometry->contact_count; c++) {
+    for (size_t c = 0; c < problem->contact_count; c++) {
         double change = fabs(again->tracks[c].impulse - accuracy->outcome.tracks[c].impulse);
-        if (geometry->impulse_compression[c] > 0.0)
-            worst = fmax(worst, change / geometry->impulse_compression[c]);
+        if (problem->impulse_compression[c] > 0.0)
+            worst = fmax(worst, change / problem->impulse_compression[c]);
     }
     return worst;
 }
@@ -113,7 +113,7 @@ static double work_of(const struct accuracy *accuracy)
 }
 
 /* Where the effort did not do for all of it, and where the answer came from another method. */
-static void warn(const struct geometry *geometry, const struct accuracy *accuracy,
+static void warn(const struct problem *problem, const struct accuracy *accuracy,
                  const struct impact_outcome *again, struct solve_result *result)
 {
     const struct trace *trace = result->trace;
@@ -126,7 +126,7 @@ static void warn(const struct geometry *geometry, const struct accuracy *accurac
                     last, result->window);
         return;
     }
-    double off = difference(geometry, accuracy, again);
+    double off = difference(problem, accuracy, again);
     if (off > 1e-9)
         report_warn(result,
                     "options.trace: the histories are the modal method's, whose restitution "
@@ -134,19 +134,17 @@ static void warn(const struct geometry *geometry, const struct accuracy *accurac
                     off);
 }
 
-enum percuss_status history_make(const struct geometry *geometry,
-                                 const struct solve_request *request,
-                                 const struct accuracy *accuracy, const struct attempt_means *means,
-                                 struct solve_result *result)
+enum percuss_status history_make(const struct problem *problem, const struct accuracy *accuracy,
+                                 struct pace *pace, struct solve_result *result)
 {
-    struct arena *arena = means->arena;
+    struct arena *arena = problem->arena;
     const struct scene *scene = &accuracy->assembly->scene;
     struct force_log log = force_log_make(arena, scene->contacts);
     struct impact_settings settings = {.accuracy = accuracy->step_accuracy,
-                                       .horizon = attempt_horizon(request, scene),
+                                       .horizon = attempt_horizon(problem, scene),
                                        .max_work = work_of(accuracy),
                                        .log = &log,
-                                       .pace = means->pace};
+                                       .pace = pace};
     /* the closed form of a rigid pair is exact */
     if (impact_is_rigid_pair(scene))
         settings.accuracy = fmin(settings.accuracy, 1e-9);
@@ -155,18 +153,18 @@ enum percuss_status history_make(const struct geometry *geometry,
     struct trace *trace = arena_take(arena, 1, sizeof *trace);
     enum percuss_status status = PERCUSS_INTERNAL;
     if (trace && impact_create(&again, scene, arena) &&
-        find_sides(geometry, request, accuracy->assembly, arena, &sides))
+        find_sides(problem, accuracy->assembly, &sides))
         status = impact_modal(scene, &settings, arena, &again);
     if (!status)
-        status = trace_make(
-            &(struct trace_task){scene, &log, &sides, again.time_shift, again.window,
-                                 attempt_work_allowed(PERCUSS_METHOD_MODAL), means->pace},
-            arena, trace);
+        status =
+            trace_make(&(struct trace_task){scene, &log, &sides, again.time_shift, again.window,
+                                            attempt_work_allowed(PERCUSS_METHOD_MODAL), pace},
+                       arena, trace);
     if (status) {
         result->status = pace_fault(&result->fault, status);
         return result->status;
     }
     result->trace = trace;
-    warn(geometry, accuracy, &again, result);
+    warn(problem, accuracy, &again, result);
     return result->status;
 }

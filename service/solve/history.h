@@ -12,9 +12,7 @@
  * result->trace. That may take as much work as an answer, and the histories as much again: where it
  * is spent they end, with a warning. Warns where the answer came from another method and that
  * solution differs. Returns result->status, or PERCUSS_INTERNAL with the message. */
-enum percuss_status history_make(const struct geometry *geometry,
-                                 const struct solve_request *request,
-                                 const struct accuracy *accuracy, const struct attempt_means *means,
-                                 struct solve_result *result);
+enum percuss_status history_make(const struct problem *problem, const struct accuracy *accuracy,
+                                 struct pace *pace, struct solve_result *result);
 
 #endif

@@ -114,12 +114,12 @@ static double share_of(const struct material *const materials[2], int side)
 }
 
 /* Of the balls that flow: that with the smaller radius loses the pressure of both. */
-static double by_roundness(const struct geometry *geometry, size_t contact, double contact_radius)
+static double by_roundness(const struct problem *problem, size_t contact, double contact_radius)
 {
-    const struct contact_choice *choice = &geometry->contact_model->choices[contact];
-    const struct contact_side *sides = geometry->sides[contact];
-    const struct material *m[2] = {&geometry->bodies[sides[0].body]->material,
-                                   &geometry->bodies[sides[1].body]->material};
+    const struct contact_choice *choice = &problem->contact_model.choices[contact];
+    const struct contact_side *sides = problem->sides[contact];
+    const struct material *m[2] = {&problem->bodies[sides[0].body]->material,
+                                   &problem->bodies[sides[1].body]->material};
     bool both = contact_family_both_yield(m[0], m[1]);
     double pressure = 0.0, stored = 0.0;
     for (int i = 0; i < 2; i++) {
@@ -142,19 +142,19 @@ static double by_table(const struct contact_choice *choice, double depth)
 }
 
 /* Size and shape, and all else. */
-static void find_parts(const struct geometry *geometry, const struct impact_outcome *outcome,
+static void find_parts(const struct problem *problem, const struct impact_outcome *outcome,
                        size_t contact, double parts[2])
 {
-    const struct contact_choice *choice = &geometry->contact_model->choices[contact];
+    const struct contact_choice *choice = &problem->contact_model.choices[contact];
     const struct contact_history *history = &outcome->laws[contact].history;
     parts[0] = parts[1] = 0.0;
-    if (!contact_model_yielded(geometry, outcome, contact))
+    if (!contact_model_yielded(problem, outcome, contact))
         return;
-    const struct contact_side *side = &geometry->sides[contact][choice->side];
-    const struct material *soft = &geometry->bodies[side->body]->material;
+    const struct contact_side *side = &problem->sides[contact][choice->side];
+    const struct material *soft = &problem->bodies[side->body]->material;
     double hardening = soft->tangent / soft->young;
-    parts[0] = by_size(history->contact_radius / closed_form_radius(&geometry->hertz[contact])) +
-               by_roundness(geometry, contact, history->contact_radius);
+    parts[0] = by_size(history->contact_radius / closed_form_radius(&problem->hertz[contact])) +
+               by_roundness(problem, contact, history->contact_radius);
     if (choice->tabulated)
         parts[1] = by_table(choice, history->max_indentation);
     else if (!choice->compared.operations)
@@ -164,20 +164,20 @@ static void find_parts(const struct geometry *geometry, const struct impact_outc
             TABLE + against_family(&choice->plastic, &choice->compared, history->max_indentation);
 }
 
-double law_error(const struct geometry *geometry, const struct impact_outcome *outcome,
+double law_error(const struct problem *problem, const struct impact_outcome *outcome,
                  size_t contact)
 {
     double parts[2];
-    find_parts(geometry, outcome, contact, parts);
+    find_parts(problem, outcome, contact, parts);
     return parts[0] + parts[1];
 }
 
-const char *law_error_reason(const struct geometry *geometry, const struct impact_outcome *outcome,
+const char *law_error_reason(const struct problem *problem, const struct impact_outcome *outcome,
                              size_t contact)
 {
-    const struct contact_choice *choice = &geometry->contact_model->choices[contact];
+    const struct contact_choice *choice = &problem->contact_model.choices[contact];
     double parts[2];
-    find_parts(geometry, outcome, contact, parts);
+    find_parts(problem, outcome, contact, parts);
     if (parts[0] > parts[1])
         return "the dent is too large for small strains";
     if (!choice->tabulated)
@@ -186,10 +186,10 @@ const char *law_error_reason(const struct geometry *geometry, const struct impac
     return "the tables end before these materials or this depth";
 }
 
-double law_error_worst(const struct geometry *geometry, const struct impact_outcome *outcome)
+double law_error_worst(const struct problem *problem, const struct impact_outcome *outcome)
 {
     double worst = 0.0;
-    for (size_t c = 0; c < geometry->contact_count; c++)
-        worst = fmax(worst, law_error(geometry, outcome, c));
+    for (size_t c = 0; c < problem->contact_count; c++)
+        worst = fmax(worst, law_error(problem, outcome, c));
     return worst;
 }

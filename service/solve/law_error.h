@@ -7,18 +7,18 @@
 
 #include "impact/impact.h"
 #include "solve/contact_model.h"
-#include "solve/geometry.h"
+#include "solve/problem.h"
 
 /* An estimate for a contact after a solution, as a part of the restitution; 0: Hertz below yield.
  */
-double law_error(const struct geometry *geometry, const struct impact_outcome *outcome,
+double law_error(const struct problem *problem, const struct impact_outcome *outcome,
                  size_t contact);
 
 /* What most of it comes from, in words. */
-const char *law_error_reason(const struct geometry *geometry, const struct impact_outcome *outcome,
+const char *law_error_reason(const struct problem *problem, const struct impact_outcome *outcome,
                              size_t contact);
 
 /* The largest of all contacts. */
-double law_error_worst(const struct geometry *geometry, const struct impact_outcome *outcome);
+double law_error_worst(const struct problem *problem, const struct impact_outcome *outcome);
 
 #endif

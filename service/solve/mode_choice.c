@@ -30,7 +30,7 @@ static struct demand make_demand(const struct scene *scene, size_t contact, doub
 
 /* The contacts that load the family, as if each closed like the fastest of all: what rests on a
  * body hands on the blow that it gets. */
-static size_t find_demands(const struct geometry *geometry, const struct scene *scene, size_t body,
+static size_t find_demands(const struct problem *problem, const struct scene *scene, size_t body,
                            enum mode_family family, struct demand *demands)
 {
     size_t count = 0;
@@ -38,11 +38,11 @@ static size_t find_demands(const struct geometry *geometry, const struct scene *
     for (size_t c = 0; c < scene->contacts; c++)
         rate = fmin(rate, scene->gap_rate[c]);
     for (size_t c = 0; rate < 0.0 && c < scene->contacts; c++) {
-        const struct site_load *load = geometry_load(geometry, c, body, family);
+        const struct site_load *load = problem_load(problem, c, body, family);
         if (!load)
             continue;
         demands[count] = make_demand(scene, c, rate, load);
-        demands[count++].left = modal_compliance(geometry->bodies[body], family, load, load);
+        demands[count++].left = modal_compliance(problem->bodies[body], family, load, load);
     }
     return count;
 }
@@ -61,19 +61,18 @@ static bool suffices(const struct body *body, const struct modal_family *modes, 
     return true;
 }
 
-size_t mode_choice_count(const struct mode_choice *choice, const struct geometry *geometry,
-                         const struct scene *scene, struct prepared_cache *cache, size_t body,
-                         enum mode_family family)
+size_t mode_choice_count(const struct mode_choice *choice, const struct problem *problem,
+                         const struct scene *scene, size_t body, enum mode_family family)
 {
     struct demand demands[PERCUSS_MAX_CONTACTS];
-    const struct body *owner = geometry->bodies[body];
-    size_t loads = find_demands(geometry, scene, body, family, demands);
+    const struct body *owner = problem->bodies[body];
+    size_t loads = find_demands(problem, scene, body, family, demands);
     const struct modal_family *modes = NULL;
     for (size_t k = 0; k < choice->most; k++) {
         /* asked for in powers of two: outgrown families are remade */
         if (!modes || k >= modes->count) {
             const struct prepared_family *known =
-                prepared_family_get(cache, owner, family, modes ? 2 * k : 32);
+                prepared_family_get(problem->cache, owner, family, modes ? 2 * k : 32);
             if (!known)
                 return MODE_CHOICE_MOST + 1;
             modes = known->modes;

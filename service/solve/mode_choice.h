@@ -6,8 +6,8 @@
 #define PERCUSS_SOLVE_MODE_CHOICE_H
 
 #include "impact/scene.h"
-#include "solve/geometry.h"
 #include "solve/prepared.h"
+#include "solve/problem.h"
 
 /* Most modes of one family of one body. */
 enum { MODE_CHOICE_MOST = 5000 };
@@ -22,8 +22,7 @@ struct mode_choice {
 
 /* The number of modes of a loaded family of a body; `scene` needs no groups yet. More than
  * MODE_CHOICE_MOST: out of memory. */
-size_t mode_choice_count(const struct mode_choice *choice, const struct geometry *geometry,
-                         const struct scene *scene, struct prepared_cache *cache, size_t body,
-                         enum mode_family family);
+size_t mode_choice_count(const struct mode_choice *choice, const struct problem *problem,
+                         const struct scene *scene, size_t body, enum mode_family family);
 
 #endif

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "solve/nearby.h"
+
 enum { MAX_RAISES = 8 };
 /* Predicted effect of the omitted modes that the first attempt may have, in tolerances: a single
  * contact, and a beam, whose later sub-impacts amplify it five- to twentyfold as a rule. */
@@ -25,17 +27,17 @@ static const double SINGLE_FACTOR = 2.5;
 static struct attempt_difference slow_effect(const struct attempt_context *context,
                                              const struct attempt *attempt)
 {
-    const struct geometry *geometry = context->geometry;
+    const struct problem *problem = context->problem;
     struct attempt_difference largest = {0.0, 0.0};
-    for (size_t c = 0; c < geometry->contact_count; c++) {
+    for (size_t c = 0; c < problem->contact_count; c++) {
         const struct track *track = &attempt->outcome.tracks[c];
         const struct omitted *omitted = &attempt->assembly->omitted[c];
-        double compression = geometry->impulse_compression[c];
+        double compression = problem->impulse_compression[c];
         double impulse = omitted->inertia * track->inertia;
         double lost = omitted->viscosity * track->viscosity; /* J */
-        double e = fabs(attempt_restitution(geometry, &attempt->outcome, c));
+        double e = fabs(attempt_restitution(problem, &attempt->outcome, c));
         /* a contact at rest in a group is struck through its neighbours */
-        double approach = compression * geometry->w[c * (geometry->contact_count + 1)];
+        double approach = compression * problem->w[c * (problem->contact_count + 1)];
         if (compression > 0.0)
             impulse += lost / (fmax(e, 0.1) * approach);
         largest.impulse = fmax(largest.impulse, impulse);
@@ -59,13 +61,13 @@ static enum percuss_status estimate(struct attempt_context *context, struct atte
     return PERCUSS_OK;
 }
 
-bool mode_search_expects_sequence(const struct geometry *geometry)
+bool mode_search_expects_sequence(const struct problem *problem)
 {
-    if (geometry->contact_count > 1)
+    if (problem->contact_count > 1)
         return true;
-    for (size_t c = 0; c < geometry->contact_count; c++)
+    for (size_t c = 0; c < problem->contact_count; c++)
         for (int which = 0; which < 2; which++) {
-            const bool *acts = geometry->sides[c][which].load.acts;
+            const bool *acts = problem->sides[c][which].load.acts;
             if (acts[FAMILY_BENDING_Y] || acts[FAMILY_BENDING_Z])
                 return true;
         }
@@ -74,9 +76,9 @@ bool mode_search_expects_sequence(const struct geometry *geometry)
 
 static double first_allowed(const struct attempt_context *context)
 {
-    if (!mode_search_expects_sequence(context->geometry))
+    if (!mode_search_expects_sequence(context->problem))
         return fmin(FIRST_SINGLE * context->tolerance, MOST_SINGLE);
-    bool group = context->geometry->contact_count > 1;
+    bool group = context->problem->contact_count > 1;
     return fmin(FIRST_SEQUENCE * context->tolerance, group ? MOST_GROUP : MOST_SEQUENCE);
 }
 
@@ -128,9 +130,9 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
             /* what is cut off for its effort does not replace what was solved */
             if (raise > 0 && attempt_is_spent(&next) && !next.outcome.too_stiff)
                 return PERCUSS_OK;
-            nearby_begin(context->nearby, context->geometry, &next.outcome);
+            nearby_begin(context->nearby, context->problem, &next.outcome);
             if (raise > 0)
-                nearby_add(context->nearby, context->geometry, &best->outcome);
+                nearby_add(context->nearby, context->problem, &best->outcome);
             *best = next;
             if (best->outcome.always_overlapped)
                 return PERCUSS_OK;

@@ -12,7 +12,7 @@ enum { MODE_SEARCH_MOST = 1200 };
 
 /* Whether a contact bends a beam, or there are several: then a sequence of sub-impacts is likely,
  * which amplifies every error. */
-bool mode_search_expects_sequence(const struct geometry *geometry);
+bool mode_search_expects_sequence(const struct problem *problem);
 
 /* Solves with as few modes as the tolerance allows; best->accuracy is given. PERCUSS_OK or
  * PERCUSS_INTERNAL. An overlap without a touch before (outcome.always_overlapped) ends it. */

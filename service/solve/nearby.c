@@ -7,22 +7,22 @@
 
 #include "solve/attempt.h"
 
-void nearby_begin(struct nearby *nearby, const struct geometry *geometry,
+void nearby_begin(struct nearby *nearby, const struct problem *problem,
                   const struct impact_outcome *answer)
 {
     nearby->solutions = 1;
-    for (size_t c = 0; c < geometry->contact_count; c++) {
-        nearby->low[c] = nearby->high[c] = attempt_restitution(geometry, answer, c);
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        nearby->low[c] = nearby->high[c] = attempt_restitution(problem, answer, c);
         nearby->fewest[c] = nearby->most[c] = answer->tracks[c].count;
     }
 }
 
-void nearby_add(struct nearby *nearby, const struct geometry *geometry,
+void nearby_add(struct nearby *nearby, const struct problem *problem,
                 const struct impact_outcome *other)
 {
     nearby->solutions++;
-    for (size_t c = 0; c < geometry->contact_count; c++) {
-        double e = attempt_restitution(geometry, other, c);
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        double e = attempt_restitution(problem, other, c);
         size_t count = other->tracks[c].count;
         nearby->low[c] = fmin(nearby->low[c], e);
         nearby->high[c] = fmax(nearby->high[c], e);
@@ -33,14 +33,14 @@ void nearby_add(struct nearby *nearby, const struct geometry *geometry,
     }
 }
 
-double nearby_distance(const struct nearby *nearby, const struct geometry *geometry,
+double nearby_distance(const struct nearby *nearby, const struct problem *problem,
                        const struct impact_outcome *answer)
 {
     double largest = 0.0;
     if (nearby->solutions < 2)
         return INFINITY;
-    for (size_t c = 0; c < geometry->contact_count; c++) {
-        double e = attempt_restitution(geometry, answer, c); /* NAN: fmax leaves it out */
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        double e = attempt_restitution(problem, answer, c); /* NAN: fmax leaves it out */
         largest = fmax(largest, fmax(e - nearby->low[c], nearby->high[c] - e));
     }
     return largest;

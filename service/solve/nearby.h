@@ -8,7 +8,7 @@
 #define PERCUSS_SOLVE_NEARBY_H
 
 #include "impact/impact.h"
-#include "solve/geometry.h"
+#include "solve/problem.h"
 
 struct nearby {
     size_t solutions;
@@ -17,16 +17,16 @@ struct nearby {
 };
 
 /* The range of one solution alone. */
-void nearby_begin(struct nearby *nearby, const struct geometry *geometry,
+void nearby_begin(struct nearby *nearby, const struct problem *problem,
                   const struct impact_outcome *answer);
 
 /* Widens it by another solution of the same contacts, which was not cut off. */
-void nearby_add(struct nearby *nearby, const struct geometry *geometry,
+void nearby_add(struct nearby *nearby, const struct problem *problem,
                 const struct impact_outcome *other);
 
 /* Largest distance of an answer's restitution from the ends of the range, as large as it can be
  * where there is no other solution. */
-double nearby_distance(const struct nearby *nearby, const struct geometry *geometry,
+double nearby_distance(const struct nearby *nearby, const struct problem *problem,
                        const struct impact_outcome *answer);
 
 #endif

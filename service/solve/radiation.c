@@ -8,7 +8,6 @@
 #include "contact/plastic.h"
 #include "impact/impact_scale.h"
 #include "model/half_space.h"
-#include "solve/compliance.h"
 
 /* Effect on the restitution, in tolerances, below which waves are left out. */
 static const double NEGLIGIBLE = 0.05;
@@ -37,9 +36,9 @@ struct radiator {
     double patch;     /* contact radius, the largest, m */
 };
 
-static bool is_half_space(const struct geometry *geometry, size_t body)
+static bool is_half_space(const struct problem *problem, size_t body)
 {
-    return geometry->bodies[body]->shape == SHAPE_HALF_SPACE;
+    return problem->bodies[body]->shape == SHAPE_HALF_SPACE;
 }
 
 /* One contact's collision, as far as its scale tells. */
@@ -52,7 +51,7 @@ struct collision {
 
 /* An elastic half of a collision, of the energy 0.4 F d, has int F'^2 dt = 0.35 K^2 v d (see
  * mode_choice.c). The rebound from a dent is another one than the approach, of energy e^2. */
-static struct collision collide(const struct geometry *geometry, const struct scene *scene,
+static struct collision collide(const struct problem *problem, const struct scene *scene,
                                 size_t contact, double rate, double lag)
 {
     struct contact_law law = scene->laws[contact];
@@ -67,7 +66,7 @@ static struct collision collide(const struct geometry *geometry, const struct sc
     double e = sqrt(back / scale.indentation);
     double squares =
         0.35 * rate * (loading * loading * scale.indentation + unloading * unloading * e * back);
-    hertz_ellipse(&geometry->hertz[contact], scale.force, axes);
+    hertz_ellipse(&problem->hertz[contact], scale.force, axes);
     return (struct collision){
         .stiffness = fmax(loading, unloading),
         .duration = HERTZ_DURATION * fmin(scale.indentation, back / e) / rate,
@@ -90,25 +89,25 @@ static double pressed_rate(const struct scene *scene, size_t contact, double rat
 
 /* The fastest that a contact of a group can be driven: by what all of them must stop (a heavy ball
  * on a light one on a wall). */
-static double driven_rate(const struct geometry *geometry, size_t contact, double rate)
+static double driven_rate(const struct problem *problem, size_t contact, double rate)
 {
-    size_t n = geometry->contact_count;
+    size_t n = problem->contact_count;
     double energy = 0.0;
     for (size_t c = 0; c < n; c++)
-        energy += 0.5 * geometry->impulse_compression[c] * fabs(geometry->gap_rate[c]);
-    return fmax(rate, sqrt(2.0 * energy * geometry->w[contact * (n + 1)]));
+        energy += 0.5 * problem->impulse_compression[c] * fabs(problem->gap_rate[c]);
+    return fmax(rate, sqrt(2.0 * energy * problem->w[contact * (n + 1)]));
 }
 
 /* The stiffness is that of rigid masses: what vibration takes from the first blow may come back. */
-static void look_at(const struct geometry *geometry, const struct scene *scene, size_t contact,
+static void look_at(const struct problem *problem, const struct scene *scene, size_t contact,
                     double rate, struct radiator *radiator)
 {
     struct scene rigid = *scene;
     rigid.groups = 0;
     double lag = radiator->waves.lag;
-    double driven = driven_rate(geometry, contact, rate);
-    struct collision collision = collide(geometry, scene, contact, rate, lag);
-    double hardest = collide(geometry, &rigid, contact, driven, lag).stiffness;
+    double driven = driven_rate(problem, contact, rate);
+    struct collision collision = collide(problem, scene, contact, rate, lag);
+    double hardest = collide(problem, &rigid, contact, driven, lag).stiffness;
     radiator->stiffness = fmax(radiator->stiffness, hardest);
     radiator->duration = fmin(radiator->duration, collision.duration);
     radiator->loss = fmax(radiator->loss, collision.loss);
@@ -116,27 +115,27 @@ static void look_at(const struct geometry *geometry, const struct scene *scene, 
     radiator->contact[radiator->count++] = contact;
 }
 
-static struct radiator find_radiator(const struct geometry *geometry, const struct scene *scene,
+static struct radiator find_radiator(const struct problem *problem, const struct scene *scene,
                                      size_t body)
 {
     struct radiator radiator = {.body = body, .duration = INFINITY};
     double rate = 0.0;
-    radiator.waves = half_space_waves_of(&geometry->bodies[body]->material);
+    radiator.waves = half_space_waves_of(&problem->bodies[body]->material);
     for (size_t c = 0; c < scene->contacts; c++)
         rate = fmax(rate, -scene->gap_rate[c]);
     for (size_t c = 0; c < scene->contacts; c++)
-        if (geometry->sides[c][0].body == body || geometry->sides[c][1].body == body)
-            look_at(geometry, scene, c, pressed_rate(scene, c, rate), &radiator);
+        if (problem->sides[c][0].body == body || problem->sides[c][1].body == body)
+            look_at(problem, scene, c, pressed_rate(scene, c, rate), &radiator);
     return radiator;
 }
 
 /* How much of their waves two contacts share: J0(k r), spread over the wave numbers of a pulse
  * whose square mean is that of Rayleigh's wave at half a period per contact. */
-static double shared(const struct geometry *geometry, const struct radiator *radiator, size_t i,
+static double shared(const struct problem *problem, const struct radiator *radiator, size_t i,
                      size_t j)
 {
-    const struct contact_side *a = geometry->sides[radiator->contact[i]];
-    const struct contact_side *b = geometry->sides[radiator->contact[j]];
+    const struct contact_side *a = problem->sides[radiator->contact[i]];
+    const struct contact_side *b = problem->sides[radiator->contact[j]];
     const double *p = a[a[0].body != radiator->body].site.point;
     const double *q = b[b[0].body != radiator->body].site.point;
     double number = M_PI / (radiator->duration * radiator->waves.rayleigh);
@@ -146,23 +145,23 @@ static double shared(const struct geometry *geometry, const struct radiator *rad
 }
 
 /* What a contact feels of all waves that the contacts on its half-space make, in its own. */
-static double felt(const struct geometry *geometry, const struct radiator *radiator, size_t i)
+static double felt(const struct problem *problem, const struct radiator *radiator, size_t i)
 {
     double sum = 0.0;
     for (size_t j = 0; j < radiator->count; j++)
-        sum += shared(geometry, radiator, i, j);
+        sum += shared(problem, radiator, i, j);
     return sum;
 }
 
 /* Cholesky's factor of the shares, row-major lower triangle: they are positive semidefinite but for
  * what FAR took. */
-static void factor_shares(const struct geometry *geometry, const struct radiator *radiator,
+static void factor_shares(const struct problem *problem, const struct radiator *radiator,
                           double *factor)
 {
     size_t n = radiator->count;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j <= i; j++) {
-            double left = shared(geometry, radiator, i, j);
+            double left = shared(problem, radiator, i, j);
             for (size_t k = 0; k < j; k++)
                 left -= factor[i * n + k] * factor[j * n + k];
             double pivot = factor[j * (n + 1)];
@@ -172,9 +171,9 @@ static void factor_shares(const struct geometry *geometry, const struct radiator
 }
 
 /* One more group: an oscillator that the contacts excite by a column of the factor. */
-static bool add_group(const struct radiator *radiator, struct oscillators *set,
-                      const double *factor, size_t column, struct arena *arena,
-                      struct assembly *assembly, double *residual)
+static bool add_group(struct arena *arena, const struct radiator *radiator, struct oscillators *set,
+                      const double *factor, size_t column, struct assembly *assembly,
+                      double *residual)
 {
     size_t n = assembly->scene.contacts;
     double omega = set->omega[0];
@@ -223,24 +222,23 @@ static double left_out(const struct radiator *radiator, double omega)
     return radiator->loss * fmin(1.0, ERROR / (angle * angle) + size * size);
 }
 
-static bool add_radiator(const struct geometry *geometry, const struct radiator *radiator,
-                         struct prepared_cache *cache, struct arena *arena,
+static bool add_radiator(const struct problem *problem, const struct radiator *radiator,
                          struct assembly *assembly, double *residual)
 {
     size_t n = radiator->count;
     double together = 0.0;
-    double *factor = arena_take(arena, n * n, sizeof *factor);
+    double *factor = arena_take(problem->arena, n * n, sizeof *factor);
     if (!factor)
         return false;
-    factor_shares(geometry, radiator, factor);
+    factor_shares(problem, radiator, factor);
     for (size_t i = 0; i < n; i++)
-        together = fmax(together, felt(geometry, radiator, i));
-    struct oscillators *set = prepared_radiation_get(cache, geometry->bodies[radiator->body],
-                                                     frequency_step(radiator, together));
+        together = fmax(together, felt(problem, radiator, i));
+    struct oscillators *set = prepared_radiation_get(
+        problem->cache, problem->bodies[radiator->body], frequency_step(radiator, together));
     if (!set)
         return false;
     for (size_t k = 0; k < n; k++)
-        if (!add_group(radiator, set, factor, k, arena, assembly, residual))
+        if (!add_group(problem->arena, radiator, set, factor, k, assembly, residual))
             return false;
     /* e^2 = 1 - share */
     assembly->radiated_error =
@@ -248,57 +246,53 @@ static bool add_radiator(const struct geometry *geometry, const struct radiator 
     return true;
 }
 
-bool radiation_add(const struct geometry *geometry, const struct solve_request *request,
-                   struct prepared_cache *cache, struct arena *arena, struct assembly *assembly,
-                   double *residual)
+bool radiation_add(const struct problem *problem, struct assembly *assembly, double *residual)
 {
-    double asked = request->options.tolerance;
-    double negligible = NEGLIGIBLE * (asked > 0.0 ? asked : 1e-3);
-    bool still = geometry->compliance && geometry->compliance->still;
+    double negligible = NEGLIGIBLE * problem->tolerance;
     const struct scene scene = assembly->scene;
-    for (size_t b = 0; b < geometry->body_count; b++) {
-        if (!is_half_space(geometry, b))
+    for (size_t b = 0; b < problem->body_count; b++) {
+        if (!is_half_space(problem, b))
             continue;
-        struct radiator radiator = find_radiator(geometry, &scene, b);
+        struct radiator radiator = find_radiator(problem, &scene, b);
         if (radiator.count == 0)
             continue;
-        if (!still && 0.5 * radiator.loss > negligible) {
-            if (!add_radiator(geometry, &radiator, cache, arena, assembly, residual))
+        if (!problem->compliance.still && 0.5 * radiator.loss > negligible) {
+            if (!add_radiator(problem, &radiator, assembly, residual))
                 return false;
             continue;
         }
         for (size_t i = 0; i < radiator.count; i++)
             assembly->omitted[radiator.contact[i]].viscosity +=
-                radiator.waves.lag * felt(geometry, &radiator, i);
+                radiator.waves.lag * felt(problem, &radiator, i);
     }
     return true;
 }
 
-bool radiation_is_in(const struct geometry *geometry, const struct scene *scene)
+bool radiation_is_in(const struct problem *problem, const struct scene *scene)
 {
     for (size_t g = 0; g < scene->groups; g++)
-        if (is_half_space(geometry, scene->group[g].body))
+        if (is_half_space(problem, scene->group[g].body))
             return true;
     return false;
 }
 
-bool radiation_is_shared(const struct geometry *geometry, const struct scene *scene)
+bool radiation_is_shared(const struct problem *problem, const struct scene *scene)
 {
     for (size_t g = 0; g < scene->groups; g++) {
         size_t count = 0;
         for (size_t c = 0; c < scene->contacts; c++)
             count += scene->group[g].participation[c] != NULL;
-        if (count > 1 && is_half_space(geometry, scene->group[g].body))
+        if (count > 1 && is_half_space(problem, scene->group[g].body))
             return true;
     }
     return false;
 }
 
-bool radiation_is_possible(const struct geometry *geometry)
+bool radiation_is_possible(const struct problem *problem)
 {
-    for (size_t c = 0; c < geometry->contact_count; c++)
+    for (size_t c = 0; c < problem->contact_count; c++)
         for (int which = 0; which < 2; which++)
-            if (is_half_space(geometry, geometry->sides[c][which].body))
+            if (is_half_space(problem, problem->sides[c][which].body))
                 return true;
     return false;
 }

@@ -11,24 +11,22 @@
 #ifndef PERCUSS_SOLVE_RADIATION_H
 #define PERCUSS_SOLVE_RADIATION_H
 
-#include "solve/assemble.h"
+#include "solve/assembly.h"
 
 /* Adds the oscillators of all half-spaces to an assembly whose modes are there, and -c to its
  * residual flexibility; contacts on one half-space closer than its waves are long share them. Where
  * the loss matters less than a twentieth of the tolerance it is counted as omitted viscosity
- * instead, and all of it where geometry->compliance->still. Sets assembly->radiated_error. False:
+ * instead, and all of it where problem->compliance.still. Sets assembly->radiated_error. False:
  * out of memory. */
-bool radiation_add(const struct geometry *geometry, const struct solve_request *request,
-                   struct prepared_cache *cache, struct arena *arena, struct assembly *assembly,
-                   double *residual);
+bool radiation_add(const struct problem *problem, struct assembly *assembly, double *residual);
 
 /* Whether such oscillators are among the scene's groups. */
-bool radiation_is_in(const struct geometry *geometry, const struct scene *scene);
+bool radiation_is_in(const struct problem *problem, const struct scene *scene);
 
 /* Whether contacts share one of them, and so must be solved together. */
-bool radiation_is_shared(const struct geometry *geometry, const struct scene *scene);
+bool radiation_is_shared(const struct problem *problem, const struct scene *scene);
 
 /* Whether a contact is on a half-space: the scene then depends on the speeds. */
-bool radiation_is_possible(const struct geometry *geometry);
+bool radiation_is_possible(const struct problem *problem);
 
 #endif

@@ -6,7 +6,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "solve/models.h"
+#include "solve/accuracy.h"
+#include "solve/contact_model.h"
+#include "solve/formulation.h"
+#include "solve/placement.h"
 #include "solve/radiation.h"
 #include "solve/validity.h"
 
@@ -15,7 +18,7 @@ struct repeat {
     const struct contact_table_source *tables; /* borrowed */
     struct watch watch;
     struct arena scene_memory, run_memory;
-    struct geometry *geometry; /* in scene_memory as what follows; NULL: no scene is kept */
+    struct problem *problem; /* in scene_memory as what follows; NULL: no scene is kept */
     struct scene scene;
     bool
         lasting; /* nothing in it depends on the blow: no body of a contact can yield or radiates */
@@ -57,7 +60,7 @@ void repeat_set_watch(struct repeat *repeat, struct watch watch)
 
 void repeat_forget(struct repeat *repeat, const char *id)
 {
-    repeat->geometry = NULL;
+    repeat->problem = NULL;
     prepared_cache_forget(repeat->cache, id);
 }
 
@@ -66,13 +69,13 @@ static enum percuss_status no_memory(struct fault *fault)
     return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
 }
 
-static void read_track(const struct geometry *geometry, const struct impact_outcome *solved,
+static void read_track(const struct problem *problem, const struct impact_outcome *solved,
                        size_t contact, struct repeat_outcome *outcome)
 {
     const struct track *track = &solved->tracks[contact];
-    bool unsolved = attempt_is_unsolved(geometry, solved);
+    bool unsolved = attempt_is_unsolved(problem, solved);
     *outcome = (struct repeat_outcome){
-        .restitution = unsolved ? NAN : attempt_restitution(geometry, solved, contact),
+        .restitution = unsolved ? NAN : attempt_restitution(problem, solved, contact),
         .impulse = track->impulse,
         .end_time = track->end_time,
         .sub_impacts = (unsigned)track->count,
@@ -88,16 +91,15 @@ static void read_track(const struct geometry *geometry, const struct impact_outc
 }
 
 /* What the run says, unless it does not keep the energy. */
-static enum percuss_status judge(struct repeat *repeat, const struct geometry *geometry,
-                                 const struct solve_request *request,
+static enum percuss_status judge(struct repeat *repeat, const struct problem *problem,
                                  const struct impact_outcome *solved, size_t contact,
                                  struct repeat_outcome *outcome, struct fault *fault)
 {
-    read_track(geometry, solved, contact, outcome);
-    validity_find(geometry, request, solved, &repeat->warnings);
+    read_track(problem, solved, contact, outcome);
+    validity_find(problem, solved, &repeat->warnings);
     outcome->warnings = repeat->warnings.kinds;
-    outcome->contact_model = contact_model_used(geometry);
-    double defect = attempt_energy_defect(geometry, solved);
+    outcome->contact_model = contact_model_used(problem);
+    double defect = attempt_energy_defect(problem, solved);
     if (!attempt_keeps_energy(defect) || !isfinite(outcome->impulse))
         outcome->status = fault_set(fault, PERCUSS_INTERNAL,
                                     "energy: a solution gains or loses %.3g of it", defect);
@@ -109,23 +111,22 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
                                   struct repeat_model *model, struct repeat_outcome *outcome,
                                   struct fault *fault)
 {
+    const struct solve_means means = {catalogue, repeat->tables, repeat->watch};
+    struct pace pace = {.watch = &means.watch};
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
-    repeat->geometry = NULL; /* its prepared bodies may go */
+    repeat->problem = NULL; /* its prepared bodies may go */
     arena_reset(&repeat->run_memory);
     prepared_cache_use(repeat->cache, catalogue->revision);
-    struct geometry *geometry = arena_take(&repeat->run_memory, 1, sizeof *geometry);
+    struct problem *problem = problem_create(request, repeat->cache, &repeat->run_memory);
     struct accuracy *accuracy = arena_take(&repeat->run_memory, 1, sizeof *accuracy);
-    if (!geometry || !accuracy)
+    if (!problem || !accuracy)
         return outcome->status = no_memory(fault);
-    outcome->status = geometry_find(geometry, catalogue, request, &repeat->run_memory, fault);
-    struct pace pace = {.watch = &repeat->watch};
-    const struct models_source source = {
-        catalogue, repeat->tables, {repeat->cache, &repeat->run_memory, &pace}};
+    outcome->status = formulate(problem, &means, fault);
     if (!outcome->status)
-        outcome->status = models_solve(accuracy, geometry, request, &source, fault);
+        outcome->status = accuracy_reach(accuracy, problem, &pace, fault);
     if (outcome->status)
         return outcome->status;
-    judge(repeat, geometry, request, &accuracy->outcome, contact, outcome, fault);
+    judge(repeat, problem, &accuracy->outcome, contact, outcome, fault);
     outcome->error = accuracy->steps.restitution + accuracy->modes.restitution;
     if (model) /* rounding must not lose the highest mode */
         *model = (struct repeat_model){accuracy->assembly->highest * (1.0 + 1e-12),
@@ -133,15 +134,14 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
     return outcome->status;
 }
 
-/* The scene of the geometry as it is. */
-static bool assemble_scene(struct repeat *repeat, const struct geometry *geometry,
-                           const struct solve_request *request, const struct repeat_model *model)
+/* The scene of the problem as it is. */
+static bool assemble_scene(struct repeat *repeat, const struct problem *problem,
+                           const struct repeat_model *model)
 {
-    struct arena *memory = &repeat->scene_memory;
     struct mode_choice choice = {.cut = model->cut, .allowed = 0.0, .most = MODE_SEARCH_MOST};
-    struct assembly *assembly = arena_take(memory, 1, sizeof *assembly);
-    return assembly && assemble(assembly, geometry, request, repeat->cache, &choice, memory) &&
-           assemble_remainder(assembly, geometry, repeat->cache, memory, &repeat->scene);
+    struct assembly *assembly = arena_take(problem->arena, 1, sizeof *assembly);
+    return assembly && assemble(assembly, problem, &choice) &&
+           assemble_remainder(assembly, problem, &repeat->scene);
 }
 
 /* Makes the scene anew; its memory outlives the run. */
@@ -149,54 +149,47 @@ static enum percuss_status make_scene(struct repeat *repeat, const struct body_s
                                       const struct solve_request *request,
                                       const struct repeat_model *model, struct fault *fault)
 {
-    struct arena *memory = &repeat->scene_memory;
-    repeat->geometry = NULL;
+    const struct solve_means means = {catalogue, repeat->tables, repeat->watch};
+    repeat->problem = NULL;
     prepared_cache_use(repeat->cache, catalogue->revision);
-    arena_reset(memory);
-    struct geometry *geometry = arena_take(memory, 1, sizeof *geometry);
-    if (!geometry)
+    arena_reset(&repeat->scene_memory);
+    struct problem *problem = problem_create(request, repeat->cache, &repeat->scene_memory);
+    if (!problem)
         return no_memory(fault);
-    enum percuss_status status = geometry_find(geometry, catalogue, request, memory, fault);
-    const struct models_source source = {catalogue, repeat->tables, {repeat->cache, memory, NULL}};
-    if (!status)
-        status = models_choose(geometry, request, &source, fault);
+    enum percuss_status status = formulate(problem, &means, fault);
     if (status)
         return status;
-    if (!assemble_scene(repeat, geometry, request, model))
+    if (!assemble_scene(repeat, problem, model))
         return no_memory(fault);
-    repeat->lasting = !radiation_is_possible(geometry);
-    for (size_t c = 0; c < geometry->contact_count; c++)
-        repeat->lasting = repeat->lasting && geometry->contact_model->choices[c].side < 0;
-    repeat->geometry = geometry;
+    repeat->lasting = !radiation_is_possible(problem);
+    for (size_t c = 0; c < problem->contact_count; c++)
+        repeat->lasting = repeat->lasting && problem->contact_model.choices[c].side < 0;
+    repeat->problem = problem;
     return PERCUSS_OK;
 }
 
 /* Solves the scene, with other laws too if the blow asks for them. */
-static enum percuss_status run_scene(struct repeat *repeat, const struct solve_request *request,
-                                     const struct repeat_model *model, struct attempt *attempt,
-                                     struct fault *fault)
+static enum percuss_status run_scene(struct repeat *repeat, const struct repeat_model *model,
+                                     struct attempt *attempt, struct fault *fault)
 {
     struct pace pace = {.watch = &repeat->watch};
+    struct problem *problem = repeat->problem;
     struct attempt_context context = {
-        .geometry = repeat->geometry,
-        .request = request,
-        .arena = &repeat->run_memory,
-        .pace = &pace,
-    };
+        .problem = problem, .arena = &repeat->run_memory, .pace = &pace};
     attempt->accuracy = model->accuracy;
     for (;;) {
-        context.work = attempt_work_allowed(request->options.method);
+        context.work = attempt_work_allowed(problem->request->options.method);
         enum percuss_status status = attempt_run(&context, attempt, &repeat->scene);
         if (status)
             return pace_fault(fault, status);
         if (attempt->outcome.always_overlapped)
             return attempt_refuse_overlap(&context, attempt,
-                                          attempt_horizon(request, &repeat->scene), fault);
-        if (!models_revise(repeat->geometry, &repeat->scene, &attempt->outcome))
+                                          attempt_horizon(problem, &repeat->scene), fault);
+        if (!formulation_revise(problem, &repeat->scene, &attempt->outcome))
             return PERCUSS_OK;
         /* what this blow decided is not for the next one */
         repeat->lasting = false;
-        if (!assemble_scene(repeat, repeat->geometry, request, model))
+        if (!assemble_scene(repeat, problem, model))
             return no_memory(fault);
     }
 }
@@ -210,15 +203,17 @@ enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *c
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
     arena_reset(&repeat->run_memory);
     /* the laws of bodies that yield and the waves of half-spaces are chosen by the blow */
-    if (same_scene && repeat->geometry && repeat->lasting)
-        outcome->status = geometry_find_rates(repeat->geometry, request, fault);
-    else
+    if (same_scene && repeat->problem && repeat->lasting) {
+        repeat->problem->request = request;
+        outcome->status = placement_find_rates(repeat->problem, fault);
+    } else {
         outcome->status = make_scene(repeat, catalogue, request, model, fault);
+    }
     if (!outcome->status)
-        outcome->status = run_scene(repeat, request, model, &attempt, fault);
+        outcome->status = run_scene(repeat, model, &attempt, fault);
     if (outcome->status)
         return outcome->status;
-    return judge(repeat, repeat->geometry, request, &attempt.outcome, contact, outcome, fault);
+    return judge(repeat, repeat->problem, &attempt.outcome, contact, outcome, fault);
 }
 
 const struct warnings *repeat_warnings(const struct repeat *repeat)

@@ -34,11 +34,11 @@ void report_warnings(const struct warnings *warnings, struct solve_result *resul
         report_warn(result, "%s", warnings->text[i]);
 }
 
-static void fill_contacts(const struct geometry *geometry, const struct solve_request *request,
-                          const struct accuracy *accuracy, struct solve_result *result)
+static void fill_contacts(const struct problem *problem, const struct accuracy *accuracy,
+                          struct solve_result *result)
 {
-    size_t n = geometry->contact_count;
-    bool unsolved = attempt_is_unsolved(geometry, &accuracy->outcome);
+    size_t n = problem->contact_count;
+    bool unsolved = attempt_is_unsolved(problem, &accuracy->outcome);
     result->contact_count = n;
     for (size_t c = 0; c < n; c++) {
         const struct track *track = &accuracy->outcome.tracks[c];
@@ -47,39 +47,39 @@ static void fill_contacts(const struct geometry *geometry, const struct solve_re
             track->count < PERCUSS_MAX_SUB_IMPACTS ? track->count : PERCUSS_MAX_SUB_IMPACTS;
         *contact = (struct solve_contact_result){
             .impulse = track->impulse,
-            .impulse_compression = geometry->impulse_compression[c],
-            .restitution = unsolved ? NAN : attempt_restitution(geometry, &accuracy->outcome, c),
-            .inverse_effective_mass = geometry->w[c * n + c],
+            .impulse_compression = problem->impulse_compression[c],
+            .restitution = unsolved ? NAN : attempt_restitution(problem, &accuracy->outcome, c),
+            .inverse_effective_mass = problem->w[c * n + c],
             .end_time = track->end_time,
             .sub_impact_count = track->count,
             .sub_impacts_listed = listed,
             .sub_impacts = track->list,
         };
-        scale3(track->impulse, request->contacts[c].normal, contact->impulse_vector);
+        scale3(track->impulse, problem->request->contacts[c].normal, contact->impulse_vector);
     }
 }
 
-void report_velocities(const struct geometry *geometry, const struct solve_request *request,
-                       struct solve_result *result)
+void report_velocities(const struct problem *problem, struct solve_result *result)
 {
-    for (size_t b = 0; b < geometry->body_count; b++) {
+    for (size_t b = 0; b < problem->body_count; b++) {
         double velocity[3] = {0.0, 0.0, 0.0};
         double angular[3] = {0.0, 0.0, 0.0};
-        for (size_t c = 0; c < geometry->contact_count; c++) {
+        for (size_t c = 0; c < problem->contact_count; c++) {
             for (int which = 0; which < 2; which++) {
-                const struct contact_side *side = &geometry->sides[c][which];
+                const struct contact_side *side = &problem->sides[c][which];
                 double impulse[3];
                 if (side->body != b)
                     continue;
                 scale3(result->contacts[c].impulse, side->direction, impulse);
-                rigid_apply_impulse(geometry->bodies[b], side->site.point, impulse, velocity,
+                rigid_apply_impulse(problem->bodies[b], side->site.point, impulse, velocity,
                                     angular);
             }
         }
-        rotate3(geometry->poses[b].rotation, velocity, result->bodies[b].velocity);
-        rotate3(geometry->poses[b].rotation, angular, result->bodies[b].angular_velocity);
-        add_scaled3(1.0, request->bodies[b].velocity, result->bodies[b].velocity);
-        add_scaled3(1.0, request->bodies[b].angular_velocity, result->bodies[b].angular_velocity);
+        rotate3(problem->poses[b].rotation, velocity, result->bodies[b].velocity);
+        rotate3(problem->poses[b].rotation, angular, result->bodies[b].angular_velocity);
+        add_scaled3(1.0, problem->request->bodies[b].velocity, result->bodies[b].velocity);
+        add_scaled3(1.0, problem->request->bodies[b].angular_velocity,
+                    result->bodies[b].angular_velocity);
     }
     result->velocities_known = true;
 }
@@ -93,13 +93,12 @@ static const char *theory_name(const struct body *body)
     return "rigid";
 }
 
-static void fill_bodies(const struct geometry *geometry, const struct solve_request *request,
-                        const struct accuracy *accuracy, struct arena *arena,
+static void fill_bodies(const struct problem *problem, const struct accuracy *accuracy,
                         struct solve_result *result)
 {
-    result->body_count = geometry->body_count;
-    for (size_t b = 0; b < geometry->body_count; b++) {
-        const struct body *body = geometry->bodies[b];
+    result->body_count = problem->body_count;
+    for (size_t b = 0; b < problem->body_count; b++) {
+        const struct body *body = problem->bodies[b];
         struct solve_body_result *out = &result->bodies[b];
         *out = (struct solve_body_result){
             .vibration = accuracy->outcome.vibration[b],
@@ -107,13 +106,12 @@ static void fill_bodies(const struct geometry *geometry, const struct solve_requ
             .rigid = accuracy->assembly->modes[b] == 0,
             .theory = theory_name(body),
             .shear_factor = body->shape == SHAPE_BEAM ? body->shear_factor[1] : NAN,
-            .state_after =
-                state_after(accuracy->assembly, &accuracy->outcome, geometry, request, b, arena),
+            .state_after = state_after(accuracy->assembly, &accuracy->outcome, problem, b),
         };
         memcpy(out->id, body->id, sizeof out->id);
     }
-    if (!geometry->from_client)
-        report_velocities(geometry, request, result);
+    if (!problem->from_client)
+        report_velocities(problem, result);
 }
 
 static void warn_dents(struct solve_result *result)
@@ -137,19 +135,17 @@ static double largest_restitution(const struct solve_result *result)
     return largest;
 }
 
-static void fill_model(const struct geometry *geometry, const struct solve_request *request,
-                       const struct accuracy *accuracy, struct solve_result *result)
+static void fill_model(const struct problem *problem, const struct accuracy *accuracy,
+                       struct solve_result *result)
 {
-    result->contact_model = contact_model_used(geometry);
-    result->compliance = geometry->compliance->used;
-    result->method = request->options.method;
+    result->contact_model = contact_model_used(problem);
+    result->compliance = problem->compliance.used;
+    result->method = problem->request->options.method;
     result->delassus_source =
-        geometry->from_client ? PERCUSS_DELASSUS_CLIENT : PERCUSS_DELASSUS_SERVICE;
+        problem->from_client ? PERCUSS_DELASSUS_CLIENT : PERCUSS_DELASSUS_SERVICE;
     const struct assembly *assembly = accuracy->assembly;
-    double tolerance = request->options.tolerance > 0.0 ? request->options.tolerance : 1e-3;
-    double unmodelled = assembly->radiated_error + validity_wave_loss(geometry);
-    contact_model_explain(geometry, request, &accuracy->outcome, result->reason,
-                          sizeof result->reason);
+    double unmodelled = assembly->radiated_error + validity_wave_loss(problem);
+    contact_model_explain(problem, &accuracy->outcome, result->reason, sizeof result->reason);
     size_t used = strlen(result->reason);
     if (assembly->all_modes)
         snprintf(result->reason + used, sizeof result->reason - used,
@@ -160,30 +156,30 @@ static void fill_model(const struct geometry *geometry, const struct solve_reque
                  "; every mode is too fast to matter (lowest %.4g Hz): static flexibility only",
                  assembly->lowest_omitted / (2.0 * M_PI));
     used = strlen(result->reason);
-    if (radiation_is_in(geometry, &assembly->scene))
+    if (radiation_is_in(problem, &assembly->scene))
         snprintf(result->reason + used, sizeof result->reason - used,
                  "; waves leave through the half-space: their energy counts as damping");
     used = strlen(result->reason);
-    if (geometry->compliance->reason[0])
+    if (problem->compliance.reason[0])
         snprintf(result->reason + used, sizeof result->reason - used, "; half-space: %s",
-                 geometry->compliance->reason);
+                 problem->compliance.reason);
     result->omitted_error =
         accuracy->modes.restitution + unmodelled +
-        law_error_worst(geometry, &accuracy->outcome) * largest_restitution(result);
-    if (unmodelled > tolerance)
+        law_error_worst(problem, &accuracy->outcome) * largest_restitution(result);
+    if (unmodelled > problem->tolerance)
         report_warn(result,
                     "model.omitted_error: waves that the models leave out of compact bodies and of "
                     "half-spaces change the restitution by about %.2g: more than the tolerance of "
                     "%.2g",
-                    unmodelled, tolerance);
+                    unmodelled, problem->tolerance);
 }
 
 /* Why the estimated error is no smaller: of its larger part what ended the search, or else what
  * makes a small difference large. */
-static const char *reason_of_error(const struct geometry *geometry, const struct accuracy *accuracy)
+static const char *reason_of_error(const struct problem *problem, const struct accuracy *accuracy)
 {
     const struct assembly *assembly = accuracy->assembly;
-    bool sequence = geometry->contact_count > 1 || accuracy->outcome.tracks[0].count > 1;
+    bool sequence = problem->contact_count > 1 || accuracy->outcome.tracks[0].count > 1;
     bool modes = accuracy->modes.restitution > accuracy->steps.restitution;
     bool omitted = isfinite(assembly->lowest_omitted);
     if (accuracy->spent || accuracy->outcome.end_reason == PERCUSS_END_LIMIT)
@@ -196,7 +192,7 @@ static const char *reason_of_error(const struct geometry *geometry, const struct
                         : "the most modes that are tried of a body are too few";
     if (modes && omitted && !assembly->adjustable)
         return "the catalogue fixes the number of modes";
-    if (modes && geometry->compliance->still)
+    if (modes && problem->compliance.still)
         return "waves that leave through half-spaces are left out: a contact is too stiff for "
                "them, or "
                "too many share them";
@@ -205,13 +201,13 @@ static const char *reason_of_error(const struct geometry *geometry, const struct
 }
 
 /* What solutions near an answer that does not meet its tolerance say of it. */
-static void warn_range(const struct geometry *geometry, const struct accuracy *accuracy,
+static void warn_range(const struct problem *problem, const struct accuracy *accuracy,
                        struct solve_result *result)
 {
     const struct nearby *nearby = &accuracy->nearby;
     size_t widest = 0;
     double width = 0.0;
-    for (size_t c = 0; c < geometry->contact_count; c++)
+    for (size_t c = 0; c < problem->contact_count; c++)
         if (nearby->high[c] - nearby->low[c] > width) { /* false: NAN, it has no restitution */
             width = nearby->high[c] - nearby->low[c];
             widest = c;
@@ -219,16 +215,16 @@ static void warn_range(const struct geometry *geometry, const struct accuracy *a
     if (width > 0.0)
         report_warn(result,
                     "contacts[%zu].restitution: %.9g: solutions near this one span %.9g to %.9g",
-                    widest, attempt_restitution(geometry, &accuracy->outcome, widest),
+                    widest, attempt_restitution(problem, &accuracy->outcome, widest),
                     nearby->low[widest], nearby->high[widest]);
 }
 
 /* Counts that they do not confirm. */
-static void warn_counts(const struct geometry *geometry, const struct accuracy *accuracy,
+static void warn_counts(const struct problem *problem, const struct accuracy *accuracy,
                         struct solve_result *result)
 {
     const struct nearby *nearby = &accuracy->nearby;
-    for (size_t c = 0; c < geometry->contact_count; c++)
+    for (size_t c = 0; c < problem->contact_count; c++)
         if (nearby->fewest[c] != nearby->most[c])
             report_warn(result,
                         "contacts[%zu].sub_impact_count: %zu: uncertain: solutions near this one "
@@ -236,7 +232,7 @@ static void warn_counts(const struct geometry *geometry, const struct accuracy *
                         c, accuracy->outcome.tracks[c].count, nearby->fewest[c], nearby->most[c]);
 }
 
-static void fill_errors(const struct geometry *geometry, const struct accuracy *accuracy,
+static void fill_errors(const struct problem *problem, const struct accuracy *accuracy,
                         struct solve_result *result)
 {
     result->restitution_time = accuracy->steps.restitution;
@@ -255,10 +251,10 @@ static void fill_errors(const struct geometry *geometry, const struct accuracy *
             result,
             "error.tolerance_met: false: the estimated error of the restitution is %.2g: %s",
             accuracy->steps.restitution + accuracy->modes.restitution,
-            reason_of_error(geometry, accuracy));
-        warn_range(geometry, accuracy, result);
+            reason_of_error(problem, accuracy));
+        warn_range(problem, accuracy, result);
     }
-    warn_counts(geometry, accuracy, result);
+    warn_counts(problem, accuracy, result);
 }
 
 static void fill_end(const struct accuracy *accuracy, struct solve_result *result)
@@ -287,17 +283,17 @@ static bool is_finite(const struct solve_result *result)
     return isfinite(sum);
 }
 
-void report_fill(const struct geometry *geometry, const struct solve_request *request,
-                 const struct accuracy *accuracy, struct arena *arena, struct solve_result *result)
+void report_fill(const struct problem *problem, const struct accuracy *accuracy,
+                 struct solve_result *result)
 {
-    fill_contacts(geometry, request, accuracy, result);
-    fill_bodies(geometry, request, accuracy, arena, result);
-    fill_errors(geometry, accuracy, result);
-    fill_model(geometry, request, accuracy, result);
+    fill_contacts(problem, accuracy, result);
+    fill_bodies(problem, accuracy, result);
+    fill_errors(problem, accuracy, result);
+    fill_model(problem, accuracy, result);
     warn_dents(result);
     fill_end(accuracy, result);
     struct warnings warnings;
-    validity_find(geometry, request, &accuracy->outcome, &warnings);
+    validity_find(problem, &accuracy->outcome, &warnings);
     report_warnings(&warnings, result);
     if (!attempt_keeps_energy(accuracy->steps.energy_defect))
         result->status =

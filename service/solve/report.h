@@ -10,13 +10,12 @@
 #include "solve/warnings.h"
 
 /* Fills everything of `result` that the solution decides; status and message too. */
-void report_fill(const struct geometry *geometry, const struct solve_request *request,
-                 const struct accuracy *accuracy, struct arena *arena, struct solve_result *result);
+void report_fill(const struct problem *problem, const struct accuracy *accuracy,
+                 struct solve_result *result);
 
 /* Fills the bodies' velocities after all impulses of result->contacts, by the bodies' own masses.
  */
-void report_velocities(const struct geometry *geometry, const struct solve_request *request,
-                       struct solve_result *result);
+void report_velocities(const struct problem *problem, struct solve_result *result);
 
 /* Adds a warning while there is room. */
 void report_warn(struct solve_result *result, const char *format, ...)

@@ -49,4 +49,16 @@ struct solve_request {
     struct solve_options options;
 };
 
+/* Horizon of who states none, s, or two longest periods where they are more: the sub-impacts of the
+ * bodies of a bench are over by then. */
+static const double SOLVE_HORIZON = 0.020;
+/* Tolerance of who states none: what a measured restitution scatters by. */
+static const double SOLVE_TOLERANCE = 1e-3;
+
+/* On the restitution: as stated, or the default. */
+static inline double solve_tolerance(const struct solve_options *options)
+{
+    return options->tolerance > 0.0 ? options->tolerance : SOLVE_TOLERANCE;
+}
+
 #endif

@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "solve/geometry.h"
-
 static const struct roll UPRIGHT = {1.0, 0.0};
 /* Planes closer to the body's own than this (rad) are those: rounding of the pose. */
 static const double NEGLIGIBLE = 1e-9;
@@ -28,13 +26,13 @@ static void plane_of(const struct site_load *load, double plane[2])
 }
 
 /* The scene's z goes through the first load that bends the body. */
-static struct roll choose(const struct geometry *geometry, size_t body)
+static struct roll choose(const struct problem *problem, size_t body)
 {
-    if (!modal_planes_alike(geometry->bodies[body]))
+    if (!modal_planes_alike(problem->bodies[body]))
         return UPRIGHT;
-    for (size_t c = 0; c < geometry->contact_count; c++)
+    for (size_t c = 0; c < problem->contact_count; c++)
         for (int which = 0; which < 2; which++) {
-            const struct contact_side *side = &geometry->sides[c][which];
+            const struct contact_side *side = &problem->sides[c][which];
             const bool *acts = side->load.acts;
             double plane[2];
             if (side->body != body || !(acts[FAMILY_BENDING_Y] || acts[FAMILY_BENDING_Z]))
@@ -92,30 +90,29 @@ static const struct body_state *turned_copy(const struct roll *roll, const struc
     return turned;
 }
 
-static void turn_loads(struct geometry *geometry, size_t body, const struct roll *roll)
+static void turn_loads(struct problem *problem, size_t body, const struct roll *roll)
 {
-    for (size_t c = 0; c < geometry->contact_count; c++)
+    for (size_t c = 0; c < problem->contact_count; c++)
         for (int which = 0; which < 2; which++) {
-            struct contact_side *side = &geometry->sides[c][which];
+            struct contact_side *side = &problem->sides[c][which];
             if (side->body == body)
-                site_load_turn(geometry->bodies[body], roll->cosine, roll->sine, &side->load);
+                site_load_turn(problem->bodies[body], roll->cosine, roll->sine, &side->load);
         }
 }
 
-bool roll_choose(struct geometry *geometry, const struct solve_request *request,
-                 struct arena *arena)
+bool roll_choose(struct problem *problem)
 {
-    for (size_t b = 0; b < geometry->body_count; b++) {
-        const struct body_state *state = request->bodies[b].state;
-        struct roll *roll = &geometry->rolls[b];
-        *roll = choose(geometry, b);
-        geometry->states[b] = state;
+    for (size_t b = 0; b < problem->body_count; b++) {
+        const struct body_state *state = problem->request->bodies[b].state;
+        struct roll *roll = &problem->rolls[b];
+        *roll = choose(problem, b);
+        problem->states[b] = state;
         if (is_upright(roll))
             continue;
-        turn_loads(geometry, b, roll);
+        turn_loads(problem, b, roll);
         if (state)
-            geometry->states[b] = turned_copy(roll, state, arena);
-        if (state && !geometry->states[b])
+            problem->states[b] = turned_copy(roll, state, problem->arena);
+        if (state && !problem->states[b])
             return false;
     }
     return true;

@@ -6,21 +6,11 @@
 #ifndef PERCUSS_SOLVE_ROLL_H
 #define PERCUSS_SOLVE_ROLL_H
 
-#include "base/arena.h"
-#include "solve/request.h"
-
-struct geometry;
-
-/* Planes of bending turned about the body's axis: the scene's deflections are cosine y - sine z and
- * cosine z + sine y. */
-struct roll {
-    double cosine, sine;
-};
+#include "solve/problem.h"
 
 /* Chooses the planes of every body after its contacts are placed: the loads are turned into them,
- * and so are the states (geometry->rolls, geometry->states). False: out of memory. */
-bool roll_choose(struct geometry *geometry, const struct solve_request *request,
-                 struct arena *arena);
+ * and so are the states (problem->rolls, problem->states). False: out of memory. */
+bool roll_choose(struct problem *problem);
 
 /* Makes room for what roll_back needs: as many modes in either plane. */
 void roll_size(const struct roll *roll, struct body_state *sizes);

@@ -5,6 +5,9 @@
 
 #include <math.h>
 
+#include "solve/assemble.h"
+#include "solve/nearby.h"
+
 /* A change that is so many times what was left out is that of a sequence that amplifies; 10 times
  * and less are the rule. */
 static const double STRONG = 30.0;
@@ -34,7 +37,7 @@ static enum percuss_status solve_beside(struct attempt_context *context, struct 
     best->outcome.too_stiff = best->outcome.too_stiff || other->outcome.too_stiff;
     error->unchecked = error->unchecked || attempt_is_spent(other);
     if (!error->unchecked)
-        nearby_add(context->nearby, context->geometry, &other->outcome);
+        nearby_add(context->nearby, context->problem, &other->outcome);
     return PERCUSS_OK;
 }
 
@@ -103,8 +106,7 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
     struct attempt both = *best;
     struct scene better;
     both.accuracy *= ATTEMPT_LONGER;
-    if (!assemble_remainder(best->assembly, context->geometry, context->cache, context->arena,
-                            &better))
+    if (!assemble_remainder(best->assembly, context->problem, &better))
         return PERCUSS_INTERNAL;
     enum percuss_status status = solve_beside(context, best, &better, &both, error);
     if (status || error->unchecked)

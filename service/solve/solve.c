@@ -9,8 +9,8 @@
 
 #include "solve/complete.h"
 #include "solve/concurrent.h"
+#include "solve/formulation.h"
 #include "solve/history.h"
-#include "solve/models.h"
 #include "solve/report.h"
 
 struct solve_workspace {
@@ -111,32 +111,29 @@ static enum percuss_status answer(struct solve_workspace *workspace,
                                   const struct body_set *catalogue,
                                   const struct solve_request *request, struct solve_result *result)
 {
-    struct geometry *geometry = arena_take(&workspace->arena, 1, sizeof *geometry);
+    const struct solve_means means = {catalogue, workspace->tables, workspace->watch};
+    struct problem *problem = problem_create(request, workspace->cache, &workspace->arena);
     struct accuracy *accuracy = arena_take(&workspace->arena, 1, sizeof *accuracy);
-    if (!geometry || !accuracy)
+    if (!problem || !accuracy)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
-    struct pace pace = {.watch = &workspace->watch};
-    enum percuss_status status =
-        geometry_find(geometry, catalogue, request, &workspace->arena, &result->fault);
+    struct pace pace = {.watch = &means.watch};
+    enum percuss_status status = formulate(problem, &means, &result->fault);
     if (!status && request->options.contact_model == PERCUSS_CONTACT_COMPLETE_FE)
-        return complete_answer(geometry, request, &pace, &workspace->arena, result);
-    const struct models_source source = {
-        catalogue, workspace->tables, {workspace->cache, &workspace->arena, &pace}};
+        return complete_answer(problem, &pace, result);
     if (!status)
-        status = models_solve(accuracy, geometry, request, &source, &result->fault);
+        status = accuracy_reach(accuracy, problem, &pace, &result->fault);
     struct concurrent_effort effort;
     bool concurrent = request->options.contact_model == PERCUSS_CONTACT_CONCURRENT_FE;
     if (!status && concurrent)
-        status = concurrent_refine(accuracy, geometry, request, &pace, &workspace->arena, &effort,
-                                   &result->fault);
+        status = concurrent_refine(accuracy, problem, &pace, &effort, &result->fault);
     if (!status) {
-        report_fill(geometry, request, accuracy, &workspace->arena, result);
+        report_fill(problem, accuracy, result);
         if (concurrent)
-            concurrent_report(&effort, geometry, accuracy, result);
+            concurrent_report(&effort, problem, accuracy, result);
         status = result->status;
     }
     if (request->options.trace && (status == PERCUSS_OK || status == PERCUSS_TRUNCATED))
-        status = history_make(geometry, request, accuracy, &source.means, result);
+        status = history_make(problem, accuracy, &pace, result);
     return status;
 }
 

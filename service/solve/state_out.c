@@ -7,6 +7,7 @@
 
 #include "impact/oscillator.h"
 #include "solve/contact_model.h"
+#include "solve/roll.h"
 
 /* How many modes of a family the new state holds. */
 static size_t family_size(const struct assembly *assembly, const struct body_state *before,
@@ -36,11 +37,11 @@ static void move_freely(const struct body *body, enum mode_family family,
 }
 
 static void fill_modes(const struct assembly *assembly, const struct impact_outcome *outcome,
-                       const struct geometry *geometry, double elapsed, struct body_state *state,
+                       const struct problem *problem, double elapsed, struct body_state *state,
                        size_t index)
 {
-    const struct body *body = geometry->bodies[index];
-    const struct body_state *before = geometry->states[index];
+    const struct body *body = problem->bodies[index];
+    const struct body_state *before = problem->states[index];
     for (int f = 0; f < FAMILY_COUNT; f++) {
         double *family = (double *)body_state_family(state, f);
         if (before && before->count[f])
@@ -71,50 +72,48 @@ static struct dent *new_dent(struct dent *dents, size_t *count)
 }
 
 /* The dents of a body after the impact; their number. */
-static size_t find_dents(const struct impact_outcome *outcome, const struct geometry *geometry,
+static size_t find_dents(const struct impact_outcome *outcome, const struct problem *problem,
                          const struct body_state *before, size_t body, struct dent *dents)
 {
     size_t count = before ? before->dents : 0;
     if (count)
         memcpy(dents, body_state_dents(before), count * sizeof *dents);
-    for (size_t c = 0; c < geometry->contact_count; c++) {
-        const struct contact_choice *choice = &geometry->contact_model->choices[c];
-        if (choice->side < 0 || geometry->sides[c][choice->side].body != body ||
-            !contact_model_yielded(geometry, outcome, c))
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        const struct contact_choice *choice = &problem->contact_model.choices[c];
+        if (choice->side < 0 || problem->sides[c][choice->side].body != body ||
+            !contact_model_yielded(problem, outcome, c))
             continue;
         struct dent *dent = choice->dented ? &dents[choice->dent] : new_dent(dents, &count);
         dent->history = outcome->laws[c].history;
         dent->size = dent->history.contact_radius;
         if (!choice->dented)
-            memcpy(dent->point, geometry->sides[c][choice->side].site.point, sizeof dent->point);
+            memcpy(dent->point, problem->sides[c][choice->side].site.point, sizeof dent->point);
     }
     return count;
 }
 
 const struct body_state *state_after(const struct assembly *assembly,
                                      const struct impact_outcome *outcome,
-                                     const struct geometry *geometry,
-                                     const struct solve_request *request, size_t body,
-                                     struct arena *arena)
+                                     const struct problem *problem, size_t body)
 {
-    bool flexible = body_is_flexible(geometry->bodies[body]);
-    const struct solve_body *stated = &request->bodies[body];
+    bool flexible = body_is_flexible(problem->bodies[body]);
+    const struct solve_body *stated = &problem->request->bodies[body];
     struct dent dents[BODY_STATE_MAX_DENTS];
     struct body_state sizes = {.dents = 0};
-    if (request->options.dents == PERCUSS_DENTS_KEEP)
-        sizes.dents = find_dents(outcome, geometry, stated->state, body, dents);
+    if (problem->request->options.dents == PERCUSS_DENTS_KEEP)
+        sizes.dents = find_dents(outcome, problem, stated->state, body, dents);
     if (!flexible && !sizes.dents)
         return NULL;
     for (int f = 0; flexible && f < FAMILY_COUNT; f++)
-        sizes.count[f] = family_size(assembly, geometry->states[body], body, f);
-    roll_size(&geometry->rolls[body], &sizes);
-    struct body_state *state = arena_take(arena, 1, body_state_size(&sizes));
+        sizes.count[f] = family_size(assembly, problem->states[body], body, f);
+    roll_size(&problem->rolls[body], &sizes);
+    struct body_state *state = arena_take(problem->arena, 1, body_state_size(&sizes));
     if (!state)
         return NULL;
     *state = sizes;
     if (flexible) {
-        fill_modes(assembly, outcome, geometry, stated->elapsed, state, body);
-        roll_back(&geometry->rolls[body], state);
+        fill_modes(assembly, outcome, problem, stated->elapsed, state, body);
+        roll_back(&problem->rolls[body], state);
     }
     if (sizes.dents)
         memcpy((struct dent *)body_state_dents(state), dents, sizes.dents * sizeof *dents);

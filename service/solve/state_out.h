@@ -10,11 +10,9 @@
 
 /* The state of a body at the end of the window: modes that took part from the outcome, the others
  * of its initial state moved on freely; dents unless the request ignores them. NULL: a rigid body
- * without dents, or out of memory. In the arena. */
+ * without dents, or out of memory. In the problem's arena. */
 const struct body_state *state_after(const struct assembly *assembly,
                                      const struct impact_outcome *outcome,
-                                     const struct geometry *geometry,
-                                     const struct solve_request *request, size_t body,
-                                     struct arena *arena);
+                                     const struct problem *problem, size_t body);
 
 #endif

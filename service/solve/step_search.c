@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "solve/nearby.h"
+
 enum { MAX_TIGHTENINGS = 3 };
 /* From here down longer steps are tried for comparison, for sequences always. */
 static const double COMPARE_BELOW = 1e-5;
@@ -31,9 +33,9 @@ static const double ELASTIC_REBOUND = 0.1;
 static double error_of_steps(const struct attempt_context *context, const struct attempt *best)
 {
     double e = best->outcome.plastic > 0.0 ? 0.0 : ELASTIC_REBOUND;
-    for (size_t c = 0; c < context->geometry->contact_count; c++)
-        e = fmax(e, fabs(attempt_restitution(context->geometry, &best->outcome, c)));
-    double defect = 4.0 * attempt_energy_defect(context->geometry, &best->outcome);
+    for (size_t c = 0; c < context->problem->contact_count; c++)
+        e = fmax(e, fabs(attempt_restitution(context->problem, &best->outcome, c)));
+    double defect = 4.0 * attempt_energy_defect(context->problem, &best->outcome);
     double rebound = best->outcome.plastic > 0.0 ? e + sqrt(e * e + defect) : 2.0 * e;
     double change = defect > 0.0 ? defect / rebound : 0.0;
     return fmax(change, 0.1 * pow(best->accuracy, 0.8));
@@ -43,8 +45,8 @@ static struct step_error estimate_alone(const struct attempt_context *context,
                                         const struct attempt *best)
 {
     double largest = 0.0;
-    for (size_t c = 0; c < context->geometry->contact_count; c++)
-        largest = fmax(largest, context->geometry->impulse_compression[c]);
+    for (size_t c = 0; c < context->problem->contact_count; c++)
+        largest = fmax(largest, context->problem->impulse_compression[c]);
     double restitution = error_of_steps(context, best);
     return (struct step_error){.restitution = restitution, .impulse = restitution * largest};
 }
@@ -68,7 +70,7 @@ static enum percuss_status compare(struct attempt_context *context, const struct
         return PERCUSS_OK;
     }
     struct attempt_difference change = attempt_compare(context, best, known);
-    nearby_add(context->nearby, context->geometry, &known->outcome);
+    nearby_add(context->nearby, context->problem, &known->outcome);
     if (!attempt_is_sequence(best)) { /* better than any estimate */
         *error = (struct step_error){.restitution = change.restitution, .impulse = change.impulse};
         return PERCUSS_OK;
@@ -89,7 +91,7 @@ static enum percuss_status estimate(struct attempt_context *context, const struc
     if (compared || (!sequence && context->tolerance >= COMPARE_BELOW))
         return PERCUSS_OK;
     enum percuss_status status = compare(context, best, ATTEMPT_LONGER, coarse, error);
-    bool again = sequence && (attempt_is_long(best) || context->geometry->contact_count > 1);
+    bool again = sequence && (attempt_is_long(best) || context->problem->contact_count > 1);
     if (!status && again && error->restitution <= SEQUENCE_STEPS_SHARE * context->tolerance)
         status = compare(context, best, SLIGHTLY_LONGER, NULL, error);
     return status;
@@ -107,7 +109,7 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         enum percuss_status status = estimate(context, best, coarse, compared, error);
         if (status)
             return status;
-        error->energy_defect = attempt_energy_defect(context->geometry, &best->outcome);
+        error->energy_defect = attempt_energy_defect(context->problem, &best->outcome);
         error->energy_closes = error->energy_defect <= closure_allowed;
         bool enough =
             error->restitution <= SEQUENCE_STEPS_SHARE * context->tolerance && error->energy_closes;
@@ -124,7 +126,7 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         /* a last, smaller step down is no measure */
         coarse = before.accuracy > 0.99 * ATTEMPT_LONGER * best->accuracy ? &before : NULL;
         /* those with longer steps are not as accurate; what they said is in the errors */
-        nearby_begin(context->nearby, context->geometry, &best->outcome);
-        nearby_add(context->nearby, context->geometry, &before.outcome);
+        nearby_begin(context->nearby, context->problem, &best->outcome);
+        nearby_add(context->nearby, context->problem, &before.outcome);
     }
 }

@@ -28,14 +28,14 @@ static double wave_speed(const struct body *body)
     return sqrt(body->material.young / body->material.density);
 }
 
-double validity_wave_loss(const struct geometry *geometry)
+double validity_wave_loss(const struct problem *problem)
 {
     double worst = 0.0;
-    for (size_t c = 0; c < geometry->contact_count; c++) {
-        double speed = fabs(geometry->gap_rate[c]);
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        double speed = fabs(problem->gap_rate[c]);
         double energy_share = 0.0;
         for (int which = 0; which < 2; which++) {
-            const struct body *body = geometry->bodies[geometry->sides[c][which].body];
+            const struct body *body = problem->bodies[problem->sides[c][which].body];
             double ratio = speed / wave_speed(body);
             if (body->shape != SHAPE_HALF_SPACE && !body_is_flexible(body))
                 /* vibration of a sphere after a collision: about v/(50 c) (Rayleigh; Goldsmith) */
@@ -55,16 +55,16 @@ static double largest_force(const struct track *track)
     return largest;
 }
 
-static const struct body *body_of(const struct geometry *geometry, size_t c, unsigned which)
+static const struct body *body_of(const struct problem *problem, size_t c, unsigned which)
 {
-    return geometry->bodies[geometry->sides[c][which].body];
+    return problem->bodies[problem->sides[c][which].body];
 }
 
-static void find_yield(const struct geometry *geometry, size_t c, double pressure,
+static void find_yield(const struct problem *problem, size_t c, double pressure,
                        struct warnings *warnings)
 {
     for (unsigned which = 0; which < 2; which++) {
-        const struct body *body = body_of(geometry, c, which);
+        const struct body *body = body_of(problem, c, which);
         /* first yield below the surface at 1.6 times the yield stress (Johnson, section 6.1) */
         if (pressure > 1.6 * body->material.yield)
             warnings_add(warnings, WARNING_YIELD + which,
@@ -76,13 +76,13 @@ static void find_yield(const struct geometry *geometry, size_t c, double pressur
 }
 
 /* Contacts and dents as large as what they are on. */
-static void find_size(const struct geometry *geometry, const struct impact_outcome *outcome,
-                      size_t c, double half_axis, struct warnings *warnings)
+static void find_size(const struct problem *problem, const struct impact_outcome *outcome, size_t c,
+                      double half_axis, struct warnings *warnings)
 {
     double dent =
-        contact_model_yielded(geometry, outcome, c) ? outcome->laws[c].history.contact_radius : 0.0;
+        contact_model_yielded(problem, outcome, c) ? outcome->laws[c].history.contact_radius : 0.0;
     for (unsigned which = 0; which < 2; which++) {
-        const struct body *body = body_of(geometry, c, which);
+        const struct body *body = body_of(problem, c, which);
         double size = body_smallest_radius(body);
         if (half_axis > LARGEST_CONTACT * size)
             warnings_add(warnings, WARNING_PATCH + which,
@@ -97,21 +97,21 @@ static void find_size(const struct geometry *geometry, const struct impact_outco
     }
 }
 
-static void find_place(const struct geometry *geometry, const struct impact_outcome *outcome,
+static void find_place(const struct problem *problem, const struct impact_outcome *outcome,
                        size_t c, struct warnings *warnings)
 {
     for (unsigned which = 0; which < 2; which++)
-        if (geometry->sides[c][which].site.at_edge)
+        if (problem->sides[c][which].site.at_edge)
             warnings_add(warnings, WARNING_EDGE + which,
                          "contacts[%zu]: within 10 %% of the radius of an edge of %s: the contact "
                          "law assumes material on all sides",
-                         c, body_of(geometry, c, which)->id);
-    double error = law_error(geometry, outcome, c);
+                         c, body_of(problem, c, which)->id);
+    double error = law_error(problem, outcome, c);
     if (error > WRONG_LAW)
         warnings_add(warnings, WARNING_LAW,
                      "contacts[%zu]: the contact law itself is estimated to be off by %.2g of the "
                      "restitution: %s",
-                     c, error, law_error_reason(geometry, outcome, c));
+                     c, error, law_error_reason(problem, outcome, c));
     double beyond = contact_model_beyond_table(outcome, c);
     if (beyond > 0.0)
         warnings_add(warnings, WARNING_TABLE_END,
@@ -120,12 +120,12 @@ static void find_place(const struct geometry *geometry, const struct impact_outc
                      c, beyond);
 }
 
-void validity_find_speed(const struct geometry *geometry, struct warnings *warnings)
+void validity_find_speed(const struct problem *problem, struct warnings *warnings)
 {
-    for (size_t c = 0; c < geometry->contact_count; c++)
+    for (size_t c = 0; c < problem->contact_count; c++)
         for (unsigned which = 0; which < 2; which++) {
-            const struct body *body = body_of(geometry, c, which);
-            double speed = fabs(geometry->gap_rate[c]);
+            const struct body *body = body_of(problem, c, which);
+            double speed = fabs(problem->gap_rate[c]);
             if (speed > 0.01 * wave_speed(body))
                 warnings_add(warnings, WARNING_SPEED + which,
                              "contacts[%zu]: the approach at %.3g m/s is more than 1 %% of the "
@@ -136,15 +136,14 @@ void validity_find_speed(const struct geometry *geometry, struct warnings *warni
 
 /* Speed along `direction` (unit, world) of the bodies' points against each other after a unit of
  * impulse along it, 1/kg, by the bodies' own masses. */
-static double inverse_mass_along(const struct geometry *geometry, size_t c,
-                                 const double direction[3])
+static double inverse_mass_along(const struct problem *problem, size_t c, const double direction[3])
 {
     double sum = 0.0;
     for (unsigned which = 0; which < 2; which++) {
-        const struct contact_side *side = &geometry->sides[c][which];
+        const struct contact_side *side = &problem->sides[c][which];
         double local[3];
-        rotate_back3(geometry->poses[side->body].rotation, direction, local);
-        sum += rigid_inverse_mass(geometry->bodies[side->body], side->site.point, local,
+        rotate_back3(problem->poses[side->body].rotation, direction, local);
+        sum += rigid_inverse_mass(problem->bodies[side->body], side->site.point, local,
                                   side->site.point, local);
     }
     return sum;
@@ -152,18 +151,18 @@ static double inverse_mass_along(const struct geometry *geometry, size_t c,
 
 /* Coulomb's friction transmits at most its coefficient times the normal impulse, and no more than
  * stops the sliding. What an articulated body's mass is along the surface is not known. */
-static void find_sliding(const struct geometry *geometry, const struct impact_outcome *outcome,
+static void find_sliding(const struct problem *problem, const struct impact_outcome *outcome,
                          size_t c, double approach, struct warnings *warnings)
 {
     double impulse = FRICTION * outcome->tracks[c].impulse;
-    double speed = norm3(geometry->sliding[c]);
+    double speed = norm3(problem->sliding[c]);
     char change[64] = "";
     if (!(impulse > 0.0 && speed > SLIDING * approach))
         return;
-    if (!geometry->from_client) {
+    if (!problem->from_client) {
         double direction[3];
-        scale3(1.0 / speed, geometry->sliding[c], direction);
-        double w = inverse_mass_along(geometry, c, direction);
+        scale3(1.0 / speed, problem->sliding[c], direction);
+        double w = inverse_mass_along(problem, c, direction);
         if (w * impulse > speed)
             impulse = speed / w;
         snprintf(change, sizeof change, " and change that speed by up to %.3g m/s", w * impulse);
@@ -175,27 +174,27 @@ static void find_sliding(const struct geometry *geometry, const struct impact_ou
                  c, speed, speed / approach, FRICTION, impulse, change);
 }
 
-static void find_contact(const struct geometry *geometry, const struct impact_outcome *outcome,
+static void find_contact(const struct problem *problem, const struct impact_outcome *outcome,
                          size_t c, double approach, struct warnings *warnings)
 {
-    const struct hertz_contact *hertz = &geometry->hertz[c];
+    const struct hertz_contact *hertz = &problem->hertz[c];
     double force = largest_force(&outcome->tracks[c]);
     double axes[2];
     hertz_ellipse(hertz, force, axes);
-    if (contact_model_used(geometry) == PERCUSS_CONTACT_HERTZ)
-        find_yield(geometry, c, hertz_peak_pressure(hertz, force), warnings);
-    find_size(geometry, outcome, c, axes[0], warnings);
-    find_place(geometry, outcome, c, warnings);
-    find_sliding(geometry, outcome, c, approach, warnings);
+    if (contact_model_used(problem) == PERCUSS_CONTACT_HERTZ)
+        find_yield(problem, c, hertz_peak_pressure(hertz, force), warnings);
+    find_size(problem, outcome, c, axes[0], warnings);
+    find_place(problem, outcome, c, warnings);
+    find_sliding(problem, outcome, c, approach, warnings);
 }
 
-static void find_delassus(const struct geometry *geometry, struct warnings *warnings)
+static void find_delassus(const struct problem *problem, struct warnings *warnings)
 {
-    size_t n = geometry->contact_count;
+    size_t n = problem->contact_count;
     double worst = 0.0;
     for (size_t i = 0; i < n * n; i++) {
-        double scale = sqrt(geometry->w[i / n * (n + 1)] * geometry->w[i % n * (n + 1)]);
-        worst = fmax(worst, fabs(geometry->w[i] - geometry->service_w[i]) / scale);
+        double scale = sqrt(problem->w[i / n * (n + 1)] * problem->w[i % n * (n + 1)]);
+        worst = fmax(worst, fabs(problem->w[i] - problem->service_w[i]) / scale);
     }
     if (worst > 0.01)
         warnings_add(warnings, WARNING_DELASSUS,
@@ -204,8 +203,8 @@ static void find_delassus(const struct geometry *geometry, struct warnings *warn
                      100.0 * worst);
 }
 
-void validity_find(const struct geometry *geometry, const struct solve_request *request,
-                   const struct impact_outcome *outcome, struct warnings *warnings)
+void validity_find(const struct problem *problem, const struct impact_outcome *outcome,
+                   struct warnings *warnings)
 {
     /* a contact that was cut off is not listed */
     bool touches =
@@ -213,21 +212,21 @@ void validity_find(const struct geometry *geometry, const struct solve_request *
     double approach = 0.0;
     warnings->count = 0;
     warnings->kinds = 0;
-    for (size_t c = 0; c < geometry->contact_count; c++) {
-        approach = fmax(approach, -geometry->gap_rate[c]);
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        approach = fmax(approach, -problem->gap_rate[c]);
         touches = touches || outcome->tracks[c].count > 0;
     }
     if (!touches && outcome->end_reason != PERCUSS_END_LIMIT)
         warnings_add(warnings, WARNING_NO_TOUCH,
                      "contacts: the bodies do not touch: gap and acceleration keep them apart");
-    for (size_t c = 0; c < geometry->contact_count; c++)
-        find_contact(geometry, outcome, c, approach, warnings);
-    validity_find_speed(geometry, warnings);
-    if (geometry->from_client)
-        find_delassus(geometry, warnings);
-    if (request->options.compliance == PERCUSS_COMPLIANCE_MATCHED &&
-        geometry->compliance->used != PERCUSS_COMPLIANCE_MATCHED)
+    for (size_t c = 0; c < problem->contact_count; c++)
+        find_contact(problem, outcome, c, approach, warnings);
+    validity_find_speed(problem, warnings);
+    if (problem->from_client)
+        find_delassus(problem, warnings);
+    if (problem->request->options.compliance == PERCUSS_COMPLIANCE_MATCHED &&
+        problem->compliance.used != PERCUSS_COMPLIANCE_MATCHED)
         warnings_add(warnings, WARNING_COMPLIANCE,
                      "options.compliance: matched: %s: half-space is used",
-                     geometry->compliance->reason);
+                     problem->compliance.reason);
 }

@@ -6,20 +6,20 @@
 #define PERCUSS_SOLVE_VALIDITY_H
 
 #include "impact/impact.h"
-#include "solve/geometry.h"
+#include "solve/problem.h"
 #include "solve/warnings.h"
 
 /* Estimated effect on the restitution of waves in spheres and compact bodies, which are rigid by
  * their shape (Rayleigh 1906). */
-double validity_wave_loss(const struct geometry *geometry);
+double validity_wave_loss(const struct problem *problem);
 
 /* Looks where a solution leaves the models' range: yield, size of contact and dent, edges, speed,
  * the end of a table, sliding without friction, a differing delassus, compliance, no touch. Written
  * into `warnings` from its beginning. */
-void validity_find(const struct geometry *geometry, const struct solve_request *request,
-                   const struct impact_outcome *outcome, struct warnings *warnings);
+void validity_find(const struct problem *problem, const struct impact_outcome *outcome,
+                   struct warnings *warnings);
 
 /* Of that, what needs no solution: adds the speeds of approach. */
-void validity_find_speed(const struct geometry *geometry, struct warnings *warnings);
+void validity_find_speed(const struct problem *problem, struct warnings *warnings);
 
 #endif

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "solve/contact_model.h"
+#include "solve/placement.h"
 
 #define UPRIGHT                                                                                    \
     {                                                                                              \
@@ -192,20 +193,20 @@ static bool build(struct fixed_scene *fixed, bool residual)
     if (!fixed->cache)
         return false;
     prepared_cache_use(fixed->cache, fixed->catalogue.set.revision);
-    if (geometry_find(&fixed->geometry, &fixed->catalogue.set, &fixed->request, &fixed->arena,
-                      &fault)) {
+    struct problem *problem = problem_create(&fixed->request, fixed->cache, &fixed->arena);
+    if (!problem)
+        return false;
+    if (placement_find(problem, &fixed->catalogue.set, &fault)) {
         fprintf(stderr, "bench: %s\n", fault.text);
         return false;
     }
-    if (contact_model_choose(&fixed->geometry, &fixed->request, NULL, &fixed->arena, &fault))
-        return false;
-    if (!assemble(&fixed->assembly, &fixed->geometry, &fixed->request, fixed->cache, &choice,
-                  &fixed->arena))
+    if (contact_model_choose(problem, NULL, &fault) ||
+        !assemble(&fixed->assembly, problem, &choice))
         return false;
     fixed->scene = &fixed->assembly.scene;
     if (!residual)
         fixed->scene->residual = &fixed->no_residual;
-    fixed->horizon = fmax(0.020, 2.0 * scene_longest_period(fixed->scene));
+    fixed->horizon = fmax(SOLVE_HORIZON, 2.0 * scene_longest_period(fixed->scene));
     return true;
 }
 

@@ -44,7 +44,6 @@ struct solve_request bench_request(const struct bench_scene *scene, double toler
 struct fixed_scene {
     struct bench_catalogue catalogue;
     struct solve_request request;
-    struct geometry geometry;
     struct assembly assembly;
     struct prepared_cache *cache;
     struct arena arena;

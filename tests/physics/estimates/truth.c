@@ -3,8 +3,9 @@
 
 #include "physics/estimates/truth.h"
 
+#include "solve/assemble.h"
 #include "solve/attempt.h"
-#include "solve/models.h"
+#include "solve/formulation.h"
 
 /* Most modes of a family, and the accuracies of the first solution's steps and of the finest. */
 static const size_t MOST_MODES = 4800;
@@ -61,12 +62,12 @@ struct level {
     bool cvode;
 };
 
-static bool solve_scene(struct truth_room *room, const struct solve_request *request,
+static bool solve_scene(struct truth_room *room, const struct problem *problem,
                         const struct level *level, const struct scene *scene,
                         struct impact_outcome *outcome)
 {
     struct impact_settings settings = {.accuracy = level->accuracy,
-                                       .horizon = attempt_horizon(request, scene),
+                                       .horizon = attempt_horizon(problem, scene),
                                        .max_work = level->work};
     if (!impact_create(outcome, scene, &room->arena))
         return false;
@@ -81,7 +82,6 @@ static bool solve_level(struct truth_room *room, const struct body_set *set,
                         const struct solve_request *request, const struct level *level,
                         struct truth *truth)
 {
-    struct geometry *geometry;
     struct fault fault = {0};
     struct impact_outcome outcome;
     struct assembly assembly;
@@ -89,20 +89,18 @@ static bool solve_level(struct truth_room *room, const struct body_set *set,
     arena_reset(&room->arena);
     prepared_cache_use(room->cache, set->revision);
     fix_modes(room, set, level->modes);
-    geometry = arena_take(&room->arena, 1, sizeof *geometry);
-    const struct models_source source = {&room->set, NULL, {room->cache, &room->arena, NULL}};
-    if (!geometry || geometry_find(geometry, &room->set, request, &room->arena, &fault) ||
-        models_choose(geometry, request, &source, &fault) ||
-        !assemble(&assembly, geometry, request, room->cache, &choice, &room->arena) ||
-        !solve_scene(room, request, level, &assembly.scene, &outcome))
+    struct problem *problem = problem_create(request, room->cache, &room->arena);
+    const struct solve_means means = {.catalogue = &room->set};
+    if (!problem || formulate(problem, &means, &fault) || !assemble(&assembly, problem, &choice) ||
+        !solve_scene(room, problem, level, &assembly.scene, &outcome))
         return false;
     double impulse[PERCUSS_MAX_CONTACTS] = {0};
     bool first = truth->levels == 0;
-    truth->contacts = geometry->contact_count;
+    truth->contacts = problem->contact_count;
     truth->sub_impacts = 0;
     for (size_t c = 0; c < truth->contacts; c++) {
         impulse[c] = outcome.tracks[c].impulse;
-        truth->compression[c] = geometry->impulse_compression[c];
+        truth->compression[c] = problem->impulse_compression[c];
         truth->sub_impacts += outcome.tracks[c].count;
     }
     truth->spread = first ? INFINITY : truth_distance(truth, impulse);

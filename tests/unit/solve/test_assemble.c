@@ -6,12 +6,13 @@
 #include "physics/support.h"
 #include "solve/assemble.h"
 #include "solve/contact_model.h"
+#include "solve/placement.h"
 
 struct bench {
     struct lab *lab;
     struct arena arena;
     struct prepared_cache *cache;
-    struct geometry geometry;
+    struct problem *problem;
     struct assembly assembly;
 };
 
@@ -42,12 +43,12 @@ static const struct assembly *put_together(struct bench *bench, const struct sol
     struct fault fault = {""};
     struct mode_choice choice = {.cut = cut, .most = MODE_CHOICE_MOST};
     prepared_cache_use(bench->cache, bench->lab->set.revision);
-    if (geometry_find(&bench->geometry, &bench->lab->set, request, &bench->arena, &fault))
+    bench->problem = problem_create(request, bench->cache, &bench->arena);
+    assert_non_null(bench->problem);
+    if (placement_find(bench->problem, &bench->lab->set, &fault))
         fail_msg("%s", fault.text);
-    assert_int_equal(contact_model_choose(&bench->geometry, request, NULL, &bench->arena, &fault),
-                     PERCUSS_OK);
-    assert_true(assemble(&bench->assembly, &bench->geometry, request, bench->cache, &choice,
-                         &bench->arena));
+    assert_int_equal(contact_model_choose(bench->problem, NULL, &fault), PERCUSS_OK);
+    assert_true(assemble(&bench->assembly, bench->problem, &choice));
     return &bench->assembly;
 }
 
@@ -168,7 +169,7 @@ static void a_remainder_takes_the_residual(void **state)
     struct solve_request request = on_beam(0.1, 0.0);
     const struct assembly *assembly = put_together(bench, &request, 1e5);
     struct scene next;
-    assert_true(assemble_remainder(assembly, &bench->geometry, bench->cache, &bench->arena, &next));
+    assert_true(assemble_remainder(assembly, bench->problem, &next));
     assert_int_equal(next.groups, assembly->scene.groups + 1);
     const struct scene_group *group = &next.group[next.groups - 1];
     double omega = group->set->omega[0];
@@ -189,19 +190,18 @@ static void less_allowed_is_more_modes(void **state)
     struct fault fault = {""};
     size_t last = 0;
     prepared_cache_use(bench->cache, bench->lab->set.revision);
-    assert_false(
-        geometry_find(&bench->geometry, &bench->lab->set, &request, &bench->arena, &fault));
-    assert_false(contact_model_choose(&bench->geometry, &request, NULL, &bench->arena, &fault));
+    struct problem *problem = problem_create(&request, bench->cache, &bench->arena);
+    assert_non_null(problem);
+    assert_false(placement_find(problem, &bench->lab->set, &fault));
+    assert_false(contact_model_choose(problem, NULL, &fault));
     for (double allowed = 1e-3; allowed > 1e-9; allowed /= 10.0) {
         struct mode_choice choice = {.cut = INFINITY, .allowed = allowed, .most = 1000};
-        assert_true(assemble(&bench->assembly, &bench->geometry, &request, bench->cache, &choice,
-                             &bench->arena));
+        assert_true(assemble(&bench->assembly, problem, &choice));
         assert_true(bench->assembly.all_modes > last);
         last = bench->assembly.all_modes;
     }
     struct mode_choice few = {.cut = INFINITY, .allowed = 0.0, .most = 10};
-    assert_true(
-        assemble(&bench->assembly, &bench->geometry, &request, bench->cache, &few, &bench->arena));
+    assert_true(assemble(&bench->assembly, problem, &few));
     assert_true(bench->assembly.capped);
     bench_free(bench);
 }

@@ -8,7 +8,7 @@
 /* Two contacts that approach, and what a solution found of them. */
 struct case_at_hand {
     double compression[2];
-    struct geometry geometry;
+    struct problem problem;
     struct track tracks[2];
     struct impact_outcome outcome;
 };
@@ -16,8 +16,8 @@ struct case_at_hand {
 static void set(struct case_at_hand *at_hand, enum percuss_end_reason end, double second)
 {
     *at_hand = (struct case_at_hand){.compression = {1.0, 2.0}};
-    at_hand->geometry.contact_count = 2;
-    at_hand->geometry.impulse_compression = at_hand->compression;
+    at_hand->problem.contact_count = 2;
+    at_hand->problem.impulse_compression = at_hand->compression;
     at_hand->tracks[1].impulse = second;
     at_hand->outcome.tracks = at_hand->tracks;
     at_hand->outcome.end_reason = end;
@@ -28,15 +28,15 @@ static void only_what_met_no_force_at_all_is_unsolved(void **state)
     (void)state;
     struct case_at_hand at_hand;
     set(&at_hand, PERCUSS_END_LIMIT, 0.0);
-    assert_true(attempt_is_unsolved(&at_hand.geometry, &at_hand.outcome));
+    assert_true(attempt_is_unsolved(&at_hand.problem, &at_hand.outcome));
     /* one contact has, so that nothing was transmitted by the other so far */
     set(&at_hand, PERCUSS_END_LIMIT, 3.0);
-    assert_false(attempt_is_unsolved(&at_hand.geometry, &at_hand.outcome));
-    assert_true(attempt_restitution(&at_hand.geometry, &at_hand.outcome, 0) == -1.0);
-    assert_true(attempt_restitution(&at_hand.geometry, &at_hand.outcome, 1) == 0.5);
+    assert_false(attempt_is_unsolved(&at_hand.problem, &at_hand.outcome));
+    assert_true(attempt_restitution(&at_hand.problem, &at_hand.outcome, 0) == -1.0);
+    assert_true(attempt_restitution(&at_hand.problem, &at_hand.outcome, 1) == 0.5);
     /* solved to the end: they fly on */
     set(&at_hand, PERCUSS_END_SEPARATED, 0.0);
-    assert_false(attempt_is_unsolved(&at_hand.geometry, &at_hand.outcome));
+    assert_false(attempt_is_unsolved(&at_hand.problem, &at_hand.outcome));
 }
 
 int main(void)

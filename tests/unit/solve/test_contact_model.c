@@ -222,7 +222,7 @@ static void several_contacts_yield_by_themselves(void **state)
     request.bodies[0] = one.bodies[0];
     request.bodies[1] = one.bodies[1];
     request.bodies[2] = one.bodies[0];
-    request.bodies[2].position[0] = 5.0; /* out of reach of the other's waves */
+    request.bodies[2].position[0] = 5.0;    /* out of reach of the other's waves */
     request.bodies[2].velocity[2] = -0.002; /* too slow to leave a dent */
     request.contacts[0] = one.contacts[0];
     request.contacts[1] = one.contacts[0];

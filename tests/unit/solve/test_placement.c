@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/geometry.c: gap rates, W and Eq. (4) from a request, and its refusals. */
+/* Mirrors service/solve/placement.c: gap rates, W and Eq. (4) from a request, and its refusals. */
 #include "physics/support.h"
-#include "solve/geometry.h"
+#include "solve/placement.h"
 
 static struct lab *shapes(void)
 {
@@ -24,15 +24,15 @@ static struct solve_request ball_on_beam(void)
     return strike(sphere_spot("ball", 0.015), side_spot("beam", 0.1, 0.010, 0.0), 0.2);
 }
 
-static struct geometry *find(struct lab *lab, const struct solve_request *request,
-                             struct arena *arena)
+static struct problem *find(struct lab *lab, const struct solve_request *request,
+                            struct arena *arena)
 {
     struct fault fault = {""};
-    struct geometry *geometry = arena_take(arena, 1, sizeof *geometry);
-    assert_non_null(geometry);
-    if (geometry_find(geometry, &lab->set, request, arena, &fault))
+    struct problem *problem = problem_create(request, NULL, arena);
+    assert_non_null(problem);
+    if (placement_find(problem, &lab->set, &fault))
         fail_msg("%s", fault.text);
-    return geometry;
+    return problem;
 }
 
 /* n.(v_A - v_B) at the point, rotation included. */
@@ -45,10 +45,10 @@ static void gap_rates_count_rotation(void **state)
     memcpy(request.bodies[0].angular_velocity, (double[]){3.0, 4.0, 5.0}, 3 * sizeof(double));
     memcpy(request.bodies[1].velocity, (double[]){0.1, -0.3, 0.05}, 3 * sizeof(double));
     memcpy(request.bodies[1].angular_velocity, (double[]){0.0, 0.7, 0.0}, 3 * sizeof(double));
-    struct geometry *geometry = find(lab, &request, &arena);
+    struct problem *problem = find(lab, &request, &arena);
     /* the ball's contact is below its centre: its spin has no part along z; the beam's centre lies
      * at x = -0.1, and turning about y by 0.7 rad/s moves the point by -0.07 m/s along z */
-    measured("gap rate", geometry->gap_rate[0], -0.2 - (0.05 - 0.07), 1e-15);
+    measured("gap rate", problem->gap_rate[0], -0.2 - (0.05 - 0.07), 1e-15);
     arena_release(&arena);
     lab_free(lab);
 }
@@ -59,19 +59,19 @@ static void w_and_eq_4(void **state)
     struct lab *lab = shapes();
     struct arena arena = {0};
     struct solve_request request = ball_on_beam();
-    struct geometry *geometry = find(lab, &request, &arena);
-    const struct body *ball = geometry->bodies[0], *beam = geometry->bodies[1];
+    struct problem *problem = find(lab, &request, &arena);
+    const struct body *ball = problem->bodies[0], *beam = problem->bodies[1];
     double w = 1.0 / ball->mass + 1.0 / beam->mass + 0.01 / beam->inertia[1];
-    measured_relative("W", geometry->w[0], w, 1e-14);
-    measured_relative("compression", geometry->impulse_compression[0], 0.2 / w, 1e-14);
+    measured_relative("W", problem->w[0], w, 1e-14);
+    measured_relative("compression", problem->impulse_compression[0], 0.2 / w, 1e-14);
     /* the sphere on the beam: the notes' k */
-    measured_relative("k", geometry->hertz[0].stiffness, 7.74365e9, 6e-7);
+    measured_relative("k", problem->hertz[0].stiffness, 7.74365e9, 6e-7);
     double mine = 3.0;
     request.delassus = &mine;
-    geometry = find(lab, &request, &arena);
-    assert_true(geometry->from_client && geometry->w[0] == 3.0);
-    measured_relative("service's", geometry->service_w[0], w, 1e-14);
-    measured_relative("compression", geometry->impulse_compression[0], 0.2 / 3.0, 1e-14);
+    problem = find(lab, &request, &arena);
+    assert_true(problem->from_client && problem->w[0] == 3.0);
+    measured_relative("service's", problem->service_w[0], w, 1e-14);
+    measured_relative("compression", problem->impulse_compression[0], 0.2 / 3.0, 1e-14);
     arena_release(&arena);
     lab_free(lab);
 }
@@ -90,16 +90,16 @@ static void contacts_couple_through_their_bodies(void **state)
     request.contacts[1] = request.contacts[0];
     request.contacts[1].a = 2;
     request.contacts[1].point[0] = -0.3;
-    struct geometry *geometry = find(lab, &request, &arena);
-    const struct body *beam = geometry->bodies[1];
+    struct problem *problem = find(lab, &request, &arena);
+    const struct body *beam = problem->bodies[1];
     double shared = 1.0 / beam->mass + 0.1 * -0.2 / beam->inertia[1];
-    measured_relative("W12", geometry->w[1], shared, 1e-12);
-    assert_true(geometry->w[1] == geometry->w[2]);
+    measured_relative("W12", problem->w[1], shared, 1e-12);
+    assert_true(problem->w[1] == problem->w[2]);
     /* Eq. (4) for both: W P = 0.2 (both press) */
     for (int c = 0; c < 2; c++)
         measured("residual",
-                 geometry->w[2 * c] * geometry->impulse_compression[0] +
-                     geometry->w[2 * c + 1] * geometry->impulse_compression[1],
+                 problem->w[2 * c] * problem->impulse_compression[0] +
+                     problem->w[2 * c + 1] * problem->impulse_compression[1],
                  0.2, 1e-9);
     arena_release(&arena);
     lab_free(lab);

@@ -1,0 +1,44 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A scene of a problem, with what is needed to read its result. */
+#ifndef PERCUSS_SOLVE_ASSEMBLY_H
+#define PERCUSS_SOLVE_ASSEMBLY_H
+
+#include "impact/scene.h"
+#include "solve/problem.h"
+
+/* The modes from `first` on of a family of a body, omitted, as one contact on it sees them. */
+struct omitted_part {
+    size_t body, contact;
+    enum mode_family family;
+    size_t first;
+    double compliance; /* m/N */
+};
+
+/* What the omitted modes of all bodies do to a contact besides residual flexibility: their response
+ * to a slow force F is C F - viscosity F' - inertia F'' + ... */
+struct omitted {
+    double inertia;   /* sum phi^2/omega^4, m s^2/N */
+    double viscosity; /* sum 2 damping phi^2/omega^3, m s/N */
+};
+
+/* A scene with what is needed to read its result. */
+struct assembly {
+    struct scene scene;
+    struct scene_group *groups;
+    const struct prepared_group **sources; /* of each group; NULL: a half-space's */
+    enum mode_family *families;            /* of each group; FAMILY_COUNT: a half-space's */
+    struct omitted_part *parts;
+    size_t part_count;
+    struct omitted *omitted;          /* [contact] */
+    size_t modes[PERCUSS_MAX_BODIES]; /* taking part, by body */
+    size_t all_modes;                 /* taking part, of all bodies */
+    bool adjustable;                  /* the choice decided about some of them */
+    bool capped;                      /* a family wants more modes than are allowed */
+    double highest;                   /* of the frequencies that take part, rad/s */
+    double lowest_omitted;            /* rad/s; INFINITY: no more modes to be had */
+    double radiated_error;            /* in e, by what radiation.h leaves out of the waves */
+};
+
+#endif

@@ -1,0 +1,25 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/formulation.h"
+
+#include "solve/compliance.h"
+#include "solve/contact_model.h"
+#include "solve/placement.h"
+
+enum percuss_status formulate(struct problem *problem, const struct solve_means *means,
+                              struct fault *fault)
+{
+    enum percuss_status status = placement_find(problem, means->catalogue, fault);
+    if (!status)
+        status = contact_model_choose(problem, means->tables, fault);
+    if (!status)
+        status = compliance_choose(problem, means->catalogue->compliance, fault);
+    return status;
+}
+
+bool formulation_revise(struct problem *problem, const struct scene *scene,
+                        const struct impact_outcome *outcome)
+{
+    return contact_model_revise(problem, outcome) || compliance_revise(problem, scene, outcome);
+}

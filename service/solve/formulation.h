@@ -1,0 +1,23 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* From a request to its problem, and again where a solution contradicts what was chosen. */
+#ifndef PERCUSS_SOLVE_FORMULATION_H
+#define PERCUSS_SOLVE_FORMULATION_H
+
+#include "impact/impact.h"
+#include "solve/means.h"
+#include "solve/problem.h"
+
+/* Places the bodies of an empty problem, and chooses its contacts' laws and what is in series with
+ * them. PERCUSS_OK, or the refusals of placement_find, contact_model_choose and compliance_choose.
+ */
+enum percuss_status formulate(struct problem *problem, const struct solve_means *means,
+                              struct fault *fault);
+
+/* Looks at a solution of a scene: true: other laws or another compliance are in order and are now
+ * the problem's. */
+bool formulation_revise(struct problem *problem, const struct scene *scene,
+                        const struct impact_outcome *outcome);
+
+#endif

@@ -1,0 +1,276 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/placement.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "model/rigid.h"
+#include "model/vector.h"
+#include "numeric/lcp.h"
+#include "numeric/linear.h"
+#include "solve/roll.h"
+
+/* Faster approaches are outside everything that the models describe. */
+static const double MAX_SPEED = 1e4;
+/* So is a mass beyond these. */
+static const double MIN_INVERSE_MASS = 1e-100;
+
+/* Puts the body with the request's own parameters in its place. */
+static enum percuss_status vary(struct problem *problem, size_t index, struct fault *fault)
+{
+    const struct solve_body *asked = &problem->request->bodies[index];
+    struct body *varied = arena_take(problem->arena, 1, sizeof *varied);
+    struct fault reason = {0};
+    if (!varied)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    if (body_vary(problem->bodies[index], asked->variations, asked->variation_count, varied,
+                  &reason))
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "bodies[%zu].overrides: %.500s", index,
+                         reason.text);
+    problem->bodies[index] = varied;
+    return PERCUSS_OK;
+}
+
+static enum percuss_status find_bodies(struct problem *problem, const struct body_set *catalogue,
+                                       struct fault *fault)
+{
+    for (size_t i = 0; i < problem->body_count; i++) {
+        const struct solve_body *body = &problem->request->bodies[i];
+        problem->bodies[i] = body_set_find(catalogue, body->id);
+        if (!problem->bodies[i])
+            return fault_set(fault, PERCUSS_UNKNOWN_BODY,
+                             "bodies[%zu].id: '%s': not in the catalogue (%zu bodies; percuss "
+                             "bodies lists them)",
+                             i, body->id, catalogue->count);
+        enum percuss_status status = PERCUSS_OK;
+        if (body->variation_count > 0)
+            status = vary(problem, i, fault);
+        if (status)
+            return status;
+        memcpy(problem->poses[i].position, body->position, sizeof body->position);
+        rotation_matrix(body->orientation, problem->poses[i].rotation);
+    }
+    return PERCUSS_OK;
+}
+
+static void point_velocity(const struct solve_body *body, const double point[3], double velocity[3])
+{
+    double arm[3];
+    double turning[3];
+    sub3(point, body->position, arm);
+    cross3(body->angular_velocity, arm, turning);
+    for (int i = 0; i < 3; i++)
+        velocity[i] = body->velocity[i] + turning[i];
+}
+
+static enum percuss_status place_side(struct problem *problem, const struct solve_contact *contact,
+                                      size_t index, int which, double allowed, struct fault *fault)
+{
+    struct contact_side *side = &problem->sides[index][which];
+    side->body = which == 0 ? contact->a : contact->b;
+    const struct body *body = problem->bodies[side->body];
+    const struct pose *pose = &problem->poses[side->body];
+    /* the force pushes a along +n and b along -n; outward normals are the opposite */
+    double push[3];
+    double outward[3];
+    char field[32];
+    scale3(which == 0 ? 1.0 : -1.0, contact->normal, push);
+    scale3(-1.0, push, outward);
+    snprintf(field, sizeof field, "contacts[%zu]", index);
+    enum percuss_status status =
+        site_locate(body, pose, contact->point, outward, allowed, field, &side->site, fault);
+    if (status)
+        return status;
+    rotate_back3(pose->rotation, push, side->direction);
+    side->load = site_load_make(body, &side->site, side->direction);
+    return PERCUSS_OK;
+}
+
+static enum percuss_status place_contact(struct problem *problem, size_t index, struct fault *fault)
+{
+    const struct solve_contact *contact = &problem->request->contacts[index];
+    const struct body *a = problem->bodies[contact->a];
+    const struct body *b = problem->bodies[contact->b];
+    double smallest = fmin(body_smallest_radius(a), body_smallest_radius(b));
+    if (!isfinite(smallest))
+        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+                         "contacts[%zu]: %s on %s: two planes do not touch in a point", index,
+                         a->id, b->id);
+    for (int which = 0; which < 2; which++) {
+        enum percuss_status status =
+            place_side(problem, contact, index, which, 0.1 * smallest, fault);
+        if (status)
+            return status;
+    }
+    double curvature[2];
+    site_relative_curvature(&problem->sides[index][0].site, &problem->poses[contact->a],
+                            &problem->sides[index][1].site, &problem->poses[contact->b],
+                            contact->normal, curvature);
+    if (!(curvature[0] > HERTZ_LINE_RATIO * curvature[1]))
+        return fault_set(
+            fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+            "contacts[%zu]: %s on %s touch in a %s there (relative curvatures %.3g and "
+            "%.3g 1/m): only a point contact of two smooth surfaces is supported",
+            index, a->id, b->id, curvature[1] > 0.0 ? "line" : "face", 2.0 * curvature[0],
+            2.0 * curvature[1]);
+    problem->hertz[index] = hertz_contact_make(hertz_effective_modulus(&a->material, &b->material),
+                                               curvature[0], curvature[1]);
+    return PERCUSS_OK;
+}
+
+static void find_rates(struct problem *problem, size_t index)
+{
+    const struct solve_contact *contact = &problem->request->contacts[index];
+    double a[3];
+    double b[3];
+    point_velocity(&problem->request->bodies[contact->a], contact->point, a);
+    point_velocity(&problem->request->bodies[contact->b], contact->point, b);
+    sub3(a, b, a);
+    problem->gap_rate[index] = dot3(contact->normal, a);
+    add_scaled3(-problem->gap_rate[index], contact->normal, a);
+    memcpy(problem->sliding[index], a, sizeof a);
+}
+
+/* w_i^T M^-1 w_j from the bodies that both contacts share. */
+static void find_service_w(struct problem *problem)
+{
+    size_t n = problem->contact_count;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j < n; j++) {
+            double sum = 0.0;
+            for (int p = 0; p < 2; p++) {
+                for (int q = 0; q < 2; q++) {
+                    const struct contact_side *a = &problem->sides[i][p];
+                    const struct contact_side *b = &problem->sides[j][q];
+                    if (a->body == b->body)
+                        sum += rigid_inverse_mass(problem->bodies[a->body], a->site.point,
+                                                  a->direction, b->site.point, b->direction);
+                }
+            }
+            problem->service_w[i * n + j] = sum;
+        }
+    }
+}
+
+static enum percuss_status choose_w(struct problem *problem, struct fault *fault)
+{
+    size_t n = problem->contact_count;
+    find_service_w(problem);
+    problem->from_client = problem->request->delassus != NULL;
+    memcpy(problem->w, problem->request->delassus ? problem->request->delassus : problem->service_w,
+           n * n * sizeof *problem->w);
+    for (size_t i = 0; i < n; i++) {
+        if (problem->w[i * n + i] >= MIN_INVERSE_MASS &&
+            problem->w[i * n + i] <= 1.0 / MIN_INVERSE_MASS)
+            continue;
+        if (problem->from_client)
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "delassus[%zu]: %g: the diagonal must be between %g and %g 1/kg",
+                             i * n + i, problem->w[i * n + i], MIN_INVERSE_MASS,
+                             1.0 / MIN_INVERSE_MASS);
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "contacts[%zu]: neither %s nor %s can move rigidly there: at least one "
+                         "partner must (or send the simulator's delassus)",
+                         i, problem->bodies[problem->sides[i][0].body]->id,
+                         problem->bodies[problem->sides[i][1].body]->id);
+    }
+    if (n == 1)
+        return PERCUSS_OK;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < i; j++) {
+            double scale = sqrt(problem->w[i * (n + 1)]) * sqrt(problem->w[j * (n + 1)]);
+            double a = problem->w[i * n + j];
+            double b = problem->w[j * n + i];
+            if (!(fabs(a - b) <= 1e-9 * scale))
+                return fault_set(fault, PERCUSS_BAD_REQUEST,
+                                 "delassus[%zu] and [%zu]: %g and %g: the matrix must be symmetric",
+                                 i * n + j, j * n + i, a, b);
+        }
+    double *scratch = arena_take(problem->arena, n * (2 * n + 1), sizeof *scratch);
+    if (!scratch)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    double ratio = linear_pseudo_inverse(n, problem->w, 1e-12, scratch, scratch + n * n);
+    if (!(ratio >= -1e-9))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "delassus: smallest eigenvalue is %g of the largest: the matrix must be "
+                         "positive semidefinite",
+                         ratio);
+    return PERCUSS_OK;
+}
+
+/* 0 <= W P + gap rate, complementary to P >= 0: Eq. (4) for one contact. */
+static enum percuss_status find_compression(struct problem *problem, struct fault *fault)
+{
+    size_t n = problem->contact_count;
+    if (n == 1) {
+        problem->impulse_compression[0] = fmax(0.0, -problem->gap_rate[0] / problem->w[0]);
+        return PERCUSS_OK;
+    }
+    if (!lcp_solve(n, problem->w, problem->gap_rate, problem->impulse_compression))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "delassus: no impulses satisfy 0 <= W P + gap rate with P >= 0: check the "
+                         "matrix");
+    return PERCUSS_OK;
+}
+
+static enum percuss_status check_approach(const struct problem *problem, struct fault *fault)
+{
+    double fastest = 0.0;
+    bool approaches = false;
+    for (size_t i = 0; i < problem->contact_count; i++) {
+        fastest = fmax(fastest, fabs(problem->gap_rate[i]));
+        approaches = approaches || problem->gap_rate[i] < 0.0;
+    }
+    if (!(fastest <= MAX_SPEED))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "bodies[].velocity: a gap rate of %g m/s: at most %g m/s is allowed",
+                         fastest, MAX_SPEED);
+    if (!approaches)
+        return fault_set(fault, PERCUSS_NOT_APPROACHING,
+                         "contacts[0]: gap rate n.(v_a - v_b) = %+g m/s: at least one contact must "
+                         "approach (gap rate < 0; the normal points from b to a)",
+                         problem->gap_rate[0]);
+    return PERCUSS_OK;
+}
+
+static bool allocate(struct problem *problem)
+{
+    size_t n = problem->contact_count;
+    problem->sides = arena_take(problem->arena, n, sizeof *problem->sides);
+    problem->hertz = arena_take(problem->arena, n, sizeof *problem->hertz);
+    problem->gap_rate = arena_take(problem->arena, n, sizeof(double));
+    problem->sliding = arena_take(problem->arena, n, sizeof *problem->sliding);
+    problem->service_w = arena_take(problem->arena, n * n, sizeof(double));
+    problem->w = arena_take(problem->arena, n * n, sizeof(double));
+    problem->impulse_compression = arena_take(problem->arena, n, sizeof(double));
+    return problem->sides && problem->hertz && problem->gap_rate && problem->sliding &&
+           problem->service_w && problem->w && problem->impulse_compression;
+}
+
+enum percuss_status placement_find_rates(struct problem *problem, struct fault *fault)
+{
+    for (size_t i = 0; i < problem->request->contact_count; i++)
+        find_rates(problem, i);
+    enum percuss_status status = check_approach(problem, fault);
+    return status ? status : find_compression(problem, fault);
+}
+
+enum percuss_status placement_find(struct problem *problem, const struct body_set *catalogue,
+                                   struct fault *fault)
+{
+    if (!allocate(problem))
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    enum percuss_status status = find_bodies(problem, catalogue, fault);
+    for (size_t i = 0; !status && i < problem->contact_count; i++)
+        status = place_contact(problem, i, fault);
+    if (!status && !roll_choose(problem))
+        status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    if (!status)
+        status = choose_w(problem, fault);
+    if (!status)
+        status = placement_find_rates(problem, fault);
+    return status;
+}

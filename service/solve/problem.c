@@ -1,0 +1,30 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/problem.h"
+
+struct problem *problem_create(const struct solve_request *request, struct prepared_cache *cache,
+                               struct arena *arena)
+{
+    struct problem *problem = arena_take(arena, 1, sizeof *problem);
+    if (!problem)
+        return NULL;
+    problem->request = request;
+    problem->cache = cache;
+    problem->arena = arena;
+    problem->tolerance = solve_tolerance(&request->options);
+    problem->body_count = request->body_count;
+    problem->contact_count = request->contact_count;
+    return problem;
+}
+
+const struct site_load *problem_load(const struct problem *problem, size_t contact, size_t body,
+                                     enum mode_family family)
+{
+    for (int which = 0; which < 2; which++) {
+        const struct contact_side *side = &problem->sides[contact][which];
+        if (side->body == body && side->load.acts[family])
+            return &side->load;
+    }
+    return NULL;
+}

@@ -1,0 +1,83 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A request in the terms of mechanics: bodies found, contacts placed on their surfaces, W, gap
+ * rates, contact laws and what is in series with them. formulation.h makes it; solutions only read
+ * it. */
+#ifndef PERCUSS_SOLVE_PROBLEM_H
+#define PERCUSS_SOLVE_PROBLEM_H
+
+#include "base/arena.h"
+#include "contact/hertz.h"
+#include "contact/law.h"
+#include "model/modal_basis.h"
+#include "solve/prepared.h"
+#include "solve/request.h"
+
+struct contact_choice; /* contact_model.h */
+
+/* One side of a contact. */
+struct contact_side {
+    size_t body; /* index into the request's bodies */
+    struct site site;
+    double direction[3]; /* of the force on the body per newton, body frame */
+    struct site_load load;
+};
+
+/* Planes of bending turned about the body's axis: the scene's deflections are cosine y - sine z and
+ * cosine z + sine y. */
+struct roll {
+    double cosine, sine;
+};
+
+/* The contacts' laws, see contact_model.h. */
+struct contact_model {
+    bool yielding;                  /* the laws in use are the plastic ones; false: Hertz */
+    bool decided;                   /* by the request, or by a solution */
+    double *depth;                  /* [contact]: of the dents under it, m */
+    struct contact_law *laws;       /* [contact]: in use */
+    struct contact_choice *choices; /* [contact] */
+};
+
+/* What is in series with them, see compliance.h. */
+struct compliance {
+    enum percuss_compliance used; /* HALF_SPACE or MATCHED, of all contacts */
+    double *series;               /* [contact], m/N; 0: half-space; NULL: the same, none chosen */
+    double (*sides)[2];           /* [contact]: the parts of either body in it */
+    bool still;                   /* no waves leave through half-spaces, see radiation.h: a contact
+                                     is too stiff for them, or too many share them */
+    char reason[128];             /* why half-space although matched was asked for, or empty */
+};
+
+struct problem {
+    const struct solve_request *request; /* what is asked; borrowed as the next two */
+    struct prepared_cache *cache;        /* what is prepared of the bodies */
+    struct arena *arena;                 /* of all arrays, and of the scenes made of it */
+    double tolerance;                    /* on the restitution */
+    size_t body_count, contact_count;
+    const struct body *bodies[PERCUSS_MAX_BODIES];
+    struct pose poses[PERCUSS_MAX_BODIES];
+    struct roll rolls[PERCUSS_MAX_BODIES];               /* of their planes of bending */
+    const struct body_state *states[PERCUSS_MAX_BODIES]; /* initial, in those planes; NULL: none */
+    struct contact_side (*sides)[2];                     /* [contact]: a, b */
+    struct hertz_contact *hertz;                         /* [contact] */
+    double *gap_rate;                                    /* [contact], rigid, m/s */
+    double (*sliding)[3];        /* [contact]: velocity of a's point against b's along the
+                                    surface, world, m/s; nothing but a warning follows from it */
+    double *service_w;           /* contacts^2, from the bodies */
+    double *w;                   /* the one in use */
+    double *impulse_compression; /* [contact], Eq. (4) or its complementarity problem, N s */
+    bool from_client;            /* that W */
+    struct contact_model contact_model;
+    struct compliance compliance;
+};
+
+/* An empty one in the arena, for the request. NULL: out of memory. */
+struct problem *problem_create(const struct solve_request *request, struct prepared_cache *cache,
+                               struct arena *arena);
+
+/* The load of contact `contact` on a body (an index) if it acts on the family, or NULL. */
+const struct site_load *problem_load(const struct problem *problem, size_t contact, size_t body,
+                                     enum mode_family family);
+
+#endif
