@@ -119,8 +119,10 @@ static bool read_choice(const json_t *value, const struct json_path *path,
     return json_fail(fault, path, "'%s' is not one of: %s", given, allowed);
 }
 
-static bool read_named(const json_t *object, const struct json_path *path,
-                       const struct json_member *member, double *numbers, struct json_fault *fault)
+/* In the order of the parameters, whatever theirs is. */
+static bool read_overrides(const json_t *object, const struct json_path *path,
+                           const struct json_member *member, struct percuss_body_motion *body,
+                           struct json_fault *fault)
 {
     const char *name;
     json_t *value;
@@ -137,14 +139,18 @@ static bool read_named(const json_t *object, const struct json_path *path,
             return json_fail(fault, &here, "unknown member; allowed are: %s", allowed);
         if (!json_is_number(value))
             return json_fail(fault, &here, "a number is needed, not %s", json_kind_of(value));
-        numbers[i] = json_number_value(value);
     }
+    for (unsigned i = 0; i < member->size; ++i)
+        if ((value = json_object_get(object, member->name_of(i))))
+            body->overrides[body->override_count++] =
+                (struct percuss_override){i, json_number_value(value)};
     return true;
 }
 
 static bool read_member(const json_t *value, const struct json_path *path,
-                        const struct json_member *member, void *target, struct json_fault *fault)
+                        const struct json_member *member, void *structure, struct json_fault *fault)
 {
+    void *target = (char *)structure + member->offset;
     switch (member->kind) {
     case JSON_KIND_NUMBER:
         if (!json_is_number(value))
@@ -155,19 +161,20 @@ static bool read_member(const json_t *value, const struct json_path *path,
         return json_read_numbers(value, path, member->size, target, fault);
     case JSON_KIND_TEXT:
         return read_text(value, path, member->size, target, fault);
-    case JSON_KIND_INDEX:
+    case JSON_KIND_COUNT:
         return read_index(value, path, target, fault);
     case JSON_KIND_FLAG:
         if (!json_is_boolean(value))
             return json_fail(fault, path, "true or false is needed, not %s", json_kind_of(value));
         *(bool *)target = json_is_true(value);
         return true;
-    case JSON_KIND_NAMED:
-        return read_named(value, path, member, target, fault);
+    case JSON_KIND_OVERRIDES:
+        return read_overrides(value, path, member, structure, fault);
     case JSON_KIND_CHOICE:
         return read_choice(value, path, member, target, fault);
+    default: /* only in replies */
+        return json_fail(fault, path, "is not read");
     }
-    return false;
 }
 
 static bool unknown_member(const struct json_path *path, const struct json_member *members,
@@ -194,7 +201,7 @@ bool json_read_object(const json_t *object, const struct json_path *path,
             ++member;
         if (!member->name)
             return unknown_member(&here, members, fault);
-        if (!read_member(value, &here, member, (char *)target + member->offset, fault))
+        if (!read_member(value, &here, member, target, fault))
             return false;
     }
     return true;

@@ -3,31 +3,13 @@
 
 #include "request_json.h"
 
-#include <math.h>
 #include <percuss/percuss.h>
 #include <stdio.h>
 #include <string.h>
 
-/* A body as it is read. */
-struct json_body {
-    struct percuss_body_motion motion;
-    double overrides[PERCUSS_PARAMETER_COUNT]; /* NAN: not given */
-};
-
-#define JSON_STRUCT struct percuss_body_motion
-static const struct json_member body_members[] = {
-    PERCUSS_BODY_FIELDS(JSON_MEMBER) /* at the beginning of a json_body */
-    {"overrides", JSON_KIND_NAMED, offsetof(struct json_body, overrides), PERCUSS_PARAMETER_COUNT,
-     percuss_parameter_name},
-    {0},
-};
-#undef JSON_STRUCT
-#define JSON_STRUCT struct percuss_contact
-static const struct json_member contact_members[] = {PERCUSS_CONTACT_FIELDS(JSON_MEMBER){0}};
-#undef JSON_STRUCT
-#define JSON_STRUCT struct percuss_options
-static const struct json_member option_members[] = {PERCUSS_OPTION_FIELDS(JSON_MEMBER){0}};
-#undef JSON_STRUCT
+JSON_TABLE(body_motion, PERCUSS_BODY_FIELDS)
+JSON_TABLE(contact, PERCUSS_CONTACT_FIELDS)
+JSON_TABLE(options, PERCUSS_OPTION_FIELDS)
 
 /* Whether it is an array of at most `most` elements. */
 static bool check_array(const json_t *array, const struct json_path *path, size_t most,
@@ -48,17 +30,9 @@ static bool read_bodies(const json_t *array, const struct json_path *path,
         return false;
     for (size_t i = 0; i < json_array_size(array); ++i) {
         struct percuss_body_motion *body = percuss_request_add_body(&request->request, "");
-        struct json_body read = {.motion = *body};
-        for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; ++p)
-            read.overrides[p] = NAN;
         if (!json_read_object(json_array_get(array, i), &(struct json_path){path, NULL, i},
-                              body_members, &read, fault))
+                              body_motion_members(), body, fault))
             return false;
-        *body = read.motion;
-        for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; ++p)
-            if (!isnan(read.overrides[p]))
-                body->overrides[body->override_count++] =
-                    (struct percuss_override){p, read.overrides[p]};
     }
     return true;
 }
@@ -71,7 +45,7 @@ static bool read_contacts(const json_t *array, const struct json_path *path,
     for (size_t i = 0; i < json_array_size(array); ++i) {
         struct percuss_contact *contact = percuss_request_add_contact(&request->request, 0, 0);
         if (!json_read_object(json_array_get(array, i), &(struct json_path){path, NULL, i},
-                              contact_members, contact, fault))
+                              contact_members(), contact, fault))
             return false;
     }
     return true;
@@ -121,7 +95,7 @@ static bool read_sequence(const json_t *value, const struct json_path *path,
 static bool read_options(const json_t *value, const struct json_path *path,
                          struct json_request *request, struct json_fault *fault)
 {
-    return json_read_object(value, path, option_members, &request->request.options, fault);
+    return json_read_object(value, path, options_members(), &request->request.options, fault);
 }
 
 /* In the order in which they must be read. */

@@ -30,7 +30,7 @@ static enum percuss_result convert_body(const struct percuss_body_motion *from, 
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "bodies[%zu].override_count: %u are too many; up to %d are allowed", index,
                          from->override_count, PERCUSS_PARAMETER_COUNT);
-    PERCUSS_BODY_FIELDS(PERCUSS_COPY)
+    PERCUSS_BODY_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
     for (uint32_t i = 0; i < from->override_count; ++i)
         storage->overrides[index][i] =
             (percuss_v1_Override){from->overrides[i].parameter, from->overrides[i].value};

@@ -6,18 +6,28 @@
 #include <string.h>
 
 #include "endpoint/encode.h"
+#include "percuss/fields.h"
 
 /* Serialised sizes: numbers of 8 bytes are aligned to 4, every structure and every list of
  * structures begins with 4 bytes of its length, a list with 4 more of its count. Texts and lists
  * count apart from what stands around them. */
+#define SIZE(kind, ...) +SIZE_##kind
+#define SIZE_VALUE      8
+#define SIZE_VECTOR     24
+#define SIZE_COUNT      4
+#define SIZE_FLAG       4
+#define SIZE_ID         0
+#define SIZE_TEXT       0
+#define SIZE_LIST       8
+
 enum {
     REPLY_FIXED = 512,
-    CONTACT_FIXED = 80,
-    SUB_IMPACT = 80,
-    VELOCITY_FIXED = 52,
-    STATE_FIXED = 4,
-    ENERGY_FIXED = 12,
-    MODEL_FIXED = 20,
+    CONTACT_FIXED = 4 PERCUSS_CONTACT_RESULT_FIELDS(SIZE, SIZE),
+    SUB_IMPACT = 4 PERCUSS_SUB_IMPACT_FIELDS(SIZE),
+    VELOCITY_FIXED = 4 PERCUSS_BODY_VELOCITY_FIELDS(SIZE),
+    STATE_FIXED = 4 PERCUSS_BODY_STATE_FIELDS(SIZE),
+    ENERGY_FIXED = 4 PERCUSS_BODY_ENERGY_FIELDS(SIZE),
+    MODEL_FIXED = 4 PERCUSS_BODY_MODEL_FIELDS(SIZE),
     PART_FIXED = 1408 /* with the longest texts it can hold */
 };
 

@@ -58,7 +58,7 @@ static void decode_overrides(struct check *check, const percuss_v1_BodyMotion *w
 static void decode_body(struct check *check, const percuss_v1_BodyMotion *from,
                         struct solve_body *to)
 {
-    PERCUSS_BODY_FIELDS(TAKE)
+    PERCUSS_BODY_FIELDS(TAKE, PERCUSS_NONE)
     check_that(check, !from->specimen[0] || !from->state[0],
                "specimen: %s: must be empty where a state is given: a specimen is at rest",
                from->specimen);

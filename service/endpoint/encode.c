@@ -8,6 +8,7 @@
 
 #include "endpoint/encode_trace.h"
 #include "endpoint/text.h"
+#include "percuss/fields.h"
 
 /* The fields that every kind of reply begins with. */
 #define FILL_ENVELOPE(wire, envelope)                                                              \
@@ -42,16 +43,27 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-static void fill_undefined(percuss_v1_Reply *reply)
+static void undefine_energy(percuss_v1_Energy *to)
 {
-    reply->window = reply->time_shift = NAN;
-    percuss_v1_Energy *energy = &reply->energy;
-    energy->available = energy->rigid_after = energy->damping = NAN;
-    energy->plastic = energy->stored = energy->closure = NAN;
-    percuss_v1_ErrorEstimate *error = &reply->error;
-    error->restitution_time = error->restitution_modes = NAN;
-    error->impulse_time = error->impulse_modes = error->restitution_by_speed = NAN;
-    reply->model.omitted_error = NAN;
+    PERCUSS_ENERGY_FIELDS(PERCUSS_UNDEFINED, PERCUSS_NONE)
+}
+
+static void undefine_error(percuss_v1_ErrorEstimate *to)
+{
+    PERCUSS_ERROR_FIELDS(PERCUSS_UNDEFINED)
+}
+
+static void undefine_model(percuss_v1_Model *to)
+{
+    PERCUSS_MODEL_FIELDS(PERCUSS_UNDEFINED, PERCUSS_NONE)
+}
+
+static void undefine_reply(percuss_v1_Reply *to)
+{
+    PERCUSS_REPLY_FIELDS(PERCUSS_UNDEFINED, PERCUSS_NONE)
+    undefine_energy(&to->energy);
+    undefine_error(&to->error);
+    undefine_model(&to->model);
 }
 
 static struct answer *create_blank(const struct envelope *envelope, size_t room)
@@ -62,7 +74,7 @@ static struct answer *create_blank(const struct envelope *envelope, size_t room)
         return NULL;
     answer->reply = answer_take(answer, 1, sizeof *answer->reply);
     FILL_ENVELOPE(answer->reply, envelope);
-    fill_undefined(answer->reply);
+    undefine_reply(answer->reply);
     return answer;
 }
 
@@ -118,54 +130,40 @@ struct answer *encode_ensemble_refusal(const struct envelope *envelope, enum per
     return answer;
 }
 
-static void fill_sub_impacts(struct answer *answer, const struct solve_contact_result *from,
-                             percuss_v1_ContactResult *to, size_t count)
+static void fill_sub_impact(const struct sub_impact *from, percuss_v1_SubImpact *to)
 {
+    PERCUSS_SUB_IMPACT_FIELDS(PERCUSS_COPY)
+}
+
+static void fill_contact(struct answer *answer, const struct solve_contact_result *from,
+                         percuss_v1_ContactResult *to, size_t listed)
+{
+    size_t count = least(from->sub_impacts_listed, listed);
     percuss_v1_SubImpact *list = answer_take(answer, count, sizeof *list);
-    for (size_t i = 0; i < count; i++) {
-        const struct sub_impact *sub = &from->sub_impacts[i];
-        list[i] = (percuss_v1_SubImpact){
-            .start = sub->start,
-            .compression_end = sub->compression_end,
-            .end = sub->end,
-            .impulse = sub->impulse,
-            .compression_impulse = sub->compression_impulse,
-            .peak_force = sub->peak_force,
-            .max_indentation = sub->max_indentation,
-            .gap_rate_before = sub->gap_rate_before,
-            .gap_rate_after = sub->gap_rate_after,
-            .negligible = sub->negligible,
-        };
-    }
+    PERCUSS_CONTACT_RESULT_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
+    for (size_t i = 0; i < count; i++)
+        fill_sub_impact(&from->sub_impacts[i], &list[i]);
     FILL_SEQUENCE(to->sub_impacts, list, count);
 }
 
 static void fill_contacts(struct answer *answer, const struct solve_result *result, size_t listed)
 {
     percuss_v1_ContactResult *list = answer_take(answer, result->contact_count, sizeof *list);
-    for (size_t i = 0; i < result->contact_count; i++) {
-        const struct solve_contact_result *from = &result->contacts[i];
-        list[i].impulse = from->impulse;
-        memcpy(list[i].impulse_vector, from->impulse_vector, sizeof from->impulse_vector);
-        list[i].impulse_compression = from->impulse_compression;
-        list[i].restitution = from->restitution;
-        list[i].inverse_effective_mass = from->inverse_effective_mass;
-        list[i].end_time = from->end_time;
-        list[i].sub_impact_count = (uint32_t)from->sub_impact_count;
-        fill_sub_impacts(answer, from, &list[i], least(from->sub_impacts_listed, listed));
-    }
+    for (size_t i = 0; i < result->contact_count; i++)
+        fill_contact(answer, &result->contacts[i], &list[i], listed);
     FILL_SEQUENCE(answer->reply->contacts, list, result->contact_count);
+}
+
+static void fill_velocity(const struct solve_body_result *from, percuss_v1_BodyVelocity *to)
+{
+    PERCUSS_BODY_VELOCITY_FIELDS(PERCUSS_COPY)
 }
 
 static void fill_velocities(struct answer *answer, const struct solve_result *result)
 {
     percuss_v1_BodyVelocity *list = answer_take(answer, result->body_count, sizeof *list);
-    for (size_t i = 0; i < result->body_count; i++) {
-        const struct solve_body_result *from = &result->bodies[i];
-        COPY_TEXT(list[i].id, from->id);
-        memcpy(list[i].velocity, from->velocity, sizeof from->velocity);
-        memcpy(list[i].angular_velocity, from->angular_velocity, sizeof from->angular_velocity);
-    }
+    for (size_t i = 0; i < result->body_count; i++)
+        fill_velocity(&result->bodies[i], &list[i]);
     FILL_SEQUENCE(answer->reply->velocity_after, list, result->body_count);
 }
 
@@ -203,33 +201,27 @@ static void fill_warnings(struct answer *answer, const struct solve_result *resu
     FILL_SEQUENCE(answer->reply->warnings, list, result->warning_count);
 }
 
-static void fill_numbers(percuss_v1_Reply *reply, const struct solve_result *result)
+static void fill_energy(const struct impact_energy *from, percuss_v1_Energy *to)
 {
-    reply->complete = result->complete;
-    reply->end_reason = result->end_reason;
-    reply->window = result->window;
-    reply->delassus_source = result->delassus_source;
-    reply->time_shift = result->time_shift;
-    percuss_v1_Energy *energy = &reply->energy;
-    energy->available = result->energy.available;
-    energy->rigid_after = result->energy.rigid_after;
-    energy->damping = result->energy.damping;
-    energy->plastic = result->energy.plastic;
-    energy->stored = result->energy.stored;
-    energy->closure = result->energy.closure;
-    percuss_v1_ErrorEstimate *error = &reply->error;
-    error->restitution_time = result->restitution_time;
-    error->restitution_modes = result->restitution_modes;
-    error->impulse_time = result->impulse_time;
-    error->impulse_modes = result->impulse_modes;
-    error->restitution_by_speed = result->restitution_by_speed;
-    error->tolerance_met = result->tolerance_met;
-    percuss_v1_Model *model = &reply->model;
-    model->contact_model = result->contact_model;
-    model->compliance = result->compliance;
-    model->method = result->method;
-    COPY_TEXT(model->reason, result->reason);
-    model->omitted_error = result->omitted_error;
+    PERCUSS_ENERGY_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
+}
+
+static void fill_error(const struct solve_result *from, percuss_v1_ErrorEstimate *to)
+{
+    PERCUSS_ERROR_FIELDS(PERCUSS_COPY)
+}
+
+static void fill_model(const struct solve_result *from, percuss_v1_Model *to)
+{
+    PERCUSS_MODEL_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
+}
+
+static void fill_reply(const struct solve_result *from, percuss_v1_Reply *to)
+{
+    PERCUSS_REPLY_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
+    fill_energy(&from->energy, &to->energy);
+    fill_error(from, &to->error);
+    fill_model(from, &to->model);
 }
 
 /* Room for all lists of a reply. */
@@ -260,7 +252,7 @@ struct answer *encode_result(const struct envelope *envelope, const struct solve
         return NULL;
     answer->reply->status = result->status;
     COPY_TEXT(answer->reply->message, result->fault.text);
-    fill_numbers(answer->reply, result);
+    fill_reply(result, answer->reply);
     fill_contacts(answer, result, listed);
     if (result->velocities_known)
         fill_velocities(answer, result);

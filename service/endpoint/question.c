@@ -24,7 +24,7 @@
 
 static void hash_body(struct hasher *hasher, const percuss_v1_BodyMotion *from)
 {
-    PERCUSS_BODY_FIELDS(HASH)
+    PERCUSS_BODY_FIELDS(HASH, PERCUSS_NONE)
     hash_number(hasher, from->overrides._length);
     for (uint32_t i = 0; i < from->overrides._length; i++) {
         hash_number(hasher, from->overrides._buffer[i].parameter);

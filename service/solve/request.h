@@ -27,7 +27,7 @@
 #define SOLVE_MEMBER_FLAG(name, ...)           bool name;
 
 struct solve_body {
-    PERCUSS_BODY_FIELDS(SOLVE_MEMBER)
+    PERCUSS_BODY_FIELDS(SOLVE_MEMBER, PERCUSS_NONE)
     const struct body_state *state; /* NULL: at rest, without dents; borrowed */
     size_t variation_count;
     struct body_variation variations[PERCUSS_PARAMETER_COUNT]; /* instead of the catalogue's */

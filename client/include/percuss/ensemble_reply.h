@@ -6,7 +6,7 @@
 #ifndef PERCUSS_ENSEMBLE_REPLY_H
 #define PERCUSS_ENSEMBLE_REPLY_H
 
-#include <percuss/request.h>
+#include <percuss/reply.h>
 
 struct percuss_statistic {
     char quantity[32]; /* restitution, impulse, end_time, peak_force */
@@ -86,9 +86,7 @@ struct percuss_ensemble_reply {
     uint32_t pilots, agreeing;
     size_t warning_count;
     char **warnings;
-    struct {
-        double queue, solve; /* s */
-    } timing;
+    struct percuss_timing timing;
     size_t column_count; /* of the listed samples: inputs, restitution, impulse, end_time,
                             peak_force, sub_impacts, significant, status */
     double *rows; /* samples x column_count, row-major; NULL: not listed, or not all arrived */

@@ -78,6 +78,10 @@ struct percuss_model {
     double omitted_error; /* estimated effect on the restitution of what was left out */
 };
 
+struct percuss_timing {
+    double queue, solve; /* s */
+};
+
 struct percuss_reply {
     uint8_t client[16];
     uint64_t sequence;
@@ -101,9 +105,7 @@ struct percuss_reply {
     double time_shift; /* of the touch, s (a ringing body) */
     size_t warning_count;
     char **warnings;
-    struct {
-        double queue, solve; /* s */
-    } timing;
+    struct percuss_timing timing;
     void *storage; /* the library's: holds the arrays */
 };
 

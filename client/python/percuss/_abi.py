@@ -317,6 +317,7 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "percuss_error_estimate": ErrorEstimate,
     "percuss_body_model": BodyModel,
     "percuss_model": Model,
+    "percuss_timing": Timing,
     "percuss_reply": Reply,
     "percuss_body": Body,
     "percuss_body_list": BodyList,
