@@ -189,9 +189,8 @@ static enum percuss_status create_workers(struct ensemble_job *job, struct fault
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     for (; job->worker_count < wanted; job->worker_count++) {
         struct ensemble_worker **worker = &job->workers[job->worker_count];
-        if (ensemble_worker_create(worker, &job->ensemble, fault))
+        if (ensemble_worker_create(worker, &job->ensemble, &watch, fault))
             return PERCUSS_INTERNAL;
-        ensemble_worker_watch(*worker, watch);
     }
     return PERCUSS_OK;
 }

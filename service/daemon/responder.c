@@ -184,13 +184,12 @@ static struct answer *compute(struct responder *responder, const struct question
     struct inquiry inquiry = {.question = question};
     if (!still_wanted(&inquiry, "before the solve began"))
         return refuse(&inquiry);
-    solve_workspace_set_tables(responder->workspace,
-                               table_maker_begin(&responder->maker, question->snapshot->tables,
-                                                 question->request, envelope->client,
-                                                 question->arrival));
-    solve_workspace_watch(responder->workspace, (struct watch){goes_on, &inquiry});
-    solve(responder->workspace, question->snapshot->set, &responder->request, result);
-    solve_workspace_watch(responder->workspace, (struct watch){0});
+    const struct solve_means means = {
+        question->snapshot->set,
+        table_maker_begin(&responder->maker, question->snapshot->tables, question->request,
+                          envelope->client, question->arrival),
+        {goes_on, &inquiry}};
+    solve(responder->workspace, &means, &responder->request, result);
     if (responder->maker.status)
         return encode_refusal(envelope, responder->maker.status, responder->maker.fault.text);
     if (result->status == PERCUSS_INTERNAL)

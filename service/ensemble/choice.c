@@ -170,14 +170,11 @@ static void choose(struct choice *choice)
 enum percuss_status choice_of_model(struct ensemble *ensemble, const struct watch *watch,
                                     struct fault *fault)
 {
-    const struct solve_options *options = &ensemble->spec.request->options;
-    ensemble->model.tolerance = options->tolerance > 0.0 ? options->tolerance : 1e-3;
+    ensemble->model.tolerance = solve_tolerance(&ensemble->spec.request->options);
     struct choice choice = {.ensemble = ensemble, .watch = watch};
-    enum percuss_status status = ensemble_worker_create(&choice.worker, ensemble, fault);
+    enum percuss_status status = ensemble_worker_create(&choice.worker, ensemble, watch, fault);
     if (status)
         return status;
-    if (watch)
-        ensemble_worker_watch(choice.worker, *watch);
     choice.pilots = calloc(PILOTS, sizeof *choice.pilots);
     status = choice.pilots ? solve_pilots(&choice, fault)
                            : fault_set(fault, PERCUSS_INTERNAL, "out of memory");

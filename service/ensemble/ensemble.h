@@ -45,11 +45,11 @@ struct ensemble {
 };
 
 struct ensemble_worker;
-/* BAD_REQUEST: an input that this impact cannot have; INTERNAL: out of memory. */
+/* `watch` (NULL: nobody; copied) is asked about once a millisecond of a solution whether to go on.
+ * BAD_REQUEST: an input that this impact cannot have; INTERNAL: out of memory. */
 enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
-                                           const struct ensemble *ensemble, struct fault *fault);
-/* Who is asked about once a millisecond of a solution whether to go on. */
-void ensemble_worker_watch(struct ensemble_worker *worker, struct watch watch);
+                                           const struct ensemble *ensemble,
+                                           const struct watch *watch, struct fault *fault);
 void ensemble_worker_free(struct ensemble_worker *worker);
 
 /* Checks the request and chooses the model, which takes some ten milliseconds, or seconds where

@@ -51,12 +51,9 @@ static bool call(struct witness *witness, uint64_t index)
 {
     if (witness->worker && witness->index == index)
         return true;
-    if (!witness->worker) {
-        if (ensemble_worker_create(&witness->worker, witness->ensemble, NULL))
-            return false;
-        if (witness->watch)
-            ensemble_worker_watch(witness->worker, *witness->watch);
-    }
+    if (!witness->worker &&
+        ensemble_worker_create(&witness->worker, witness->ensemble, witness->watch, NULL))
+        return false;
     witness->index = index;
     ensemble_solve(witness->worker, index, &witness->sample, &witness->fault);
     return true;

@@ -12,10 +12,12 @@ struct ensemble_worker {
     const struct ensemble *ensemble;
     struct repeat *repeat;
     struct variation variation;
+    struct solve_means means; /* with the variation's bodies for a catalogue */
 };
 
 enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
-                                           const struct ensemble *ensemble, struct fault *fault)
+                                           const struct ensemble *ensemble,
+                                           const struct watch *watch, struct fault *fault)
 {
     *worker = calloc(1, sizeof **worker);
     if (!*worker)
@@ -25,18 +27,13 @@ enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
     (*worker)->repeat = status ? NULL : repeat_create();
     if (!status && !(*worker)->repeat)
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    if (!status)
-        repeat_set_tables((*worker)->repeat, ensemble->spec.tables);
+    (*worker)->means = (struct solve_means){&(*worker)->variation.set, ensemble->spec.tables,
+                                            watch ? *watch : (struct watch){0}};
     if (status) {
         ensemble_worker_free(*worker);
         *worker = NULL;
     }
     return status;
-}
-
-void ensemble_worker_watch(struct ensemble_worker *worker, struct watch watch)
-{
-    repeat_set_watch(worker->repeat, watch);
 }
 
 void ensemble_worker_free(struct ensemble_worker *worker)
@@ -86,7 +83,7 @@ enum percuss_status worker_solve(struct ensemble_worker *worker, const double *v
     outcome->status = apply(worker, values, fault);
     if (outcome->status)
         return outcome->status;
-    return repeat_solve(worker->repeat, &worker->variation.set, &worker->variation.request,
+    return repeat_solve(worker->repeat, &worker->means, &worker->variation.request,
                         ensemble->spec.contact, &ensemble->model.model, ensemble->same_scene,
                         outcome, fault);
 }
@@ -99,7 +96,7 @@ enum percuss_status worker_search(struct ensemble_worker *worker, const double *
     outcome->status = apply(worker, values, fault);
     if (outcome->status)
         return outcome->status;
-    return repeat_search(worker->repeat, &worker->variation.set, &worker->variation.request,
+    return repeat_search(worker->repeat, &worker->means, &worker->variation.request,
                          worker->ensemble->spec.contact, model, outcome, fault);
 }
 

@@ -15,8 +15,6 @@
 
 struct repeat {
     struct prepared_cache *cache;
-    const struct contact_table_source *tables; /* borrowed */
-    struct watch watch;
     struct arena scene_memory, run_memory;
     struct problem *problem; /* in scene_memory as what follows; NULL: no scene is kept */
     struct scene scene;
@@ -46,16 +44,6 @@ void repeat_free(struct repeat *repeat)
     arena_release(&repeat->scene_memory);
     arena_release(&repeat->run_memory);
     free(repeat);
-}
-
-void repeat_set_tables(struct repeat *repeat, const struct contact_table_source *tables)
-{
-    repeat->tables = tables;
-}
-
-void repeat_set_watch(struct repeat *repeat, struct watch watch)
-{
-    repeat->watch = watch;
 }
 
 void repeat_forget(struct repeat *repeat, const char *id)
@@ -106,22 +94,21 @@ static enum percuss_status judge(struct repeat *repeat, const struct problem *pr
     return outcome->status;
 }
 
-enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *catalogue,
+enum percuss_status repeat_search(struct repeat *repeat, const struct solve_means *means,
                                   const struct solve_request *request, size_t contact,
                                   struct repeat_model *model, struct repeat_outcome *outcome,
                                   struct fault *fault)
 {
-    const struct solve_means means = {catalogue, repeat->tables, repeat->watch};
-    struct pace pace = {.watch = &means.watch};
+    struct pace pace = {.watch = &means->watch};
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};
     repeat->problem = NULL; /* its prepared bodies may go */
     arena_reset(&repeat->run_memory);
-    prepared_cache_use(repeat->cache, catalogue->revision);
+    prepared_cache_use(repeat->cache, means->catalogue->revision);
     struct problem *problem = problem_create(request, repeat->cache, &repeat->run_memory);
     struct accuracy *accuracy = arena_take(&repeat->run_memory, 1, sizeof *accuracy);
     if (!problem || !accuracy)
         return outcome->status = no_memory(fault);
-    outcome->status = formulate(problem, &means, fault);
+    outcome->status = formulate(problem, means, fault);
     if (!outcome->status)
         outcome->status = accuracy_reach(accuracy, problem, &pace, fault);
     if (outcome->status)
@@ -145,18 +132,17 @@ static bool assemble_scene(struct repeat *repeat, const struct problem *problem,
 }
 
 /* Makes the scene anew; its memory outlives the run. */
-static enum percuss_status make_scene(struct repeat *repeat, const struct body_set *catalogue,
+static enum percuss_status make_scene(struct repeat *repeat, const struct solve_means *means,
                                       const struct solve_request *request,
                                       const struct repeat_model *model, struct fault *fault)
 {
-    const struct solve_means means = {catalogue, repeat->tables, repeat->watch};
     repeat->problem = NULL;
-    prepared_cache_use(repeat->cache, catalogue->revision);
+    prepared_cache_use(repeat->cache, means->catalogue->revision);
     arena_reset(&repeat->scene_memory);
     struct problem *problem = problem_create(request, repeat->cache, &repeat->scene_memory);
     if (!problem)
         return no_memory(fault);
-    enum percuss_status status = formulate(problem, &means, fault);
+    enum percuss_status status = formulate(problem, means, fault);
     if (status)
         return status;
     if (!assemble_scene(repeat, problem, model))
@@ -169,10 +155,11 @@ static enum percuss_status make_scene(struct repeat *repeat, const struct body_s
 }
 
 /* Solves the scene, with other laws too if the blow asks for them. */
-static enum percuss_status run_scene(struct repeat *repeat, const struct repeat_model *model,
-                                     struct attempt *attempt, struct fault *fault)
+static enum percuss_status run_scene(struct repeat *repeat, const struct watch *watch,
+                                     const struct repeat_model *model, struct attempt *attempt,
+                                     struct fault *fault)
 {
-    struct pace pace = {.watch = &repeat->watch};
+    struct pace pace = {.watch = watch};
     struct problem *problem = repeat->problem;
     struct attempt_context context = {
         .problem = problem, .arena = &repeat->run_memory, .pace = &pace};
@@ -194,7 +181,7 @@ static enum percuss_status run_scene(struct repeat *repeat, const struct repeat_
     }
 }
 
-enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *catalogue,
+enum percuss_status repeat_solve(struct repeat *repeat, const struct solve_means *means,
                                  const struct solve_request *request, size_t contact,
                                  const struct repeat_model *model, bool same_scene,
                                  struct repeat_outcome *outcome, struct fault *fault)
@@ -207,10 +194,10 @@ enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *c
         repeat->problem->request = request;
         outcome->status = placement_find_rates(repeat->problem, fault);
     } else {
-        outcome->status = make_scene(repeat, catalogue, request, model, fault);
+        outcome->status = make_scene(repeat, means, request, model, fault);
     }
     if (!outcome->status)
-        outcome->status = run_scene(repeat, model, &attempt, fault);
+        outcome->status = run_scene(repeat, &means->watch, model, &attempt, fault);
     if (outcome->status)
         return outcome->status;
     return judge(repeat, repeat->problem, &attempt.outcome, contact, outcome, fault);

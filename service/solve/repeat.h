@@ -9,11 +9,9 @@
 
 #include <stdint.h>
 
-#include "base/watch.h"
+#include "solve/means.h"
 #include "solve/request.h"
 #include "solve/warnings.h"
-
-struct contact_table_source; /* contact/table.h */
 
 /* What an accuracy search settles on. */
 struct repeat_model {
@@ -39,18 +37,12 @@ struct repeat;
 struct repeat *repeat_create(void); /* NULL: out of memory */
 void repeat_free(struct repeat *repeat);
 
-/* Where it finds tabulated contact laws; borrowed, NULL (as created): nowhere. */
-void repeat_set_tables(struct repeat *repeat, const struct contact_table_source *tables);
-
-/* Who is asked about once a millisecond whether to go on: TIMEOUT where he says no. */
-void repeat_set_watch(struct repeat *repeat, struct watch watch);
-
 /* The body of that id is another one from now on. */
 void repeat_forget(struct repeat *repeat, const char *id);
 
 /* Solves by the accuracy search; fills `model` (NULL: not wanted) and what `contact` did. Returns
  * outcome->status; refusals carry a message. The request must have passed solve(). */
-enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *catalogue,
+enum percuss_status repeat_search(struct repeat *repeat, const struct solve_means *means,
                                   const struct solve_request *request, size_t contact,
                                   struct repeat_model *model, struct repeat_outcome *outcome,
                                   struct fault *fault);
@@ -58,7 +50,7 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct body_set *
 /* Solves once with that model. `same_scene`: the request differs from this worker's last one in
  * velocities only and the model not at all, so that the scene is kept. Bodies are prepared once a
  * revision of the catalogue, but for those forgotten. */
-enum percuss_status repeat_solve(struct repeat *repeat, const struct body_set *catalogue,
+enum percuss_status repeat_solve(struct repeat *repeat, const struct solve_means *means,
                                  const struct solve_request *request, size_t contact,
                                  const struct repeat_model *model, bool same_scene,
                                  struct repeat_outcome *outcome, struct fault *fault);

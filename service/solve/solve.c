@@ -15,8 +15,6 @@
 
 struct solve_workspace {
     struct prepared_cache *cache;
-    const struct contact_table_source *tables;
-    struct watch watch;
     struct arena arena;
 };
 
@@ -40,17 +38,6 @@ void solve_workspace_free(struct solve_workspace *workspace)
     prepared_cache_free(workspace->cache);
     arena_release(&workspace->arena);
     free(workspace);
-}
-
-void solve_workspace_set_tables(struct solve_workspace *workspace,
-                                const struct contact_table_source *tables)
-{
-    workspace->tables = tables;
-}
-
-void solve_workspace_watch(struct solve_workspace *workspace, struct watch watch)
-{
-    workspace->watch = watch;
 }
 
 /* All but the lists, which are long and whose counts say what is filled. */
@@ -108,16 +95,15 @@ static enum percuss_status check_finite(const struct solve_request *request, str
 }
 
 static enum percuss_status answer(struct solve_workspace *workspace,
-                                  const struct body_set *catalogue,
+                                  const struct solve_means *means,
                                   const struct solve_request *request, struct solve_result *result)
 {
-    const struct solve_means means = {catalogue, workspace->tables, workspace->watch};
     struct problem *problem = problem_create(request, workspace->cache, &workspace->arena);
     struct accuracy *accuracy = arena_take(&workspace->arena, 1, sizeof *accuracy);
     if (!problem || !accuracy)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
-    struct pace pace = {.watch = &means.watch};
-    enum percuss_status status = formulate(problem, &means, &result->fault);
+    struct pace pace = {.watch = &means->watch};
+    enum percuss_status status = formulate(problem, means, &result->fault);
     if (!status && request->options.contact_model == PERCUSS_CONTACT_COMPLETE_FE)
         return complete_answer(problem, &pace, result);
     if (!status)
@@ -137,16 +123,16 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     return status;
 }
 
-enum percuss_status solve(struct solve_workspace *workspace, const struct body_set *catalogue,
+enum percuss_status solve(struct solve_workspace *workspace, const struct solve_means *means,
                           const struct solve_request *request, struct solve_result *result)
 {
     clear(result);
     arena_reset(&workspace->arena);
-    prepared_cache_use(workspace->cache, catalogue->revision);
+    prepared_cache_use(workspace->cache, means->catalogue->revision);
     result->status = check_counts(request, &result->fault);
     if (!result->status)
         result->status = check_finite(request, &result->fault);
     if (!result->status)
-        result->status = answer(workspace, catalogue, request, result);
+        result->status = answer(workspace, means, request, result);
     return result->status;
 }

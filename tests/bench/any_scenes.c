@@ -187,7 +187,7 @@ static void strike_all(struct run *run, uint64_t number)
             request.bodies[b].state = states[b];
         run->asked = 0;
         double start = guarded_clock();
-        solve(run->lab->workspace, &run->lab->set, &request, &result);
+        solve(run->lab->workspace, &run->lab->means, &request, &result);
         noted.seconds = guarded_clock() - start;
         noted.work = PACE_WORK * (double)run->asked;
         note(run, &scene, &noted, &result);
@@ -226,8 +226,8 @@ static void work(void *context, struct guarded_place *place, uint64_t end)
     run->lab = lab_create();
     if (!store)
         abort();
-    solve_workspace_set_tables(run->lab->workspace, table_store_source(store));
-    solve_workspace_watch(run->lab->workspace, (struct watch){count_asking, &run->asked});
+    run->lab->means.tables = table_store_source(store);
+    run->lab->means.watch = (struct watch){count_asking, &run->asked};
     for (uint64_t n = place->resume; n < end; n++) {
         place->started = guarded_clock();
         place->job = n;

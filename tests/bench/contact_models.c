@@ -48,6 +48,7 @@ struct settings {
 struct question {
     const struct rods *rods;
     struct solve_workspace *workspace;
+    struct solve_means means;
     struct solve_request request;
     struct solve_result result;
 };
@@ -105,7 +106,7 @@ static bool solve_it(void *context)
 {
     struct question *question = context;
     enum percuss_status status =
-        solve(question->workspace, &question->rods->set, &question->request, &question->result);
+        solve(question->workspace, &question->means, &question->request, &question->result);
     return status == PERCUSS_OK || fail(question->result.fault.text);
 }
 
@@ -170,7 +171,7 @@ static bool compare(const struct settings *settings, struct question *question, 
     question->workspace = solve_workspace_create();
     if (!question->workspace)
         return fail("out of memory");
-    solve_workspace_set_tables(question->workspace, curves ? &source : NULL);
+    question->means = (struct solve_means){&question->rods->set, curves ? &source : NULL, {0}};
     ask(question, cases[which].rod, model, speed);
     if (model == PERCUSS_CONTACT_CONCURRENT_FE)
         question->request.options.tolerance = 3e-3;

@@ -12,15 +12,15 @@
 
 /* What is counted: everything this function does and calls. */
 __attribute__((noinline)) enum percuss_status counted_solve(struct solve_workspace *workspace,
-                                                            const struct body_set *catalogue,
+                                                            const struct solve_means *means,
                                                             const struct solve_request *request,
                                                             struct solve_result *result);
 
 enum percuss_status counted_solve(struct solve_workspace *workspace,
-                                  const struct body_set *catalogue,
+                                  const struct solve_means *means,
                                   const struct solve_request *request, struct solve_result *result)
 {
-    return solve(workspace, catalogue, request, result);
+    return solve(workspace, means, request, result);
 }
 
 enum { STRIKERS = 3, GROUPS = 30 };
@@ -68,14 +68,14 @@ static struct solve_request one_of(const struct solve_request *group, size_t con
 
 /* Solves to fill the caches, then once more, counted. */
 static enum percuss_status solve_warm(struct solve_workspace *workspace,
-                                      const struct body_set *catalogue,
+                                      const struct solve_means *means,
                                       const struct solve_request *request,
                                       struct solve_result *result)
 {
-    enum percuss_status status = solve(workspace, catalogue, request, result);
+    enum percuss_status status = solve(workspace, means, request, result);
     if (!status)
-        status = solve(workspace, catalogue, request, result);
-    return status ? status : counted_solve(workspace, catalogue, request, result);
+        status = solve(workspace, means, request, result);
+    return status ? status : counted_solve(workspace, means, request, result);
 }
 
 /* solve_once rod|beam TOLERANCE [groups|singles]: the scene; or thirty groups of three strikers on
@@ -92,19 +92,20 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: solve_once SCENE TOLERANCE [groups|singles]\n");
         return 2;
     }
+    const struct solve_means means = {.catalogue = &catalogue.set};
     struct solve_workspace *workspace = solve_workspace_create();
     struct solve_request request = bench_request(scene, tolerance);
     enum percuss_status status = PERCUSS_INTERNAL;
     uint64_t seed = 3;
     if (workspace && bench_catalogue_make(&catalogue, 0) && argc == 3)
-        status = solve_warm(workspace, &catalogue.set, &request, &result);
+        status = solve_warm(workspace, &means, &request, &result);
     for (int i = 0; argc == 4 && catalogue.set.count && i < GROUPS; i++) {
         struct solve_request group = request;
         make_group(&group, &seed);
-        status = groups ? solve_warm(workspace, &catalogue.set, &group, &result) : PERCUSS_OK;
+        status = groups ? solve_warm(workspace, &means, &group, &result) : PERCUSS_OK;
         for (size_t c = 0; singles && !status && c < STRIKERS; c++) {
             struct solve_request single = one_of(&group, c);
-            status = solve_warm(workspace, &catalogue.set, &single, &result);
+            status = solve_warm(workspace, &means, &single, &result);
         }
         if (status)
             break;

@@ -13,15 +13,15 @@
 
 /* What is counted: everything this function does and calls. */
 __attribute__((noinline)) enum percuss_status counted_solve(struct solve_workspace *workspace,
-                                                            const struct body_set *catalogue,
+                                                            const struct solve_means *means,
                                                             const struct solve_request *request,
                                                             struct solve_result *result);
 
 enum percuss_status counted_solve(struct solve_workspace *workspace,
-                                  const struct body_set *catalogue,
+                                  const struct solve_means *means,
                                   const struct solve_request *request, struct solve_result *result)
 {
-    return solve(workspace, catalogue, request, result);
+    return solve(workspace, means, request, result);
 }
 
 static void complain(const struct fault *fault)
@@ -68,14 +68,14 @@ int main(int argc, char **argv)
         complain(&fault);
         return EXIT_FAILURE;
     }
-    solve_workspace_set_tables(workspace, table_store_source(store));
+    const struct solve_means means = {set, table_store_source(store), {0}};
     bool table = strcmp(argv[2], "table") == 0;
     struct solve_request request =
         blow(table ? PERCUSS_CONTACT_TABLE : PERCUSS_CONTACT_HERTZ, strtod(argv[3], NULL));
     for (int i = 0; i < 2 && !status; i++)
-        status = solve(workspace, set, &request, &result);
+        status = solve(workspace, &means, &request, &result);
     if (!status)
-        status = counted_solve(workspace, set, &request, &result);
+        status = counted_solve(workspace, &means, &request, &result);
     printf("%s %s: e = %.9f\n", argv[2], argv[3], result.contacts[0].restitution);
     solve_workspace_free(workspace);
     table_store_free(store);

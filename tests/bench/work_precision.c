@@ -198,8 +198,8 @@ struct entrance {
 static bool run_entrance(void *context)
 {
     struct entrance *entrance = context;
-    return solve(entrance->workspace, &entrance->catalogue.set, &entrance->request,
-                 &entrance->result) == PERCUSS_OK;
+    const struct solve_means means = {.catalogue = &entrance->catalogue.set};
+    return solve(entrance->workspace, &means, &entrance->request, &entrance->result) == PERCUSS_OK;
 }
 
 static bool sweep_entrance(struct bench *bench, const struct bench_scene *scene)

@@ -119,7 +119,7 @@ static inline void loop_ask(struct loop *loop, const struct percuss_request *req
     question.options.tolerance = request->options.tolerance;
     question.options.horizon = request->options.horizon;
     question.options.trace = request->options.trace;
-    solve(loop->lab->workspace, &loop->lab->set, &question, &loop->result);
+    solve(loop->lab->workspace, &loop->lab->means, &question, &loop->result);
 }
 
 static inline struct percuss_sub_impact loop_sub_impact(const struct solve_contact_result *from,

@@ -63,7 +63,7 @@ static inline void ensemble_lab_solve(struct ensemble_lab *e, bool extras)
 {
     struct fault fault = {""};
     struct ensemble_worker *worker;
-    assert_int_equal(ensemble_worker_create(&worker, &e->ensemble, &fault), PERCUSS_OK);
+    assert_int_equal(ensemble_worker_create(&worker, &e->ensemble, NULL, &fault), PERCUSS_OK);
     uint64_t count = e->ensemble.count, more = ensemble_extras(&e->ensemble, count);
     free(e->samples);
     e->samples = calloc(count, sizeof *e->samples);

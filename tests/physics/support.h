@@ -22,6 +22,7 @@
 struct lab {
     struct body bodies[32];
     struct body_set set;
+    struct solve_means means; /* the set, no tables, nobody waits: until a test says otherwise */
     struct solve_workspace *workspace;
 };
 
@@ -31,6 +32,7 @@ static inline struct lab *lab_create(void)
     assert_non_null(lab);
     lab->set.bodies = lab->bodies;
     lab->set.compliance = PERCUSS_COMPLIANCE_HALF_SPACE;
+    lab->means.catalogue = &lab->set;
     lab->workspace = solve_workspace_create();
     assert_non_null(lab->workspace);
     return lab;
@@ -221,7 +223,7 @@ static inline void move_scene(struct solve_request *request, const double q[4],
 static inline void lab_solve(struct lab *lab, const struct solve_request *request,
                              struct solve_result *result)
 {
-    if (solve(lab->workspace, &lab->set, request, result))
+    if (solve(lab->workspace, &lab->means, request, result))
         fail_msg("%s: %s", status_name(result->status), result->fault.text);
 }
 

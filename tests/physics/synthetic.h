@@ -89,7 +89,7 @@ static inline void synthetic_measure(struct lab *lab, const char *beam, size_t c
         double speed = synthetic_speed(&random);
         struct solve_request request = synthetic_strike("sphere", beam, speed);
         request.options.tolerance = 1e-4;
-        enum percuss_status status = solve(lab->workspace, &lab->set, &request, &result);
+        enum percuss_status status = solve(lab->workspace, &lab->means, &request, &result);
         if (status != PERCUSS_OK && status != PERCUSS_TRUNCATED)
             fail_msg("%s", result.fault.text);
         struct measured_impact impact = synthetic_impact(&result, speed);

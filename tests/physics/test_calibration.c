@@ -41,7 +41,7 @@ static bool simulate(void *context, const double *x, double faster, struct measu
                 (struct body_variation){model->parameter[k],
                                         fabs(model->start[k] + (x[k] - 1.0) * model->size[k])};
         enum percuss_status status =
-            solve(model->lab->workspace, &model->lab->set, &request, &result);
+            solve(model->lab->workspace, &model->lab->means, &request, &result);
         if (status != PERCUSS_OK && status != PERCUSS_TRUNCATED)
             fail_msg("%s", result.fault.text);
         twins[i] = synthetic_impact(&result, speed);
@@ -117,7 +117,7 @@ static size_t restitutions(struct lab *lab, const char *beam, const struct measu
     static struct solve_result result;
     for (size_t i = 0; i < set->count; i++) {
         struct solve_request request = synthetic_strike("sphere", beam, set->impacts[i].speed);
-        solve(lab->workspace, &lab->set, &request, &result);
+        solve(lab->workspace, &lab->means, &request, &result);
         e[i] = result.contacts[0].restitution;
     }
     return set->count;

@@ -203,7 +203,7 @@ static void effort_is_bounded(void **state)
     row.speed[0] = 1.0;
     struct solve_request request = row_request(lab, &row);
     request.options.tolerance = 1e-8;
-    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_TRUNCATED);
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_TRUNCATED);
     assert_int_equal(result.end_reason, PERCUSS_END_LIMIT);
     assert_false(result.tolerance_met);
     lab_free(lab);

@@ -94,14 +94,14 @@ static void the_horizon_cuts(void **state)
     lab_solve(lab, &request, &whole);
     double first = whole.contacts[0].sub_impacts[0].impulse;
     request.options.horizon = 3e-3; /* in the flight: the second starts at 5.2 ms */
-    assert_int_equal(solve(lab->workspace, &lab->set, &request, &cut), PERCUSS_TRUNCATED);
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &cut), PERCUSS_TRUNCATED);
     assert_int_equal(cut.end_reason, PERCUSS_END_HORIZON);
     assert_false(cut.complete);
     measured("window", cut.window, 3e-3, 1e-12);
     /* default tolerance of 1e-3 on e, of which each run uses a part */
     measured_relative("impulse so far", cut.contacts[0].impulse, first, 1e-3);
     request.options.horizon = 1e-4; /* in the first contact of 188 us */
-    assert_int_equal(solve(lab->workspace, &lab->set, &request, &cut), PERCUSS_TRUNCATED);
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &cut), PERCUSS_TRUNCATED);
     assert_int_equal(cut.end_reason, PERCUSS_END_IN_CONTACT);
     assert_false(cut.complete);
     assert_true(cut.contacts[0].impulse > 0.3 * first && cut.contacts[0].impulse < 0.9 * first);
@@ -184,7 +184,7 @@ static void bodies_may_miss(void **state)
     assert_true(isfinite(result.energy.closure));
     request.contacts[0].gap_acceleration = 0.0;
     request.options.horizon = 5e-3;
-    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_TRUNCATED);
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_TRUNCATED);
     assert_int_equal(result.end_reason, PERCUSS_END_HORIZON);
     assert_int_equal(result.contacts[0].sub_impact_count, 0);
     lab_free(lab);
@@ -208,7 +208,7 @@ static void overlaps_create_no_energy(void **state)
     request = ball_on_ball(0.1);
     request.contacts[0].gap = -2e-3;
     request.contacts[0].gap_acceleration = -9.81; /* a^2/2a: 0.5 mm at most */
-    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_BAD_REQUEST);
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(result.fault.text, "contacts[0].gap"));
     lab_free(lab);
 }

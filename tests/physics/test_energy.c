@@ -122,7 +122,7 @@ static void acceleration_and_gaps_close(void **state)
                 request.contacts[0].gap_acceleration = accelerations[k / COUNT(gaps)];
                 request.contacts[0].gap = gaps[k % COUNT(gaps)];
                 request.options.tolerance = 1e-8;
-                enum percuss_status status = solve(lab->workspace, &lab->set, &request, &result);
+                enum percuss_status status = solve(lab->workspace, &lab->means, &request, &result);
                 /* a pressed body may rattle beyond the horizon */
                 assert_true(status == PERCUSS_OK || status == PERCUSS_TRUNCATED);
                 /* what is available shrinks as a pulling acceleration spends it: compare with the
@@ -148,7 +148,7 @@ static void an_unfinished_contact_stores_energy(void **state)
             struct solve_request request = scene(i);
             request.options.tolerance = 1e-8;
             request.options.horizon = horizon;
-            assert_int_equal(solve(lab->workspace, &lab->set, &request, &result),
+            assert_int_equal(solve(lab->workspace, &lab->means, &request, &result),
                              PERCUSS_TRUNCATED);
             assert_int_equal(result.end_reason, PERCUSS_END_IN_CONTACT);
             assert_true(result.energy.stored > 0.0);

@@ -156,7 +156,7 @@ static void same_bits(void **state)
         e.spec.samples = 40;
         ensemble_lab_run(&e, false);
         struct ensemble_worker *late;
-        assert_int_equal(ensemble_worker_create(&late, &e.ensemble, &fault), PERCUSS_OK);
+        assert_int_equal(ensemble_worker_create(&late, &e.ensemble, NULL, &fault), PERCUSS_OK);
         for (uint64_t i = 40; i-- > 0;) {
             struct ensemble_sample sample;
             ensemble_solve(late, i, &sample, &fault);
@@ -200,7 +200,7 @@ static void inputs_change_bodies(void **state)
     e.request.bodies[0].position[0] = e.request.contacts[0].point[0] = -0.2;
     e.request.bodies[0].position[2] = 0.026;
     static struct solve_result result;
-    assert_int_equal(solve(e.lab->workspace, &e.lab->set, &e.request, &result), PERCUSS_OK);
+    assert_int_equal(solve(e.lab->workspace, &e.lab->means, &e.request, &result), PERCUSS_OK);
     measured("a beam and a sphere changed by inputs", varied, result.contacts[0].restitution, 1e-4);
     lab_free(e.lab);
 }
@@ -219,7 +219,7 @@ static void yields(void **state)
     e.spec.samples = 30;
     ensemble_lab_run(&e, false);
     struct ensemble_worker *late;
-    assert_int_equal(ensemble_worker_create(&late, &e.ensemble, &fault), PERCUSS_OK);
+    assert_int_equal(ensemble_worker_create(&late, &e.ensemble, NULL, &fault), PERCUSS_OK);
     for (uint64_t i = 30; i-- > 0;) {
         struct ensemble_sample sample;
         ensemble_solve(late, i, &sample, &fault);
@@ -234,7 +234,7 @@ static void yields(void **state)
     lab_add(e.lab, "beam", make_bar(SHAPE_BEAM, soft, 0.010, 1.0));
     e.request.bodies[0].velocity[2] = -values[0];
     static struct solve_result result;
-    assert_int_equal(solve(e.lab->workspace, &e.lab->set, &e.request, &result), PERCUSS_OK);
+    assert_int_equal(solve(e.lab->workspace, &e.lab->means, &e.request, &result), PERCUSS_OK);
     measured("a beam with a yield stress", varied, result.contacts[0].restitution, 3e-4);
     lab_free(e.lab);
 }

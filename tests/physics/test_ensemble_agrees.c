@@ -30,7 +30,7 @@ static void ask_ensemble(const struct ensemble_spec *spec, struct pair_of_answer
     both->sample.status = (uint8_t)ensemble_create(&ensemble, spec, NULL, &both->refusal);
     if (both->sample.status)
         return;
-    assert_int_equal(ensemble_worker_create(&worker, &ensemble, &both->refusal), PERCUSS_OK);
+    assert_int_equal(ensemble_worker_create(&worker, &ensemble, NULL, &both->refusal), PERCUSS_OK);
     ensemble_solve(worker, 0, &both->sample, &both->refusal);
     ensemble_worker_free(worker);
     ensemble_release(&ensemble);
@@ -61,8 +61,8 @@ static struct pair_of_answers *ask_both(struct lab *lab, const struct solve_requ
         body->variation_count = 1;
         body->variations[0] = (struct body_variation){change->parameter, change->value};
     }
-    solve_workspace_set_tables(lab->workspace, spec.tables);
-    solve(lab->workspace, &lab->set, &query, &both.query);
+    lab->means.tables = spec.tables;
+    solve(lab->workspace, &lab->means, &query, &both.query);
     return &both;
 }
 
@@ -220,8 +220,8 @@ static void compare_samples(struct lab *lab, const struct ensemble_spec *spec,
     unsigned near = 0, used[PERCUSS_CONTACT_COUNT] = {0};
     double stated = request->bodies[0].velocity[2];
     assert_int_equal(ensemble_create(&ensemble, spec, NULL, &fault), PERCUSS_OK);
-    assert_int_equal(ensemble_worker_create(&worker, &ensemble, &fault), PERCUSS_OK);
-    solve_workspace_set_tables(lab->workspace, spec->tables);
+    assert_int_equal(ensemble_worker_create(&worker, &ensemble, NULL, &fault), PERCUSS_OK);
+    lab->means.tables = spec->tables;
     for (uint64_t k = 0; k < ensemble.count; k++) {
         struct ensemble_sample sample;
         double speed;
@@ -277,17 +277,17 @@ static void no_dent_is_lost(void **state)
     struct fault fault;
     double worst = 0.0;
     assert_non_null(repeat);
-    repeat_set_tables(repeat, table_store_source(shipped));
+    lab->means.tables = table_store_source(shipped);
     for (double speed = 0.1; speed < 0.3; speed *= 1.01) {
         const struct solve_request request =
             strike(sphere_spot("ball", 0.015), end_spot("rod-1", 1.0), speed);
         struct repeat_outcome fine, coarse;
         struct repeat_model model = {2.0 * M_PI * 60e3, 1e-5};
-        repeat_solve(repeat, &lab->set, &request, 0, &model, false, &fine, &fault);
+        repeat_solve(repeat, &lab->means, &request, 0, &model, false, &fine, &fault);
         for (double cut = 18e3; cut < 40e3; cut *= 1.1)
             for (double accuracy = 1e-4; accuracy < 0.2; accuracy *= 10.0) {
                 model = (struct repeat_model){2.0 * M_PI * cut, accuracy};
-                repeat_solve(repeat, &lab->set, &request, 0, &model, false, &coarse, &fault);
+                repeat_solve(repeat, &lab->means, &request, 0, &model, false, &coarse, &fault);
                 assert_int_equal(coarse.contact_model, PERCUSS_CONTACT_TABLE);
                 worst = fmax(worst, fabs(coarse.restitution - fine.restitution));
             }

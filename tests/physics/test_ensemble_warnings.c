@@ -86,7 +86,8 @@ static void order_and_workers_do_not_matter(void **state)
     assert_true(warns(&e.report, "slide") && warns(&e.report, "wave speed"));
     struct ensemble_sample *samples = calloc(60, sizeof *samples);
     for (int w = 0; w < 2; w++)
-        assert_int_equal(ensemble_worker_create(&workers[w], &e.ensemble, &fault), PERCUSS_OK);
+        assert_int_equal(ensemble_worker_create(&workers[w], &e.ensemble, NULL, &fault),
+                         PERCUSS_OK);
     for (unsigned i = 60; i-- > 0;)
         ensemble_solve(workers[i % 3 == 0], i, &samples[i], NULL);
     struct report_material material = {60, samples, NULL};

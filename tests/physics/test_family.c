@@ -27,7 +27,7 @@ static struct lab *ball_on(double radius, struct material soft, double length)
     lab_add(lab, "soft",
             length > 0.0 ? make_bar(SHAPE_ROD, soft, 0.010, length)
                          : make_body(SHAPE_HALF_SPACE, soft));
-    solve_workspace_set_tables(lab->workspace, table_store_source(shipped));
+    lab->means.tables = table_store_source(shipped);
     return lab;
 }
 
@@ -250,7 +250,7 @@ static void elliptic_contacts_have_it_too(void **state)
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "beam", make_bar(SHAPE_BEAM, AL_205, 0.010, 1.0));
-    solve_workspace_set_tables(lab->workspace, table_store_source(shipped));
+    lab->means.tables = table_store_source(shipped);
     struct solve_request request =
         strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.3);
     lab_solve(lab, &request, &result);

@@ -50,7 +50,7 @@ static void groups_agree_with_cvode(void **state)
         assert_non_null(other);
         lab_solve(lab, &request, &modal);
         request.options.method = PERCUSS_METHOD_CVODE;
-        assert_int_equal(solve(other, &lab->set, &request, &cvode), PERCUSS_OK);
+        assert_int_equal(solve(other, &lab->means, &request, &cvode), PERCUSS_OK);
         measured("closure, modal", modal.energy.closure / modal.energy.available, 0.0, 1e-5);
         measured("closure, cvode", cvode.energy.closure / cvode.energy.available, 0.0, 1e-5);
         measured("time shift", modal.time_shift, cvode.time_shift, 1e-9);

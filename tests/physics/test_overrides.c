@@ -44,25 +44,25 @@ static void overrides_are_another_body(void **state)
     static struct solve_result expected, plain, found;
     struct lab *lab = lab_of_two();
     struct solve_request request = impact("sphere", "other-beam");
-    solve(lab->workspace, &lab->set, &request, &expected);
+    solve(lab->workspace, &lab->means, &request, &expected);
     request = impact("sphere", "beam");
-    solve(lab->workspace, &lab->set, &request, &plain);
+    solve(lab->workspace, &lab->means, &request, &plain);
     struct solve_request own = request;
     vary(&own.bodies[1], PERCUSS_PARAMETER_DAMPING, 0.004);
     vary(&own.bodies[1], PERCUSS_PARAMETER_YOUNG, 72e9);
     vary(&own.bodies[1], PERCUSS_PARAMETER_DENSITY, 2750.0);
-    solve(lab->workspace, &lab->set, &own, &found);
+    solve(lab->workspace, &lab->means, &own, &found);
     same(&found, &expected);
     assert_true(found.contacts[0].impulse != plain.contacts[0].impulse);
     /* many others, so that the cache forgets some */
     for (int i = 0; i < 80; i++) {
         own.bodies[1].variations[1].value = 60e9 + 1e8 * i;
-        assert_int_equal(solve(lab->workspace, &lab->set, &own, &found), PERCUSS_OK);
+        assert_int_equal(solve(lab->workspace, &lab->means, &own, &found), PERCUSS_OK);
     }
-    solve(lab->workspace, &lab->set, &request, &found);
+    solve(lab->workspace, &lab->means, &request, &found);
     same(&found, &plain);
     own.bodies[1].variations[1].value = 72e9;
-    solve(lab->workspace, &lab->set, &own, &found);
+    solve(lab->workspace, &lab->means, &own, &found);
     same(&found, &expected);
     lab_free(lab);
 }
@@ -70,7 +70,7 @@ static void overrides_are_another_body(void **state)
 static void refused(struct lab *lab, const struct solve_request *request, const char *message)
 {
     static struct solve_result result;
-    assert_int_equal(solve(lab->workspace, &lab->set, request, &result), PERCUSS_BAD_REQUEST);
+    assert_int_equal(solve(lab->workspace, &lab->means, request, &result), PERCUSS_BAD_REQUEST);
     if (!strstr(result.fault.text, message))
         fail_msg("'%s' does not say '%s'", result.fault.text, message);
 }

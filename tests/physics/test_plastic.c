@@ -202,7 +202,7 @@ static void the_request_and_the_blow_choose_the_model(void **state)
 
     /* no table: refused by name */
     request.options.contact_model = PERCUSS_CONTACT_TABLE;
-    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_BAD_REQUEST);
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(result.fault.text, "no table"));
 
     /* too weak to yield: Hertz to the last bit */

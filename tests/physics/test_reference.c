@@ -147,7 +147,7 @@ static void random_scenes_agree(void **state)
     uint64_t seed = 1234;
     for (int i = 0; i < SCENES; i++) {
         struct solve_request request = random_scene(lab, &seed, i);
-        enum percuss_status status = solve(lab->workspace, &lab->set, &request, &modal);
+        enum percuss_status status = solve(lab->workspace, &lab->means, &request, &modal);
         if (getenv("PERCUSS_MEASURE"))
             print_message("scene %d: %s on %s, %s, %zu sub-impacts, end %u %s\n", i,
                           shape_name(lab->bodies[0].shape), shape_name(lab->bodies[1].shape),
@@ -158,7 +158,7 @@ static void random_scenes_agree(void **state)
         struct solve_workspace *other = solve_workspace_create();
         assert_non_null(other);
         request.options.method = PERCUSS_METHOD_CVODE;
-        assert_int_equal(solve(other, &lab->set, &request, &cvode), status);
+        assert_int_equal(solve(other, &lab->means, &request, &cvode), status);
         compare(&modal, &cvode);
         solve_workspace_free(other);
     }

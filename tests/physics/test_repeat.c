@@ -154,14 +154,14 @@ static size_t record_of(const struct solve_result *result, double record[RECORD]
     return n;
 }
 
-static void solve_and_record(struct solve_workspace *workspace, const struct body_set *set,
+static void solve_and_record(struct solve_workspace *workspace, const struct solve_means *means,
                              int index, double record[RECORD])
 {
     struct solve_result *result = malloc(sizeof *result);
     struct solve_request *request = malloc(sizeof *request);
     assert_true(result && request);
     *request = scene(index);
-    solve(workspace, set, request, result);
+    solve(workspace, means, request, result);
     record_of(result, record);
     free(request);
     free(result);
@@ -177,12 +177,12 @@ static void same_bytes_whatever_came_before(void **state)
     for (int i = 0; i < SCENES; i++) {
         struct solve_workspace *fresh = solve_workspace_create();
         assert_non_null(fresh);
-        solve_and_record(fresh, &lab->set, i, expected[i]);
+        solve_and_record(fresh, &lab->means, i, expected[i]);
         solve_workspace_free(fresh);
     }
     for (int trial = 0; trial < 60; trial++) {
         int i = (int)random_between(&seed, 0.0, SCENES - 1e-9);
-        solve_and_record(lab->workspace, &lab->set, i, record);
+        solve_and_record(lab->workspace, &lab->means, i, record);
         if (memcmp(record, expected[i], sizeof record) != 0)
             fail_msg("scene %d differs in trial %d", i, trial);
     }
@@ -190,7 +190,7 @@ static void same_bytes_whatever_came_before(void **state)
 }
 
 struct worker {
-    const struct body_set *set;
+    const struct solve_means *means;
     double (*expected)[RECORD];
     bool same;
 };
@@ -203,7 +203,7 @@ static void *work(void *context)
     worker->same = workspace != NULL;
     for (int i = 0; workspace && i < 2 * SCENES; i++) {
         int index = (5 * i + 2) % SCENES;
-        solve_and_record(workspace, worker->set, index, record);
+        solve_and_record(workspace, worker->means, index, record);
         worker->same = worker->same && memcmp(record, worker->expected[index], sizeof record) == 0;
     }
     solve_workspace_free(workspace);
@@ -218,9 +218,9 @@ static void same_bytes_on_many_threads(void **state)
     struct worker workers[4];
     pthread_t threads[4];
     for (int i = 0; i < SCENES; i++)
-        solve_and_record(lab->workspace, &lab->set, i, expected[i]);
+        solve_and_record(lab->workspace, &lab->means, i, expected[i]);
     for (int i = 0; i < 4; i++) {
-        workers[i] = (struct worker){&lab->set, expected, false};
+        workers[i] = (struct worker){&lab->means, expected, false};
         assert_int_equal(pthread_create(&threads[i], NULL, work, &workers[i]), 0);
     }
     for (int i = 0; i < 4; i++) {
@@ -242,11 +242,11 @@ static void a_warm_solve_takes_no_memory(void **state)
         struct solve_request request = scene(i);
         /* twice: when the first one asks for more modes while it runs, the tables of its earlier
          * steps are made anew in the second */
-        solve(lab->workspace, &lab->set, &request, &result);
-        solve(lab->workspace, &lab->set, &request, &result);
+        solve(lab->workspace, &lab->means, &request, &result);
+        solve(lab->workspace, &lab->means, &request, &result);
         taken = 0;
         taken_bytes = 0;
-        solve(lab->workspace, &lab->set, &request, &result);
+        solve(lab->workspace, &lab->means, &request, &result);
         unsigned long calls = taken;
         if (getenv("PERCUSS_MEASURE"))
             print_message("    scene %d: %lu calls, %zu bytes\n", i, calls, taken_bytes);
@@ -272,7 +272,7 @@ static void a_workspace_does_not_grow(void **state)
                    random_between(&seed, 0.1, 0.4));
         if (trial == 150)
             taken_bytes = 0;
-        solve(lab->workspace, &lab->set, &request, &result);
+        solve(lab->workspace, &lab->means, &request, &result);
     }
     size_t late = taken_bytes;
     /* sites never repeat: what depends on them lives in the arena, not in the cache. A new step

@@ -98,7 +98,7 @@ static struct body_state *fly(const struct ringing *ringing, int parts)
         request.options.horizon = 0.02 / parts;
         request.bodies[1].state = state;
         request.bodies[1].elapsed = 0.01 / parts;
-        assert_int_equal(solve(ringing->lab->workspace, &ringing->lab->set, &request, &result),
+        assert_int_equal(solve(ringing->lab->workspace, &ringing->lab->means, &request, &result),
                          PERCUSS_TRUNCATED);
         struct body_state *next = copy_state(result.bodies[1].state_after);
         free(state);
@@ -195,7 +195,7 @@ static void a_ringing_start_agrees_with_cvode(void **state)
             struct solve_workspace *other = solve_workspace_create();
             assert_non_null(other);
             request.options.method = PERCUSS_METHOD_CVODE;
-            assert_int_equal(solve(other, &ringing.lab->set, &request, &cvode), PERCUSS_OK);
+            assert_int_equal(solve(other, &ringing.lab->means, &request, &cvode), PERCUSS_OK);
             /* tolerance 1e-7 each, amplified by a sequence */
             measured("e", modal.contacts[0].restitution, cvode.contacts[0].restitution, 1e-5);
             measured("time shift", modal.time_shift, cvode.time_shift, 1e-9);
@@ -242,14 +242,14 @@ static void an_old_touch_of_a_ringing_body_asks_for_the_horizon(void **state)
     request.contacts[0].gap = -3e-3; /* 30 ms ago; the default horizon is 20 ms, or two periods */
     request.options.horizon = 0.02;
     request.bodies[1].state = ringing.state;
-    assert_int_equal(solve(ringing.lab->workspace, &ringing.lab->set, &request, &result),
+    assert_int_equal(solve(ringing.lab->workspace, &ringing.lab->means, &request, &result),
                      PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(result.fault.text, "within options.horizon (0.02 s) before: raise it"));
     request.options.horizon = 0.1;
     lab_solve(ringing.lab, &request, &result);
     measured("time shift", result.time_shift, -0.03, 3e-3); /* some 0.2 mm of vibration */
     request.contacts[0].gap_acceleration = -100.0; /* v^2/2a: overlapped 2.95 mm at least */
-    assert_int_equal(solve(ringing.lab->workspace, &ringing.lab->set, &request, &result),
+    assert_int_equal(solve(ringing.lab->workspace, &ringing.lab->means, &request, &result),
                      PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(result.fault.text, "vibration they never touched before"));
     ring_free(&ringing);
@@ -324,7 +324,7 @@ static void questions_on_ringing_beams_take_no_seconds(void **state)
         beam.damping = dampings[i];
         lab_add(lab, ids[i], beam);
     }
-    solve_workspace_watch(lab->workspace, (struct watch){count, &asked});
+    lab->means.watch = (struct watch){count, &asked};
     for (int sequence = 0; sequence < SEQUENCES; sequence++) {
         const char *id = ids[(int)random_between(&seed, 0.0, 4.0)];
         struct body_state *ringing = NULL;
@@ -341,7 +341,7 @@ static void questions_on_ringing_beams_take_no_seconds(void **state)
             if (random_between(&seed, 0.0, 1.0) < 0.5)
                 request.contacts[0].gap_acceleration = -9.81;
             double start = thread_seconds();
-            enum percuss_status status = solve(lab->workspace, &lab->set, &request, &result);
+            enum percuss_status status = solve(lab->workspace, &lab->means, &request, &result);
             longest = fmax(longest, thread_seconds() - start);
             most = asked - before > most ? asked - before : most;
             before = asked;

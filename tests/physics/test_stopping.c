@@ -93,9 +93,9 @@ static struct waiting solve_watched(struct lab *lab, int kind, long patience,
 {
     struct waiting waiting = {.patience = patience, .last = thread_seconds()};
     struct solve_request request = request_of(kind);
-    solve_workspace_watch(lab->workspace, (struct watch){proceed, &waiting});
-    solve(lab->workspace, &lab->set, &request, result);
-    solve_workspace_watch(lab->workspace, (struct watch){0});
+    lab->means.watch = (struct watch){proceed, &waiting};
+    solve(lab->workspace, &lab->means, &request, result);
+    lab->means.watch = (struct watch){0};
     look(&waiting);
     return waiting;
 }

@@ -132,7 +132,7 @@ static void who_cannot_move_cannot_meet(void **state)
         strike(end_spot("tipped", 0.4), side_spot("pinned", 0.1, 0.010, 0.0), 0.3),
     };
     for (size_t i = 0; i < COUNT(requests); i++) {
-        assert_int_equal(solve(lab->workspace, &lab->set, &requests[i], &result),
+        assert_int_equal(solve(lab->workspace, &lab->means, &requests[i], &result),
                          PERCUSS_BAD_REQUEST);
         assert_non_null(strstr(result.fault.text, "contacts[0]"));
         assert_non_null(strstr(result.fault.text, "tipped"));

@@ -14,7 +14,7 @@ static struct lab *rods(void)
     lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
     lab_add(lab, "rod-1", make_bar(SHAPE_ROD, AL_205, 0.010, 1.0));
     lab_add(lab, "rod-2", make_bar(SHAPE_ROD, AL_575, 0.010, 1.0));
-    solve_workspace_set_tables(lab->workspace, table_store_source(shipped));
+    lab->means.tables = table_store_source(shipped);
     return lab;
 }
 
@@ -133,7 +133,7 @@ static void another_computation_gives_the_same(void **state)
         fail_msg("%s", fault.text);
     struct table_store *store = table_store_create();
     assert_int_equal(table_store_add(store, &table, &fault), PERCUSS_OK);
-    solve_workspace_set_tables(lab->workspace, table_store_source(store));
+    lab->means.tables = table_store_source(store);
     struct solve_result *other = strike_rod(lab, "rod-1", 0.3, PERCUSS_CONTACT_TABLE);
     measured("e", other->contacts[0].restitution, e, 0.5 * table.force_error);
     lab_free(lab);

@@ -209,7 +209,7 @@ static void several_contacts_share_the_instants(void **state)
     bodies_meet_while_they_touch(&result, 0, 0.0);
     bodies_meet_while_they_touch(&result, 1, 0.0);
     request.options.horizon = 1e-3;
-    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_TRUNCATED);
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_TRUNCATED);
     shows_the_reply(&result);
     lab_free(lab);
 }
@@ -241,7 +241,7 @@ static void an_overlap_is_shown_without_end(void **state)
     request.contacts[0].gap_acceleration = -27.4639035134993;
     size_t shown = 0;
     for (int i = 0; i < 1000; i++) {
-        enum percuss_status status = solve(lab->workspace, &lab->set, &request, &result);
+        enum percuss_status status = solve(lab->workspace, &lab->means, &request, &result);
         if (status != PERCUSS_BAD_REQUEST) {
             assert_int_equal(status, PERCUSS_OK);
             assert_non_null(result.trace);
@@ -282,8 +282,8 @@ static void histories_have_their_bounds(void **state)
     for (int traced = 0; traced < 2; traced++) {
         unsigned asked = 0;
         request.options.trace = traced;
-        solve_workspace_watch(lab->workspace, (struct watch){count_asking, &asked});
-        enum percuss_status status = solve(lab->workspace, &lab->set, &request, &result);
+        lab->means.watch = (struct watch){count_asking, &asked};
+        enum percuss_status status = solve(lab->workspace, &lab->means, &request, &result);
         assert_true(status == PERCUSS_OK || status == PERCUSS_TRUNCATED);
         work[traced] = asked * PACE_WORK;
     }

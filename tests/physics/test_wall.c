@@ -286,14 +286,14 @@ static void every_sample_has_its_own_waves(void **state)
     struct fault fault;
     struct solve_request request = on_wall(SPEEDS[COUNT(SPEEDS) - 1]);
     request.options.tolerance = 1e-4;
-    assert_int_equal(repeat_search(repeat, &lab->set, &request, 0, &model, &outcome, &fault),
+    assert_int_equal(repeat_search(repeat, &lab->means, &request, 0, &model, &outcome, &fault),
                      PERCUSS_OK);
     for (size_t v = 0; v < COUNT(SPEEDS); v++) {
         request = on_wall(SPEEDS[v]);
         request.options.tolerance = 1e-4;
         lab_solve(lab, &request, &result);
         assert_int_equal(
-            repeat_solve(repeat, &lab->set, &request, 0, &model, v > 0, &outcome, &fault),
+            repeat_solve(repeat, &lab->means, &request, 0, &model, v > 0, &outcome, &fault),
             PERCUSS_OK);
         /* the search may have taken other steps: two tenths of the tolerance */
         measured("sample", outcome.restitution, result.contacts[0].restitution, 2e-5);

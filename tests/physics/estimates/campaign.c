@@ -54,7 +54,7 @@ static bool answer(struct campaign *campaign, struct scene_drawn *scene, double 
     scene->request.options.tolerance = tolerance;
     double before = seconds();
     enum percuss_status status =
-        solve(campaign->lab->workspace, &campaign->lab->set, &scene->request, result);
+        solve(campaign->lab->workspace, &campaign->lab->means, &scene->request, result);
     *verdict = (struct verdict){.tolerance = tolerance, .seconds = seconds() - before};
     if (status != PERCUSS_OK && status != PERCUSS_TRUNCATED) {
         if (campaign->settings.chatty)

@@ -50,7 +50,7 @@ bool scene_draw_ringing(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
     if (scene_pick(r, 3) == 0)
         spots[1] = spots[0];
     struct solve_request blow = strike(striker, spots[0], speed);
-    enum percuss_status status = solve(lab->workspace, &lab->set, &blow, &first);
+    enum percuss_status status = solve(lab->workspace, &lab->means, &blow, &first);
     if (status != PERCUSS_OK && status != PERCUSS_TRUNCATED)
         return false;
     double second = speed * scene_log(r, 0.03, 3.0);

@@ -148,7 +148,7 @@ static bool answers(struct campaign *campaign, struct solve_request *request,
 {
     struct lab *lab = campaign->lab;
     request->options.contact_model = model;
-    if (solve(lab->workspace, &lab->set, request, result) == PERCUSS_OK)
+    if (solve(lab->workspace, &lab->means, request, result) == PERCUSS_OK)
         return true;
     printf("  %s: %s %s\n", contact_model_name(model), status_name(result->status),
            result->fault.text);
@@ -170,7 +170,7 @@ static void judge(struct campaign *campaign, uint64_t number)
     static struct solve_result fe, result;
     struct lab *lab = campaign->lab;
     double start = processor_seconds();
-    solve_workspace_set_tables(lab->workspace, NULL);
+    lab->means.tables = NULL;
     plastic_draw(lab, campaign->settings.class, number, &scene);
     campaign->radius = scene.radius;
     scene.request.options.tolerance = campaign->settings.tolerance;
@@ -197,14 +197,14 @@ static void judge(struct campaign *campaign, uint64_t number)
             source.context = own;
             tables = own ? &source : NULL;
         }
-        solve_workspace_set_tables(lab->workspace, tables);
+        lab->means.tables = tables;
         if ((m != OWN_TABLE || own) && answers(campaign, &scene.request, models[m].model, &result))
             note(campaign, m, number, &result, &fe);
         else {
             campaign->tally[m].refused++;
             campaign->fails = true;
         }
-        solve_workspace_set_tables(lab->workspace, NULL);
+        lab->means.tables = NULL;
         contact_curves_free(own);
     }
     campaign->seconds[0] += before_table - start;

@@ -12,7 +12,7 @@
 static inline enum percuss_status hard_solve(struct lab *lab, const struct solve_request *request,
                                              struct solve_result *result)
 {
-    enum percuss_status status = solve(lab->workspace, &lab->set, request, result);
+    enum percuss_status status = solve(lab->workspace, &lab->means, request, result);
     if (status)
         assert_true(result->fault.text[0] != '\0');
     if (status && status != PERCUSS_TRUNCATED)

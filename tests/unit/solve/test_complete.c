@@ -103,7 +103,7 @@ static void two_spheres_dissipate_by_flow_only(void **state)
 
 static void refused(struct lab *lab, const struct solve_request *request, const char *words)
 {
-    solve(lab->workspace, &lab->set, request, &result);
+    solve(lab->workspace, &lab->means, request, &result);
     if (result.status != PERCUSS_BAD_REQUEST && result.status != PERCUSS_UNSUPPORTED_GEOMETRY)
         fail_msg("%s: status %d", words, (int)result.status);
     if (!strstr(result.fault.text, words))
@@ -159,10 +159,10 @@ static void a_watch_stops_it(void **state)
     (void)state;
     struct lab *lab = shapes();
     double done = 0.0;
-    solve_workspace_watch(lab->workspace, (struct watch){stop, &done});
+    lab->means.watch = (struct watch){stop, &done};
     struct solve_request request = on_rod("ball", "rod", 0.3);
     request.options.tolerance = 1e-4;
-    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_TIMEOUT);
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_TIMEOUT);
     assert_true(done >= 0.01 && done < 0.1);
     lab_free(lab);
 }

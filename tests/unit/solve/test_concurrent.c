@@ -126,7 +126,7 @@ static void what_its_region_is_not_made_for_is_refused(void **state)
     struct lab *lab = shapes();
     struct solve_request request = on_rod("rod", 0.3);
     request.options.method = PERCUSS_METHOD_CVODE;
-    solve(lab->workspace, &lab->set, &request, &result);
+    solve(lab->workspace, &lab->means, &request, &result);
     assert_int_equal(result.status, PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(result.fault.text, "options.method"));
     lab_free(lab);
@@ -143,9 +143,9 @@ static void a_watch_stops_it(void **state)
 {
     (void)state;
     struct lab *lab = shapes();
-    solve_workspace_watch(lab->workspace, (struct watch){stop, NULL});
+    lab->means.watch = (struct watch){stop, NULL};
     struct solve_request request = on_rod("soft", 0.3);
-    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_TIMEOUT);
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_TIMEOUT);
     lab_free(lab);
 }
 

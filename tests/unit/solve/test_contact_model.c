@@ -44,7 +44,7 @@ static struct shelf *shelf_create(struct lab *lab, double range)
     shelf->curves = contact_curves_create(&sampled.table, &fault);
     assert_non_null(shelf->curves);
     shelf->source = (struct contact_table_source){shelf, look_up, NULL};
-    solve_workspace_set_tables(lab->workspace, &shelf->source);
+    lab->means.tables = &shelf->source;
     return shelf;
 }
 
@@ -130,7 +130,7 @@ static void without_a_fitting_table_auto_says_so(void **state)
     assert_int_equal(result.contact_model, PERCUSS_CONTACT_CLOSED_FORM);
     assert_non_null(strstr(result.reason, "no table for these bodies"));
     request.options.contact_model = PERCUSS_CONTACT_TABLE;
-    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_BAD_REQUEST);
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(result.fault.text, "small on rod-1"));
     /* a pair that cannot yield needs none */
     shelf->asked = 0;

@@ -109,7 +109,7 @@ static void refuse(struct lab *lab, const struct solve_request *request, enum pe
                    const char *words)
 {
     static struct solve_result result;
-    enum percuss_status answer = solve(lab->workspace, &lab->set, request, &result);
+    enum percuss_status answer = solve(lab->workspace, &lab->means, request, &result);
     if (answer != status || strstr(result.fault.text, words) == NULL)
         fail_msg("%s: \"%s\"\nexpected \"%s\"", status_name(answer), result.fault.text, words);
     assert_int_equal(result.status, status);

@@ -194,13 +194,13 @@ static void every_kind_has_its_place(void **state)
         request.contacts[i] = (struct solve_contact){
             .a = i, .b = BALLS, .point = {0.1 * i, 0.0, 0.0}, .normal = {0.0, 0.0, 1.0}};
     }
-    solve(lab->workspace, &lab->set, &request, &result);
+    solve(lab->workspace, &lab->means, &request, &result);
     assert_true(result.status == PERCUSS_OK);
     assert_true(warns("contacts[39]: the approach at 60 m/s"));
     assert_false(warns("slide")); /* against the fastest approach of all it is nothing */
     for (unsigned i = 0; i < BALLS; i++)
         request.bodies[i].velocity[0] = 6.0;
-    solve(lab->workspace, &lab->set, &request, &result);
+    solve(lab->workspace, &lab->means, &request, &result);
     assert_true(warns("contacts[0]: the bodies slide"));
     assert_true(warns("contacts[39]: the approach at 60 m/s is more than 1 % of the wave speed"));
     lab_free(lab);
@@ -268,7 +268,7 @@ static void an_unmet_tolerance_has_its_reason(void **state)
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         cases[i].request.options.tolerance = cases[i].tolerance;
-        solve(lab->workspace, &lab->set, &cases[i].request, &result);
+        solve(lab->workspace, &lab->means, &cases[i].request, &result);
         assert_false(result.tolerance_met);
         assert_true(warns(cases[i].reason));
         assert_false(warns("amplifies"));
@@ -305,7 +305,8 @@ static void refusals_leave_a_clean_answer(void **state)
     (void)state;
     struct lab *lab = shapes();
     struct solve_request request = on_end("rod", -0.3);
-    assert_int_equal(solve(lab->workspace, &lab->set, &request, &result), PERCUSS_NOT_APPROACHING);
+    assert_int_equal(solve(lab->workspace, &lab->means, &request, &result),
+                     PERCUSS_NOT_APPROACHING);
     assert_false(result.complete);
     assert_int_equal(result.contact_count, 0);
     assert_true(strlen(result.fault.text) > 0);
