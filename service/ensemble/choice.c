@@ -25,7 +25,7 @@ struct pilot {
     double values[ENSEMBLE_MAX_INPUTS];
     double restitution;
     double allowed; /* difference from it with which a model agrees; INFINITY: none can */
-    struct repeat_model model;
+    struct solution_model model;
 };
 
 /* What is needed while the model is chosen. */
@@ -121,7 +121,7 @@ static bool can_judge(const struct choice *choice)
  * by luck. */
 static void choose_modes(struct choice *choice)
 {
-    struct repeat_model *model = &choice->ensemble->model.model;
+    struct solution_model *model = &choice->ensemble->model.model;
     double highest = model->cut;
     int agrees = 0, fails = highest > 0.0 ? MODEL_LEVELS + 1 : 1;
     while (fails - agrees > 1) {
@@ -153,7 +153,7 @@ static void choose_steps(struct choice *choice)
 static void choose(struct choice *choice)
 {
     struct ensemble_model *chosen = &choice->ensemble->model;
-    chosen->model = (struct repeat_model){0.0, INFINITY};
+    chosen->model = (struct solution_model){0.0, INFINITY};
     for (unsigned k = 0; k < choice->count; k++) {
         chosen->model.cut = fmax(chosen->model.cut, choice->pilots[k].model.cut);
         chosen->model.accuracy = fmin(chosen->model.accuracy, choice->pilots[k].model.accuracy);

@@ -28,7 +28,7 @@ static inline bool ensemble_sample_has_result(const struct ensemble_sample *samp
  * search, and it is the coarsest model that loses none of them: who agrees with the finest within
  * half of the tolerance, or within all of it, still does. */
 struct ensemble_model {
-    struct repeat_model model;
+    struct solution_model model;
     double tolerance;
     unsigned pilots, agreeing; /* within the tolerance */
 };

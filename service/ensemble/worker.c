@@ -89,7 +89,7 @@ enum percuss_status worker_solve(struct ensemble_worker *worker, const double *v
 }
 
 enum percuss_status worker_search(struct ensemble_worker *worker, const double *values,
-                                  struct repeat_model *model, struct repeat_outcome *outcome,
+                                  struct solution_model *model, struct repeat_outcome *outcome,
                                   struct fault *fault)
 {
     *outcome = (struct repeat_outcome){.restitution = NAN, .error = NAN};

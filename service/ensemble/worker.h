@@ -26,7 +26,7 @@ enum percuss_status worker_solve(struct ensemble_worker *worker, const double *v
 
 /* The same by the full accuracy search, which tells the model it took (NULL: not wanted). */
 enum percuss_status worker_search(struct ensemble_worker *worker, const double *values,
-                                  struct repeat_model *model, struct repeat_outcome *outcome,
+                                  struct solution_model *model, struct repeat_outcome *outcome,
                                   struct fault *fault);
 
 #endif

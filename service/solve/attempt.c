@@ -4,7 +4,6 @@
 #include "solve/attempt.h"
 
 #include <math.h>
-#include <stdio.h>
 
 /* Most of a second by the modal method, whose steps cost some 20 ns of that each; CVODE's
  * right-hand sides are many more and cheaper. */
@@ -51,7 +50,7 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
 
 enum percuss_status attempt_assemble(struct attempt_context *context, struct attempt *attempt)
 {
-    attempt->assembly = arena_take(context->arena, 1, sizeof *attempt->assembly);
+    attempt->assembly = arena_take(context->problem->arena, 1, sizeof *attempt->assembly);
     return attempt->assembly && assemble(attempt->assembly, context->problem, &attempt->choice)
                ? PERCUSS_OK
                : PERCUSS_INTERNAL;
@@ -74,58 +73,6 @@ enum percuss_status attempt_run_scaled(struct attempt_context *context, struct a
     return status;
 }
 
-bool attempt_is_unsolved(const struct problem *problem, const struct impact_outcome *outcome)
-{
-    bool touched = false;
-    for (size_t c = 0; c < problem->contact_count; c++)
-        touched = touched || outcome->tracks[c].impulse > 0.0;
-    return outcome->end_reason == PERCUSS_END_LIMIT && !touched;
-}
-
-double attempt_restitution(const struct problem *problem, const struct impact_outcome *outcome,
-                           size_t contact)
-{
-    double compression = problem->impulse_compression[contact];
-    return compression > 0.0 ? outcome->tracks[contact].impulse / compression - 1.0 : NAN;
-}
-
-enum percuss_status attempt_refuse_overlap(const struct attempt_context *context,
-                                           const struct attempt *attempt, double horizon,
-                                           struct fault *fault)
-{
-    const struct problem *problem = context->problem;
-    bool group = problem->contact_count > 1;
-    size_t deepest = 0;
-    for (size_t c = 1; c < problem->contact_count; c++)
-        if (context->problem->request->contacts[c].gap <
-            context->problem->request->contacts[deepest].gap)
-            deepest = c;
-    char within[96] = "";
-    if (attempt->outcome.beyond_horizon)
-        snprintf(within, sizeof within, " within options.horizon (%g s) before: raise it", horizon);
-    return fault_set(
-        fault, PERCUSS_BAD_REQUEST,
-        "contacts[%zu].gap: %g m: the bodies overlap, and at the stated gap rate (%g m/s), "
-        "acceleration and vibration %s%s",
-        deepest, context->problem->request->contacts[deepest].gap, problem->gap_rate[deepest],
-        group ? "there was no instant at which every contact was open" : "they never touched",
-        within[0] ? within : " before");
-}
-
-struct attempt_difference attempt_compare(const struct attempt_context *context,
-                                          const struct attempt *a, const struct attempt *b)
-{
-    struct attempt_difference largest = {0.0, 0.0};
-    for (size_t c = 0; c < context->problem->contact_count; c++) {
-        double change = fabs(a->outcome.tracks[c].impulse - b->outcome.tracks[c].impulse);
-        double compression = context->problem->impulse_compression[c];
-        largest.impulse = fmax(largest.impulse, change);
-        if (compression > 0.0)
-            largest.restitution = fmax(largest.restitution, change / compression);
-    }
-    return largest;
-}
-
 bool attempt_is_spent(const struct attempt *attempt)
 {
     return attempt->outcome.end_reason == PERCUSS_END_LIMIT;
@@ -146,19 +93,4 @@ bool attempt_is_long(const struct attempt *attempt)
         if (attempt->outcome.tracks[c].count >= LONG)
             return true;
     return false;
-}
-
-double attempt_energy_defect(const struct problem *problem, const struct impact_outcome *outcome)
-{
-    double approach = 0.0;
-    for (size_t c = 0; c < problem->contact_count; c++)
-        approach += 0.5 * problem->impulse_compression[c] * fabs(problem->gap_rate[c]);
-    double lost = fabs(outcome->energy.closure);
-    // the slowest approach of all has no energy that doubles can hold
-    return lost == 0.0 ? 0.0 : lost / fmax(outcome->energy.available, approach);
-}
-
-bool attempt_keeps_energy(double defect)
-{
-    return defect <= ATTEMPT_WORST_DEFECT;
 }

@@ -10,6 +10,7 @@
 #include "contact/plastic.h"
 #include "impact/contact_step.h"
 #include "model/vector.h"
+#include "solve/outcome.h"
 #include "solve/radiation.h"
 
 /* A hit counts as central up to this share of the radius: the correction is of second order in it.
@@ -116,11 +117,8 @@ enum percuss_status compliance_choose(struct problem *problem, enum percuss_comp
 static double largest_stiffness(const struct problem *problem, const struct impact_outcome *outcome,
                                 size_t c)
 {
-    const struct track *track = &outcome->tracks[c];
     double k = problem->hertz[c].stiffness;
-    double force = 0.0;
-    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
-        force = fmax(force, track->list[i].peak_force);
+    double force = outcome_peak_force(outcome, c);
     return fmax(1.5 * cbrt(k * k * force), contact_law_unloading(&outcome->laws[c]));
 }
 

@@ -81,31 +81,31 @@ static enum percuss_status solve_on(const struct refinement *refinement, size_t 
 
 /* Errors of the finer one of two solutions: of first order where material flows (backward Euler
  * steps, nodes that touch one by one), so that as much is left as has just changed. */
-static void estimate(struct accuracy *accuracy, const struct problem *problem,
+static void estimate(struct solution *solution, const struct problem *problem,
                      const struct impact_outcome *coarse)
 {
-    const struct impact_outcome *fine = &accuracy->outcome;
+    const struct impact_outcome *fine = &solution->outcome;
     double difference =
-        fabs(attempt_restitution(problem, fine, 0) - attempt_restitution(problem, coarse, 0));
-    accuracy->steps = (struct step_error){
+        fabs(outcome_restitution(problem, fine, 0) - outcome_restitution(problem, coarse, 0));
+    solution->steps = (struct step_error){
         .restitution = difference,
         .impulse = difference * problem->impulse_compression[0],
-        .energy_defect = fabs(fine->energy.closure) / fine->energy.available,
+        .energy_defect = outcome_energy_defect(problem, fine),
     };
-    accuracy->steps.energy_closes = accuracy->steps.energy_defect <= 10.0 * problem->tolerance;
-    accuracy->tolerance_met =
-        accuracy->steps.energy_closes &&
-        accuracy->steps.restitution + accuracy->modes.restitution <= problem->tolerance;
+    solution->steps.energy_closes = solution->steps.energy_defect <= 10.0 * problem->tolerance;
+    solution->tolerance_met =
+        solution->steps.energy_closes &&
+        solution->steps.restitution + solution->modes.restitution <= problem->tolerance;
 }
 
-enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct problem *problem,
+enum percuss_status concurrent_refine(struct solution *solution, const struct problem *problem,
                                       struct pace *pace, struct concurrent_effort *effort,
                                       struct fault *fault)
 {
     enum percuss_status status = check(problem, fault);
     if (status != PERCUSS_OK)
         return status;
-    const struct scene *scene = &accuracy->assembly->scene;
+    const struct scene *scene = &solution->assembly->scene;
     struct refinement refinement = {
         .problem = problem,
         .scene = scene,
@@ -113,36 +113,34 @@ enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct pr
         .effort = effort,
         .fault = fault,
     };
-    const struct track *track = &accuracy->outcome.tracks[0];
     *effort = (struct concurrent_effort){.extrapolated = NAN};
-    if (track->count == 0)
+    if (solution->outcome.tracks[0].count == 0)
         return PERCUSS_OK;
-    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
-        refinement.expected = fmax(refinement.expected, track->list[i].max_indentation);
-    accuracy->tolerance_met = false;
-    for (size_t i = 0; i < RESOLUTIONS && !accuracy->tolerance_met; i++) {
-        struct impact_outcome coarse = accuracy->outcome;
+    refinement.expected = outcome_deepest(&solution->outcome, 0);
+    solution->tolerance_met = false;
+    for (size_t i = 0; i < RESOLUTIONS && !solution->tolerance_met; i++) {
+        struct impact_outcome coarse = solution->outcome;
         /* every mesh costs some nine times the one before */
         refinement.settings.done = i ? pow(9.0, (double)i - RESOLUTIONS) : 0.0;
-        status = solve_on(&refinement, resolutions[i], &accuracy->outcome);
+        status = solve_on(&refinement, resolutions[i], &solution->outcome);
         if (status != PERCUSS_OK)
             return status;
         /* what the modal solutions say is of another contact model */
-        nearby_begin(&accuracy->nearby, problem, &accuracy->outcome);
+        nearby_begin(&solution->nearby, problem, &solution->outcome);
         if (i == 0)
             continue;
-        nearby_add(&accuracy->nearby, problem, &coarse);
-        estimate(accuracy, problem, &coarse);
-        effort->extrapolated = 2.0 * attempt_restitution(problem, &accuracy->outcome, 0) -
-                               attempt_restitution(problem, &coarse, 0);
+        nearby_add(&solution->nearby, problem, &coarse);
+        estimate(solution, problem, &coarse);
+        effort->extrapolated = 2.0 * outcome_restitution(problem, &solution->outcome, 0) -
+                               outcome_restitution(problem, &coarse, 0);
     }
     return PERCUSS_OK;
 }
 
 void concurrent_report(const struct concurrent_effort *effort, const struct problem *problem,
-                       const struct accuracy *accuracy, struct solve_result *result)
+                       const struct solution *solution, struct solve_result *result)
 {
-    const struct contact_history *history = &accuracy->outcome.laws[0].history;
+    const struct contact_history *history = &solution->outcome.laws[0].history;
     result->contact_model = PERCUSS_CONTACT_CONCURRENT_FE;
     snprintf(result->reason, sizeof result->reason,
              "contact region of finite elements, solved at each of %lu steps: %zu elements along "
@@ -150,8 +148,8 @@ void concurrent_report(const struct concurrent_effort *effort, const struct prob
              "up to %.4g Hz, residual "
              "flexibility for the others%s",
              effort->steps, effort->resolution, effort->newton_steps, 1e6 * history->residual,
-             effort->extrapolated, accuracy->assembly->all_modes,
-             accuracy->assembly->highest / (2.0 * M_PI),
+             effort->extrapolated, solution->assembly->all_modes,
+             solution->assembly->highest / (2.0 * M_PI),
              problem->hertz[0].axis_ratio < 0.999
                  ? "; elliptic: by the sphere of equal stiffness, an approximation"
                  : "");

@@ -6,8 +6,8 @@
 #ifndef PERCUSS_SOLVE_CONCURRENT_H
 #define PERCUSS_SOLVE_CONCURRENT_H
 
-#include "solve/accuracy.h"
 #include "solve/result.h"
+#include "solve/solution.h"
 
 /* What a reply says of it. */
 struct concurrent_effort {
@@ -20,12 +20,12 @@ struct concurrent_effort {
  * contact regions of growing resolution until two of them differ by less than the tolerance.
  * An elliptic contact's region is that of the sphere of equal stiffness. BAD_REQUEST: what the
  * region cannot answer; TIMEOUT where the pace stopped it. */
-enum percuss_status concurrent_refine(struct accuracy *accuracy, const struct problem *problem,
+enum percuss_status concurrent_refine(struct solution *solution, const struct problem *problem,
                                       struct pace *pace, struct concurrent_effort *effort,
                                       struct fault *fault);
 
 /* Says so in the result. */
 void concurrent_report(const struct concurrent_effort *effort, const struct problem *problem,
-                       const struct accuracy *accuracy, struct solve_result *result);
+                       const struct solution *solution, struct solve_result *result);
 
 #endif

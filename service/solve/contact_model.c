@@ -11,6 +11,7 @@
 #include "contact/law_closed_form.h"
 #include "contact/plastic.h"
 #include "model/vector.h"
+#include "solve/outcome.h"
 
 static const struct body *body_of(const struct problem *problem, size_t contact, int side)
 {
@@ -184,16 +185,6 @@ enum percuss_status contact_model_choose(struct problem *problem,
     return PERCUSS_OK;
 }
 
-/* Largest indentation of a contact. */
-static double deepest(const struct impact_outcome *outcome, size_t c)
-{
-    const struct track *track = &outcome->tracks[c];
-    double largest = 0.0;
-    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
-        largest = fmax(largest, track->list[i].max_indentation);
-    return largest;
-}
-
 bool contact_model_yielded(const struct problem *problem, const struct impact_outcome *outcome,
                            size_t contact)
 {
@@ -207,7 +198,7 @@ double contact_model_beyond_table(const struct impact_outcome *outcome, size_t c
     if (law->operations->model != PERCUSS_CONTACT_TABLE)
         return 0.0;
     double range = contact_law_table_range(law);
-    double depth = fmax(law->history.max_indentation, deepest(outcome, contact));
+    double depth = fmax(law->history.max_indentation, outcome_deepest(outcome, contact));
     return fmax(0.0, depth / range - 1.0);
 }
 
@@ -220,8 +211,9 @@ bool contact_model_revise(struct problem *problem, const struct impact_outcome *
         return false;
     bool yields = false;
     for (size_t c = 0; c < problem->contact_count; c++)
-        yields = yields || (model->yielding ? contact_model_yielded(problem, outcome, c)
-                                            : deepest(outcome, c) > model->choices[c].yield);
+        yields =
+            yields || (model->yielding ? contact_model_yielded(problem, outcome, c)
+                                       : outcome_deepest(outcome, c) > model->choices[c].yield);
     model->decided = true;
     if (yields == model->yielding)
         return false;
@@ -258,7 +250,7 @@ static size_t hardest_hit(const struct problem *problem, const struct impact_out
     size_t hardest = 0;
     double most = -1.0;
     for (size_t c = 0; c < problem->contact_count; c++) {
-        double share = deepest(outcome, c) / problem->contact_model.choices[c].yield;
+        double share = outcome_deepest(outcome, c) / problem->contact_model.choices[c].yield;
         if (share > most) {
             most = share;
             hardest = c;
@@ -273,15 +265,12 @@ static void explain_elastic(const struct problem *problem, const struct impact_o
     double pressure = 0.0;
     size_t hardest = hardest_hit(problem, outcome);
     const struct contact_choice *choice = &problem->contact_model.choices[hardest];
-    for (size_t c = 0; c < problem->contact_count; c++) {
-        const struct track *track = &outcome->tracks[c];
-        for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
-            pressure =
-                fmax(pressure, hertz_peak_pressure(&problem->hertz[c], track->list[i].peak_force));
-    }
+    for (size_t c = 0; c < problem->contact_count; c++)
+        pressure =
+            fmax(pressure, hertz_peak_pressure(&problem->hertz[c], outcome_peak_force(outcome, c)));
     append(text, size, "elastic Hertz contact (peak pressure %.3g MPa) on a half-space",
            pressure / 1e6);
-    double share = deepest(outcome, hardest) / choice->yield;
+    double share = outcome_deepest(outcome, hardest) / choice->yield;
     if (choice->side < 0 && problem->request->options.contact_model == PERCUSS_CONTACT_CLOSED_FORM)
         append(text, size, ", as neither material has a yield stress");
     if (choice->side >= 0 && share <= 1.0)

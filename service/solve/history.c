@@ -91,29 +91,16 @@ static bool find_sides(const struct problem *problem, const struct assembly *ass
     return true;
 }
 
-/* Largest difference of the contacts' impulses, against what stops the approach. */
-static double difference(const struct problem *problem, const struct accuracy *accuracy,
-                         const struct impact_outcome *again)
-{
-    double worst = 0.0;
-    for (size_t c = 0; c < problem->contact_count; c++) {
-        double change = fabs(again->tracks[c].impulse - accuracy->outcome.tracks[c].impulse);
-        if (problem->impulse_compression[c] > 0.0)
-            worst = fmax(worst, change / problem->impulse_compression[c]);
-    }
-    return worst;
-}
-
 /* What any solution may take; one that was cut off is cut off again. */
-static double work_of(const struct accuracy *accuracy)
+static double work_of(const struct solution *solution)
 {
     double allowed = attempt_work_allowed(PERCUSS_METHOD_MODAL);
-    double taken = impact_work(&accuracy->assembly->scene, &accuracy->outcome);
-    return accuracy->outcome.end_reason == PERCUSS_END_LIMIT ? fmin(taken, allowed) : allowed;
+    double taken = impact_work(&solution->assembly->scene, &solution->outcome);
+    return solution->outcome.end_reason == PERCUSS_END_LIMIT ? fmin(taken, allowed) : allowed;
 }
 
 /* Where the effort did not do for all of it, and where the answer came from another method. */
-static void warn(const struct problem *problem, const struct accuracy *accuracy,
+static void warn(const struct problem *problem, const struct solution *solution,
                  const struct impact_outcome *again, struct solve_result *result)
 {
     const struct trace *trace = result->trace;
@@ -126,7 +113,7 @@ static void warn(const struct problem *problem, const struct accuracy *accuracy,
                     last, result->window);
         return;
     }
-    double off = difference(problem, accuracy, again);
+    double off = outcome_compare(problem, again, &solution->outcome).restitution;
     if (off > 1e-9)
         report_warn(result,
                     "options.trace: the histories are the modal method's, whose restitution "
@@ -134,15 +121,15 @@ static void warn(const struct problem *problem, const struct accuracy *accuracy,
                     off);
 }
 
-enum percuss_status history_make(const struct problem *problem, const struct accuracy *accuracy,
+enum percuss_status history_make(const struct problem *problem, const struct solution *solution,
                                  struct pace *pace, struct solve_result *result)
 {
     struct arena *arena = problem->arena;
-    const struct scene *scene = &accuracy->assembly->scene;
+    const struct scene *scene = &solution->assembly->scene;
     struct force_log log = force_log_make(arena, scene->contacts);
-    struct impact_settings settings = {.accuracy = accuracy->step_accuracy,
+    struct impact_settings settings = {.accuracy = solution->step_accuracy,
                                        .horizon = attempt_horizon(problem, scene),
-                                       .max_work = work_of(accuracy),
+                                       .max_work = work_of(solution),
                                        .log = &log,
                                        .pace = pace};
     /* the closed form of a rigid pair is exact */
@@ -153,7 +140,7 @@ enum percuss_status history_make(const struct problem *problem, const struct acc
     struct trace *trace = arena_take(arena, 1, sizeof *trace);
     enum percuss_status status = PERCUSS_INTERNAL;
     if (trace && impact_create(&again, scene, arena) &&
-        find_sides(problem, accuracy->assembly, &sides))
+        find_sides(problem, solution->assembly, &sides))
         status = impact_modal(scene, &settings, arena, &again);
     if (!status)
         status =
@@ -165,6 +152,6 @@ enum percuss_status history_make(const struct problem *problem, const struct acc
         return result->status;
     }
     result->trace = trace;
-    warn(problem, accuracy, &again, result);
+    warn(problem, solution, &again, result);
     return result->status;
 }

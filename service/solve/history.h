@@ -5,14 +5,14 @@
 #ifndef PERCUSS_SOLVE_HISTORY_H
 #define PERCUSS_SOLVE_HISTORY_H
 
-#include "solve/accuracy.h"
 #include "solve/result.h"
+#include "solve/solution.h"
 
 /* Solves the answer's scene once more by the modal method, with the forces taken down, and sets
  * result->trace. That may take as much work as an answer, and the histories as much again: where it
  * is spent they end, with a warning. Warns where the answer came from another method and that
  * solution differs. Returns result->status, or PERCUSS_INTERNAL with the message. */
-enum percuss_status history_make(const struct problem *problem, const struct accuracy *accuracy,
+enum percuss_status history_make(const struct problem *problem, const struct solution *solution,
                                  struct pace *pace, struct solve_result *result);
 
 #endif

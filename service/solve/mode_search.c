@@ -24,18 +24,18 @@ static const double SINGLE_FACTOR = 2.5;
 /* To first order, as if the omitted modes followed the force slowly: their inertia and viscosity
  * change the approach by -inertia F'' - viscosity F', which does work on the contact's stiffness.
  * Effect on the restitution, of the contact where it is largest. */
-static struct attempt_difference slow_effect(const struct attempt_context *context,
+static struct outcome_difference slow_effect(const struct attempt_context *context,
                                              const struct attempt *attempt)
 {
     const struct problem *problem = context->problem;
-    struct attempt_difference largest = {0.0, 0.0};
+    struct outcome_difference largest = {0.0, 0.0};
     for (size_t c = 0; c < problem->contact_count; c++) {
         const struct track *track = &attempt->outcome.tracks[c];
         const struct omitted *omitted = &attempt->assembly->omitted[c];
         double compression = problem->impulse_compression[c];
         double impulse = omitted->inertia * track->inertia;
         double lost = omitted->viscosity * track->viscosity; /* J */
-        double e = fabs(attempt_restitution(problem, &attempt->outcome, c));
+        double e = fabs(outcome_restitution(problem, &attempt->outcome, c));
         /* a contact at rest in a group is struck through its neighbours */
         double approach = compression * problem->w[c * (problem->contact_count + 1)];
         if (compression > 0.0)
@@ -50,7 +50,7 @@ static struct attempt_difference slow_effect(const struct attempt_context *conte
 static enum percuss_status estimate(struct attempt_context *context, struct attempt *best,
                                     struct mode_error *error)
 {
-    struct attempt_difference slow = slow_effect(context, best);
+    struct outcome_difference slow = slow_effect(context, best);
     *error = (struct mode_error){.restitution = slow.restitution, .impulse = slow.impulse};
     bool spent = attempt_is_spent(best);
     bool exact = best->assembly->lowest_omitted == INFINITY;
@@ -77,9 +77,9 @@ bool mode_search_expects_sequence(const struct problem *problem)
 static double first_allowed(const struct attempt_context *context)
 {
     if (!mode_search_expects_sequence(context->problem))
-        return fmin(FIRST_SINGLE * context->tolerance, MOST_SINGLE);
+        return fmin(FIRST_SINGLE * context->problem->tolerance, MOST_SINGLE);
     bool group = context->problem->contact_count > 1;
-    return fmin(FIRST_SEQUENCE * context->tolerance, group ? MOST_GROUP : MOST_SEQUENCE);
+    return fmin(FIRST_SEQUENCE * context->problem->tolerance, group ? MOST_GROUP : MOST_SEQUENCE);
 }
 
 /* Whether another attempt can be better, and is affordable. */
@@ -102,7 +102,7 @@ static bool is_another(const struct attempt *next, const struct attempt *best)
 static void improve(const struct attempt_context *context, const struct mode_error *error,
                     struct attempt *next)
 {
-    double factor = 0.5 * context->tolerance / error->restitution;
+    double factor = 0.5 * context->problem->tolerance / error->restitution;
     if (error->by_steps)
         next->accuracy = fmax(next->accuracy / ATTEMPT_LONGER, ATTEMPT_FINEST);
     else
@@ -138,8 +138,8 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
                 return PERCUSS_OK;
             status = estimate(context, best, error);
         }
-        bool enough =
-            error->covers_steps || error->restitution <= SEQUENCE_MODES_SHARE * context->tolerance;
+        bool enough = error->covers_steps ||
+                      error->restitution <= SEQUENCE_MODES_SHARE * context->problem->tolerance;
         if (status || (enough && !error->by_steps) || raise >= MAX_RAISES ||
             !can_improve(best, error))
             return status;

@@ -5,14 +5,14 @@
 
 #include <math.h>
 
-#include "solve/attempt.h"
+#include "solve/outcome.h"
 
 void nearby_begin(struct nearby *nearby, const struct problem *problem,
                   const struct impact_outcome *answer)
 {
     nearby->solutions = 1;
     for (size_t c = 0; c < problem->contact_count; c++) {
-        nearby->low[c] = nearby->high[c] = attempt_restitution(problem, answer, c);
+        nearby->low[c] = nearby->high[c] = outcome_restitution(problem, answer, c);
         nearby->fewest[c] = nearby->most[c] = answer->tracks[c].count;
     }
 }
@@ -22,7 +22,7 @@ void nearby_add(struct nearby *nearby, const struct problem *problem,
 {
     nearby->solutions++;
     for (size_t c = 0; c < problem->contact_count; c++) {
-        double e = attempt_restitution(problem, other, c);
+        double e = outcome_restitution(problem, other, c);
         size_t count = other->tracks[c].count;
         nearby->low[c] = fmin(nearby->low[c], e);
         nearby->high[c] = fmax(nearby->high[c], e);
@@ -40,7 +40,7 @@ double nearby_distance(const struct nearby *nearby, const struct problem *proble
     if (nearby->solutions < 2)
         return INFINITY;
     for (size_t c = 0; c < problem->contact_count; c++) {
-        double e = attempt_restitution(problem, answer, c); /* NAN: fmax leaves it out */
+        double e = outcome_restitution(problem, answer, c); /* NAN: fmax leaves it out */
         largest = fmax(largest, fmax(e - nearby->low[c], nearby->high[c] - e));
     }
     return largest;

@@ -11,13 +11,8 @@
 
 #include "solve/means.h"
 #include "solve/request.h"
+#include "solve/solution.h"
 #include "solve/warnings.h"
-
-/* What an accuracy search settles on. */
-struct repeat_model {
-    double cut;      /* modes up to this angular frequency take part, rad/s */
-    double accuracy; /* of the time steps */
-};
 
 /* One contact of one impact. */
 struct repeat_outcome {
@@ -44,7 +39,7 @@ void repeat_forget(struct repeat *repeat, const char *id);
  * outcome->status; refusals carry a message. The request must have passed solve(). */
 enum percuss_status repeat_search(struct repeat *repeat, const struct solve_means *means,
                                   const struct solve_request *request, size_t contact,
-                                  struct repeat_model *model, struct repeat_outcome *outcome,
+                                  struct solution_model *model, struct repeat_outcome *outcome,
                                   struct fault *fault);
 
 /* Solves once with that model. `same_scene`: the request differs from this worker's last one in
@@ -52,7 +47,7 @@ enum percuss_status repeat_search(struct repeat *repeat, const struct solve_mean
  * revision of the catalogue, but for those forgotten. */
 enum percuss_status repeat_solve(struct repeat *repeat, const struct solve_means *means,
                                  const struct solve_request *request, size_t contact,
-                                 const struct repeat_model *model, bool same_scene,
+                                 const struct solution_model *model, bool same_scene,
                                  struct repeat_outcome *outcome, struct fault *fault);
 
 /* What is to be said of the last solution that had a result. */

@@ -34,21 +34,21 @@ void report_warnings(const struct warnings *warnings, struct solve_result *resul
         report_warn(result, "%s", warnings->text[i]);
 }
 
-static void fill_contacts(const struct problem *problem, const struct accuracy *accuracy,
+static void fill_contacts(const struct problem *problem, const struct solution *solution,
                           struct solve_result *result)
 {
     size_t n = problem->contact_count;
-    bool unsolved = attempt_is_unsolved(problem, &accuracy->outcome);
+    bool unsolved = outcome_is_unsolved(problem, &solution->outcome);
     result->contact_count = n;
     for (size_t c = 0; c < n; c++) {
-        const struct track *track = &accuracy->outcome.tracks[c];
+        const struct track *track = &solution->outcome.tracks[c];
         struct solve_contact_result *contact = &result->contacts[c];
         size_t listed =
             track->count < PERCUSS_MAX_SUB_IMPACTS ? track->count : PERCUSS_MAX_SUB_IMPACTS;
         *contact = (struct solve_contact_result){
             .impulse = track->impulse,
             .impulse_compression = problem->impulse_compression[c],
-            .restitution = unsolved ? NAN : attempt_restitution(problem, &accuracy->outcome, c),
+            .restitution = unsolved ? NAN : outcome_restitution(problem, &solution->outcome, c),
             .inverse_effective_mass = problem->w[c * n + c],
             .end_time = track->end_time,
             .sub_impact_count = track->count,
@@ -93,7 +93,7 @@ static const char *theory_name(const struct body *body)
     return "rigid";
 }
 
-static void fill_bodies(const struct problem *problem, const struct accuracy *accuracy,
+static void fill_bodies(const struct problem *problem, const struct solution *solution,
                         struct solve_result *result)
 {
     result->body_count = problem->body_count;
@@ -101,12 +101,12 @@ static void fill_bodies(const struct problem *problem, const struct accuracy *ac
         const struct body *body = problem->bodies[b];
         struct solve_body_result *out = &result->bodies[b];
         *out = (struct solve_body_result){
-            .vibration = accuracy->outcome.vibration[b],
-            .modes = (unsigned)accuracy->assembly->modes[b],
-            .rigid = accuracy->assembly->modes[b] == 0,
+            .vibration = solution->outcome.vibration[b],
+            .modes = (unsigned)solution->assembly->modes[b],
+            .rigid = solution->assembly->modes[b] == 0,
             .theory = theory_name(body),
             .shear_factor = body->shape == SHAPE_BEAM ? body->shear_factor[1] : NAN,
-            .state_after = state_after(accuracy->assembly, &accuracy->outcome, problem, b),
+            .state_after = state_after(solution->assembly, &solution->outcome, problem, b),
         };
         memcpy(out->id, body->id, sizeof out->id);
     }
@@ -135,7 +135,7 @@ static double largest_restitution(const struct solve_result *result)
     return largest;
 }
 
-static void fill_model(const struct problem *problem, const struct accuracy *accuracy,
+static void fill_model(const struct problem *problem, const struct solution *solution,
                        struct solve_result *result)
 {
     result->contact_model = contact_model_used(problem);
@@ -143,9 +143,9 @@ static void fill_model(const struct problem *problem, const struct accuracy *acc
     result->method = problem->request->options.method;
     result->delassus_source =
         problem->from_client ? PERCUSS_DELASSUS_CLIENT : PERCUSS_DELASSUS_SERVICE;
-    const struct assembly *assembly = accuracy->assembly;
+    const struct assembly *assembly = solution->assembly;
     double unmodelled = assembly->radiated_error + validity_wave_loss(problem);
-    contact_model_explain(problem, &accuracy->outcome, result->reason, sizeof result->reason);
+    contact_model_explain(problem, &solution->outcome, result->reason, sizeof result->reason);
     size_t used = strlen(result->reason);
     if (assembly->all_modes)
         snprintf(result->reason + used, sizeof result->reason - used,
@@ -164,8 +164,8 @@ static void fill_model(const struct problem *problem, const struct accuracy *acc
         snprintf(result->reason + used, sizeof result->reason - used, "; half-space: %s",
                  problem->compliance.reason);
     result->omitted_error =
-        accuracy->modes.restitution + unmodelled +
-        law_error_worst(problem, &accuracy->outcome) * largest_restitution(result);
+        solution->modes.restitution + unmodelled +
+        law_error_worst(problem, &solution->outcome) * largest_restitution(result);
     if (unmodelled > problem->tolerance)
         report_warn(result,
                     "model.omitted_error: waves that the models leave out of compact bodies and of "
@@ -176,15 +176,15 @@ static void fill_model(const struct problem *problem, const struct accuracy *acc
 
 /* Why the estimated error is no smaller: of its larger part what ended the search, or else what
  * makes a small difference large. */
-static const char *reason_of_error(const struct problem *problem, const struct accuracy *accuracy)
+static const char *reason_of_error(const struct problem *problem, const struct solution *solution)
 {
-    const struct assembly *assembly = accuracy->assembly;
-    bool sequence = problem->contact_count > 1 || accuracy->outcome.tracks[0].count > 1;
-    bool modes = accuracy->modes.restitution > accuracy->steps.restitution;
+    const struct assembly *assembly = solution->assembly;
+    bool sequence = problem->contact_count > 1 || solution->outcome.tracks[0].count > 1;
+    bool modes = solution->modes.restitution > solution->steps.restitution;
     bool omitted = isfinite(assembly->lowest_omitted);
-    if (accuracy->spent || accuracy->outcome.end_reason == PERCUSS_END_LIMIT)
+    if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
         return "the effort allowed is spent";
-    if (!accuracy->steps.energy_closes)
+    if (!solution->steps.energy_closes)
         return "the shortest steps allowed do not keep the energy";
     if (modes && omitted && assembly->capped)
         return sequence ? "the most modes that are tried of a body are too few for what the "
@@ -201,10 +201,10 @@ static const char *reason_of_error(const struct problem *problem, const struct a
 }
 
 /* What solutions near an answer that does not meet its tolerance say of it. */
-static void warn_range(const struct problem *problem, const struct accuracy *accuracy,
+static void warn_range(const struct problem *problem, const struct solution *solution,
                        struct solve_result *result)
 {
-    const struct nearby *nearby = &accuracy->nearby;
+    const struct nearby *nearby = &solution->nearby;
     size_t widest = 0;
     double width = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++)
@@ -215,49 +215,49 @@ static void warn_range(const struct problem *problem, const struct accuracy *acc
     if (width > 0.0)
         report_warn(result,
                     "contacts[%zu].restitution: %.9g: solutions near this one span %.9g to %.9g",
-                    widest, attempt_restitution(problem, &accuracy->outcome, widest),
+                    widest, outcome_restitution(problem, &solution->outcome, widest),
                     nearby->low[widest], nearby->high[widest]);
 }
 
 /* Counts that they do not confirm. */
-static void warn_counts(const struct problem *problem, const struct accuracy *accuracy,
+static void warn_counts(const struct problem *problem, const struct solution *solution,
                         struct solve_result *result)
 {
-    const struct nearby *nearby = &accuracy->nearby;
+    const struct nearby *nearby = &solution->nearby;
     for (size_t c = 0; c < problem->contact_count; c++)
         if (nearby->fewest[c] != nearby->most[c])
             report_warn(result,
                         "contacts[%zu].sub_impact_count: %zu: uncertain: solutions near this one "
                         "count %zu to %zu",
-                        c, accuracy->outcome.tracks[c].count, nearby->fewest[c], nearby->most[c]);
+                        c, solution->outcome.tracks[c].count, nearby->fewest[c], nearby->most[c]);
 }
 
-static void fill_errors(const struct problem *problem, const struct accuracy *accuracy,
+static void fill_errors(const struct problem *problem, const struct solution *solution,
                         struct solve_result *result)
 {
-    result->restitution_time = accuracy->steps.restitution;
-    result->restitution_modes = accuracy->modes.restitution;
-    result->impulse_time = accuracy->steps.impulse;
-    result->impulse_modes = accuracy->modes.impulse;
-    result->restitution_by_speed = accuracy->restitution_by_speed;
+    result->restitution_time = solution->steps.restitution;
+    result->restitution_modes = solution->modes.restitution;
+    result->impulse_time = solution->steps.impulse;
+    result->impulse_modes = solution->modes.impulse;
+    result->restitution_by_speed = solution->restitution_by_speed;
     /* what was cut off for its effort was compared with nothing */
     result->tolerance_met =
-        accuracy->tolerance_met && accuracy->outcome.end_reason != PERCUSS_END_LIMIT;
-    result->energy = accuracy->outcome.energy;
-    result->time_shift = accuracy->outcome.time_shift;
-    result->window = accuracy->outcome.window;
+        solution->tolerance_met && solution->outcome.end_reason != PERCUSS_END_LIMIT;
+    result->energy = solution->outcome.energy;
+    result->time_shift = solution->outcome.time_shift;
+    result->window = solution->outcome.window;
     if (!result->tolerance_met) {
         report_warn(
             result,
             "error.tolerance_met: false: the estimated error of the restitution is %.2g: %s",
-            accuracy->steps.restitution + accuracy->modes.restitution,
-            reason_of_error(problem, accuracy));
-        warn_range(problem, accuracy, result);
+            solution->steps.restitution + solution->modes.restitution,
+            reason_of_error(problem, solution));
+        warn_range(problem, solution, result);
     }
-    warn_counts(problem, accuracy, result);
+    warn_counts(problem, solution, result);
 }
 
-static void fill_end(const struct accuracy *accuracy, struct solve_result *result)
+static void fill_end(const struct solution *solution, struct solve_result *result)
 {
     static const char *const why[] = {
         [PERCUSS_END_HORIZON] = "the horizon was reached before vibration could cause no further "
@@ -267,9 +267,8 @@ static void fill_end(const struct accuracy *accuracy, struct solve_result *resul
             "final",
         [PERCUSS_END_LIMIT] = "the effort allowed was spent: the restitution is not final",
     };
-    result->end_reason = accuracy->outcome.end_reason;
-    result->complete = result->end_reason == PERCUSS_END_SEPARATED ||
-                       result->end_reason == PERCUSS_END_HANDED_BACK;
+    result->end_reason = solution->outcome.end_reason;
+    result->complete = outcome_is_complete(&solution->outcome);
     result->status = result->complete ? PERCUSS_OK : PERCUSS_TRUNCATED;
     if (!result->complete)
         fault_set(&result->fault, result->status, "%s", why[result->end_reason]);
@@ -283,19 +282,19 @@ static bool is_finite(const struct solve_result *result)
     return isfinite(sum);
 }
 
-void report_fill(const struct problem *problem, const struct accuracy *accuracy,
+void report_fill(const struct problem *problem, const struct solution *solution,
                  struct solve_result *result)
 {
-    fill_contacts(problem, accuracy, result);
-    fill_bodies(problem, accuracy, result);
-    fill_errors(problem, accuracy, result);
-    fill_model(problem, accuracy, result);
+    fill_contacts(problem, solution, result);
+    fill_bodies(problem, solution, result);
+    fill_errors(problem, solution, result);
+    fill_model(problem, solution, result);
     warn_dents(result);
-    fill_end(accuracy, result);
+    fill_end(solution, result);
     struct warnings warnings;
-    validity_find(problem, &accuracy->outcome, &warnings);
+    validity_find(problem, &solution->outcome, &warnings);
     report_warnings(&warnings, result);
-    if (!attempt_keeps_energy(accuracy->steps.energy_defect))
+    if (!outcome_keeps_energy(solution->steps.energy_defect))
         result->status =
             fault_set(&result->fault, PERCUSS_INTERNAL,
                       "energy.closure: %.3g J of %.3g J available: the solution does not "

@@ -5,12 +5,12 @@
 #ifndef PERCUSS_SOLVE_REPORT_H
 #define PERCUSS_SOLVE_REPORT_H
 
-#include "solve/accuracy.h"
 #include "solve/result.h"
+#include "solve/solution.h"
 #include "solve/warnings.h"
 
 /* Fills everything of `result` that the solution decides; status and message too. */
-void report_fill(const struct problem *problem, const struct accuracy *accuracy,
+void report_fill(const struct problem *problem, const struct solution *solution,
                  struct solve_result *result);
 
 /* Fills the bodies' velocities after all impulses of result->contacts, by the bodies' own masses.

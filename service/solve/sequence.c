@@ -19,7 +19,7 @@ static const double BOTH_SHARE = 0.9;
 static const double FEWER = 10.0;
 static const double FEWER_FACTOR = 0.5;
 
-static void widen(struct mode_error *error, double factor, struct attempt_difference change)
+static void widen(struct mode_error *error, double factor, struct outcome_difference change)
 {
     error->restitution = fmax(error->restitution, factor * change.restitution);
     error->impulse = fmax(error->impulse, factor * change.impulse);
@@ -53,7 +53,8 @@ static enum percuss_status compare_fewer_modes(struct attempt_context *context,
         return status;
     status = solve_beside(context, best, &fewer.assembly->scene, &fewer, error);
     if (!status && !error->unchecked)
-        widen(error, FEWER_FACTOR, attempt_compare(context, best, &fewer));
+        widen(error, FEWER_FACTOR,
+              outcome_compare(context->problem, &best->outcome, &fewer.outcome));
     return status;
 }
 
@@ -67,8 +68,8 @@ static enum percuss_status compare_again(struct attempt_context *context, struct
     enum percuss_status status = solve_beside(context, best, better, &next, error);
     if (status || error->unchecked)
         return status;
-    widen(error, SEQUENCE_FACTOR, attempt_compare(context, best, &next));
-    if (!is_long || error->restitution > SEQUENCE_MODES_SHARE * context->tolerance)
+    widen(error, SEQUENCE_FACTOR, outcome_compare(context->problem, &best->outcome, &next.outcome));
+    if (!is_long || error->restitution > SEQUENCE_MODES_SHARE * context->problem->tolerance)
         return PERCUSS_OK;
     return compare_fewer_modes(context, best, error);
 }
@@ -85,11 +86,13 @@ static enum percuss_status tell_apart(struct attempt_context *context, struct at
     enum percuss_status status = solve_beside(context, best, &best->assembly->scene, longer, error);
     if (status || error->unchecked)
         return status;
-    double steps = SEQUENCE_FACTOR * attempt_compare(context, best, longer).restitution;
-    widen(error, SEQUENCE_FACTOR, attempt_compare(context, longer, both));
+    double steps = SEQUENCE_FACTOR *
+                   outcome_compare(context->problem, &best->outcome, &longer->outcome).restitution;
+    widen(error, SEQUENCE_FACTOR,
+          outcome_compare(context->problem, &longer->outcome, &both->outcome));
     error->longer = longer;
     /* whichever is further from its share */
-    double allowed = SEQUENCE_STEPS_SHARE * context->tolerance;
+    double allowed = SEQUENCE_STEPS_SHARE * context->problem->tolerance;
     double modes = SEQUENCE_STEPS_SHARE / SEQUENCE_MODES_SHARE * error->restitution;
     error->by_steps = steps > fmax(allowed, modes);
     return PERCUSS_OK;
@@ -111,18 +114,20 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
     enum percuss_status status = solve_beside(context, best, &better, &both, error);
     if (status || error->unchecked)
         return status;
-    struct attempt_difference change = attempt_compare(context, best, &both);
-    bool is_long = attempt_is_long(best) ||
-                   change.restitution > STRONG * fmax(slow.restitution, 0.01 * context->tolerance);
+    struct outcome_difference change =
+        outcome_compare(context->problem, &best->outcome, &both.outcome);
+    bool is_long =
+        attempt_is_long(best) ||
+        change.restitution > STRONG * fmax(slow.restitution, 0.01 * context->problem->tolerance);
     widen(error, SEQUENCE_FACTOR, change);
     error->covers_steps =
-        first && !is_long && error->restitution <= BOTH_SHARE * context->tolerance;
+        first && !is_long && error->restitution <= BOTH_SHARE * context->problem->tolerance;
     if (error->covers_steps)
         return PERCUSS_OK;
     *error = slow;
     status = tell_apart(context, best, &both, error);
     if (status || error->unchecked || error->by_steps ||
-        error->restitution > SEQUENCE_MODES_SHARE * context->tolerance)
+        error->restitution > SEQUENCE_MODES_SHARE * context->problem->tolerance)
         return status;
     return compare_again(context, best, &better, is_long, error);
 }

@@ -99,27 +99,27 @@ static enum percuss_status answer(struct solve_workspace *workspace,
                                   const struct solve_request *request, struct solve_result *result)
 {
     struct problem *problem = problem_create(request, workspace->cache, &workspace->arena);
-    struct accuracy *accuracy = arena_take(&workspace->arena, 1, sizeof *accuracy);
-    if (!problem || !accuracy)
+    struct solution *solution = arena_take(&workspace->arena, 1, sizeof *solution);
+    if (!problem || !solution)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
     struct pace pace = {.watch = &means->watch};
     enum percuss_status status = formulate(problem, means, &result->fault);
     if (!status && request->options.contact_model == PERCUSS_CONTACT_COMPLETE_FE)
         return complete_answer(problem, &pace, result);
     if (!status)
-        status = accuracy_reach(accuracy, problem, &pace, &result->fault);
+        status = solution_find(solution, problem, NULL, &workspace->arena, &pace, &result->fault);
     struct concurrent_effort effort;
     bool concurrent = request->options.contact_model == PERCUSS_CONTACT_CONCURRENT_FE;
     if (!status && concurrent)
-        status = concurrent_refine(accuracy, problem, &pace, &effort, &result->fault);
+        status = concurrent_refine(solution, problem, &pace, &effort, &result->fault);
     if (!status) {
-        report_fill(problem, accuracy, result);
+        report_fill(problem, solution, result);
         if (concurrent)
-            concurrent_report(&effort, problem, accuracy, result);
+            concurrent_report(&effort, problem, solution, result);
         status = result->status;
     }
     if (request->options.trace && (status == PERCUSS_OK || status == PERCUSS_TRUNCATED))
-        status = history_make(problem, accuracy, &pace, result);
+        status = history_make(problem, solution, &pace, result);
     return status;
 }
 

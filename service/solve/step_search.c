@@ -34,8 +34,8 @@ static double error_of_steps(const struct attempt_context *context, const struct
 {
     double e = best->outcome.plastic > 0.0 ? 0.0 : ELASTIC_REBOUND;
     for (size_t c = 0; c < context->problem->contact_count; c++)
-        e = fmax(e, fabs(attempt_restitution(context->problem, &best->outcome, c)));
-    double defect = 4.0 * attempt_energy_defect(context->problem, &best->outcome);
+        e = fmax(e, fabs(outcome_restitution(context->problem, &best->outcome, c)));
+    double defect = 4.0 * outcome_energy_defect(context->problem, &best->outcome);
     double rebound = best->outcome.plastic > 0.0 ? e + sqrt(e * e + defect) : 2.0 * e;
     double change = defect > 0.0 ? defect / rebound : 0.0;
     return fmax(change, 0.1 * pow(best->accuracy, 0.8));
@@ -69,7 +69,8 @@ static enum percuss_status compare(struct attempt_context *context, const struct
         error->unchecked = attempt_is_sequence(best);
         return PERCUSS_OK;
     }
-    struct attempt_difference change = attempt_compare(context, best, known);
+    struct outcome_difference change =
+        outcome_compare(context->problem, &best->outcome, &known->outcome);
     nearby_add(context->nearby, context->problem, &known->outcome);
     if (!attempt_is_sequence(best)) { /* better than any estimate */
         *error = (struct step_error){.restitution = change.restitution, .impulse = change.impulse};
@@ -88,11 +89,12 @@ static enum percuss_status estimate(struct attempt_context *context, const struc
 {
     bool sequence = attempt_is_sequence(best);
     *error = estimate_alone(context, best);
-    if (compared || (!sequence && context->tolerance >= COMPARE_BELOW))
+    if (compared || (!sequence && context->problem->tolerance >= COMPARE_BELOW))
         return PERCUSS_OK;
     enum percuss_status status = compare(context, best, ATTEMPT_LONGER, coarse, error);
     bool again = sequence && (attempt_is_long(best) || context->problem->contact_count > 1);
-    if (!status && again && error->restitution <= SEQUENCE_STEPS_SHARE * context->tolerance)
+    if (!status && again &&
+        error->restitution <= SEQUENCE_STEPS_SHARE * context->problem->tolerance)
         status = compare(context, best, SLIGHTLY_LONGER, NULL, error);
     return status;
 }
@@ -100,8 +102,9 @@ static enum percuss_status estimate(struct attempt_context *context, const struc
 enum percuss_status step_search(struct attempt_context *context, struct attempt *best,
                                 const struct mode_error *modes, struct step_error *error)
 {
-    double closure_allowed =
-        context->tolerance <= 1e-8 ? 1e-9 : fmin(10.0 * context->tolerance, ATTEMPT_WORST_DEFECT);
+    double closure_allowed = context->problem->tolerance <= 1e-8
+                                 ? 1e-9
+                                 : fmin(10.0 * context->problem->tolerance, OUTCOME_WORST_DEFECT);
     const struct attempt *coarse = modes->longer;
     struct attempt before;
     for (int i = 0;; i++) {
@@ -109,10 +112,10 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         enum percuss_status status = estimate(context, best, coarse, compared, error);
         if (status)
             return status;
-        error->energy_defect = attempt_energy_defect(context->problem, &best->outcome);
+        error->energy_defect = outcome_energy_defect(context->problem, &best->outcome);
         error->energy_closes = error->energy_defect <= closure_allowed;
-        bool enough =
-            error->restitution <= SEQUENCE_STEPS_SHARE * context->tolerance && error->energy_closes;
+        bool enough = error->restitution <= SEQUENCE_STEPS_SHARE * context->problem->tolerance &&
+                      error->energy_closes;
         if (enough || i >= MAX_TIGHTENINGS || best->accuracy < 1.01 * ATTEMPT_FINEST ||
             attempt_is_spent(best) || best->outcome.too_stiff)
             return PERCUSS_OK;

@@ -11,6 +11,7 @@
 #include "solve/compliance.h"
 #include "solve/contact_model.h"
 #include "solve/law_error.h"
+#include "solve/outcome.h"
 
 /* Contact or dent against the smallest radius: surfaces are no longer parabolas there. */
 static const double LARGEST_CONTACT = 0.3;
@@ -45,14 +46,6 @@ double validity_wave_loss(const struct problem *problem)
         worst = fmax(worst, 0.5 * energy_share);
     }
     return worst;
-}
-
-static double largest_force(const struct track *track)
-{
-    double largest = 0.0;
-    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
-        largest = fmax(largest, track->list[i].peak_force);
-    return largest;
 }
 
 static const struct body *body_of(const struct problem *problem, size_t c, unsigned which)
@@ -178,7 +171,7 @@ static void find_contact(const struct problem *problem, const struct impact_outc
                          size_t c, double approach, struct warnings *warnings)
 {
     const struct hertz_contact *hertz = &problem->hertz[c];
-    double force = largest_force(&outcome->tracks[c]);
+    double force = outcome_peak_force(outcome, c);
     double axes[2];
     hertz_ellipse(hertz, force, axes);
     if (contact_model_used(problem) == PERCUSS_CONTACT_HERTZ)

@@ -282,11 +282,11 @@ static void no_dent_is_lost(void **state)
         const struct solve_request request =
             strike(sphere_spot("ball", 0.015), end_spot("rod-1", 1.0), speed);
         struct repeat_outcome fine, coarse;
-        struct repeat_model model = {2.0 * M_PI * 60e3, 1e-5};
+        struct solution_model model = {2.0 * M_PI * 60e3, 1e-5};
         repeat_solve(repeat, &lab->means, &request, 0, &model, false, &fine, &fault);
         for (double cut = 18e3; cut < 40e3; cut *= 1.1)
             for (double accuracy = 1e-4; accuracy < 0.2; accuracy *= 10.0) {
-                model = (struct repeat_model){2.0 * M_PI * cut, accuracy};
+                model = (struct solution_model){2.0 * M_PI * cut, accuracy};
                 repeat_solve(repeat, &lab->means, &request, 0, &model, false, &coarse, &fault);
                 assert_int_equal(coarse.contact_model, PERCUSS_CONTACT_TABLE);
                 worst = fmax(worst, fabs(coarse.restitution - fine.restitution));

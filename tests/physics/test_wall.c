@@ -281,7 +281,7 @@ static void every_sample_has_its_own_waves(void **state)
     static struct solve_result result;
     struct lab *lab = wall_lab(STEEL, ALUMINIUM);
     struct repeat *repeat = repeat_create();
-    struct repeat_model model;
+    struct solution_model model;
     struct repeat_outcome outcome;
     struct fault fault;
     struct solve_request request = on_wall(SPEEDS[COUNT(SPEEDS) - 1]);

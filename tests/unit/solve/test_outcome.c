@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests solve/attempt.c: when a solution that was cut off says something of the restitution. */
+/* Tests solve/outcome.c: when a solution that was cut off says something of the restitution. */
 #include "check.h"
-#include "solve/attempt.h"
+#include "solve/outcome.h"
 
 /* Two contacts that approach, and what a solution found of them. */
 struct case_at_hand {
@@ -28,15 +28,15 @@ static void only_what_met_no_force_at_all_is_unsolved(void **state)
     (void)state;
     struct case_at_hand at_hand;
     set(&at_hand, PERCUSS_END_LIMIT, 0.0);
-    assert_true(attempt_is_unsolved(&at_hand.problem, &at_hand.outcome));
+    assert_true(outcome_is_unsolved(&at_hand.problem, &at_hand.outcome));
     /* one contact has, so that nothing was transmitted by the other so far */
     set(&at_hand, PERCUSS_END_LIMIT, 3.0);
-    assert_false(attempt_is_unsolved(&at_hand.problem, &at_hand.outcome));
-    assert_true(attempt_restitution(&at_hand.problem, &at_hand.outcome, 0) == -1.0);
-    assert_true(attempt_restitution(&at_hand.problem, &at_hand.outcome, 1) == 0.5);
+    assert_false(outcome_is_unsolved(&at_hand.problem, &at_hand.outcome));
+    assert_true(outcome_restitution(&at_hand.problem, &at_hand.outcome, 0) == -1.0);
+    assert_true(outcome_restitution(&at_hand.problem, &at_hand.outcome, 1) == 0.5);
     /* solved to the end: they fly on */
     set(&at_hand, PERCUSS_END_SEPARATED, 0.0);
-    assert_false(attempt_is_unsolved(&at_hand.problem, &at_hand.outcome));
+    assert_false(outcome_is_unsolved(&at_hand.problem, &at_hand.outcome));
 }
 
 int main(void)

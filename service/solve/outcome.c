@@ -1,0 +1,104 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/outcome.h"
+
+#include <math.h>
+#include <stdio.h>
+
+bool outcome_is_complete(const struct impact_outcome *outcome)
+{
+    return outcome->end_reason == PERCUSS_END_SEPARATED ||
+           outcome->end_reason == PERCUSS_END_HANDED_BACK;
+}
+
+bool outcome_is_unsolved(const struct problem *problem, const struct impact_outcome *outcome)
+{
+    bool touched = false;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        touched = touched || outcome->tracks[c].impulse > 0.0;
+    return outcome->end_reason == PERCUSS_END_LIMIT && !touched;
+}
+
+double outcome_restitution(const struct problem *problem, const struct impact_outcome *outcome,
+                           size_t contact)
+{
+    double compression = problem->impulse_compression[contact];
+    return compression > 0.0 ? outcome->tracks[contact].impulse / compression - 1.0 : NAN;
+}
+
+/* The sub-impacts of a track that are listed. */
+static size_t listed(const struct track *track)
+{
+    return track->count < PERCUSS_MAX_SUB_IMPACTS ? track->count : PERCUSS_MAX_SUB_IMPACTS;
+}
+
+double outcome_peak_force(const struct impact_outcome *outcome, size_t contact)
+{
+    const struct track *track = &outcome->tracks[contact];
+    double largest = 0.0;
+    for (size_t i = 0; i < listed(track); i++)
+        largest = fmax(largest, track->list[i].peak_force);
+    return largest;
+}
+
+double outcome_deepest(const struct impact_outcome *outcome, size_t contact)
+{
+    const struct track *track = &outcome->tracks[contact];
+    double largest = 0.0;
+    for (size_t i = 0; i < listed(track); i++)
+        largest = fmax(largest, track->list[i].max_indentation);
+    return largest;
+}
+
+struct outcome_difference outcome_compare(const struct problem *problem,
+                                          const struct impact_outcome *a,
+                                          const struct impact_outcome *b)
+{
+    struct outcome_difference largest = {0.0, 0.0};
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        double change = fabs(a->tracks[c].impulse - b->tracks[c].impulse);
+        double compression = problem->impulse_compression[c];
+        largest.impulse = fmax(largest.impulse, change);
+        if (compression > 0.0)
+            largest.restitution = fmax(largest.restitution, change / compression);
+    }
+    return largest;
+}
+
+double outcome_energy_defect(const struct problem *problem, const struct impact_outcome *outcome)
+{
+    double approach = 0.0;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        approach += 0.5 * problem->impulse_compression[c] * fabs(problem->gap_rate[c]);
+    double lost = fabs(outcome->energy.closure);
+    // the slowest approach of all has no energy that doubles can hold
+    return lost == 0.0 ? 0.0 : lost / fmax(outcome->energy.available, approach);
+}
+
+bool outcome_keeps_energy(double defect)
+{
+    return defect <= OUTCOME_WORST_DEFECT;
+}
+
+enum percuss_status outcome_refuse_overlap(const struct problem *problem,
+                                           const struct impact_outcome *outcome, double horizon,
+                                           struct fault *fault)
+{
+    const struct solve_contact *contacts = problem->request->contacts;
+    bool group = problem->contact_count > 1;
+    size_t deepest = 0;
+    for (size_t c = 1; c < problem->contact_count; c++)
+        if (contacts[c].gap < contacts[deepest].gap)
+            deepest = c;
+    char within[96] = "";
+    if (outcome->beyond_horizon)
+        snprintf(within, sizeof within, " within options.horizon (%g s) before: raise it", horizon);
+    return fault_set(
+        fault, PERCUSS_BAD_REQUEST,
+        "contacts[%zu].gap: %g m: the bodies overlap, and at the stated gap rate (%g m/s), "
+        "acceleration and vibration %s%s",
+        deepest, contacts[deepest].gap, problem->gap_rate[deepest],
+        group ? "there was no instant at which every contact was open" : "they never touched",
+        within[0] ? within : " before");
+}

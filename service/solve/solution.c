@@ -1,0 +1,200 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/solution.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "solve/attempt.h"
+#include "solve/formulation.h"
+
+/* Less of the effort allowed than a step costs at most. */
+static const double SPENT = 1e-3;
+/* Relative: so that the highest mode is below the cut that it gives. */
+static const double ROUNDING = 1e-12;
+/* Relative change of the speeds for a derivative, and the accuracy that it needs: what steps leave
+ * of a restitution (step_search.c) changes it by 3e-4 of e over the speed then. */
+static const double SPEED_STEP = 1e-5;
+static const double DERIVATIVE_ACCURACY = 1e-9;
+
+/* d(restitution)/d(speed) of the contact with the largest impulse, by central difference with all
+ * gap rates scaled. */
+static enum percuss_status find_conditioning(struct attempt_context *context,
+                                             const struct attempt *best, double *by_speed)
+{
+    const struct track *tracks = best->outcome.tracks;
+    size_t main_contact = 0;
+    for (size_t c = 1; c < context->problem->contact_count; c++)
+        if (tracks[c].impulse > tracks[main_contact].impulse)
+            main_contact = c;
+    double restitution[2];
+    for (int side = 0; side < 2; side++) {
+        struct attempt shifted = *best;
+        shifted.accuracy = fmin(best->accuracy, DERIVATIVE_ACCURACY);
+        enum percuss_status status =
+            attempt_run_scaled(context, &shifted, side == 0 ? 1.0 - SPEED_STEP : 1.0 + SPEED_STEP);
+        if (status || attempt_is_spent(&shifted))
+            return status;
+        restitution[side] = outcome_restitution(context->problem, &shifted.outcome, main_contact);
+    }
+    *by_speed = (restitution[1] - restitution[0]) /
+                (2.0 * SPEED_STEP * fabs(context->problem->gap_rate[main_contact]));
+    return PERCUSS_OK;
+}
+
+static double largest_compression(const struct problem *problem)
+{
+    double largest = 0.0;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        largest = fmax(largest, problem->impulse_compression[c]);
+    return largest;
+}
+
+/* The width of what a restitution can be, from no impulse (-1) to a full rebound, or what it is. */
+static double possible_range(const struct attempt_context *context, const struct attempt *best)
+{
+    double most = 1.0;
+    for (size_t c = 0; c < context->problem->contact_count; c++)
+        most = fmax(most, outcome_restitution(context->problem, &best->outcome, c));
+    return 1.0 + most;
+}
+
+/* An answer that does not meet its tolerance is one of those beside it. What is unknown is no less
+ * than the tolerance. */
+static void widen(const struct attempt_context *context, const struct attempt *best, bool unknown,
+                  struct solution *solution)
+{
+    struct mode_error *modes = &solution->modes;
+    double distance = nearby_distance(context->nearby, context->problem, &best->outcome);
+    bool alone = context->nearby->solutions < 2;
+    double error = alone && !unknown ? 0.0 : SEQUENCE_FACTOR * distance;
+    error = fmax(error, unknown ? context->problem->tolerance : 0.0) - solution->steps.restitution;
+    if (error > modes->restitution) {
+        modes->restitution = error;
+        modes->impulse = fmax(modes->impulse, error * largest_compression(context->problem));
+    }
+}
+
+/* Errors that are wider than what is possible. */
+static void bound(double range, double compression, double *restitution, double *impulse)
+{
+    if (*restitution > range) {
+        *restitution = range;
+        *impulse = fmin(*impulse, range * compression);
+    }
+}
+
+/* What the searches found, in the terms of the answer. */
+static void conclude(const struct attempt_context *context, const struct attempt *best,
+                     struct solution *solution)
+{
+    solution->assembly = best->assembly;
+    solution->scene = &best->assembly->scene;
+    solution->outcome = best->outcome;
+    solution->step_accuracy = best->accuracy;
+    /* what was cut off was compared with nothing */
+    bool unknown = solution->modes.unchecked || solution->steps.unchecked || attempt_is_spent(best);
+    solution->tolerance_met =
+        solution->steps.energy_closes && !unknown &&
+        solution->steps.restitution + solution->modes.restitution <= context->problem->tolerance;
+    if (!solution->tolerance_met && (attempt_is_sequence(best) || unknown))
+        widen(context, best, unknown, solution);
+    /* what sequences amplify beyond all bounds */
+    double range = possible_range(context, best);
+    double compression = largest_compression(context->problem);
+    bound(range, compression, &solution->steps.restitution, &solution->steps.impulse);
+    bound(range, compression, &solution->modes.restitution, &solution->modes.impulse);
+}
+
+/* By as many modes and as short steps as the tolerance asks for. */
+static enum percuss_status search(struct solution *solution, const struct problem *problem,
+                                  struct arena *arena, struct pace *pace, struct fault *fault)
+{
+    const struct solve_options *options = &problem->request->options;
+    struct attempt_context context = {
+        .problem = problem,
+        .arena = arena,
+        .pace = pace,
+        .work = attempt_work_allowed(options->method),
+        .nearby = &solution->nearby,
+    };
+    bool sequence = mode_search_expects_sequence(problem);
+    struct attempt best = {.accuracy = step_search_first_accuracy(problem->tolerance, sequence,
+                                                                  problem->contact_count > 1)};
+    memset(solution, 0, sizeof *solution);
+    solution->restitution_by_speed = NAN;
+    enum percuss_status status = mode_search(&context, &best, &solution->modes);
+    if (!status && best.outcome.always_overlapped)
+        return outcome_refuse_overlap(problem, &best.outcome,
+                                      attempt_horizon(problem, &best.assembly->scene), fault);
+    if (!status)
+        status = step_search(&context, &best, &solution->modes, &solution->steps);
+    if (!status && options->conditioning)
+        status = find_conditioning(&context, &best, &solution->restitution_by_speed);
+    if (status)
+        return pace_fault(fault, status);
+    /* what is cut off for its effort takes all that was left, but for a step */
+    solution->spent = context.work < SPENT * attempt_work_allowed(options->method);
+    conclude(&context, &best, solution);
+    return PERCUSS_OK;
+}
+
+/* The scene of a model: stand-ins for the modes that it leaves out take part. NULL: out of memory.
+ */
+static const struct scene *make_scene(const struct problem *problem,
+                                      const struct solution_model *model)
+{
+    const struct mode_choice choice = {.cut = model->cut, .most = MODE_SEARCH_MOST};
+    struct assembly *assembly = arena_take(problem->arena, 1, sizeof *assembly);
+    struct scene *scene = arena_take(problem->arena, 1, sizeof *scene);
+    bool made = assembly && scene && assemble(assembly, problem, &choice) &&
+                assemble_remainder(assembly, problem, scene);
+    return made ? scene : NULL;
+}
+
+/* Once, without an estimate of the error. */
+static enum percuss_status run(struct solution *solution, const struct problem *problem,
+                               const struct solution_model *model, struct arena *arena,
+                               struct pace *pace, struct fault *fault)
+{
+    struct attempt attempt = {.accuracy = model->accuracy};
+    struct attempt_context context = {
+        .problem = problem,
+        .arena = arena,
+        .pace = pace,
+        .work = attempt_work_allowed(problem->request->options.method),
+    };
+    if (!solution->scene)
+        solution->scene = make_scene(problem, model);
+    if (!solution->scene)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    enum percuss_status status = attempt_run(&context, &attempt, solution->scene);
+    if (status)
+        return pace_fault(fault, status);
+    solution->outcome = attempt.outcome;
+    if (!attempt.outcome.always_overlapped)
+        return PERCUSS_OK;
+    return outcome_refuse_overlap(problem, &attempt.outcome,
+                                  attempt_horizon(problem, solution->scene), fault);
+}
+
+enum percuss_status solution_find(struct solution *solution, struct problem *problem,
+                                  const struct solution_model *model, struct arena *arena,
+                                  struct pace *pace, struct fault *fault)
+{
+    for (bool revised = false;; revised = true) {
+        enum percuss_status status = model ? run(solution, problem, model, arena, pace, fault)
+                                           : search(solution, problem, arena, pace, fault);
+        solution->revised = revised;
+        if (status || !formulation_revise(problem, solution->scene, &solution->outcome))
+            return status;
+        solution->scene = NULL;
+    }
+}
+
+struct solution_model solution_model_of(const struct solution *solution)
+{
+    return (struct solution_model){solution->assembly->highest * (1.0 + ROUNDING),
+                                   solution->step_accuracy};
+}

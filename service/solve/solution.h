@@ -1,0 +1,47 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The solution of a problem: as many modes (mode_search.h) and as short time steps (step_search.h)
+ * as the tolerance on the restitution asks for, or a model of both that is given. */
+#ifndef PERCUSS_SOLVE_SOLUTION_H
+#define PERCUSS_SOLVE_SOLUTION_H
+
+#include "base/watch.h"
+#include "solve/mode_search.h"
+#include "solve/nearby.h"
+#include "solve/step_search.h"
+
+/* What a search settles on: enough to solve the same problem again, or ones like it. */
+struct solution_model {
+    double cut;      /* modes up to this angular frequency take part, rad/s */
+    double accuracy; /* of the time steps, see impact_settings */
+};
+
+/* By a model only `scene`, `outcome` and `revised` are filled. */
+struct solution {
+    const struct scene *scene;     /* of the answer, in the problem's arena */
+    struct impact_outcome outcome; /* the answer */
+    bool revised;                  /* the problem was formulated anew on the way */
+    struct assembly *assembly;     /* of the scene */
+    double step_accuracy;          /* that it was solved with, see impact_settings */
+    struct mode_error modes;
+    struct step_error steps;
+    struct nearby nearby;        /* the answer, and those that it was compared with */
+    double restitution_by_speed; /* NAN unless asked for */
+    bool tolerance_met;
+    bool spent; /* the effort allowed ended the search */
+};
+
+/* Solves until the estimated error fits the tolerance or the effort allowed is spent, or once by a
+ * model (NULL: none); again as long as a solution leaves something to revise of the problem. By a
+ * model solution->scene is taken as it is if it is there. The arena is the outcome's; `pace` (NULL:
+ * nobody) may stop it. PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT; BAD_REQUEST: an overlap
+ * that contradicts itself. */
+enum percuss_status solution_find(struct solution *solution, struct problem *problem,
+                                  const struct solution_model *model, struct arena *arena,
+                                  struct pace *pace, struct fault *fault);
+
+/* What a search settled on. */
+struct solution_model solution_model_of(const struct solution *solution);
+
+#endif
