@@ -66,7 +66,6 @@ client/measured history impact table
 client/slowscale episode group impact list pairs question slow
 service/catalogue catalogue content names
 service/contact family family_parts
-service/ensemble choice ensemble remarks report verification worker
 service/fe complete_setup impact_complete indentation indentation_run mesh mesh_rings region
 service/fe region_parts solid solid_parts
 service/model beam body body_check torsion

@@ -16,6 +16,8 @@
 #include "endpoint/encode.h"
 #include "endpoint/encode_ensemble.h"
 #include "endpoint/question.h"
+#include "ensemble/create.h"
+#include "ensemble/report_make.h"
 
 enum { MOST_WORKERS = 64 };
 

@@ -59,10 +59,10 @@ static enum percuss_status solve_pilots(struct choice *choice, struct fault *fau
         }
         copula_apply(&ensemble->copula, point);
         /* lists taken in order are looked at along all their length */
-        worker_fill_values(ensemble, point, k * ensemble->count / PILOTS, pilot->values);
+        ensemble_values(ensemble, point, k * ensemble->count / PILOTS, pilot->values);
         status = worker_search(choice->worker, pilot->values, &pilot->model, &outcome, fault);
         pilot->restitution = outcome.restitution;
-        choice->count += worker_has_result(status);
+        choice->count += ensemble_has_result(status);
     }
     return choice->count > 0 ? PERCUSS_OK : status;
 }
@@ -76,7 +76,7 @@ static double difference_of(struct choice *choice, unsigned k)
     ensemble->same_scene = k > 0 && !spec_changes_scene(&ensemble->spec);
     worker_solve(choice->worker, choice->pilots[k].values, &outcome, NULL);
     double difference = fabs(outcome.restitution - choice->pilots[k].restitution);
-    return worker_has_result(outcome.status) && isfinite(difference) ? difference : INFINITY;
+    return ensemble_has_result(outcome.status) && isfinite(difference) ? difference : INFINITY;
 }
 
 static bool all_agree(struct choice *choice)

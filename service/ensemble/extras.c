@@ -1,10 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* How many samples and extra solutions an ensemble takes, and what the extras belong to. */
-#include <math.h>
+#include "ensemble/extras.h"
 
-#include "ensemble/worker.h"
+#include <math.h>
 
 enum {
     VERIFIED = 200,
@@ -86,7 +85,7 @@ struct ensemble_extra ensemble_extra(struct ensemble_worker *worker, uint64_t do
     enum percuss_status status = place.dimension == SIZE_MAX
                                      ? worker_search(worker, values, NULL, &outcome, NULL)
                                      : worker_solve(worker, values, &outcome, NULL);
-    if (!worker_has_result(status))
+    if (!ensemble_has_result(status))
         return (struct ensemble_extra){NAN, NAN};
     return (struct ensemble_extra){outcome.restitution, outcome.error};
 }

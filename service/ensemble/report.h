@@ -6,7 +6,7 @@
 #define PERCUSS_ENSEMBLE_REPORT_H
 
 #include "base/arena.h"
-#include "ensemble/ensemble.h"
+#include "ensemble/extras.h"
 #include "ensemble/indices.h"
 #include "ensemble/influence.h"
 #include "ensemble/interval.h"
@@ -89,10 +89,6 @@ struct report_material {
 void report_probabilities(const struct ensemble_spec *spec, const double **probabilities,
                           size_t *count);
 
-/* The report on them. What its warnings quote is solved again, watched by `watch` (NULL: nobody),
- * see remarks.h. False: out of memory. Release it all the same. */
-bool report_create(struct ensemble_report *report, const struct ensemble *ensemble,
-                   const struct report_material *material, const struct watch *watch);
 void report_release(struct ensemble_report *report);
 
 /* Mean of the restitution so far, for progress and for stopping. */

@@ -50,19 +50,6 @@ const struct ensemble *worker_ensemble(const struct ensemble_worker *worker)
     return worker->ensemble;
 }
 
-void worker_fill_values(const struct ensemble *ensemble, const double *point, uint64_t index,
-                        double *values)
-{
-    const struct ensemble_spec *spec = &ensemble->spec;
-    for (size_t i = 0; i < spec->input_count; i++) {
-        const struct ensemble_input *input = &spec->inputs[i];
-        bool listed = input->distribution == DISTRIBUTION_IS_LIST;
-        values[i] = listed ? input->values[index % input->value_count] : input->first;
-    }
-    for (size_t d = 0; d < ensemble->sampling.dimensions; d++)
-        values[ensemble->drawn[d]] = input_value(&spec->inputs[ensemble->drawn[d]], point[d]);
-}
-
 /* Puts the values in place. */
 static enum percuss_status apply(struct ensemble_worker *worker, const double *values,
                                  struct fault *fault)
@@ -107,7 +94,7 @@ void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensem
     struct repeat_outcome outcome;
     ensemble_inputs(worker->ensemble, index, values);
     enum percuss_status status = worker_solve(worker, values, &outcome, fault);
-    bool good = worker_has_result(status);
+    bool good = ensemble_has_result(status);
     *sample = (struct ensemble_sample){
         .restitution = good ? outcome.restitution : NAN,
         .impulse = good ? outcome.impulse : NAN,

@@ -6,18 +6,17 @@
 #define PERCUSS_ENSEMBLE_WORKER_H
 
 #include "ensemble/ensemble.h"
+#include "solve/repeat.h"
 
-static inline bool worker_has_result(enum percuss_status status)
-{
-    return status == PERCUSS_OK || status == PERCUSS_TRUNCATED;
-}
+struct ensemble_worker;
+/* `watch` (NULL: nobody; copied) is asked about once a millisecond of a solution whether to go on.
+ * BAD_REQUEST: an input that this impact cannot have; INTERNAL: out of memory. */
+enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
+                                           const struct ensemble *ensemble,
+                                           const struct watch *watch, struct fault *fault);
+void ensemble_worker_free(struct ensemble_worker *worker);
 
 const struct ensemble *worker_ensemble(const struct ensemble_worker *worker);
-
-/* Values of all inputs, spec.input_count of them, from a point of the unit cube; lists that are
- * taken in order give their value `index`. */
-void worker_fill_values(const struct ensemble *ensemble, const double *point, uint64_t index,
-                        double *values);
 
 /* Runs the ensemble's model on one set of values. Returns outcome->status; a refusal's message goes
  * to `fault` (NULL: nobody reads it). */
@@ -28,5 +27,13 @@ enum percuss_status worker_solve(struct ensemble_worker *worker, const double *v
 enum percuss_status worker_search(struct ensemble_worker *worker, const double *values,
                                   struct solution_model *model, struct repeat_outcome *outcome,
                                   struct fault *fault);
+
+/* Solves sample `index`; its status is TIMEOUT where the watch stopped it: it is not solved. The
+ * message of a refusal goes to `fault` (NULL: nobody reads it). */
+void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensemble_sample *sample,
+                    struct fault *fault);
+
+/* The warnings of the sample that the worker solved last. */
+const struct warnings *ensemble_warnings(const struct ensemble_worker *worker);
 
 #endif

@@ -5,7 +5,8 @@
 #ifndef PERCUSS_TEST_ENSEMBLE_LAB_H
 #define PERCUSS_TEST_ENSEMBLE_LAB_H
 
-#include "ensemble/report.h"
+#include "ensemble/create.h"
+#include "ensemble/report_make.h"
 #include "physics/support.h"
 
 struct ensemble_lab {

@@ -3,7 +3,7 @@
 
 /* Mirrors service/ensemble/extras.c: the samples that are looked at again stand for all. */
 #include "check.h"
-#include "ensemble/ensemble.h"
+#include "ensemble/extras.h"
 
 /* Two inputs, nothing else. */
 static struct ensemble *make(enum sampling_method method, uint64_t count)
