@@ -7,6 +7,9 @@
 
 #include <stdbool.h>
 
+/* Share of a contact's impulse below which a sub-impact counts as negligible. */
+static const double IMPACT_NEGLIGIBLE = 0.01;
+
 /* A maximal interval with local indentation > 0. */
 struct sub_impact {
     double start; /* s from the stated instant */

@@ -125,5 +125,5 @@ void track_close(struct track *track, const struct contact_law *law, double time
 void track_mark_negligible(struct track *track)
 {
     for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
-        track->list[i].negligible = track->list[i].impulse < 0.01 * track->impulse;
+        track->list[i].negligible = track->list[i].impulse < IMPACT_NEGLIGIBLE * track->impulse;
 }

@@ -56,6 +56,12 @@ static const double ATTEMPT_LONGER = 100.0;
 /* Finest accuracy of the time steps that is tried. */
 static const double ATTEMPT_FINEST = 1e-17;
 
+/* Whether steps can still be shortened: rounding may have left them a little above the finest. */
+static inline bool attempt_can_shorten(double accuracy)
+{
+    return accuracy > 1.01 * ATTEMPT_FINEST;
+}
+
 /* Whether a contact closes so often that one comparison may agree by chance. */
 bool attempt_is_long(const struct attempt *attempt);
 

@@ -159,7 +159,7 @@ static void fill_contact(const struct problem *problem, const struct complete_re
             .max_indentation = one->max_indentation,
             .gap_rate_before = rate,
             .gap_rate_after = rate + w * one->impulse,
-            .negligible = one->impulse < 0.01 * from->impulse,
+            .negligible = one->impulse < IMPACT_NEGLIGIBLE * from->impulse,
         };
         rate = list[i].gap_rate_after;
     }

@@ -16,6 +16,8 @@
 /* A hit counts as central up to this share of the radius: the correction is of second order in it.
  */
 static const double CENTRAL = 0.1;
+/* And as on an end face from this part of the length on: the rest is its rounding. */
+static const double END = 0.45;
 
 /* Contact radius (m) of a collision of the rigid masses at the fastest approach: the correction
  * depends on its logarithm at most. */
@@ -27,7 +29,7 @@ static double patch_radius(const struct problem *problem, size_t c)
     for (size_t i = 0; i < n; i++)
         speed = fmax(speed, -problem->gap_rate[i]);
     double energy = 0.5 * speed * speed / problem->w[c * (n + 1)];
-    double force = hertz->stiffness * pow(energy / (0.4 * hertz->stiffness), 0.6);
+    double force = hertz->stiffness * pow(energy / (HERTZ_WORK * hertz->stiffness), 0.6);
     double axes[2];
     hertz_ellipse(hertz, force, axes);
     return sqrt(axes[0] * axes[1]);
@@ -37,7 +39,7 @@ static bool is_central(const struct body *body, const double point[3])
 {
     double off = hypot(point[1], point[2]);
     double length = fabs(point[0]);
-    return off <= CENTRAL * body->radius && length > 0.45 * body->length;
+    return off <= CENTRAL * body->radius && length > END * body->length;
 }
 
 /* The correction of one side of a contact, m/N. False: none is known. */

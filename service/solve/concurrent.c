@@ -15,6 +15,13 @@
 static const size_t resolutions[] = {6, 12, 24};
 enum { RESOLUTIONS = sizeof resolutions / sizeof *resolutions, STEPS = 8 };
 
+/* Of every mesh against the one before: four times the elements, twice the steps, and a little. */
+static const double COST = 9.0;
+/* Defect of the energy that is allowed, in tolerances. */
+static const double CLOSURE = 10.0;
+/* Room above the indentation of the closed form: the mesh costs little more for it. */
+static const double ROOM = 2.0;
+
 /* Largest indentation of a region over its radius, see region.h. */
 static const double INDENTATION_LIMIT = 0.0199;
 
@@ -61,9 +68,8 @@ static enum percuss_status solve_on(const struct refinement *refinement, size_t 
         .radius = closed_form_radius(&problem->hertz[0]),
         .resolution = resolution,
     };
-    /* the mesh costs little more for an indentation twice as large as expected */
     input.indentation = fmax(refinement->expected,
-                             fmin(2.0 * refinement->expected, INDENTATION_LIMIT * input.radius));
+                             fmin(ROOM * refinement->expected, INDENTATION_LIMIT * input.radius));
     settings.steps = STEPS * (unsigned)resolution;
     struct region *region;
     enum percuss_status status = region_create(&input, &region, refinement->fault);
@@ -92,7 +98,7 @@ static void estimate(struct solution *solution, const struct problem *problem,
         .impulse = difference * problem->impulse_compression[0],
         .energy_defect = outcome_energy_defect(problem, fine),
     };
-    solution->steps.energy_closes = solution->steps.energy_defect <= 10.0 * problem->tolerance;
+    solution->steps.energy_closes = solution->steps.energy_defect <= CLOSURE * problem->tolerance;
     solution->tolerance_met =
         solution->steps.energy_closes &&
         solution->steps.restitution + solution->modes.restitution <= problem->tolerance;
@@ -120,8 +126,7 @@ enum percuss_status concurrent_refine(struct solution *solution, const struct pr
     solution->tolerance_met = false;
     for (size_t i = 0; i < RESOLUTIONS && !solution->tolerance_met; i++) {
         struct impact_outcome coarse = solution->outcome;
-        /* every mesh costs some nine times the one before */
-        refinement.settings.done = i ? pow(9.0, (double)i - RESOLUTIONS) : 0.0;
+        refinement.settings.done = i ? pow(COST, (double)i - RESOLUTIONS) : 0.0;
         status = solve_on(&refinement, resolutions[i], &solution->outcome);
         if (status != PERCUSS_OK)
             return status;
@@ -150,7 +155,7 @@ void concurrent_report(const struct concurrent_effort *effort, const struct prob
              effort->steps, effort->resolution, effort->newton_steps, 1e6 * history->residual,
              effort->extrapolated, solution->assembly->all_modes,
              solution->assembly->highest / (2.0 * M_PI),
-             problem->hertz[0].axis_ratio < 0.999
+             problem->hertz[0].axis_ratio < HERTZ_CIRCULAR_RATIO
                  ? "; elliptic: by the sphere of equal stiffness, an approximation"
                  : "");
 }

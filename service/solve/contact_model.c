@@ -85,7 +85,7 @@ static enum percuss_status find_table(struct problem *problem,
                          "(contacts[%zu]): %s; auto "
                          "or closed-form do without",
                          a->id, b->id, c,
-                         hertz->axis_ratio < 0.999
+                         hertz->axis_ratio < HERTZ_CIRCULAR_RATIO
                              ? "the contact is elliptic, tables are of circular ones"
                              : "percuss-tables computes them");
     }
@@ -146,7 +146,7 @@ static double rigid_indentation(const struct problem *problem, size_t c)
 {
     double speed = fmin(0.0, problem->gap_rate[c]);
     double w = problem->w[c * (problem->contact_count + 1)];
-    return pow(0.5 * speed * speed / w / (0.4 * problem->hertz[c].stiffness), 0.4);
+    return pow(0.5 * speed * speed / w / (HERTZ_WORK * problem->hertz[c].stiffness), 0.4);
 }
 
 static void use(struct problem *problem, bool yielding)
@@ -301,7 +301,7 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
         append(text, size, "; the table ends before that and goes on as a fully plastic contact");
     if (!tabulated && problem->request->options.contact_model == PERCUSS_CONTACT_AUTO)
         append(text, size, "; no table for these bodies");
-    if (problem->hertz[c].axis_ratio < 0.999)
+    if (problem->hertz[c].axis_ratio < HERTZ_CIRCULAR_RATIO)
         append(text, size, "; elliptic: by the sphere of equal stiffness, %.3g m, an approximation",
                closed_form_radius(&problem->hertz[c]));
     if (!tabulated && body->material.tangent > 0.0)

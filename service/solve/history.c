@@ -11,6 +11,13 @@
 #include "solve/compliance.h"
 #include "solve/report.h"
 
+/* Share of the window by which the last instant kept may lie before its end. */
+static const double LAST_INSTANT = 0.01;
+/* A larger difference of restitutions is that of two methods. */
+static const double SAME_METHOD = 1e-9;
+/* Accuracy of steps that stand for a closed form, to as many digits. */
+static const double CLOSED_FORM = 1e-9;
+
 /* Compliance between two contacts of one body that no mode of the scene holds. */
 static double residual_of_side(const struct problem *problem, const struct assembly *assembly,
                                const struct contact_side *i, const struct contact_side *j,
@@ -106,7 +113,7 @@ static void warn(const struct problem *problem, const struct solution *solution,
     const struct trace *trace = result->trace;
     double last = trace->time[trace->count - 1];
     /* the last instant that is kept may lie a little before the end */
-    if (last < result->window - 0.01 * fabs(result->window)) {
+    if (last < result->window - LAST_INSTANT * fabs(result->window)) {
         report_warn(result,
                     "options.trace: the histories end at %g s of %g s: the effort allowed for them "
                     "was spent",
@@ -114,7 +121,7 @@ static void warn(const struct problem *problem, const struct solution *solution,
         return;
     }
     double off = outcome_compare(problem, again, &solution->outcome).restitution;
-    if (off > 1e-9)
+    if (off > SAME_METHOD)
         report_warn(result,
                     "options.trace: the histories are the modal method's, whose restitution "
                     "differs by %.2g from the answer",
@@ -134,7 +141,7 @@ enum percuss_status history_make(const struct problem *problem, const struct sol
                                        .pace = pace};
     /* the closed form of a rigid pair is exact */
     if (impact_is_rigid_pair(scene))
-        settings.accuracy = fmin(settings.accuracy, 1e-9);
+        settings.accuracy = fmin(settings.accuracy, CLOSED_FORM);
     struct impact_outcome again;
     struct trace_sides sides;
     struct trace *trace = arena_take(arena, 1, sizeof *trace);

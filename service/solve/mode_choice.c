@@ -7,6 +7,12 @@
 
 #include "impact/impact_scale.h"
 
+/* Integrals over an elastic collision, see make_demand: of K' F', and of F'^2 against it. */
+static const double HERTZ_INERTIA = 1.78;
+static const double HERTZ_VISCOSITY = 0.9;
+/* Modes that are asked for at first. */
+enum { FIRST_MODES = 32 };
+
 /* One contact that may excite the family. */
 struct demand {
     const struct site_load *load;
@@ -24,8 +30,9 @@ static struct demand make_demand(const struct scene *scene, size_t contact, doub
     struct impact_scale scale = impact_scale_of(scene, contact, rate);
     double stiffness = scale.force / scale.indentation;
     double w = scene->w[contact * scene->contacts + contact];
-    return (struct demand){
-        .load = load, .weight = 1.78 * stiffness * stiffness * w, .delay = 0.9 * scale.duration};
+    return (struct demand){.load = load,
+                           .weight = HERTZ_INERTIA * stiffness * stiffness * w,
+                           .delay = HERTZ_VISCOSITY * scale.duration};
 }
 
 /* The contacts that load the family, as if each closed like the fastest of all: what rests on a
@@ -72,7 +79,7 @@ size_t mode_choice_count(const struct mode_choice *choice, const struct problem 
         /* asked for in powers of two: outgrown families are remade */
         if (!modes || k >= modes->count) {
             const struct prepared_family *known =
-                prepared_family_get(problem->cache, owner, family, modes ? 2 * k : 32);
+                prepared_family_get(problem->cache, owner, family, modes ? 2 * k : FIRST_MODES);
             if (!known)
                 return MODE_CHOICE_MOST + 1;
             modes = known->modes;

@@ -7,7 +7,15 @@
 
 #include "solve/nearby.h"
 
+/* Each takes at least half of the error, as a rule a hundredth: more do not come. */
 enum { MAX_RAISES = 8 };
+/* What the next attempt aims at, in tolerances; and by how much it may change what is allowed. */
+static const double AIM = 0.5;
+static const double LARGEST_RAISE = 0.01;
+static const double SMALLEST_RAISE = 0.5;
+/* Least restitution that viscosity is counted against: a contact that hardly rebounds has no more
+ * of the approach to lose. */
+static const double LEAST_REBOUND = 0.1;
 /* Predicted effect of the omitted modes that the first attempt may have, in tolerances: a single
  * contact, and a beam, whose later sub-impacts amplify it five- to twentyfold as a rule. */
 static const double FIRST_SINGLE = 0.2;
@@ -39,7 +47,7 @@ static struct outcome_difference slow_effect(const struct attempt_context *conte
         /* a contact at rest in a group is struck through its neighbours */
         double approach = compression * problem->w[c * (problem->contact_count + 1)];
         if (compression > 0.0)
-            impulse += lost / (fmax(e, 0.1) * approach);
+            impulse += lost / (fmax(e, LEAST_REBOUND) * approach);
         largest.impulse = fmax(largest.impulse, impulse);
         if (compression > 0.0)
             largest.restitution = fmax(largest.restitution, impulse / compression);
@@ -86,7 +94,7 @@ static double first_allowed(const struct attempt_context *context)
 static bool can_improve(const struct attempt *best, const struct mode_error *error)
 {
     bool raise = best->assembly->adjustable && !best->assembly->capped;
-    bool shorter = error->by_steps && best->accuracy > 1.01 * ATTEMPT_FINEST;
+    bool shorter = error->by_steps && attempt_can_shorten(best->accuracy);
     return (error->by_steps ? shorter : raise) && !error->unchecked && !attempt_is_spent(best) &&
            !best->outcome.too_stiff;
 }
@@ -102,11 +110,11 @@ static bool is_another(const struct attempt *next, const struct attempt *best)
 static void improve(const struct attempt_context *context, const struct mode_error *error,
                     struct attempt *next)
 {
-    double factor = 0.5 * context->problem->tolerance / error->restitution;
+    double factor = AIM * context->problem->tolerance / error->restitution;
     if (error->by_steps)
         next->accuracy = fmax(next->accuracy / ATTEMPT_LONGER, ATTEMPT_FINEST);
     else
-        next->choice.allowed *= fmin(fmax(factor, 0.01), 0.5);
+        next->choice.allowed *= fmin(fmax(factor, LARGEST_RAISE), SMALLEST_RAISE);
 }
 
 enum percuss_status mode_search(struct attempt_context *context, struct attempt *best,

@@ -18,6 +18,15 @@ static const double MAX_SPEED = 1e4;
 /* So is a mass beyond these. */
 static const double MIN_INVERSE_MASS = 1e-100;
 
+/* Share of the smallest radius that a point may lie off a surface: what replayed lists overlap by.
+ */
+static const double OFF_SURFACE = 0.1;
+/* What rounding may leave of a symmetric matrix, and of one that is not definite, relatively. */
+static const double ASYMMETRY = 1e-9;
+static const double INDEFINITE = 1e-9;
+/* Eigenvalues that count as zero, of the largest. */
+static const double NULL_EIGENVALUE = 1e-12;
+
 /* Puts the body with the request's own parameters in its place. */
 static enum percuss_status vary(struct problem *problem, size_t index, struct fault *fault)
 {
@@ -101,7 +110,7 @@ static enum percuss_status place_contact(struct problem *problem, size_t index, 
                          a->id, b->id);
     for (int which = 0; which < 2; which++) {
         enum percuss_status status =
-            place_side(problem, contact, index, which, 0.1 * smallest, fault);
+            place_side(problem, contact, index, which, OFF_SURFACE * smallest, fault);
         if (status)
             return status;
     }
@@ -184,7 +193,7 @@ static enum percuss_status choose_w(struct problem *problem, struct fault *fault
             double scale = sqrt(problem->w[i * (n + 1)]) * sqrt(problem->w[j * (n + 1)]);
             double a = problem->w[i * n + j];
             double b = problem->w[j * n + i];
-            if (!(fabs(a - b) <= 1e-9 * scale))
+            if (!(fabs(a - b) <= ASYMMETRY * scale))
                 return fault_set(fault, PERCUSS_BAD_REQUEST,
                                  "delassus[%zu] and [%zu]: %g and %g: the matrix must be symmetric",
                                  i * n + j, j * n + i, a, b);
@@ -192,8 +201,8 @@ static enum percuss_status choose_w(struct problem *problem, struct fault *fault
     double *scratch = arena_take(problem->arena, n * (2 * n + 1), sizeof *scratch);
     if (!scratch)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    double ratio = linear_pseudo_inverse(n, problem->w, 1e-12, scratch, scratch + n * n);
-    if (!(ratio >= -1e-9))
+    double ratio = linear_pseudo_inverse(n, problem->w, NULL_EIGENVALUE, scratch, scratch + n * n);
+    if (!(ratio >= -INDEFINITE))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "delassus: smallest eigenvalue is %g of the largest: the matrix must be "
                          "positive semidefinite",

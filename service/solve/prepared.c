@@ -263,7 +263,7 @@ struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const s
     struct radiation *made = calloc(1, sizeof *made);
     if (!made)
         return NULL;
-    double omega = exp2(0.25 * step);
+    double omega = exp2(step / PREPARED_STEPS);
     *made = (struct radiation){entry->radiation, step, oscillators_create(1, &omega, M_SQRT1_2)};
     if (!made->set) {
         free(made);

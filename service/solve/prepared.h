@@ -45,8 +45,12 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
 struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
                                            enum mode_family family, size_t first);
 
-/* An oscillator of the frequency 2^(step/4) rad/s and the damping 1/sqrt(2) for the waves that
- * leave through a half-space, with its step tables. NULL: out of memory. */
+/* Frequencies of prepared_radiation_get in an octave: fine enough to come within a tenth of what is
+ * wanted, coarse enough that few are ever made. */
+static const double PREPARED_STEPS = 4.0;
+
+/* An oscillator of the frequency 2^(step/PREPARED_STEPS) rad/s and the damping 1/sqrt(2) for the
+ * waves that leave through a half-space, with its step tables. NULL: out of memory. */
 struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const struct body *body,
                                            int step);
 

@@ -21,6 +21,8 @@ static const double FAST = 128.0;
 static const double ERROR = 3.0;
 /* A contact lasts this many times its scale (Hertz, rigid bodies). */
 static const double HERTZ_DURATION = 2.94;
+/* Pivot of the shares up to which a contact has no waves of its own: FAR squared. */
+static const double OWN = 1e-6;
 /* Contacts that share less of their waves are far from each other. */
 static const double FAR = 1e-3;
 
@@ -70,7 +72,7 @@ static struct collision collide(const struct problem *problem, const struct scen
     return (struct collision){
         .stiffness = fmax(loading, unloading),
         .duration = HERTZ_DURATION * fmin(scale.indentation, back / e) / rate,
-        .loss = lag * squares / (0.4 * scale.force * scale.indentation * e),
+        .loss = lag * squares / (HERTZ_WORK * scale.force * scale.indentation * e),
         .patch = sqrt(axes[0] * axes[1]),
     };
 }
@@ -165,7 +167,7 @@ static void factor_shares(const struct problem *problem, const struct radiator *
             for (size_t k = 0; k < j; k++)
                 left -= factor[i * n + k] * factor[j * n + k];
             double pivot = factor[j * (n + 1)];
-            factor[i * n + j] = i == j ? sqrt(fmax(left, 0.0)) : pivot > 1e-6 ? left / pivot : 0.0;
+            factor[i * n + j] = i == j ? sqrt(fmax(left, 0.0)) : pivot > OWN ? left / pivot : 0.0;
         }
     }
 }
@@ -210,7 +212,7 @@ static int frequency_step(const struct radiator *radiator, double together)
 {
     double fast = FAST / radiator->duration;
     double most = BORNE * M_SQRT2 / (radiator->waves.lag * radiator->stiffness * together);
-    return (int)fmin(ceil(4.0 * log2(fast)), floor(4.0 * log2(most)));
+    return (int)fmin(ceil(PREPARED_STEPS * log2(fast)), floor(PREPARED_STEPS * log2(most)));
 }
 
 /* What is left out of the radiated share: the oscillator's own error, and what the size of the

@@ -11,6 +11,8 @@
 /* A change that is so many times what was left out is that of a sequence that amplifies; 10 times
  * and less are the rule. */
 static const double STRONG = 30.0;
+/* Share of the tolerance below which what was left out counts as that much. */
+static const double NOTHING = 0.01;
 /* Share of the tolerance that modes and steps may take together. */
 static const double BOTH_SHARE = 0.9;
 /* How many times as much the solution with fewer modes leaves out, and how much of its change is
@@ -118,7 +120,7 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
         outcome_compare(context->problem, &best->outcome, &both.outcome);
     bool is_long =
         attempt_is_long(best) ||
-        change.restitution > STRONG * fmax(slow.restitution, 0.01 * context->problem->tolerance);
+        change.restitution > STRONG * fmax(slow.restitution, NOTHING * context->problem->tolerance);
     widen(error, SEQUENCE_FACTOR, change);
     error->covers_steps =
         first && !is_long && error->restitution <= BOTH_SHARE * context->problem->tolerance;

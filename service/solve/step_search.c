@@ -7,7 +7,29 @@
 
 #include "solve/nearby.h"
 
+/* Each takes a hundredth: six digits in all. */
 enum { MAX_TIGHTENINGS = 3 };
+/* Share of the tolerance that the accuracy of the first steps is: of a single contact, of a
+ * sequence, and where contacts open and close within steps or the audit is to close. */
+static const double SHARE_SINGLE = 0.1;
+static const double SHARE_SEQUENCE = 0.01;
+static const double SHARE_FINE = 1e-3;
+/* And what it is at most. */
+static const double MOST_SINGLE = 1.0;
+static const double MOST_SEQUENCE = 1e-5;
+static const double MOST_GROUP = 1e-6;
+/* A tolerance that asks for the audit to close, and how closely; otherwise as CLOSURE tolerances.
+ */
+static const double AUDITED = 1e-8;
+static const double AUDIT = 1e-9;
+static const double CLOSURE = 10.0;
+/* The accuracy asked for has been seen to leave LEFT accuracy^POWER of e (docs/accuracy.md). */
+static const double LEFT = 0.1;
+static const double POWER = 0.8;
+/* The energy's defect counts so many times, to be safe. */
+static const double SAFETY = 4.0;
+/* Of ATTEMPT_LONGER: rounding. */
+static const double ALMOST = 0.99;
 /* From here down longer steps are tried for comparison, for sequences always. */
 static const double COMPARE_BELOW = 1e-5;
 /* Of a long one, or a group, another solution is asked for. */
@@ -17,8 +39,9 @@ static const double SLIGHTLY_LONGER = 10.0;
  * close within steps. Longer steps for comparison than those of 2e-4 do not exist. */
 double step_search_first_accuracy(double tolerance, bool sequence, bool group)
 {
-    double share = tolerance <= 1e-8 || group ? 1e-3 : sequence ? 0.01 : 0.1;
-    double most = group ? 1e-6 : sequence ? 1e-5 : 1.0;
+    bool fine = tolerance <= AUDITED || group;
+    double share = fine ? SHARE_FINE : sequence ? SHARE_SEQUENCE : SHARE_SINGLE;
+    double most = group ? MOST_GROUP : sequence ? MOST_SEQUENCE : MOST_SINGLE;
     return fmax(fmin(share * tolerance, most), ATTEMPT_FINEST);
 }
 
@@ -35,10 +58,10 @@ static double error_of_steps(const struct attempt_context *context, const struct
     double e = best->outcome.plastic > 0.0 ? 0.0 : ELASTIC_REBOUND;
     for (size_t c = 0; c < context->problem->contact_count; c++)
         e = fmax(e, fabs(outcome_restitution(context->problem, &best->outcome, c)));
-    double defect = 4.0 * outcome_energy_defect(context->problem, &best->outcome);
+    double defect = SAFETY * outcome_energy_defect(context->problem, &best->outcome);
     double rebound = best->outcome.plastic > 0.0 ? e + sqrt(e * e + defect) : 2.0 * e;
     double change = defect > 0.0 ? defect / rebound : 0.0;
-    return fmax(change, 0.1 * pow(best->accuracy, 0.8));
+    return fmax(change, LEFT * pow(best->accuracy, POWER));
 }
 
 static struct step_error estimate_alone(const struct attempt_context *context,
@@ -102,9 +125,9 @@ static enum percuss_status estimate(struct attempt_context *context, const struc
 enum percuss_status step_search(struct attempt_context *context, struct attempt *best,
                                 const struct mode_error *modes, struct step_error *error)
 {
-    double closure_allowed = context->problem->tolerance <= 1e-8
-                                 ? 1e-9
-                                 : fmin(10.0 * context->problem->tolerance, OUTCOME_WORST_DEFECT);
+    double tolerance = context->problem->tolerance;
+    double closure_allowed =
+        tolerance <= AUDITED ? AUDIT : fmin(CLOSURE * tolerance, OUTCOME_WORST_DEFECT);
     const struct attempt *coarse = modes->longer;
     struct attempt before;
     for (int i = 0;; i++) {
@@ -114,9 +137,9 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
             return status;
         error->energy_defect = outcome_energy_defect(context->problem, &best->outcome);
         error->energy_closes = error->energy_defect <= closure_allowed;
-        bool enough = error->restitution <= SEQUENCE_STEPS_SHARE * context->problem->tolerance &&
-                      error->energy_closes;
-        if (enough || i >= MAX_TIGHTENINGS || best->accuracy < 1.01 * ATTEMPT_FINEST ||
+        bool enough =
+            error->restitution <= SEQUENCE_STEPS_SHARE * tolerance && error->energy_closes;
+        if (enough || i >= MAX_TIGHTENINGS || !attempt_can_shorten(best->accuracy) ||
             attempt_is_spent(best) || best->outcome.too_stiff)
             return PERCUSS_OK;
         struct attempt finer = *best;
@@ -127,7 +150,7 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         before = *best;
         *best = finer;
         /* a last, smaller step down is no measure */
-        coarse = before.accuracy > 0.99 * ATTEMPT_LONGER * best->accuracy ? &before : NULL;
+        coarse = before.accuracy > ALMOST * ATTEMPT_LONGER * best->accuracy ? &before : NULL;
         /* those with longer steps are not as accurate; what they said is in the errors */
         nearby_begin(context->nearby, context->problem, &best->outcome);
         nearby_add(context->nearby, context->problem, &before.outcome);

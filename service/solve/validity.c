@@ -19,6 +19,16 @@ static const double LARGEST_CONTACT = 0.3;
  * take is 1.4 % of the normal impulse whatever the coefficient: a sphere has stopped sliding after
  * sliding / (3.5 (1 + e) approach) of it. */
 static const double SLIDING = 0.05;
+/* Peak pressure over the yield stress where metal first flows below the surface (Johnson, section
+ * 6.1). */
+static const double FIRST_YIELD = 1.6;
+/* Share of the energy that the vibration of a sphere takes, times the wave speed over that of the
+ * approach: about v/(50 c) (Rayleigh; Goldsmith). */
+static const double SPHERE_VIBRATION = 0.02;
+/* Speed against that of waves: strains are a hundredth then, and no longer small. */
+static const double FAST = 0.01;
+/* A client's W that differs by more is of other bodies. */
+static const double OTHER_BODIES = 0.01;
 /* Error of a contact law, of the restitution, that is worth a warning. */
 static const double WRONG_LAW = 0.05;
 /* A coefficient of friction as of dry metals, to say how much it may be about. */
@@ -39,8 +49,7 @@ double validity_wave_loss(const struct problem *problem)
             const struct body *body = problem->bodies[problem->sides[c][which].body];
             double ratio = speed / wave_speed(body);
             if (body->shape != SHAPE_HALF_SPACE && !body_is_flexible(body))
-                /* vibration of a sphere after a collision: about v/(50 c) (Rayleigh; Goldsmith) */
-                energy_share += 0.02 * ratio;
+                energy_share += SPHERE_VIBRATION * ratio;
         }
         /* e^2 = 1 - share */
         worst = fmax(worst, 0.5 * energy_share);
@@ -58,8 +67,7 @@ static void find_yield(const struct problem *problem, size_t c, double pressure,
 {
     for (unsigned which = 0; which < 2; which++) {
         const struct body *body = body_of(problem, c, which);
-        /* first yield below the surface at 1.6 times the yield stress (Johnson, section 6.1) */
-        if (pressure > 1.6 * body->material.yield)
+        if (pressure > FIRST_YIELD * body->material.yield)
             warnings_add(warnings, WARNING_YIELD + which,
                          "contacts[%zu]: the elastic peak pressure of %.3g MPa exceeds 1.6 times "
                          "the yield stress of %s (%.3g MPa): Hertz's law leaves no dent, the true "
@@ -119,7 +127,7 @@ void validity_find_speed(const struct problem *problem, struct warnings *warning
         for (unsigned which = 0; which < 2; which++) {
             const struct body *body = body_of(problem, c, which);
             double speed = fabs(problem->gap_rate[c]);
-            if (speed > 0.01 * wave_speed(body))
+            if (speed > FAST * wave_speed(body))
                 warnings_add(warnings, WARNING_SPEED + which,
                              "contacts[%zu]: the approach at %.3g m/s is more than 1 %% of the "
                              "wave speed in %s (%.4g m/s): small strains end there",
@@ -189,7 +197,7 @@ static void find_delassus(const struct problem *problem, struct warnings *warnin
         double scale = sqrt(problem->w[i / n * (n + 1)] * problem->w[i % n * (n + 1)]);
         worst = fmax(worst, fabs(problem->w[i] - problem->service_w[i]) / scale);
     }
-    if (worst > 0.01)
+    if (worst > OTHER_BODIES)
         warnings_add(warnings, WARNING_DELASSUS,
                      "delassus: differs from that of the catalogue's bodies by up to %.3g %%: the "
                      "client's is used",
