@@ -20,6 +20,7 @@ static enum percuss_status try_request(struct ensemble *ensemble, const struct w
                          "options.contact_model: %s: takes seconds an impact: an ensemble takes "
                          "auto, hertz, closed-form or table",
                          contact_model_name(asked));
+    // a solve of its own
     struct solve_workspace *workspace = solve_workspace_create();
     struct solve_result *result = calloc(1, sizeof *result);
     enum percuss_status status = PERCUSS_INTERNAL;
@@ -43,6 +44,7 @@ static enum percuss_status find_dimensions(struct ensemble *ensemble, struct fau
     const struct ensemble_spec *spec = &ensemble->spec;
     size_t dimension_of[ENSEMBLE_MAX_INPUTS] = {0}, dimensions = 0;
     uint64_t count = spec->samples;
+    // the inputs that are drawn, and how many samples the lists give
     for (size_t i = 0; i < spec->input_count; i++) {
         if (count == 0 && spec->inputs[i].distribution == DISTRIBUTION_IS_LIST)
             count = spec->inputs[i].value_count;
@@ -51,11 +53,13 @@ static enum percuss_status find_dimensions(struct ensemble *ensemble, struct fau
         dimension_of[i] = dimensions;
         ensemble->drawn[dimensions++] = i;
     }
+    // points of the unit cube
     enum percuss_status status =
         sampling_create(&ensemble->sampling, spec->sampling, dimensions, count, spec->seed, fault);
     if (status)
         return status;
     ensemble->count = ensemble->sampling.count;
+    // correlations between dimensions instead of inputs
     struct copula_pair *pairs = calloc(spec->correlation_count + 1, sizeof *pairs);
     if (!pairs)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");

@@ -149,6 +149,7 @@ static void warn_verification(struct ensemble_report *report, const struct ensem
     double tolerance = ensemble->model.tolerance;
     if (verification->count == 0)
         return;
+    // samples that differ
     double outside = 1.0 - verification->within;
     if (outside > OUTSIDE_SHARE || verification->largest > OUTSIDE_FACTOR * tolerance)
         warn(report,
@@ -159,11 +160,13 @@ static void warn_verification(struct ensemble_report *report, const struct ensem
              100.0 * (1.0 - verification->within_bounds.high),
              100.0 * (1.0 - verification->within_bounds.low), fabs(verification->mean_shift),
              verification->quantile_shift);
+    // searches that do not know better
     if ((double)verification->unmet > OUTSIDE_SHARE * (double)verification->count)
         warn(report,
              "verification: %zu of %zu samples: the accuracy search itself does not reach the "
              "tolerance of %g, by its own estimate",
              verification->unmet, verification->count, tolerance);
+    // a mean that is off
     if (fabs(verification->mean_shift) > tolerance)
         warn(report,
              "verification: the mean is off by %.2g: more than the tolerance: ask for a "

@@ -45,6 +45,7 @@ static void fill_curve(struct report_quantity *quantity, const double *sorted, s
 static bool fill_quantity(struct ensemble_report *report, const struct ensemble *ensemble,
                           struct report_quantity *quantity, struct interval_sample *sample)
 {
+    // what is told of it
     report_probabilities(&ensemble->spec, &quantity->probabilities, &quantity->quantile_count);
     quantity->moments = summary_moments(sample->values, sample->count);
     quantity->bins = ensemble->spec.bins ? ensemble->spec.bins : summary_bins(sample->kept);
@@ -52,6 +53,7 @@ static bool fill_quantity(struct ensemble_report *report, const struct ensemble 
         quantity->bins = 0; /* they would have no width */
     if (!take_quantity(quantity, &report->memory))
         return false;
+    // mean, deviation and quantiles with their intervals
     quantity->mean = interval_mean(sample, &quantity->moments);
     quantity->deviation = interval_deviation(sample, &quantity->moments);
     for (size_t i = 0; i < quantity->quantile_count; i++) {
@@ -61,6 +63,7 @@ static bool fill_quantity(struct ensemble_report *report, const struct ensemble 
         quantity->quantiles_low[i] = interval.low;
         quantity->quantiles_high[i] = interval.high;
     }
+    // and the distribution
     summary_histogram(sample->sorted, sample->kept, quantity->bins, quantity->edges,
                       quantity->counts);
     fill_curve(quantity, sample->sorted, sample->kept);
@@ -97,6 +100,7 @@ static bool fill_quantities(struct ensemble_report *report, const struct ensembl
     double *sorted = malloc((report->done + 1) * sizeof *sorted);
     bool good = values && sorted;
     for (int q = 0; good && q < REPORT_QUANTITIES; q++) {
+        // its values, and sorted
         for (uint64_t i = 0; i < report->done; i++)
             values[i] = value_of(&samples[i], q);
         struct interval_sample sample = {
@@ -107,6 +111,7 @@ static bool fill_quantities(struct ensemble_report *report, const struct ensembl
             .kept = summary_sort(values, report->done, sorted),
             .level = REPORT_LEVEL,
         };
+        // what follows from them
         report->quantities[q].name = names[q];
         good = fill_quantity(report, ensemble, &report->quantities[q], &sample);
         if (good && q == 0)

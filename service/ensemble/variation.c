@@ -101,6 +101,7 @@ enum percuss_status variation_create(struct variation *variation, const struct e
     *variation = (struct variation){.spec = spec, .request = *spec->request};
     if (!copy_bodies(variation))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    // what every input needs of this impact
     variation->gap_rate = gap_rate_of(spec->request, spec->contact);
     enum percuss_status status = PERCUSS_OK;
     for (size_t i = 0; !status && i < spec->input_count; i++) {

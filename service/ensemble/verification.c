@@ -32,6 +32,7 @@ static void compare(struct report_verification *out, const struct ensemble *ense
     double tolerance = ensemble->model.tolerance;
     uint64_t count = ensemble_extras(ensemble, material->done);
     size_t within = 0;
+    // both answers of every sample that was solved again
     for (uint64_t k = 0; k < count; k++) {
         struct ensemble_extra_place place = ensemble_extra_place(ensemble, material->done, k);
         double fast = material->samples[place.sample].restitution;
@@ -47,6 +48,7 @@ static void compare(struct report_verification *out, const struct ensemble *ense
         out->unmet += !(material->extras[k].error <= tolerance);
         out->largest = fmax(out->largest, fabs(shift));
     }
+    // the share that agrees
     out->within = (double)within / (double)out->count;
     out->within_bounds = interval_share(within, out->count, REPORT_LEVEL);
 }

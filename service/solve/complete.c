@@ -29,6 +29,7 @@ static enum percuss_status check_options(const struct solve_request *request, st
 {
     const struct solve_options *options = &request->options;
     const struct solve_contact *contact = &request->contacts[0];
+    // two free bodies with one contact, left alone
     if (request->contact_count != 1 || request->body_count != 2)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.contact_model: complete-fe: %zu bodies and %zu contacts: it "
@@ -41,6 +42,7 @@ static enum percuss_status check_options(const struct solve_request *request, st
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "contacts[0].gap_acceleration: %g: must be 0 for complete-fe",
                          contact->gap_acceleration);
+    // no choice of method or model that it has not
     if (options->method != PERCUSS_METHOD_MODAL)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.method: %s: complete-fe has a method of its own: leave it out",
@@ -73,12 +75,14 @@ static enum percuss_status check_side(const struct problem *problem, int which, 
     const struct solve_body *stated = &problem->request->bodies[side->body];
     double axis[3];
     double off[3];
+    // the impact along the axis
     find_axis(body, side->direction, axis);
     if (!(fabs(dot3(axis, side->direction)) >= 1.0 - 0.5 * ALONG * ALONG))
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "contacts[0].normal: complete-fe: must lie along the axis of %s (%s): hit "
                          "in the middle of an end face",
                          body->id, body->shape == SHAPE_BLOCK ? "z" : "x");
+    // and through the centre of mass
     cross3(side->site.point, side->direction, off);
     double size = body->shape == SHAPE_BLOCK ? fmin(body->size[0], body->size[1]) : body->radius;
     if (!(norm3(off) <= ALONG * size))
@@ -86,6 +90,7 @@ static enum percuss_status check_side(const struct problem *problem, int which, 
                          "contacts[0].point: complete-fe: the normal passes %g m beside the centre "
                          "of mass of %s: must be at most %g m",
                          norm3(off), body->id, ALONG * size);
+    // no turning across it
     double spin[3];
     rotate_back3(problem->poses[side->body].rotation, stated->angular_velocity, spin);
     cross3(spin, axis, off);
@@ -95,6 +100,7 @@ static enum percuss_status check_side(const struct problem *problem, int which, 
                          "bodies[%zu].angular_velocity: complete-fe: %g rad/s across the axis of "
                          "%s: must be 0",
                          side->body, norm3(off), body->id);
+    // from rest and without dents
     if (stated->state)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "bodies[%zu].state: complete-fe starts from bodies at rest and without "
@@ -147,6 +153,7 @@ static void fill_contact(const struct problem *problem, const struct complete_re
         from->sub_impacts < COMPLETE_SUB_IMPACTS ? from->sub_impacts : COMPLETE_SUB_IMPACTS;
     struct sub_impact *list = arena_take(problem->arena, listed, sizeof *list);
     struct solve_contact_result *contact = &result->contacts[0];
+    // the sub-impacts, from the stated instant on
     for (size_t i = 0; list && i < listed; i++) {
         const struct complete_sub_impact *one = &from->sub_impact[i];
         list[i] = (struct sub_impact){
@@ -163,6 +170,7 @@ static void fill_contact(const struct problem *problem, const struct complete_re
         };
         rate = list[i].gap_rate_after;
     }
+    // and the contact as a whole
     *contact = (struct solve_contact_result){
         .impulse = from->impulse,
         .impulse_compression = problem->impulse_compression[0],

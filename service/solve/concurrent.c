@@ -71,10 +71,12 @@ static enum percuss_status solve_on(const struct refinement *refinement, size_t 
     input.indentation = fmax(refinement->expected,
                              fmin(ROOM * refinement->expected, INDENTATION_LIMIT * input.radius));
     settings.steps = STEPS * (unsigned)resolution;
+    // a fresh region, without dents
     struct region *region;
     enum percuss_status status = region_create(&input, &region, refinement->fault);
     if (status != PERCUSS_OK)
         return status;
+    // the impact with it, and what that took
     status = impact_create(outcome, refinement->scene, refinement->problem->arena)
                  ? impact_concurrent(refinement->scene, region, &settings,
                                      refinement->problem->arena, outcome, refinement->fault)

@@ -124,16 +124,19 @@ static enum percuss_status find_law(struct problem *problem,
     const struct body *a = body_of(problem, c, 0);
     const struct body *b = body_of(problem, c, 1);
     enum percuss_contact_model asked = problem->request->options.contact_model;
+    // the closed form stands for what yields
     choice->side = closed_form_softer(&a->material, &b->material);
     choice->yield = closed_form_yield(hertz, &a->material, &b->material);
     choice->plastic = choice->side < 0 ? contact_law_hertz(hertz->stiffness)
                                        : contact_law_closed_form(hertz, &a->material, &b->material);
+    // a table of these materials in its place
     bool may = asked == PERCUSS_CONTACT_TABLE || asked == PERCUSS_CONTACT_AUTO;
     if (may && choice->side >= 0) {
         enum percuss_status status = find_table(problem, tables, c, fault);
         if (status)
             return status;
     }
+    // or the family: in use, or to compare with
     if (choice->side >= 0 && !choice->tabulated && tables && tables->family &&
         !find_family(problem, tables->family, c, may))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
@@ -170,6 +173,7 @@ enum percuss_status contact_model_choose(struct problem *problem,
     model->choices = arena_take(problem->arena, n, sizeof *model->choices);
     if (!model->depth || !model->laws || !model->choices)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    // the laws of every contact, and whether they are likely to be needed
     bool dented = false;
     bool likely = false;
     for (size_t c = 0; c < n; c++) {
@@ -179,6 +183,7 @@ enum percuss_status contact_model_choose(struct problem *problem,
         dented = dented || model->choices[c].dented;
         likely = likely || rigid_indentation(problem, c) > model->choices[c].yield;
     }
+    // in use from the beginning where asked for, dented or likely
     model->decided = asked != PERCUSS_CONTACT_AUTO || dented;
     use(problem,
         asked != PERCUSS_CONTACT_HERTZ && (asked != PERCUSS_CONTACT_AUTO || dented || likely));
@@ -286,6 +291,7 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
     const struct body *body = body_of(problem, c, choice->side < 0 ? 0 : choice->side);
     const struct contact_history *history = &outcome->laws[c].history;
     bool tabulated = contact_model_used(problem) == PERCUSS_CONTACT_TABLE;
+    // which law, and how deep it went
     append(text, size, "elastic-plastic contact by %s",
            !tabulated       ? "the closed form of Jackson and Green"
            : choice->family ? "the family of tables of the contact region"
@@ -295,10 +301,12 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
                history->max_indentation / choice->yield, body->id, 1e6 * history->residual);
     else
         append(text, size, ", below yield");
+    // what it starts from and where it ends
     if (choice->dented)
         append(text, size, ", in the dent of earlier impacts");
     if (contact_model_beyond_table(outcome, c) > 0.0)
         append(text, size, "; the table ends before that and goes on as a fully plastic contact");
+    // what is approximated
     if (!tabulated && problem->request->options.contact_model == PERCUSS_CONTACT_AUTO)
         append(text, size, "; no table for these bodies");
     if (problem->hertz[c].axis_ratio < HERTZ_CIRCULAR_RATIO)

@@ -124,6 +124,7 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
         .cut = INFINITY, .allowed = first_allowed(context), .most = MODE_SEARCH_MOST};
     *error = (struct mode_error){0};
     for (int raise = 0;; raise++) {
+        // the next attempt: more modes, or shorter steps
         struct attempt next = *best;
         if (raise > 0)
             improve(context, error, &next);
@@ -131,6 +132,7 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
         if (status)
             return status;
         best->choice = next.choice;
+        // solved where it is another one
         if (raise == 0 || is_another(&next, best)) {
             status = attempt_run(context, &next, &next.assembly->scene);
             if (status)
@@ -146,6 +148,7 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
                 return PERCUSS_OK;
             status = estimate(context, best, error);
         }
+        // until it is good enough or cannot be better
         bool enough = error->covers_steps ||
                       error->restitution <= SEQUENCE_MODES_SHARE * context->problem->tolerance;
         if (status || (enough && !error->by_steps) || raise >= MAX_RAISES ||

@@ -64,6 +64,7 @@ void report_velocities(const struct problem *problem, struct solve_result *resul
     for (size_t b = 0; b < problem->body_count; b++) {
         double velocity[3] = {0.0, 0.0, 0.0};
         double angular[3] = {0.0, 0.0, 0.0};
+        // what the impulses change, body frame
         for (size_t c = 0; c < problem->contact_count; c++) {
             for (int which = 0; which < 2; which++) {
                 const struct contact_side *side = &problem->sides[c][which];
@@ -75,6 +76,7 @@ void report_velocities(const struct problem *problem, struct solve_result *resul
                                     angular);
             }
         }
+        // added to the velocities before, world
         rotate3(problem->poses[b].rotation, velocity, result->bodies[b].velocity);
         rotate3(problem->poses[b].rotation, angular, result->bodies[b].angular_velocity);
         add_scaled3(1.0, problem->request->bodies[b].velocity, result->bodies[b].velocity);
@@ -138,6 +140,7 @@ static double largest_restitution(const struct solve_result *result)
 static void fill_model(const struct problem *problem, const struct solution *solution,
                        struct solve_result *result)
 {
+    // what was used
     result->contact_model = contact_model_used(problem);
     result->compliance = problem->compliance.used;
     result->method = problem->request->options.method;
@@ -145,6 +148,7 @@ static void fill_model(const struct problem *problem, const struct solution *sol
         problem->from_client ? PERCUSS_DELASSUS_CLIENT : PERCUSS_DELASSUS_SERVICE;
     const struct assembly *assembly = solution->assembly;
     double unmodelled = assembly->radiated_error + validity_wave_loss(problem);
+    // why, in words
     contact_model_explain(problem, &solution->outcome, result->reason, sizeof result->reason);
     size_t used = strlen(result->reason);
     if (assembly->all_modes)
@@ -163,6 +167,7 @@ static void fill_model(const struct problem *problem, const struct solution *sol
     if (problem->compliance.reason[0])
         snprintf(result->reason + used, sizeof result->reason - used, "; half-space: %s",
                  problem->compliance.reason);
+    // what it leaves out
     result->omitted_error =
         solution->modes.restitution + unmodelled +
         law_error_worst(problem, &solution->outcome) * largest_restitution(result);
@@ -182,11 +187,14 @@ static const char *reason_of_error(const struct problem *problem, const struct s
     bool sequence = problem->contact_count > 1 || solution->outcome.tracks[0].count > 1;
     bool modes = solution->modes.restitution > solution->steps.restitution;
     bool omitted = isfinite(assembly->lowest_omitted);
+    // what ended the search
     if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
         return "the effort allowed is spent";
     if (!solution->steps.energy_closes)
         return "the shortest steps allowed do not keep the energy";
+    // what limits the modes
     if (modes && omitted && assembly->capped)
+        // or what amplifies
         return sequence ? "the most modes that are tried of a body are too few for what the "
                           "sequence of sub-impacts makes of the others"
                         : "the most modes that are tried of a body are too few";

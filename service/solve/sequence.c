@@ -110,12 +110,14 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
     bool first = context->nearby->solutions == 1;
     struct attempt both = *best;
     struct scene better;
+    // a better model with longer steps
     both.accuracy *= ATTEMPT_LONGER;
     if (!assemble_remainder(best->assembly, context->problem, &better))
         return PERCUSS_INTERNAL;
     enum percuss_status status = solve_beside(context, best, &better, &both, error);
     if (status || error->unchecked)
         return status;
+    // good where they agree, unless that may be chance
     struct outcome_difference change =
         outcome_compare(context->problem, &best->outcome, &both.outcome);
     bool is_long =
@@ -126,6 +128,7 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
         first && !is_long && error->restitution <= BOTH_SHARE * context->problem->tolerance;
     if (error->covers_steps)
         return PERCUSS_OK;
+    // otherwise which of the two makes the difference
     *error = slow;
     status = tell_apart(context, best, &both, error);
     if (status || error->unchecked || error->by_steps ||

@@ -119,17 +119,20 @@ static enum percuss_status search(struct solution *solution, const struct proble
         .work = attempt_work_allowed(options->method),
         .nearby = &solution->nearby,
     };
+    // begin with steps as the tolerance asks for
     bool sequence = mode_search_expects_sequence(problem);
     struct attempt best = {.accuracy = step_search_first_accuracy(problem->tolerance, sequence,
                                                                   problem->contact_count > 1)};
     memset(solution, 0, sizeof *solution);
     solution->restitution_by_speed = NAN;
+    // as many modes, then as short steps
     enum percuss_status status = mode_search(&context, &best, &solution->modes);
     if (!status && best.outcome.always_overlapped)
         return outcome_refuse_overlap(problem, &best.outcome,
                                       attempt_horizon(problem, &best.assembly->scene), fault);
     if (!status)
         status = step_search(&context, &best, &solution->modes, &solution->steps);
+    // and what the speed does
     if (!status && options->conditioning)
         status = find_conditioning(&context, &best, &solution->restitution_by_speed);
     if (status)

@@ -98,20 +98,25 @@ static enum percuss_status answer(struct solve_workspace *workspace,
                                   const struct solve_means *means,
                                   const struct solve_request *request, struct solve_result *result)
 {
+    // memory of the request
     struct problem *problem = problem_create(request, workspace->cache, &workspace->arena);
     struct solution *solution = arena_take(&workspace->arena, 1, sizeof *solution);
     if (!problem || !solution)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
+    // the request as a problem
     struct pace pace = {.watch = &means->watch};
     enum percuss_status status = formulate(problem, means, &result->fault);
+    // complete finite elements answer by themselves
     if (!status && request->options.contact_model == PERCUSS_CONTACT_COMPLETE_FE)
         return complete_answer(problem, &pace, result);
+    // the solution, and by finite elements in the contact once more
     if (!status)
         status = solution_find(solution, problem, NULL, &workspace->arena, &pace, &result->fault);
     struct concurrent_effort effort;
     bool concurrent = request->options.contact_model == PERCUSS_CONTACT_CONCURRENT_FE;
     if (!status && concurrent)
         status = concurrent_refine(solution, problem, &pace, &effort, &result->fault);
+    // the answer, and its histories
     if (!status) {
         report_fill(problem, solution, result);
         if (concurrent)

@@ -98,6 +98,7 @@ const struct body_state *state_after(const struct assembly *assembly,
 {
     bool flexible = body_is_flexible(problem->bodies[body]);
     const struct solve_body *stated = &problem->request->bodies[body];
+    // how much there is to keep
     struct dent dents[BODY_STATE_MAX_DENTS];
     struct body_state sizes = {.dents = 0};
     if (problem->request->options.dents == PERCUSS_DENTS_KEEP)
@@ -106,11 +107,13 @@ const struct body_state *state_after(const struct assembly *assembly,
         return NULL;
     for (int f = 0; flexible && f < FAMILY_COUNT; f++)
         sizes.count[f] = family_size(assembly, problem->states[body], body, f);
+    // one block of it
     roll_size(&problem->rolls[body], &sizes);
     struct body_state *state = arena_take(problem->arena, 1, body_state_size(&sizes));
     if (!state)
         return NULL;
     *state = sizes;
+    // filled
     if (flexible) {
         fill_modes(assembly, outcome, problem, stated->elapsed, state, body);
         roll_back(&problem->rolls[body], state);

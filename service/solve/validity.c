@@ -210,6 +210,7 @@ void validity_find(const struct problem *problem, const struct impact_outcome *o
     /* a contact that was cut off is not listed */
     bool touches =
         outcome->end_reason == PERCUSS_END_LIMIT || outcome->end_reason == PERCUSS_END_IN_CONTACT;
+    // what closes, and whether it touched
     double approach = 0.0;
     warnings->count = 0;
     warnings->kinds = 0;
@@ -220,9 +221,11 @@ void validity_find(const struct problem *problem, const struct impact_outcome *o
     if (!touches && outcome->end_reason != PERCUSS_END_LIMIT)
         warnings_add(warnings, WARNING_NO_TOUCH,
                      "contacts: the bodies do not touch: gap and acceleration keep them apart");
+    // contact by contact
     for (size_t c = 0; c < problem->contact_count; c++)
         find_contact(problem, outcome, c, approach, warnings);
     validity_find_speed(problem, warnings);
+    // and of all
     if (problem->from_client)
         find_delassus(problem, warnings);
     if (problem->request->options.compliance == PERCUSS_COMPLIANCE_MATCHED &&
