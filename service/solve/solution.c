@@ -93,6 +93,9 @@ static void conclude(const struct attempt_context *context, const struct attempt
     solution->scene = &best->assembly->scene;
     solution->outcome = best->outcome;
     solution->step_accuracy = best->accuracy;
+    /* what is cut off for its effort takes all that was left, but for a step */
+    double allowed = attempt_work_allowed(context->problem->request->options.method);
+    solution->spent = context->work < SPENT * allowed;
     /* what was cut off was compared with nothing */
     bool unknown = solution->modes.unchecked || solution->steps.unchecked || attempt_is_spent(best);
     solution->tolerance_met =
@@ -108,39 +111,27 @@ static void conclude(const struct attempt_context *context, const struct attempt
 }
 
 /* By as many modes and as short steps as the tolerance asks for. */
-static enum percuss_status search(struct solution *solution, const struct problem *problem,
-                                  struct arena *arena, struct pace *pace, struct fault *fault)
+static enum percuss_status search(struct attempt_context *context, struct solution *solution)
 {
-    const struct solve_options *options = &problem->request->options;
-    struct attempt_context context = {
-        .problem = problem,
-        .arena = arena,
-        .pace = pace,
-        .work = attempt_work_allowed(options->method),
-        .nearby = &solution->nearby,
-    };
-    // begin with steps as the tolerance asks for
-    bool sequence = mode_search_expects_sequence(problem);
-    struct attempt best = {.accuracy = step_search_first_accuracy(problem->tolerance, sequence,
-                                                                  problem->contact_count > 1)};
+    const struct problem *problem = context->problem;
     memset(solution, 0, sizeof *solution);
     solution->restitution_by_speed = NAN;
-    // as many modes, then as short steps
-    enum percuss_status status = mode_search(&context, &best, &solution->modes);
-    if (!status && best.outcome.always_overlapped)
-        return outcome_refuse_overlap(problem, &best.outcome,
-                                      attempt_horizon(problem, &best.assembly->scene), fault);
-    if (!status)
-        status = step_search(&context, &best, &solution->modes, &solution->steps);
-    // and what the speed does
-    if (!status && options->conditioning)
-        status = find_conditioning(&context, &best, &solution->restitution_by_speed);
+    // steps as the tolerance asks for to begin with, and as many modes
+    struct attempt best = {
+        .accuracy = step_search_first_accuracy(
+            problem->tolerance, mode_search_expects_sequence(problem), problem->contact_count > 1)};
+    enum percuss_status status = mode_search(context, &best, &solution->modes);
     if (status)
-        return pace_fault(fault, status);
-    /* what is cut off for its effort takes all that was left, but for a step */
-    solution->spent = context.work < SPENT * attempt_work_allowed(options->method);
-    conclude(&context, &best, solution);
-    return PERCUSS_OK;
+        return status;
+    // as short steps, unless there is nothing to solve
+    if (!best.outcome.always_overlapped)
+        status = step_search(context, &best, &solution->modes, &solution->steps);
+    // and what the speed does
+    if (!status && !best.outcome.always_overlapped && problem->request->options.conditioning)
+        status = find_conditioning(context, &best, &solution->restitution_by_speed);
+    if (!status)
+        conclude(context, &best, solution);
+    return status;
 }
 
 /* The scene of a model: stand-ins for the modes that it leaves out take part. NULL: out of memory.
@@ -157,29 +148,17 @@ static const struct scene *make_scene(const struct problem *problem,
 }
 
 /* Once, without an estimate of the error. */
-static enum percuss_status run(struct solution *solution, const struct problem *problem,
-                               const struct solution_model *model, struct arena *arena,
-                               struct pace *pace, struct fault *fault)
+static enum percuss_status run(struct attempt_context *context, const struct solution_model *model,
+                               struct solution *solution)
 {
     struct attempt attempt = {.accuracy = model->accuracy};
-    struct attempt_context context = {
-        .problem = problem,
-        .arena = arena,
-        .pace = pace,
-        .work = attempt_work_allowed(problem->request->options.method),
-    };
     if (!solution->scene)
-        solution->scene = make_scene(problem, model);
+        solution->scene = make_scene(context->problem, model);
     if (!solution->scene)
-        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = attempt_run(&context, &attempt, solution->scene);
-    if (status)
-        return pace_fault(fault, status);
+        return PERCUSS_INTERNAL;
+    enum percuss_status status = attempt_run(context, &attempt, solution->scene);
     solution->outcome = attempt.outcome;
-    if (!attempt.outcome.always_overlapped)
-        return PERCUSS_OK;
-    return outcome_refuse_overlap(problem, &attempt.outcome,
-                                  attempt_horizon(problem, solution->scene), fault);
+    return status;
 }
 
 enum percuss_status solution_find(struct solution *solution, struct problem *problem,
@@ -187,11 +166,23 @@ enum percuss_status solution_find(struct solution *solution, struct problem *pro
                                   struct pace *pace, struct fault *fault)
 {
     for (bool revised = false;; revised = true) {
-        enum percuss_status status = model ? run(solution, problem, model, arena, pace, fault)
-                                           : search(solution, problem, arena, pace, fault);
+        struct attempt_context context = {
+            .problem = problem,
+            .arena = arena,
+            .pace = pace,
+            .work = attempt_work_allowed(problem->request->options.method),
+            .nearby = &solution->nearby,
+        };
+        enum percuss_status status =
+            model ? run(&context, model, solution) : search(&context, solution);
         solution->revised = revised;
-        if (status || !formulation_revise(problem, solution->scene, &solution->outcome))
-            return status;
+        if (status)
+            return pace_fault(fault, status);
+        if (solution->outcome.always_overlapped)
+            return outcome_refuse_overlap(problem, &solution->outcome,
+                                          attempt_horizon(problem, solution->scene), fault);
+        if (!formulation_revise(problem, solution->scene, &solution->outcome))
+            return PERCUSS_OK;
         solution->scene = NULL;
     }
 }
