@@ -13,11 +13,6 @@
 #include "model/vector.h"
 #include "solve/outcome.h"
 
-static const struct body *body_of(const struct problem *problem, size_t contact, int side)
-{
-    return problem->bodies[problem->sides[contact][side].body];
-}
-
 /* The dent nearest to a site among those whose patch holds it; its index, or the number of dents.
  */
 static size_t find_dent(const struct body_state *state, const double point[3])
@@ -67,8 +62,8 @@ static enum percuss_status find_table(struct problem *problem,
 {
     struct contact_choice *choice = &problem->contact_model.choices[c];
     const struct hertz_contact *hertz = &problem->hertz[c];
-    const struct body *a = body_of(problem, c, 0);
-    const struct body *b = body_of(problem, c, 1);
+    const struct body *a = problem_body(problem, c, 0);
+    const struct body *b = problem_body(problem, c, 1);
     struct contact_pair pair = {
         &a->material, &b->material, {hertz->curvature[0], hertz->curvature[1]}};
     const struct contact_curves *curves = tables ? tables->find(tables->context, &pair) : NULL;
@@ -97,8 +92,8 @@ static bool find_family(struct problem *problem, const struct contact_family *fa
                         bool used)
 {
     struct contact_choice *choice = &problem->contact_model.choices[c];
-    const struct material *a = &body_of(problem, c, 0)->material;
-    const struct material *b = &body_of(problem, c, 1)->material;
+    const struct material *a = &problem_body(problem, c, 0)->material;
+    const struct material *b = &problem_body(problem, c, 1)->material;
     struct contact_family_place place = contact_family_place(a, b);
     const struct contact_curves *curves = contact_family_curves(family, &place, problem->arena);
     if (!curves)
@@ -121,8 +116,8 @@ static enum percuss_status find_law(struct problem *problem,
 {
     struct contact_choice *choice = &problem->contact_model.choices[c];
     const struct hertz_contact *hertz = &problem->hertz[c];
-    const struct body *a = body_of(problem, c, 0);
-    const struct body *b = body_of(problem, c, 1);
+    const struct body *a = problem_body(problem, c, 0);
+    const struct body *b = problem_body(problem, c, 1);
     enum percuss_contact_model asked = problem->request->options.contact_model;
     // the closed form stands for what yields
     choice->side = closed_form_softer(&a->material, &b->material);
@@ -280,7 +275,7 @@ static void explain_elastic(const struct problem *problem, const struct impact_o
         append(text, size, ", as neither material has a yield stress");
     if (choice->side >= 0 && share <= 1.0)
         append(text, size, ", below yield (%.2g of the indentation at which %s yields)", share,
-               body_of(problem, hardest, choice->side)->id);
+               problem_body(problem, hardest, choice->side)->id);
 }
 
 static void explain_plastic(const struct problem *problem, const struct impact_outcome *outcome,
@@ -288,7 +283,7 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
 {
     size_t c = hardest_hit(problem, outcome);
     const struct contact_choice *choice = &problem->contact_model.choices[c];
-    const struct body *body = body_of(problem, c, choice->side < 0 ? 0 : choice->side);
+    const struct body *body = problem_body(problem, c, choice->side < 0 ? 0 : choice->side);
     const struct contact_history *history = &outcome->laws[c].history;
     bool tabulated = contact_model_used(problem) == PERCUSS_CONTACT_TABLE;
     // which law, and how deep it went

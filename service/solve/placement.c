@@ -188,8 +188,7 @@ static enum percuss_status choose_w(struct problem *problem, struct fault *fault
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "contacts[%zu]: neither %s nor %s can move rigidly there: at least one "
                          "partner must (or send the simulator's delassus)",
-                         i, problem->bodies[problem->sides[i][0].body]->id,
-                         problem->bodies[problem->sides[i][1].body]->id);
+                         i, problem_body(problem, i, 0)->id, problem_body(problem, i, 1)->id);
     }
     if (n == 1)
         return PERCUSS_OK;

@@ -76,6 +76,13 @@ struct problem {
 struct problem *problem_create(const struct solve_request *request, struct prepared_cache *cache,
                                struct arena *arena);
 
+/* The body on side 0 (a) or 1 (b) of a contact. */
+static inline const struct body *problem_body(const struct problem *problem, size_t contact,
+                                              int side)
+{
+    return problem->bodies[problem->sides[contact][side].body];
+}
+
 /* The load of contact `contact` on a body (an index) if it acts on the family, or NULL. */
 const struct site_load *problem_load(const struct problem *problem, size_t contact, size_t body,
                                      enum mode_family family);

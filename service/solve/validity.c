@@ -46,7 +46,7 @@ double validity_wave_loss(const struct problem *problem)
         double speed = fabs(problem->gap_rate[c]);
         double energy_share = 0.0;
         for (int which = 0; which < 2; which++) {
-            const struct body *body = problem->bodies[problem->sides[c][which].body];
+            const struct body *body = problem_body(problem, c, which);
             double ratio = speed / wave_speed(body);
             if (body->shape != SHAPE_HALF_SPACE && !body_is_flexible(body))
                 energy_share += SPHERE_VIBRATION * ratio;
@@ -57,16 +57,11 @@ double validity_wave_loss(const struct problem *problem)
     return worst;
 }
 
-static const struct body *body_of(const struct problem *problem, size_t c, unsigned which)
-{
-    return problem->bodies[problem->sides[c][which].body];
-}
-
 static void find_yield(const struct problem *problem, size_t c, double pressure,
                        struct warnings *warnings)
 {
     for (unsigned which = 0; which < 2; which++) {
-        const struct body *body = body_of(problem, c, which);
+        const struct body *body = problem_body(problem, c, which);
         if (pressure > FIRST_YIELD * body->material.yield)
             warnings_add(warnings, WARNING_YIELD + which,
                          "contacts[%zu]: the elastic peak pressure of %.3g MPa exceeds 1.6 times "
@@ -83,7 +78,7 @@ static void find_size(const struct problem *problem, const struct impact_outcome
     double dent =
         contact_model_yielded(problem, outcome, c) ? outcome->laws[c].history.contact_radius : 0.0;
     for (unsigned which = 0; which < 2; which++) {
-        const struct body *body = body_of(problem, c, which);
+        const struct body *body = problem_body(problem, c, which);
         double size = body_smallest_radius(body);
         if (half_axis > LARGEST_CONTACT * size)
             warnings_add(warnings, WARNING_PATCH + which,
@@ -106,7 +101,7 @@ static void find_place(const struct problem *problem, const struct impact_outcom
             warnings_add(warnings, WARNING_EDGE + which,
                          "contacts[%zu]: within 10 %% of the radius of an edge of %s: the contact "
                          "law assumes material on all sides",
-                         c, body_of(problem, c, which)->id);
+                         c, problem_body(problem, c, which)->id);
     double error = law_error(problem, outcome, c);
     if (error > WRONG_LAW)
         warnings_add(warnings, WARNING_LAW,
@@ -125,7 +120,7 @@ void validity_find_speed(const struct problem *problem, struct warnings *warning
 {
     for (size_t c = 0; c < problem->contact_count; c++)
         for (unsigned which = 0; which < 2; which++) {
-            const struct body *body = body_of(problem, c, which);
+            const struct body *body = problem_body(problem, c, which);
             double speed = fabs(problem->gap_rate[c]);
             if (speed > FAST * wave_speed(body))
                 warnings_add(warnings, WARNING_SPEED + which,
