@@ -9,7 +9,8 @@
 
 /* Below this ratio of the relative principal curvatures a contact counts as a line. */
 #define HERTZ_LINE_RATIO 1e-6
-/* Above this axis ratio it counts as circular: what laws of circles leave out is below 1e-6 then. */
+/* Above this axis ratio it counts as circular: what laws of circles leave out is below 1e-6 then.
+ */
 #define HERTZ_CIRCULAR_RATIO 0.999
 /* The work of k d^(3/2), of force times indentation. */
 #define HERTZ_WORK 0.4
