@@ -12,7 +12,7 @@
 static json_t *numbers(const double *values, size_t count)
 {
     json_t *array = json_array();
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         json_array_append_new(array, json_number(values[i]));
     return array;
 }
@@ -21,7 +21,7 @@ static json_t *supports(const struct percuss_body *body)
 {
     static const char *const names[] = {"free", "pinned", "clamped"};
     json_t *array = json_array();
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 2; i++) {
         unsigned support = body->supports[i];
         json_array_append_new(array, json_string(support < 3 ? names[support] : "?"));
     }
@@ -32,7 +32,7 @@ static void print_json(const struct percuss_body_list *list)
 {
     json_t *root = json_object(), *array = json_array();
     json_object_set_new(root, "bodies", array);
-    for (size_t i = 0; i < list->count; ++i) {
+    for (size_t i = 0; i < list->count; i++) {
         const struct percuss_body *body = &list->bodies[i];
         json_t *object = json_object();
         json_object_set_new(object, "id", json_string(body->id));
@@ -44,7 +44,7 @@ static void print_json(const struct percuss_body_list *list)
         json_object_set_new(object, "radius", json_number(body->radius));
         json_object_set_new(object, "tip_radius", json_number(body->tip_radius));
         json_object_set_new(object, "supports", supports(body));
-        for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; ++p)
+        for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; p++)
             if (p != PERCUSS_PARAMETER_RADIUS)
                 json_object_set_new(object, percuss_parameter_name(p),
                                     json_number(body->parameters[p]));
@@ -56,7 +56,7 @@ static void print_json(const struct percuss_body_list *list)
 static void print_table(const struct percuss_body_list *list)
 {
     printf("%-20s %-10s %-12s %12s  %s\n", "id", "shape", "material", "mass kg", "description");
-    for (size_t i = 0; i < list->count; ++i) {
+    for (size_t i = 0; i < list->count; i++) {
         const struct percuss_body *body = &list->bodies[i];
         printf("%-20s %-10s %-12s %12.6g  %s\n", body->id, body->shape, body->material, body->mass,
                body->description);

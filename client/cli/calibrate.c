@@ -41,7 +41,7 @@ static const struct argp_option options[] = {
 static unsigned parse_parameter(const char *name, size_t length, const char *text,
                                 struct argp_state *state)
 {
-    for (unsigned i = 0; i < PERCUSS_PARAMETER_COUNT; ++i) {
+    for (unsigned i = 0; i < PERCUSS_PARAMETER_COUNT; i++) {
         const char *known = percuss_parameter_name(i);
         if (strlen(known) == length && !strncmp(known, name, length))
             return i;
@@ -68,7 +68,7 @@ static void parse_fit(const char *text, struct calibrate *calibrate, struct argp
     snprintf(parameter->body, sizeof parameter->body, "%.*s", (int)id, colon + 1);
     if (equals)
         parameter->start = parse_number("fit", equals + 1, state);
-    for (size_t i = 0; i + 1 < calibrate->count; ++i)
+    for (size_t i = 0; i + 1 < calibrate->count; i++)
         if (calibrate->parameters[i].parameter == parameter->parameter &&
             !strcmp(calibrate->parameters[i].body, parameter->body))
             argp_error(state, "--fit: '%s': given twice", text);
@@ -80,7 +80,7 @@ static void check(const struct calibrate *calibrate, struct argp_state *state)
     scene_check_single(scene, state);
     if (!calibrate->file || !scene->a || !scene->b || calibrate->count == 0)
         argp_error(state, "MEASURED.csv --a ID --b ID --fit PARAMETER:ID are needed");
-    for (size_t i = 0; i < calibrate->count; ++i) {
+    for (size_t i = 0; i < calibrate->count; i++) {
         const char *body = calibrate->parameters[i].body;
         if (strcmp(body, scene->a) != 0 && strcmp(body, scene->b) != 0)
             argp_error(state, "--fit: '%s' is neither --a nor --b", body);
@@ -157,10 +157,10 @@ static int ask_twins(struct run *run, const double *x, double faster)
     const struct calibrate *calibrate = run->calibrate;
     struct twin_override overrides[2 * FIT_PARAMETERS];
     size_t count = 0;
-    for (size_t i = 0; i < calibrate->count; ++i) {
+    for (size_t i = 0; i < calibrate->count; i++) {
         const struct calibrate_parameter *parameter = &calibrate->parameters[i];
         const char *ids[2] = {calibrate->scene.a, calibrate->scene.b};
-        for (unsigned body = 0; body < 2; ++body)
+        for (unsigned body = 0; body < 2; body++)
             if (!strcmp(parameter->body, ids[body]))
                 overrides[count++] =
                     (struct twin_override){body, {parameter->parameter, value_at(parameter, x[i])}};
@@ -172,7 +172,7 @@ static bool simulate(void *context, const double *x, double faster, struct measu
 {
     struct run *run = context;
     run->code = ask_twins(run, x, faster);
-    for (size_t i = 0; run->code == EXIT_ANSWERED && i < run->set.count; ++i)
+    for (size_t i = 0; run->code == EXIT_ANSWERED && i < run->set.count; i++)
         twins[i] = run->list[i].impact;
     return run->code == EXIT_ANSWERED;
 }
@@ -181,7 +181,7 @@ static bool simulate(void *context, const double *x, double faster, struct measu
 static int find_starts(struct run *run)
 {
     struct calibrate *calibrate = run->calibrate;
-    for (size_t i = 0; i < calibrate->count; ++i) {
+    for (size_t i = 0; i < calibrate->count; i++) {
         struct calibrate_parameter *parameter = &calibrate->parameters[i];
         const struct percuss_body *body =
             percuss_body_find(&run->twins.bodies.list, parameter->body);
@@ -209,7 +209,7 @@ static int explain(const struct run *run, const struct calibration *calibration)
     size_t used = 0, known = 0;
     if (run->code != EXIT_ANSWERED)
         return run->code;
-    for (int q = 0; q < QUANTITIES; ++q) {
+    for (int q = 0; q < QUANTITIES; q++) {
         used += calibration->used[q];
         known += calibration->known[q];
     }
@@ -238,7 +238,7 @@ static int run_calibration(struct run *run)
         .context = run,
         .noise = calibrate->noise,
     };
-    for (size_t i = 0; i < calibrate->count; ++i)
+    for (size_t i = 0; i < calibrate->count; i++)
         calibration.fit.x[i] = 1.0;
     if (!calibration_solve(&problem, &calibration))
         return explain(run, &calibration);
@@ -249,7 +249,7 @@ static int run_calibration(struct run *run)
                  "warns of there is not known");
     struct calibrate_report report = {calibrate->parameters, calibrate->count, &calibration,
                                       run->set.count, &run->twins.warnings};
-    for (size_t i = 0; i < calibrate->count; ++i) {
+    for (size_t i = 0; i < calibrate->count; i++) {
         struct calibrate_parameter *parameter = &calibrate->parameters[i];
         parameter->value = value_at(parameter, calibration.fit.x[i]);
         parameter->half_width = parameter->size * calibration.fit.half_width[i];

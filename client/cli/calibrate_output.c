@@ -31,7 +31,7 @@ void calibrate_print_table(const struct calibrate_report *report)
     const struct calibration *calibration = report->calibration;
     char name[128];
     printf("%-36s %12s %12s   %-28s\n", "parameter", "start", "value", "95 % interval");
-    for (size_t i = 0; i < report->count; ++i) {
+    for (size_t i = 0; i < report->count; i++) {
         const struct calibrate_parameter *parameter = &report->parameters[i];
         name_parameter(parameter, name);
         printf("%-36s %12.6g %12.6g   ", name, parameter->start, parameter->value);
@@ -44,7 +44,7 @@ void calibrate_print_table(const struct calibrate_report *report)
                    is_determined(parameter) ? "" : " not determined");
     }
     printf("\nfitted to %zu impacts:\n", report->impacts);
-    for (int q = 0; q < QUANTITIES; ++q)
+    for (int q = 0; q < QUANTITIES; q++)
         if (calibration->known[q] > 0)
             printf("  %-34s %4zu of %zu readings used, scatter %.2g %%\n", quantity_name(q),
                    calibration->used[q], calibration->known[q], 100.0 * calibration->noise[q]);
@@ -53,7 +53,7 @@ void calibrate_print_table(const struct calibrate_report *report)
 static json_t *quantities_to_json(const struct calibration *calibration)
 {
     json_t *array = json_array();
-    for (int q = 0; q < QUANTITIES; ++q) {
+    for (int q = 0; q < QUANTITIES; q++) {
         json_t *object = json_object();
         json_object_set_new(object, "quantity", json_string(quantity_name(q)));
         json_object_set_new(object, "known", json_integer((json_int_t)calibration->known[q]));
@@ -68,7 +68,7 @@ void calibrate_print_json(const struct calibrate_report *report)
 {
     const struct fit *fit = &report->calibration->fit;
     json_t *root = json_object(), *array = json_array(), *correlation = json_array();
-    for (size_t i = 0; i < report->count; ++i) {
+    for (size_t i = 0; i < report->count; i++) {
         const struct calibrate_parameter *parameter = &report->parameters[i];
         json_t *object = json_object(), *row = json_array();
         json_object_set_new(object, "parameter",
@@ -80,7 +80,7 @@ void calibrate_print_json(const struct calibrate_report *report)
         json_object_set_new(object, "high", json_number(parameter->value + parameter->half_width));
         json_object_set_new(object, "determined", json_boolean(is_determined(parameter)));
         json_array_append_new(array, object);
-        for (size_t j = 0; j < report->count; ++j)
+        for (size_t j = 0; j < report->count; j++)
             json_array_append_new(row, json_number(fit->correlation[i][j]));
         json_array_append_new(correlation, row);
     }
@@ -98,13 +98,13 @@ bool calibrate_warn(const struct calibrate_report *report)
     const struct calibration *calibration = report->calibration;
     char name[128], other[128];
     bool warned = false;
-    for (size_t i = 0; i < report->count; ++i) {
+    for (size_t i = 0; i < report->count; i++) {
         name_parameter(&report->parameters[i], name);
         if (!is_determined(&report->parameters[i])) {
             complain("these data do not determine the %s: leave it at a known value", name);
             warned = true;
         }
-        for (size_t j = 0; j < i; ++j) {
+        for (size_t j = 0; j < i; j++) {
             if (!(fabs(calibration->fit.correlation[i][j]) > ALIKE))
                 continue;
             name_parameter(&report->parameters[j], other);
@@ -113,7 +113,7 @@ bool calibrate_warn(const struct calibrate_report *report)
             warned = true;
         }
     }
-    for (int q = 0; q < QUANTITIES; ++q) {
+    for (int q = 0; q < QUANTITIES; q++) {
         size_t left = calibration->known[q] - calibration->used[q];
         if ((double)left <= MANY * (double)calibration->known[q])
             continue;

@@ -13,8 +13,8 @@
 #include "others.h"
 
 enum { HIGHEST_DOMAIN = 230 };
-static const double default_timeout = 30.0; /* s */
-static const double default_patience = 3.0; /* s for a server to appear; discovery takes 0.1 s */
+static const double DEFAULT_TIMEOUT = 30.0; /* s */
+static const double DEFAULT_PATIENCE = 3.0; /* s for a server to appear; discovery takes 0.1 s */
 
 static const struct argp_option common_options[] = {
     {"domain", OPTION_DOMAIN, "N", 0,
@@ -56,7 +56,7 @@ static void parse_server(const char *text, char server[PERCUSS_SERVER_ID_SIZE],
         strspn(text, "0123456789abcdefABCDEF") < length)
         argp_error(state, "--server: '%s' is not 1 to %d hexadecimal digits", text,
                    PERCUSS_SERVER_ID_SIZE - 1);
-    for (size_t i = 0; i <= length; ++i)
+    for (size_t i = 0; i <= length; i++)
         server[i] = (char)tolower((unsigned char)text[i]);
 }
 
@@ -114,12 +114,12 @@ void parse_only_common(int argc, char **argv, const char *doc, struct common *co
 
 double common_timeout(const struct common *common)
 {
-    return isnan(common->timeout) ? default_timeout : common->timeout;
+    return isnan(common->timeout) ? DEFAULT_TIMEOUT : common->timeout;
 }
 
 double common_patience(const struct common *common)
 {
-    return isnan(common->timeout) ? default_patience : common->timeout;
+    return isnan(common->timeout) ? DEFAULT_PATIENCE : common->timeout;
 }
 
 void complain(const char *format, ...)
@@ -197,6 +197,6 @@ int status_exit_code(enum percuss_status status)
 
 void format_hex(const uint8_t octets[16], char text[33])
 {
-    for (int i = 0; i < 16; ++i)
+    for (int i = 0; i < 16; i++)
         snprintf(text + 2 * i, 3, "%02x", octets[i]);
 }

@@ -102,7 +102,7 @@ static bool evaluate(const struct compare *compare, struct comparison *compariso
     simulated = measured + n;
     residuals = measured + 2 * n;
     double squares = 0.0;
-    for (size_t i = 0; i < n; ++i) {
+    for (size_t i = 0; i < n; i++) {
         const struct measured_impact *impact = &comparison->set->impacts[i];
         const struct measured_impact *twin = &comparison->twins[i].impact;
         measured[i] = impact->restitution;

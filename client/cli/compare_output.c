@@ -24,7 +24,7 @@ void compare_print_table(const struct comparison *comparison)
     printf("%6s %10s %12s %12s %10s %9s %9s\n", "impact", "speed m/s", "measured e", "simulated e",
            "residual", "measured", "simulated");
     printf("%54s %19s\n", "", "sub-impacts");
-    for (size_t i = 0; i < comparison->set->count; ++i) {
+    for (size_t i = 0; i < comparison->set->count; i++) {
         const struct measured_impact *measured = &comparison->set->impacts[i];
         const struct measured_impact *twin = &comparison->twins[i].impact;
         char count[16] = "-";
@@ -61,7 +61,7 @@ void compare_print_csv(const struct comparison *comparison)
     puts("speed,at,restitution,impulse,sub_impacts,first_impulse,first_duration,second_start,"
          "simulated_restitution,simulated_impulse,simulated_sub_impacts,simulated_first_impulse,"
          "simulated_first_duration,simulated_second_start,residual");
-    for (size_t i = 0; i < comparison->set->count; ++i) {
+    for (size_t i = 0; i < comparison->set->count; i++) {
         const struct measured_impact *measured = &comparison->set->impacts[i];
         const struct measured_impact *twin = &comparison->twins[i].impact;
         printf("%.17g,%.17g", measured->speed, measured->at);
@@ -102,7 +102,7 @@ static json_t *distance_to_json(const struct distance *distance)
 void compare_print_json(const struct comparison *comparison)
 {
     json_t *root = json_object(), *array = json_array(), *residual = json_object();
-    for (size_t i = 0; i < comparison->set->count; ++i) {
+    for (size_t i = 0; i < comparison->set->count; i++) {
         const struct measured_impact *measured = &comparison->set->impacts[i];
         const struct twin *twin = &comparison->twins[i];
         json_t *object = json_object();
@@ -137,7 +137,7 @@ void compare_print_json(const struct comparison *comparison)
 static void write_data(const struct plot *plot, const struct comparison *comparison)
 {
     fputs("$impacts << EOD\n", plot->script);
-    for (size_t i = 0; i < comparison->set->count; ++i)
+    for (size_t i = 0; i < comparison->set->count; i++)
         fprintf(plot->script, "%.9g %.9g %.9g %zu\n", comparison->set->impacts[i].speed,
                 comparison->set->impacts[i].restitution, comparison->twins[i].impact.restitution,
                 comparison->set->count);

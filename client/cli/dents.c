@@ -59,7 +59,7 @@ static const struct argp dents_argp = {
 static json_t *dent_json(const struct percuss_dent *dent)
 {
     json_t *object = json_object(), *point = json_array();
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         json_array_append_new(point, json_number(dent->point[i]));
     json_object_set_new(object, "point", point);
     json_object_set_new(object, "size", json_number(dent->size));
@@ -76,7 +76,7 @@ static json_t *specimen_json(const struct percuss_specimen *specimen)
     json_object_set_new(object, "specimen", json_string(specimen->name));
     json_object_set_new(object, "body", json_string(specimen->body));
     json_object_set_new(object, "impacts", json_integer((json_int_t)specimen->impacts));
-    for (size_t i = 0; i < specimen->dent_count; ++i)
+    for (size_t i = 0; i < specimen->dent_count; i++)
         json_array_append_new(patches, dent_json(&specimen->dents[i]));
     json_object_set_new(object, "patches", patches);
     return object;
@@ -90,7 +90,7 @@ static void print_specimen(const struct percuss_specimen *specimen)
         return;
     printf("  %11s %11s %11s %10s %10s %10s\n", "x/mm", "y/mm", "z/mm", "radius/um", "depth/um",
            "peak/N");
-    for (size_t i = 0; i < specimen->dent_count; ++i) {
+    for (size_t i = 0; i < specimen->dent_count; i++) {
         const struct percuss_dent *dent = &specimen->dents[i];
         printf("  %11.4f %11.4f %11.4f %10.2f %10.4f %10.2f\n", 1e3 * dent->point[0],
                1e3 * dent->point[1], 1e3 * dent->point[2], 1e6 * dent->size,
@@ -104,7 +104,7 @@ static int print_list(const struct dents *dents, const struct percuss_specimen_l
     json_t *root = json_object(), *array = json_array();
     json_object_set_new(root, "specimens", array);
     int code = dents->specimen ? EXIT_REJECTED : EXIT_ANSWERED;
-    for (size_t i = 0; i < list->count; ++i) {
+    for (size_t i = 0; i < list->count; i++) {
         const struct percuss_specimen *specimen = &list->specimens[i];
         if (dents->specimen && strcmp(specimen->name, dents->specimen) != 0)
             continue;

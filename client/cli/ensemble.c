@@ -103,7 +103,7 @@ static void add_correlation(struct ensemble *ensemble, const char *text, struct 
     if (sscanf(text, "%u,%u=%lf%n", &pair->first, &pair->second, &pair->coefficient, &end) != 3 ||
         text[end])
         argp_error(state, "--correlate: '%s' is not I,J=RHO, for example 0,1=0.8", text);
-    ++request->correlation_count;
+    request->correlation_count++;
 }
 
 static void parse_quantiles(struct percuss_ensemble_request *request, const char *text,
@@ -125,7 +125,7 @@ static enum percuss_sampling parse_sampling(const char *text, struct argp_state 
 {
     unsigned i = 0;
     while (i < PERCUSS_SAMPLING_COUNT && strcmp(text, percuss_sampling_name(i)) != 0)
-        ++i;
+        i++;
     if (i == PERCUSS_SAMPLING_COUNT)
         argp_error(state, "--sampling: '%s' is not plain, latin-hypercube or sobol", text);
     return i;
@@ -154,7 +154,7 @@ static void settle(struct ensemble *ensemble, struct argp_state *state)
     struct percuss_ensemble_request *request = ensemble->request;
     if (!ensemble->scene.a || !ensemble->scene.b || !ensemble->has_speed)
         argp_error(state, "--a ID --b ID --speed DIST are needed");
-    for (size_t i = 0; !ensemble->has_samples && i < request->input_count; ++i)
+    for (size_t i = 0; !ensemble->has_samples && i < request->input_count; i++)
         if (request->inputs[i].distribution == PERCUSS_DISTRIBUTION_LIST)
             request->samples = 0;
     request->list_samples = ensemble->csv || ensemble->plot;
@@ -295,7 +295,7 @@ static int run(struct ensemble *ensemble)
     struct percuss_client *client;
     struct scene_bodies bodies = {0};
     double speed = 0.0;
-    for (size_t i = 0; i < ensemble->request->input_count; ++i)
+    for (size_t i = 0; i < ensemble->request->input_count; i++)
         if (!strcmp(ensemble->request->inputs[i].name, "speed"))
             speed = input_text_middle(&ensemble->request->inputs[i]);
     int code = open_client(ensemble->common, NULL, &client);
@@ -323,7 +323,7 @@ int command_ensemble(int argc, char **argv, struct common *common)
     ensemble.request->seed = 1;
     argp_parse(&ensemble_argp, argc, argv, 0, NULL, &ensemble);
     int code = run(&ensemble);
-    for (size_t i = 0; i < ensemble.request->input_count; ++i)
+    for (size_t i = 0; i < ensemble.request->input_count; i++)
         free((void *)ensemble.request->inputs[i].values);
     free(ensemble.request);
     return code;

@@ -24,7 +24,7 @@ struct columns {
 /* A fixed speed has no panel. */
 static bool speed_column(const struct percuss_ensemble_request *request, size_t *column)
 {
-    for (size_t i = 0; i < request->input_count; ++i) {
+    for (size_t i = 0; i < request->input_count; i++) {
         *column = i;
         if (!strcmp(request->inputs[i].name, "speed"))
             return request->inputs[i].distribution != PERCUSS_DISTRIBUTION_CONSTANT;
@@ -49,7 +49,7 @@ static bool take_samples(const struct percuss_ensemble_request *request,
         complain("--plot: out of memory");
         return false;
     }
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; i++) {
         const double *row = reply->rows + i * reply->column_count;
         const double *results = row + request->input_count;
         speeds[i] = row[speed];
@@ -71,7 +71,7 @@ static void take_sensitivities(const struct percuss_ensemble_reply *reply, struc
     size_t count = reply->sensitivity_count;
     if (count < 2 || count > PERCUSS_MAX_INPUTS)
         return;
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; i++) {
         const struct percuss_sensitivity *s = &reply->sensitivities[i];
         snprintf(columns->texts[i], sizeof columns->texts[i], "%s%s%s", s->input,
                  s->body[0] ? "@" : "", s->body);
@@ -94,7 +94,7 @@ static bool take_intervals(const struct percuss_ensemble_reply *reply, struct co
         complain("--plot: out of memory");
         return false;
     }
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; i++) {
         columns->lows[i] = reply->intervals[i].low;
         columns->lows[count + i] = reply->intervals[i].high;
     }

@@ -19,7 +19,7 @@ static struct bounds_text bounds_of(double low, double high)
     struct bounds_text bounds;
     char ends[2][24];
     const double values[] = {low, high};
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2; i++)
         snprintf(ends[i], sizeof ends[i], isnan(values[i]) ? "?" : "%.4f", values[i]);
     snprintf(bounds.text, sizeof bounds.text, "[%s, %s]", ends[0], ends[1]);
     return bounds;
@@ -50,7 +50,7 @@ static void print_restitution(const struct percuss_statistic *e)
            bounds_of(e->standard_deviation_low, e->standard_deviation_high).text);
     printf("    skewness  %+.3f\n", e->skewness);
     printf("    range     %.4f .. %.4f\n", e->lowest, e->highest);
-    for (size_t i = 0; i < e->quantile_count; ++i)
+    for (size_t i = 0; i < e->quantile_count; i++)
         printf("    %6.4g %%  %.4f  %s\n", 100.0 * e->probabilities[i], e->quantiles[i],
                bounds_of(e->quantiles_low[i], e->quantiles_high[i]).text);
 }
@@ -60,10 +60,10 @@ static void print_histogram(const struct percuss_statistic *e)
     enum { WIDTH = 50 };
     static const char bar[WIDTH + 1] = "##################################################";
     uint64_t most = 1;
-    for (size_t i = 0; i < e->bin_count; ++i)
+    for (size_t i = 0; i < e->bin_count; i++)
         most = e->bin_counts[i] > most ? e->bin_counts[i] : most;
     printf("\n");
-    for (size_t i = 0; i < e->bin_count; ++i)
+    for (size_t i = 0; i < e->bin_count; i++)
         printf("  %7.4f .. %7.4f %8llu %.*s\n", e->bin_edges[i], e->bin_edges[i + 1],
                (unsigned long long)e->bin_counts[i], (int)(WIDTH * e->bin_counts[i] / most), bar);
 }
@@ -72,10 +72,10 @@ static void print_others(const struct percuss_ensemble_reply *reply)
 {
     printf("\n  %-12s %12s %12s %12s %12s %12s\n", "", "mean", "deviation", "lowest", "median",
            "highest");
-    for (size_t i = 1; i < reply->statistic_count; ++i) {
+    for (size_t i = 1; i < reply->statistic_count; i++) {
         const struct percuss_statistic *s = &reply->statistics[i];
         double median = NAN;
-        for (size_t k = 0; k < s->quantile_count; ++k)
+        for (size_t k = 0; k < s->quantile_count; k++)
             if (s->probabilities[k] == 0.5)
                 median = s->quantiles[k];
         printf("  %-12s %12.5g %12.5g %12.5g %12.5g %12.5g\n", s->quantity, s->mean,
@@ -87,7 +87,7 @@ static void print_sub_impacts(const struct percuss_ensemble_reply *reply)
 {
     double all = (double)(reply->samples - reply->refused);
     printf("\n  sub-impacts   share/%%   without negligible ones/%%\n");
-    for (size_t k = 0; k < reply->count_length; ++k)
+    for (size_t k = 0; k < reply->count_length; k++)
         if (reply->sub_impact_counts[k] || reply->significant_counts[k])
             printf("  %11zu %9.3f %12.3f\n", k, 100.0 * (double)reply->sub_impact_counts[k] / all,
                    100.0 * (double)reply->significant_counts[k] / all);
@@ -96,7 +96,7 @@ static void print_sub_impacts(const struct percuss_ensemble_reply *reply)
 static void print_intervals(const struct percuss_ensemble_reply *reply)
 {
     printf("\n  mean -+ k deviations     samples/%%  impossible/%%   quantiles instead\n");
-    for (size_t i = 0; i < reply->interval_count; ++i) {
+    for (size_t i = 0; i < reply->interval_count; i++) {
         const struct percuss_sigma_interval *s = &reply->intervals[i];
         printf("  %3.1f [%8.4f, %7.4f] %9.1f %12.1f      [%.4f, %.4f]\n", s->sigmas, s->low,
                s->high, 100.0 * s->covered, 100.0 * s->unphysical, s->quantile_low,
@@ -113,7 +113,7 @@ static void print_intervals(const struct percuss_ensemble_reply *reply)
 static void print_chaos(const struct percuss_sensitivity *input)
 {
     size_t known = 0, chaotic = 0;
-    for (size_t i = 0; i < input->part_count; ++i) {
+    for (size_t i = 0; i < input->part_count; i++) {
         known += !isnan(input->parts[i].local);
         chaotic += input->parts[i].chaotic;
     }
@@ -123,12 +123,12 @@ static void print_chaos(const struct percuss_sensitivity *input)
            input->input);
     if (chaotic == 0)
         printf(" no part of its range");
-    for (size_t i = 0; i < input->part_count; ++i) {
+    for (size_t i = 0; i < input->part_count; i++) {
         if (!input->parts[i].chaotic)
             continue;
         size_t last = i;
         while (last + 1 < input->part_count && input->parts[last + 1].chaotic)
-            ++last;
+            last++;
         printf(" %.4g..%.4g", input->parts[i].low, input->parts[last].high);
         i = last;
     }
@@ -142,7 +142,7 @@ static void print_index(double value, double low, double high)
     const double bounds[] = {low, high};
     if (isnan(value))
         return;
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2; i++)
         snprintf(ends[i], sizeof ends[i], isnan(bounds[i]) ? "?" : "%.3f", bounds[i]);
     printf(" %7.3f [%s, %s]", value, ends[0], ends[1]);
 }
@@ -152,7 +152,7 @@ static void print_sensitivities(const struct percuss_ensemble_reply *reply)
     const struct percuss_sensitivity *leading = NULL;
     printf("\n  share of the variance that an input explains by itself, and that is left when all "
            "others are known,\n  with 95 %% confidence\n");
-    for (size_t i = 0; i < reply->sensitivity_count; ++i) {
+    for (size_t i = 0; i < reply->sensitivity_count; i++) {
         const struct percuss_sensitivity *s = &reply->sensitivities[i];
         if (!leading || s->first_order > leading->first_order)
             leading = s;
@@ -217,13 +217,13 @@ void ensemble_print_table(const struct percuss_ensemble_request *request,
     }
     if (reply->message[0])
         fprintf(stderr, "percuss: %s: %s\n", percuss_status_name(reply->status), reply->message);
-    for (size_t i = 0; i < reply->warning_count; ++i)
+    for (size_t i = 0; i < reply->warning_count; i++)
         fprintf(stderr, "percuss: warning: %s\n", reply->warnings[i]);
 }
 
 static void write_head(FILE *stream, const struct percuss_ensemble_request *request)
 {
-    for (size_t i = 0; i < request->input_count; ++i) {
+    for (size_t i = 0; i < request->input_count; i++) {
         const struct percuss_input *input = &request->inputs[i];
         fprintf(stream, "%s%s%s,", input->name, input->body[0] ? "@" : "", input->body);
     }
@@ -244,9 +244,9 @@ bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request 
         return false;
     }
     write_head(stream, request);
-    for (uint64_t i = 0; i < reply->samples; ++i) {
+    for (uint64_t i = 0; i < reply->samples; i++) {
         const double *row = reply->rows + i * columns;
-        for (size_t c = 0; c + 3 < columns; ++c)
+        for (size_t c = 0; c + 3 < columns; c++)
             fprintf(stream, "%.17g,", row[c]);
         fprintf(stream, "%.0f,%.0f,%s\n", row[columns - 3], row[columns - 2],
                 percuss_status_name((unsigned)row[columns - 1]));

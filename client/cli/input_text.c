@@ -77,7 +77,7 @@ bool input_text_distribution(const char *text, struct percuss_input *input,
     const char *rest = after(text, "list");
     if (rest)
         return read_list(rest, input, fault);
-    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; ++i) {
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         rest = after(text, kinds[i].name);
         if (!rest)
             continue;
@@ -130,7 +130,7 @@ static char *field_of(char *line, size_t number)
         field = strchr(field, ',');
         if (!field)
             return NULL;
-        ++field;
+        field++;
     }
     field[strcspn(field, ",\r\n")] = '\0';
     field += strspn(field, " \t\"");
@@ -149,7 +149,7 @@ static bool as_number(const char *field, double *number)
 static size_t find_column(const char *line, const char *name)
 {
     char copy[LINE_SIZE];
-    for (size_t i = 0;; ++i) {
+    for (size_t i = 0;; i++) {
         snprintf(copy, sizeof copy, "%s", line);
         const char *field = field_of(copy, i);
         if (!field)
@@ -199,7 +199,7 @@ static bool read_lines(struct table *table, double **values, size_t *count,
     bool first = true;
     while (fgets(line, sizeof line, table->stream)) {
         double value;
-        ++table->line;
+        table->line++;
         if (line[0] == '#' || !line[strspn(line, " \t\r\n")])
             continue;
         if (first && table->named)

@@ -35,7 +35,7 @@ static error_t parse_main(int key, char *text, struct argp_state *state)
         state->child_inputs[0] = &invocation->common;
         return 0;
     case ARGP_KEY_ARG:
-        // the rest is the command's
+        /* the rest is the command's */
         invocation->command = state->next - 1;
         state->next = state->argc;
         return 0;
@@ -74,7 +74,7 @@ static const struct argp main_argp = {
 
 static int run(const char *name, int argc, char **argv, struct common *common)
 {
-    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; ++i)
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
         if (!strcmp(commands[i].name, name))
             return commands[i].function(argc, argv, common);
     complain("'%s' is not a command; percuss --help lists them", name);
@@ -87,7 +87,7 @@ int main(int argc, char **argv)
     argp_err_exit_status = EXIT_USAGE;
     argp_parse(&main_argp, argc, argv, ARGP_IN_ORDER, NULL, &invocation);
 
-    // usage texts of a command start with this name
+    /* usage texts of a command start with this name */
     char *name = argv[invocation.command], title[64];
     snprintf(title, sizeof title, "percuss %s", name);
     argv[invocation.command] = title;

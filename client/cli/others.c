@@ -27,7 +27,7 @@ static const struct percuss_server *find_ours(const struct percuss_server_list *
 {
     uint8_t server[16];
     percuss_client_server(client, server);
-    for (size_t i = 0; i < list->count; ++i)
+    for (size_t i = 0; i < list->count; i++)
         if (memcmp(list->servers[i].server, server, sizeof server) == 0)
             return &list->servers[i];
     return NULL;
@@ -41,12 +41,12 @@ int others_settle(const struct common *common, struct percuss_client *client)
         return EXIT_ANSWERED;
     const struct percuss_server *ours = find_ours(&list, client);
     int code = EXIT_ANSWERED;
-    // the first one has come to light while we stayed with another
+    /* the first one has come to light while we stayed with another */
     if (ours && ours != list.servers && strcmp(list.servers[0].state, "ready") == 0) {
         code = connect_client(common, client);
         ours = find_ours(&list, client);
     }
-    for (size_t i = 0; code == EXIT_ANSWERED && ours && i < list.count; ++i)
+    for (size_t i = 0; code == EXIT_ANSWERED && ours && i < list.count; i++)
         if (&list.servers[i] != ours)
             warn(&list.servers[i], ours);
     percuss_server_list_free(&list);

@@ -56,7 +56,7 @@ static enum percuss_result measure(struct percuss_client *client, const struct p
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
     *trips = (struct round_trips){.shortest = INFINITY};
-    for (unsigned i = 0; i < ping->count && result == PERCUSS_RESULT_OK; ++i) {
+    for (unsigned i = 0; i < ping->count && result == PERCUSS_RESULT_OK; i++) {
         double trip = 0.0;
         result = percuss_ping(client, common_timeout(ping->common), &trip);
         trips->shortest = fmin(trips->shortest, trip);

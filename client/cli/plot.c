@@ -31,7 +31,7 @@ void plot_check(const char *file, struct argp_state *state)
 void plot_text(const struct plot *plot, const char *text)
 {
     fputc('\'', plot->script);
-    for (; *text; ++text) {
+    for (; *text; text++) {
         if (*text == '\'')
             fputc('\'', plot->script);
         if (*text != '\n')

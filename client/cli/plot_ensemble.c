@@ -20,9 +20,9 @@ static void write_histogram(const struct plot *plot, const struct ensemble_pictu
 {
     fputs("$histogram << EOD\n", plot->script);
     double all = 0.0;
-    for (size_t i = 0; i < picture->bins; ++i)
+    for (size_t i = 0; i < picture->bins; i++)
         all += (double)picture->counts[i];
-    for (size_t i = 0; i < picture->bins; ++i) {
+    for (size_t i = 0; i < picture->bins; i++) {
         double width = picture->edges[i + 1] - picture->edges[i];
         fprintf(plot->script, "%.9g %.9g %.9g\n", picture->edges[i] + 0.5 * width,
                 (double)picture->counts[i] / (all * width), width);
@@ -40,11 +40,11 @@ static void write_histogram(const struct plot *plot, const struct ensemble_pictu
 static void write_distribution(const struct plot *plot, const struct ensemble_picture *picture)
 {
     fputs("$distribution << EOD\n", plot->script);
-    for (size_t i = 0; i < picture->quantile_count; ++i)
+    for (size_t i = 0; i < picture->quantile_count; i++)
         fprintf(plot->script, "%.9g %.9g %.9g %.9g\n", picture->quantiles[i],
                 picture->probabilities[i], picture->quantiles_low[i], picture->quantiles_high[i]);
     fputs("EOD\n$curve << EOD\n", plot->script);
-    for (size_t i = 0; i < picture->curve_count; ++i)
+    for (size_t i = 0; i < picture->curve_count; i++)
         fprintf(plot->script, "%.9g %.9g\n", picture->curve_values[i], picture->curve_shares[i]);
     fputs("EOD\nset xlabel 'restitution e'\nset ylabel 'share of samples below'\n"
           "set yrange [0:1]\nset key top left\n"
@@ -60,15 +60,15 @@ static void write_distribution(const struct plot *plot, const struct ensemble_pi
 static void write_bands(const struct plot *plot, const struct ensemble_picture *picture)
 {
     double low = INFINITY, high = -INFINITY;
-    for (size_t i = 0; i < picture->sample_count; ++i) {
+    for (size_t i = 0; i < picture->sample_count; i++) {
         low = fmin(low, picture->speeds[i]);
         high = fmax(high, picture->speeds[i]);
     }
     double width = (high - low) / SPEED_BINS;
     fputs("$bands << EOD\n", plot->script);
-    for (int b = 0; b < SPEED_BINS && width > 0.0; ++b) {
+    for (int b = 0; b < SPEED_BINS && width > 0.0; b++) {
         double count = 0.0, sum = 0.0, squares = 0.0;
-        for (size_t i = 0; i < picture->sample_count; ++i) {
+        for (size_t i = 0; i < picture->sample_count; i++) {
             int at = (int)((picture->speeds[i] - low) / width);
             double e = picture->restitutions[i];
             if ((at < SPEED_BINS ? at : SPEED_BINS - 1) != b || !isfinite(e))
@@ -91,12 +91,12 @@ static void write_dots(const struct plot *plot, const struct ensemble_picture *p
     uint64_t random = 1;
     size_t wanted = picture->sample_count < MOST_DOTS ? picture->sample_count : MOST_DOTS;
     fputs("$samples << EOD\n", plot->script);
-    for (size_t i = 0; i < picture->sample_count; ++i) {
+    for (size_t i = 0; i < picture->sample_count; i++) {
         random = random * 6364136223846793005u + 1442695040888963407u;
         double chance = (double)(random >> 11) * 0x1p-53;
         if (chance * (double)(picture->sample_count - i) >= (double)wanted)
             continue;
-        --wanted;
+        wanted--;
         fprintf(plot->script, "%.9g %.9g %.0f\n", picture->speeds[i], picture->restitutions[i],
                 picture->sub_impacts ? picture->sub_impacts[i] : 0.0);
     }
@@ -120,7 +120,7 @@ static void write_colour(const struct plot *plot, const struct ensemble_picture 
     bool last = k == COLOURS;
     while (i < picture->sample_count &&
            !(picture->sub_impacts[i] == k || (last && picture->sub_impacts[i] > k)))
-        ++i;
+        i++;
     if (i == picture->sample_count)
         return;
     fprintf(plot->script,
@@ -143,7 +143,7 @@ static void write_samples(const struct plot *plot, const struct ensemble_picture
     if (!picture->sub_impacts)
         fputs("$samples using 1:2 with points pt 7 ps 0.2 lc rgb '#808080' title 'samples', ",
               plot->script);
-    for (int k = 1; picture->sub_impacts && k <= COLOURS; ++k)
+    for (int k = 1; picture->sub_impacts && k <= COLOURS; k++)
         write_colour(plot, picture, k);
     if (picture->interval_count > 0)
         fputs("NaN with boxes fillstyle solid 0.18 noborder lc rgb '#000000' "
@@ -152,7 +152,7 @@ static void write_samples(const struct plot *plot, const struct ensemble_picture
     fputs("$bands using 1:2:3 with yerrorbars lt 6 lw 1.5 ps 0.6 "
           "title 'local ± σ'\nset key default notitle samplen 4\nunset xlabel\n",
           plot->script);
-    for (size_t i = 1; i <= picture->interval_count; ++i)
+    for (size_t i = 1; i <= picture->interval_count; i++)
         fprintf(plot->script, "unset object %zu\n", i);
 }
 
@@ -160,7 +160,7 @@ static void write_samples(const struct plot *plot, const struct ensemble_picture
 static void write_name(const struct plot *plot, const char *name)
 {
     fputc('"', plot->script);
-    for (; *name; ++name)
+    for (; *name; name++)
         fputc(*name == '"' ? '\'' : *name, plot->script);
     fputc('"', plot->script);
 }
@@ -176,7 +176,7 @@ static void write_share(const struct plot *plot, const struct index_share *share
 static void write_sensitivities(const struct plot *plot, const struct ensemble_picture *picture)
 {
     fputs("$sensitivities << EOD\n", plot->script);
-    for (size_t i = 0; i < picture->input_count; ++i) {
+    for (size_t i = 0; i < picture->input_count; i++) {
         write_name(plot, picture->inputs[i].name);
         write_share(plot, &picture->inputs[i].first_order);
         write_share(plot, &picture->inputs[i].total);

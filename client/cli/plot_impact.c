@@ -15,7 +15,7 @@
 static size_t largest_contact(const struct percuss_reply *reply)
 {
     size_t largest = 0;
-    for (size_t c = 1; c < reply->contact_count; ++c)
+    for (size_t c = 1; c < reply->contact_count; c++)
         if (reply->contacts[c].impulse > reply->contacts[largest].impulse)
             largest = c;
     return largest;
@@ -24,7 +24,7 @@ static size_t largest_contact(const struct percuss_reply *reply)
 static void write_data(const struct plot *plot, const struct percuss_contact_trace *trace)
 {
     fputs("$data << EOD\n", plot->script);
-    for (size_t i = 0; i < trace->count; ++i)
+    for (size_t i = 0; i < trace->count; i++)
         fprintf(plot->script, "%.9g %.9g %.9g %.9g %.9g %.9g\n", 1e3 * trace->time[i],
                 trace->force[i], 1e6 * trace->displacement_a[i], 1e6 * trace->displacement_b[i],
                 trace->velocity_a[i], trace->velocity_b[i]);
@@ -84,9 +84,9 @@ int write_trace_csv(const char *file, const struct percuss_trace *trace)
     fputs("contact,time,force,indentation,gap,gap_rate,displacement_a,velocity_a,displacement_b,"
           "velocity_b\n",
           out);
-    for (size_t c = 0; c < trace->contact_count; ++c) {
+    for (size_t c = 0; c < trace->contact_count; c++) {
         const struct percuss_contact_trace *t = &trace->contacts[c];
-        for (size_t i = 0; i < t->count; ++i)
+        for (size_t i = 0; i < t->count; i++)
             fprintf(out, "%zu,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", c,
                     t->time[i], t->force[i], t->indentation[i], t->gap[i], t->gap_rate[i],
                     t->displacement_a[i], t->velocity_a[i], t->displacement_b[i], t->velocity_b[i]);

@@ -195,9 +195,9 @@ static int ask_scene(const struct query *query)
     code = scene_find_bodies(&query->scene, query->common, client, &bodies);
     if (code == EXIT_ANSWERED)
         code = scene_request(&query->scene, &bodies, query->speed, &request);
-    for (int i = 0; code == EXIT_ANSWERED && i < 2; ++i)
+    for (int i = 0; code == EXIT_ANSWERED && i < 2; i++)
         if (query->specimens[i])
-            strcpy(request.bodies[i].specimen, query->specimens[i]); // it fits: it was parsed
+            strcpy(request.bodies[i].specimen, query->specimens[i]); /* it fits: it was parsed */
     if (code == EXIT_ANSWERED)
         code = ask(query, &request, client);
     percuss_body_list_free(&bodies.list);

@@ -16,7 +16,7 @@ double reply_restitution_error(const struct percuss_reply *reply)
 unsigned reply_significant(const struct percuss_contact_result *contact)
 {
     unsigned count = 0;
-    for (uint32_t i = 0; i < contact->sub_impacts_listed; ++i)
+    for (uint32_t i = 0; i < contact->sub_impacts_listed; i++)
         count += !contact->sub_impacts[i].negligible;
     return count;
 }
@@ -42,7 +42,7 @@ static void print_sub_impacts(const struct percuss_contact_result *contact)
         return;
     printf("\n  %4s %10s %10s %13s %8s %10s %12s\n", "#", "start/ms", "length/us", "impulse/N s",
            "share/%", "peak/N", "indent./um");
-    for (uint32_t i = 0; i < contact->sub_impacts_listed; ++i) {
+    for (uint32_t i = 0; i < contact->sub_impacts_listed; i++) {
         const struct percuss_sub_impact *sub = &contact->sub_impacts[i];
         if (hidden && sub->negligible)
             continue;
@@ -83,7 +83,7 @@ static void print_energy(const struct percuss_energy *energy)
 {
     printf("\n  energy       %.5g J available: rigid motion %.2f %%", energy->available,
            100.0 * energy->rigid_after / energy->available);
-    for (size_t i = 0; i < energy->vibration_count; ++i) {
+    for (size_t i = 0; i < energy->vibration_count; i++) {
         char name[PERCUSS_ID_SIZE + 16];
         snprintf(name, sizeof name, "vibration of %s", energy->vibration[i].id);
         print_share(name, energy->vibration[i].energy, energy->available);
@@ -99,7 +99,7 @@ static void print_model(const struct percuss_model *model)
     printf("  model        %s contact, %s compliance, %s method",
            percuss_contact_model_name(model->contact_model),
            percuss_compliance_name(model->compliance), percuss_method_name(model->method));
-    for (size_t i = 0; i < model->body_count; ++i) {
+    for (size_t i = 0; i < model->body_count; i++) {
         const struct percuss_body_model *body = &model->bodies[i];
         if (body->rigid)
             printf("; %s rigid", body->id);
@@ -118,7 +118,7 @@ void reply_table_print(const struct percuss_request *request, const struct percu
 {
     if (reply->status != PERCUSS_OK)
         complain("%s: %s", percuss_status_name(reply->status), reply->message);
-    for (size_t i = 0; i < reply->contact_count; ++i) {
+    for (size_t i = 0; i < reply->contact_count; i++) {
         print_title(request, i);
         print_contact(reply, &reply->contacts[i]);
     }
@@ -129,6 +129,6 @@ void reply_table_print(const struct percuss_request *request, const struct percu
     }
     if (reply->time_shift != 0.0 && !isnan(reply->time_shift))
         printf("  time shift   %.4g us\n", 1e6 * reply->time_shift);
-    for (size_t i = 0; i < reply->warning_count; ++i)
+    for (size_t i = 0; i < reply->warning_count; i++)
         complain("warning: %s", reply->warnings[i]);
 }

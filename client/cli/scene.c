@@ -37,7 +37,7 @@ static unsigned parse_choice(const char *option, const char *text, unsigned coun
                              const char *(*name_of)(unsigned), struct argp_state *state)
 {
     char allowed[256] = "";
-    for (unsigned i = 0; i < count; ++i) {
+    for (unsigned i = 0; i < count; i++) {
         if (!strcmp(text, name_of(i)))
             return i;
         size_t length = strlen(allowed);
@@ -154,7 +154,7 @@ int scene_find_bodies(const struct scene *scene, const struct common *common,
     bodies->pair =
         percuss_pair_default(find_or_invent(&bodies->list, scene->a, &bodies->strangers[0]),
                              find_or_invent(&bodies->list, scene->b, &bodies->strangers[1]));
-    // of two beams the one at rest is hit at S
+    /* of two beams the one at rest is hit at S */
     bool b_is_beam = !strcmp(bodies->pair.b->shape, "beam");
     if (scene->at_given && !b_is_beam && strcmp(bodies->pair.a->shape, "beam") != 0)
         complain("--at has no effect: neither body is a beam");
@@ -175,7 +175,7 @@ int scene_request(const struct scene *scene, const struct scene_bodies *bodies, 
 void scene_explain_unknown(const struct percuss_request *request,
                            const struct percuss_body_list *list)
 {
-    for (size_t i = 0; i < request->body_count; ++i) {
+    for (size_t i = 0; i < request->body_count; i++) {
         const char *id = request->bodies[i].id;
         if (percuss_body_find(list, id))
             continue;
@@ -183,7 +183,7 @@ void scene_explain_unknown(const struct percuss_request *request,
         if (nearest)
             complain("'%s': did you mean '%s'?", id, nearest->id);
         fprintf(stderr, "percuss: the server knows:");
-        for (size_t j = 0; j < list->count; ++j)
+        for (size_t j = 0; j < list->count; j++)
             fprintf(stderr, " %s", list->bodies[j].id);
         fputc('\n', stderr);
         return;

@@ -54,6 +54,6 @@ void spread_print(double deviation, const struct percuss_ensemble_reply *reply)
                100.0 * (e->probabilities[last] - e->probabilities[0]), e->quantiles[0],
                e->quantiles[last]);
     printf("\n");
-    for (size_t i = 0; i < reply->warning_count; ++i)
+    for (size_t i = 0; i < reply->warning_count; i++)
         complain("warning: %s", reply->warnings[i]);
 }

@@ -38,7 +38,7 @@ static void print_json(const struct percuss_server_list *list)
 {
     json_t *root = json_object(), *array = json_array();
     json_object_set_new(root, "servers", array);
-    for (size_t i = 0; i < list->count; ++i)
+    for (size_t i = 0; i < list->count; i++)
         json_array_append_new(array, server_to_json(&list->servers[i]));
     json_print(root);
 }
@@ -67,7 +67,7 @@ int command_status(int argc, char **argv, struct common *common)
     int code = make_client(common, NULL, &client);
     if (code == EXIT_ANSWERED)
         code = connect_client(common, client);
-    // what a server announces that does not answer is of interest, too
+    /* what a server announces that does not answer is of interest, too */
     if (code != EXIT_ANSWERED && code != EXIT_TIMEOUT) {
         percuss_client_free(client);
         return code;
@@ -77,7 +77,7 @@ int command_status(int argc, char **argv, struct common *common)
         code = complain_result(result);
     else if (common->json)
         print_json(&list);
-    for (size_t i = 0; !common->json && i < list.count; ++i)
+    for (size_t i = 0; !common->json && i < list.count; i++)
         print_server(&list.servers[i]);
     percuss_server_list_free(&list);
     percuss_client_free(client);

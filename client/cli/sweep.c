@@ -128,7 +128,7 @@ static unsigned point_of(const struct run *run, uint64_t sequence)
 {
     unsigned i = run->sent;
     while (i > 0 && run->sequences[i - 1] != sequence)
-        --i;
+        i--;
     return i - 1;
 }
 
@@ -157,7 +157,7 @@ static int take_point(struct run *run)
         return send_point(run, i);
     }
     run->replies[i] = reply;
-    ++run->answered;
+    run->answered++;
     return EXIT_ANSWERED;
 }
 
@@ -182,7 +182,7 @@ static int judge(const struct run *run)
 {
     int worst = EXIT_ANSWERED;
     const struct percuss_reply *refused = NULL;
-    for (unsigned i = 0; i < run->sweep->count; ++i) {
+    for (unsigned i = 0; i < run->sweep->count; i++) {
         int code = status_exit_code(run->replies[i].status);
         if (code > worst) {
             worst = code;
@@ -212,7 +212,7 @@ static int run_curve(struct run *run)
 
 static void free_run(struct run *run)
 {
-    for (unsigned i = 0; run->replies && i < run->sweep->count; ++i)
+    for (unsigned i = 0; run->replies && i < run->sweep->count; i++)
         percuss_reply_free(&run->replies[i]);
     free(run->replies);
     free(run->sequences);
@@ -223,8 +223,8 @@ static void free_run(struct run *run)
 static bool take_warnings(const struct run *runs, size_t count, struct tally *tally)
 {
     bool good = true;
-    for (size_t k = 0; k < count; ++k)
-        for (unsigned i = 0; good && i < runs[k].sweep->count; ++i) {
+    for (size_t k = 0; k < count; k++)
+        for (unsigned i = 0; good && i < runs[k].sweep->count; i++) {
             char place[128], curve[96] = "";
             if (count > 1)
                 snprintf(curve, sizeof curve, "of %s, %s, ", runs[k].scene.b,
@@ -244,9 +244,9 @@ static int print(const struct sweep *sweep, const struct run *runs, size_t count
         complain("out of memory");
         return EXIT_FAILURE;
     }
-    for (unsigned i = 0; i < sweep->count; ++i)
+    for (unsigned i = 0; i < sweep->count; i++)
         speeds[i] = speed_at(sweep, i);
-    for (size_t k = 0; k < count; ++k)
+    for (size_t k = 0; k < count; k++)
         curves[k] = (struct sweep_curve){
             runs[k].scene.b, percuss_contact_model_name(runs[k].scene.options.contact_model),
             runs[k].replies};
@@ -271,8 +271,8 @@ static size_t list_runs(const struct sweep *sweep, struct percuss_client *client
 {
     const struct scene *scene = &sweep->scene;
     size_t models = scene->model_count ? scene->model_count : 1, count = 0;
-    for (size_t b = 0; b < scene->b_count; ++b) {
-        for (size_t m = 0; m < models; ++m) {
+    for (size_t b = 0; b < scene->b_count; b++) {
+        for (size_t m = 0; m < models; m++) {
             struct run *run = &runs[count++];
             *run = (struct run){.sweep = sweep, .client = client, .scene = *scene};
             run->scene.b = scene->all_b[b];
@@ -290,16 +290,16 @@ static int run_sweep(const struct sweep *sweep, struct percuss_client *client)
         return EXIT_FAILURE;
     size_t count = list_runs(sweep, client, runs);
     int code = EXIT_ANSWERED;
-    for (size_t k = 0; code == EXIT_ANSWERED && k < count; ++k)
+    for (size_t k = 0; code == EXIT_ANSWERED && k < count; k++)
         code = run_curve(&runs[k]);
     if (code == EXIT_ANSWERED) {
         code = print(sweep, runs, count);
-        for (size_t k = 0; k < count; ++k) {
+        for (size_t k = 0; k < count; k++) {
             int judged = judge(&runs[k]);
             code = judged > code ? judged : code;
         }
     }
-    for (size_t k = 0; k < count; ++k)
+    for (size_t k = 0; k < count; k++)
         free_run(&runs[k]);
     free(runs);
     return code;

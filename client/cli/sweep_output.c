@@ -50,7 +50,7 @@ static void print_curve(const struct sweep_points *points, const struct sweep_cu
                curve->b, curve->contact_model);
     printf("%10s %12s %9s %13s %11s %11s %12s  %s\n", "speed m/s", "restitution", "error",
            "impulse N s", "sub-impacts", "significant", "end time ms", "status");
-    for (unsigned i = 0; i < points->count; ++i) {
+    for (unsigned i = 0; i < points->count; i++) {
         struct row row = row_of(points, curve, i);
         printf("%10.5g %12.6f %9.1e %13.6g %11u %11u %12.4f  %s\n", row.speed, row.restitution,
                row.error, row.impulse, row.sub_impacts, row.significant, 1e3 * row.end_time,
@@ -60,7 +60,7 @@ static void print_curve(const struct sweep_points *points, const struct sweep_cu
 
 void sweep_print_table(const struct sweep_points *points)
 {
-    for (size_t k = 0; k < points->curve_count; ++k)
+    for (size_t k = 0; k < points->curve_count; k++)
         print_curve(points, &points->curves[k]);
 }
 
@@ -69,9 +69,9 @@ void sweep_print_csv(const struct sweep_points *points)
     bool several = points->curve_count > 1;
     printf("%sspeed,restitution,error,impulse,sub_impacts,significant,end_time,status\n",
            several ? "b,contact_model," : "");
-    for (size_t k = 0; k < points->curve_count; ++k) {
+    for (size_t k = 0; k < points->curve_count; k++) {
         const struct sweep_curve *curve = &points->curves[k];
-        for (unsigned i = 0; i < points->count; ++i) {
+        for (unsigned i = 0; i < points->count; i++) {
             struct row row = row_of(points, curve, i);
             if (several)
                 printf("%s,%s,", curve->b, curve->contact_model);
@@ -85,7 +85,7 @@ void sweep_print_csv(const struct sweep_points *points)
 static json_t *curve_to_json(const struct sweep_points *points, const struct sweep_curve *curve)
 {
     json_t *array = json_array();
-    for (unsigned i = 0; i < points->count; ++i) {
+    for (unsigned i = 0; i < points->count; i++) {
         struct row row = row_of(points, curve, i);
         json_t *point = json_object();
         json_object_set_new(point, "speed", json_number(row.speed));
@@ -105,7 +105,7 @@ static json_t *curve_to_json(const struct sweep_points *points, const struct swe
 void sweep_print_json(const struct sweep_points *points)
 {
     json_t *root = json_object(), *curves = json_array();
-    for (size_t k = 0; k < points->curve_count; ++k) {
+    for (size_t k = 0; k < points->curve_count; k++) {
         json_t *curve = json_object();
         json_object_set_new(curve, "b", json_string(points->curves[k].b));
         json_object_set_new(curve, "contact_model", json_string(points->curves[k].contact_model));
@@ -124,9 +124,9 @@ void sweep_print_json(const struct sweep_points *points)
 
 static void write_data(const struct plot *plot, const struct sweep_points *points)
 {
-    for (size_t k = 0; k < points->curve_count; ++k) {
+    for (size_t k = 0; k < points->curve_count; k++) {
         fprintf(plot->script, "$curve%zu << EOD\n", k);
-        for (unsigned i = 0; i < points->count; ++i) {
+        for (unsigned i = 0; i < points->count; i++) {
             struct row row = row_of(points, &points->curves[k], i);
             if (row.sub_impacts > 0)
                 fprintf(plot->script, "%.9g %.9g %.3g %u %u\n", row.speed, row.restitution,
@@ -142,7 +142,7 @@ static void write_title(const struct plot *plot, const struct sweep_points *poin
     const struct sweep_curve *curve = &points->curves[k], *first = points->curves;
     bool bodies = false, models = false;
     char title[160];
-    for (size_t i = 1; i < points->curve_count; ++i) {
+    for (size_t i = 1; i < points->curve_count; i++) {
         bodies = bodies || strcmp(points->curves[i].b, first->b);
         models = models || strcmp(points->curves[i].contact_model, first->contact_model);
     }
@@ -168,7 +168,7 @@ int sweep_plot(const char *file, const struct sweep_points *points)
     fputs("\nset lmargin 10\nset key top right\nset bars 0.5\n"
           "set origin 0,0.32\nset size 1,0.64\nset ylabel 'restitution e'\nplot ",
           plot.script);
-    for (size_t k = 0; k < points->curve_count; ++k) {
+    for (size_t k = 0; k < points->curve_count; k++) {
         fprintf(plot.script,
                 "%s$curve%zu using 1:2 with lines lt %zu lw 1 notitle, "
                 "$curve%zu using 1:2:3 with yerrorbars lt %zu lw 1 ps 0.6 title ",
@@ -178,7 +178,7 @@ int sweep_plot(const char *file, const struct sweep_points *points)
     fputs("\nset origin 0,0\nset size 1,0.33\nset key top left\nset ylabel 'sub-impacts'\n"
           "set xlabel 'speed / (m/s)'\nset yrange [0:*]\nset offsets 0,0,0.5,0\nset ytics 1\nplot ",
           plot.script);
-    for (size_t k = 0; k < points->curve_count; ++k)
+    for (size_t k = 0; k < points->curve_count; k++)
         fprintf(plot.script,
                 "%s$curve%zu using 1:4 with points lt %zu pt 6 ps 0.9 %s, "
                 "$curve%zu using 1:5 with points lt %zu pt 7 ps 0.4 %s",

@@ -48,7 +48,7 @@ static bool add(struct tally *tally, const char *text, const char *place)
     size_t i = 0;
     find_kind(text, kind);
     while (i < tally->count && strcmp(tally->entries[i].kind, kind) != 0)
-        ++i;
+        i++;
     if (i == tally->room) {
         size_t room = tally->room ? 2 * tally->room : 8;
         struct tally_entry *entries = realloc(tally->entries, room * sizeof *entries);
@@ -63,7 +63,7 @@ static bool add(struct tally *tally, const char *text, const char *place)
         strcpy(entry->kind, kind);
         snprintf(entry->text, sizeof entry->text, "%s", text);
         snprintf(entry->place, sizeof entry->place, "%s", place);
-        ++tally->count;
+        tally->count++;
     }
     entry->count += entry->last != tally->asked;
     entry->last = tally->asked;
@@ -73,11 +73,11 @@ static bool add(struct tally *tally, const char *text, const char *place)
 bool tally_take(struct tally *tally, const struct percuss_reply *reply, const char *place)
 {
     char text[TEXT];
-    ++tally->asked;
+    tally->asked++;
     snprintf(text, sizeof text, "%s: %.450s", percuss_status_name(reply->status), reply->message);
     bool good =
         status_exit_code(reply->status) != EXIT_ANSWERED_WITH_WARNING || add(tally, text, place);
-    for (size_t i = 0; good && i < reply->warning_count; ++i)
+    for (size_t i = 0; good && i < reply->warning_count; i++)
         good = add(tally, reply->warnings[i], place);
     return good;
 }
@@ -98,7 +98,7 @@ static void describe(const struct tally *tally, size_t i, char line[2 * TEXT])
 void tally_complain(const struct tally *tally)
 {
     char line[2 * TEXT];
-    for (size_t i = 0; i < tally->count; ++i) {
+    for (size_t i = 0; i < tally->count; i++) {
         describe(tally, i, line);
         complain("warning: %s", line);
     }
@@ -108,7 +108,7 @@ json_t *tally_to_json(const struct tally *tally)
 {
     char line[2 * TEXT];
     json_t *array = json_array();
-    for (size_t i = 0; i < tally->count; ++i) {
+    for (size_t i = 0; i < tally->count; i++) {
         describe(tally, i, line);
         json_array_append_new(array, json_string(line));
     }

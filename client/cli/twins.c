@@ -42,7 +42,7 @@ static int make_request(const struct twins *twins, const struct measured_impact 
     if (!isnan(impact->at))
         *(b_is_beam ? &bodies.pair.at_b : &bodies.pair.at_a) = impact->at;
     int code = scene_request(twins->scene, &bodies, impact->speed, request);
-    for (size_t i = 0; code == EXIT_ANSWERED && i < override_count; ++i) {
+    for (size_t i = 0; code == EXIT_ANSWERED && i < override_count; i++) {
         struct percuss_body_motion *body = &request->bodies[overrides[i].body];
         body->overrides[body->override_count++] = overrides[i].override;
     }
@@ -67,7 +67,7 @@ static struct twin twin_of(const struct percuss_reply *reply, double speed)
         return twin;
     twin.impact.first_impulse = list[0].impulse;
     twin.impact.first_duration = list[0].end - list[0].start;
-    for (uint32_t i = 1; i < contact->sub_impacts_listed && isnan(twin.impact.second_start); ++i)
+    for (uint32_t i = 1; i < contact->sub_impacts_listed && isnan(twin.impact.second_start); i++)
         if (list[i].impulse >= SIGNIFICANT * contact->impulse)
             twin.impact.second_start = list[i].start - list[0].start;
     return twin;
@@ -99,14 +99,14 @@ static int take_warnings(struct twins *twins, const struct percuss_reply *reply,
 static int solve(struct twins *twins, const struct percuss_request *requests, size_t count,
                  struct percuss_reply *replies)
 {
-    for (int i = 0; i < MOST_TRIES; ++i) {
+    for (int i = 0; i < MOST_TRIES; i++) {
         enum percuss_result result = percuss_solve_batch(twins->client, requests, count,
                                                          common_timeout(twins->common), replies);
         if (result != PERCUSS_RESULT_OK)
             return complain_result(result);
         if (replies[0].status != PERCUSS_BUSY)
             return EXIT_ANSWERED;
-        for (size_t k = 0; k < count; ++k)
+        for (size_t k = 0; k < count; k++)
             percuss_reply_free(&replies[k]);
         usleep(5000);
     }
@@ -124,14 +124,14 @@ int twins_ask(struct twins *twins, const struct measured_set *set,
     tally_clear(&twins->warnings);
     for (size_t first = 0; code == EXIT_ANSWERED && first < set->count; first += PORTION) {
         size_t count = set->count - first < PORTION ? set->count - first : PORTION;
-        for (size_t i = 0; code == EXIT_ANSWERED && i < count; ++i) {
+        for (size_t i = 0; code == EXIT_ANSWERED && i < count; i++) {
             struct measured_impact impact = set->impacts[first + i];
             impact.speed *= faster;
             code = make_request(twins, &impact, overrides, override_count, &requests[i]);
         }
         if (code == EXIT_ANSWERED)
             code = solve(twins, requests, count, replies);
-        for (size_t i = 0; i < count; ++i) {
+        for (size_t i = 0; i < count; i++) {
             if (code == EXIT_ANSWERED)
                 code = judge(twins, &requests[i], &replies[i]);
             if (code == EXIT_ANSWERED)
@@ -149,7 +149,7 @@ int twins_complete(const struct twins *twins, struct measured_set *set,
                    const struct twin *twin_list)
 {
     double mass = twins->bodies.pair.a->mass;
-    for (size_t i = 0; i < set->count; ++i) {
+    for (size_t i = 0; i < set->count; i++) {
         struct measured_impact *impact = &set->impacts[i];
         if (!isnan(impact->momentum) && !twin_list[i].a_is_rigid) {
             complain("impact %zu: a history of %s does not tell the impulse, because it vibrates; "

@@ -25,23 +25,23 @@ static void describe(struct percuss_request *request, double speed)
     sphere->position[0] = -0.25;
     sphere->position[2] = 0.010 + 0.015;
     sphere->velocity[2] = -speed;
-    percuss_request_add_body(request, "al-beam"); // at the origin along x, at rest
+    percuss_request_add_body(request, "al-beam"); /* at the origin along x, at rest */
     struct percuss_contact *contact = percuss_request_add_contact(request, 0, 1);
     contact->point[0] = -0.25;
     contact->point[2] = 0.010;
-    contact->normal[2] = 1.0; // from b, the beam, to a, the sphere
+    contact->normal[2] = 1.0; /* from b, the beam, to a, the sphere */
     request->options.tolerance = 1e-4;
 }
 
 static void print(const struct percuss_reply *reply)
 {
-    // a refusal is an answer too: its message says which field is wrong and what is allowed
+    /* a refusal is an answer too: its message says which field is wrong and what is allowed */
     if (reply->status != PERCUSS_OK)
         printf("%s: %s\n", percuss_status_name(reply->status), reply->message);
-    for (size_t i = 0; i < reply->contact_count; ++i) {
+    for (size_t i = 0; i < reply->contact_count; i++) {
         const struct percuss_contact_result *contact = &reply->contacts[i];
         printf("e = %.5f, impulse %.5f N s\n", contact->restitution, contact->impulse);
-        for (uint32_t j = 0; j < contact->sub_impacts_listed; ++j)
+        for (uint32_t j = 0; j < contact->sub_impacts_listed; j++)
             printf("  from %7.4f to %7.4f ms: %.5f N s\n", 1e3 * contact->sub_impacts[j].start,
                    1e3 * contact->sub_impacts[j].end, contact->sub_impacts[j].impulse);
     }
@@ -50,7 +50,7 @@ static void print(const struct percuss_reply *reply)
 int main(int argc, char **argv)
 {
     struct percuss_client_config config = percuss_client_config_default();
-    if (argc > 1) // else what PERCUSS_DOMAIN says, or 0
+    if (argc > 1) /* else what PERCUSS_DOMAIN says, or 0 */
         config.domain = (uint32_t)atoi(argv[1]);
     struct percuss_client *client;
     struct percuss_request request;
@@ -58,18 +58,18 @@ int main(int argc, char **argv)
     check(percuss_client_create(&config, &client));
     check(percuss_client_connect(client, 3.0));
 
-    // one question, waited for
+    /* one question, waited for */
     describe(&request, 0.3);
     check(percuss_solve(client, &request, 10.0, &reply));
     print(&reply);
     percuss_reply_free(&reply);
 
-    // many questions; replies come in any order, reply.sequence says which question it was
-    for (int i = 1; i <= 4; ++i) {
+    /* many questions; replies come in any order, reply.sequence says which question it was */
+    for (int i = 1; i <= 4; i++) {
         describe(&request, 0.1 * i);
         check(percuss_submit(client, &request, NULL));
     }
-    for (int i = 1; i <= 4; ++i) {
+    for (int i = 1; i <= 4; i++) {
         check(percuss_wait(client, 0, 10.0, &reply));
         printf("question %llu: ", (unsigned long long)reply.sequence);
         print(&reply);

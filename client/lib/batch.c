@@ -27,7 +27,7 @@ static enum percuss_result convert_part(const percuss_v1_BatchReply *wire, struc
     if (!part->replies)
         return error_set(PERCUSS_RESULT_NO_MEMORY, "%u replies", count);
     part->arrived = true;
-    for (part->count = 0; part->count < count; ++part->count)
+    for (part->count = 0; part->count < count; part->count++)
         if (convert_reply(&wire->replies._buffer[part->count], &part->replies[part->count]))
             return PERCUSS_RESULT_NO_MEMORY;
     return PERCUSS_RESULT_OK;
@@ -72,9 +72,9 @@ static struct percuss_reply unanswered(const struct batch *batch)
 void batch_collect(struct batch *batch, struct percuss_reply *replies, size_t count)
 {
     size_t filled = 0;
-    for (uint32_t i = 0; i < batch->parts; ++i) {
+    for (uint32_t i = 0; i < batch->parts; i++) {
         struct batch_part *part = &batch->part[i];
-        for (size_t j = 0; j < part->count && filled < count; ++j) {
+        for (size_t j = 0; j < part->count && filled < count; j++) {
             replies[filled++] = part->replies[j];
             part->replies[j] = (struct percuss_reply){0};
         }
@@ -85,8 +85,8 @@ void batch_collect(struct batch *batch, struct percuss_reply *replies, size_t co
 
 void batch_clear(struct batch *batch)
 {
-    for (uint32_t i = 0; i < batch->parts; ++i) {
-        for (size_t j = 0; j < batch->part[i].count; ++j)
+    for (uint32_t i = 0; i < batch->parts; i++) {
+        for (size_t j = 0; j < batch->part[i].count; j++)
             percuss_reply_free(&batch->part[i].replies[j]);
         free(batch->part[i].replies);
     }

@@ -42,7 +42,7 @@ static enum percuss_result look_at_bodies(struct percuss_client *client, dds_ent
         return result;
     list->count = 0;
     list->bodies = calloc((size_t)all.count + 1, sizeof *list->bodies);
-    for (int i = 0; list->bodies && i < all.count; ++i) {
+    for (int i = 0; list->bodies && i < all.count; i++) {
         const percuss_v1_Body *wire = all.samples[i];
         if (all.infos[i].valid_data && memcmp(wire->server, server->server, 16) == 0)
             convert_body(wire, &list->bodies[list->count++]);
@@ -65,7 +65,7 @@ enum percuss_result percuss_bodies(struct percuss_client *client, double timeout
     double deadline;
     *list = (struct percuss_body_list){0};
     enum percuss_result result = receive_deadline(timeout, &deadline);
-    // opened first, so that the copies arrive while we wait for the server's announcement
+    /* opened first, so that the copies arrive while we wait for the server's announcement */
     if (result == PERCUSS_RESULT_OK)
         result = announcements_open(client, &client->body_reader, &percuss_v1_Body_desc,
                                     WIRE_TOPIC_BODY);
@@ -85,7 +85,7 @@ enum percuss_result percuss_bodies(struct percuss_client *client, double timeout
 
 const struct percuss_body *percuss_body_find(const struct percuss_body_list *list, const char *id)
 {
-    for (size_t i = 0; i < list->count; ++i)
+    for (size_t i = 0; i < list->count; i++)
         if (!strcmp(list->bodies[i].id, id))
             return &list->bodies[i];
     return NULL;

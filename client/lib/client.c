@@ -14,7 +14,7 @@
 enum { DEFAULT_WINDOW = 256, HIGHEST_DOMAIN = 230 };
 
 /* What stands in PERCUSS_DOMAIN is no domain: kept until somebody can be told. */
-static const uint32_t not_a_domain = UINT32_MAX;
+static const uint32_t NOT_A_DOMAIN = UINT32_MAX;
 
 static uint32_t environment_domain(void)
 {
@@ -24,7 +24,7 @@ static uint32_t environment_domain(void)
     char *end;
     unsigned long domain = strtoul(text, &end, 10);
     bool good = isdigit((unsigned char)*text) && !*end && domain <= HIGHEST_DOMAIN;
-    return good ? (uint32_t)domain : not_a_domain;
+    return good ? (uint32_t)domain : NOT_A_DOMAIN;
 }
 
 struct percuss_client_config percuss_client_config_default(void)
@@ -36,7 +36,7 @@ struct percuss_client_config percuss_client_config_default(void)
 static enum percuss_result check_config(const struct percuss_client_config *config)
 {
     const char *domain = getenv("PERCUSS_DOMAIN");
-    if (config->domain == not_a_domain && domain)
+    if (config->domain == NOT_A_DOMAIN && domain)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "PERCUSS_DOMAIN: '%s' is not a whole number of 0..%d", domain,
                          HIGHEST_DOMAIN);
@@ -97,7 +97,7 @@ static void watch_refusals(struct percuss_client *client)
     dds_set_listener(client->request_writer, listener);
     dds_set_listener(client->reply_reader, listener);
     dds_delete_listener(listener);
-    // and what came before the listener
+    /* and what came before the listener */
     dds_get_offered_incompatible_qos_status(client->request_writer, &offered);
     dds_get_requested_incompatible_qos_status(client->reply_reader, &requested);
     if (offered.total_count > 0)
@@ -137,8 +137,8 @@ dds_entity_t client_reply_reader_create(struct percuss_client *client,
         client_reader_create(client, descriptor, topic, wire_qos_exchange(partition));
     if (reader < 0)
         return reader;
-    // a read condition would wake us while DDS still holds the reader's lock; the status does so
-    // afterwards, once for new samples: whoever is woken takes all
+    /* a read condition would wake us while DDS still holds the reader's lock; the status does so
+     * afterwards, once for new samples: whoever is woken takes all */
     dds_return_t code = dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
     if (code == DDS_RETCODE_OK)
         code = dds_waitset_attach(client->waitset, reader, 0);
@@ -159,7 +159,7 @@ static enum percuss_result create_entities(struct percuss_client *client)
         client_reply_reader_create(client, &percuss_v1_Reply_desc, WIRE_TOPIC_REPLY);
     if (client->reply_reader < 0)
         return error_dds("reader of " WIRE_TOPIC_REPLY, client->reply_reader);
-    // whoever waits is woken when the server goes, too
+    /* whoever waits is woken when the server goes, too */
     dds_return_t code = dds_set_status_mask(
         client->reply_reader, DDS_DATA_AVAILABLE_STATUS | DDS_SUBSCRIPTION_MATCHED_STATUS);
     if (code < 0)
@@ -217,7 +217,7 @@ void percuss_client_free(struct percuss_client *client)
     if (client->participant > 0)
         dds_delete(client->participant);
     pending_clear(&client->pending);
-    for (int i = 0; i < CLIENT_TAKE_AT_ONCE; ++i)
+    for (int i = 0; i < CLIENT_TAKE_AT_ONCE; i++)
         dds_sample_free(&client->taken[i], &percuss_v1_Reply_desc, DDS_FREE_CONTENTS);
     pthread_cond_destroy(&client->changed);
     pthread_mutex_destroy(&client->lock);

@@ -17,10 +17,10 @@
 #include "receive.h"
 #include "servers.h"
 
-static const double match_poll = 1e-3;       /* s */
-static const double ping_interval = 5e-3;    /* s */
-static const double discovery_spread = 0.05; /* s between the discovery of one server and another */
-static const double grace = 2.0; /* s until incompatible qualities of service are a verdict */
+static const double MATCH_POLL = 1e-3;       /* s */
+static const double PING_INTERVAL = 5e-3;    /* s */
+static const double DISCOVERY_SPREAD = 0.05; /* s between the discovery of one server and another */
+static const double GRACE = 2.0; /* s until incompatible qualities of service are a verdict */
 
 static enum percuss_result unanswered(const char *server, double start)
 {
@@ -44,7 +44,7 @@ enum percuss_result connect_match(struct percuss_client *client, dds_entity_t wr
             return PERCUSS_RESULT_OK;
         if (receive_now() >= deadline)
             return unanswered(name, start);
-        dds_sleepfor((dds_duration_t)(1e9 * match_poll));
+        dds_sleepfor((dds_duration_t)(1e9 * MATCH_POLL));
     }
     return error_lost(name);
 }
@@ -65,7 +65,7 @@ static const char *policy_name(uint32_t policy)
         {DDS_TYPE_CONSISTENCY_ENFORCEMENT_QOS_POLICY_ID, "type consistency"},
         {DDS_DATA_REPRESENTATION_QOS_POLICY_ID, "data representation"},
     };
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (names[i].policy == policy)
             return names[i].name;
     return "a policy unknown to this library";
@@ -96,7 +96,7 @@ struct search {
 static bool is_wanted(const struct percuss_client *client, const uint8_t id[16])
 {
     char text[PERCUSS_SERVER_ID_SIZE];
-    for (int i = 0; i < 16; ++i)
+    for (int i = 0; i < 16; i++)
         snprintf(text + 2 * i, 3, "%02x", id[i]);
     return strncmp(text, client->wanted, strlen(client->wanted)) == 0;
 }
@@ -108,7 +108,7 @@ static enum percuss_result explain(const struct search *search)
     const struct percuss_server_list *announced = &search->announced;
     char others[200] = "", name[SERVERS_NAME_SIZE];
     size_t length = 0;
-    for (size_t i = 0; i < announced->count; ++i) {
+    for (size_t i = 0; i < announced->count; i++) {
         const struct percuss_server *server = &announced->servers[i];
         servers_describe(server->server, server, name);
         if (is_wanted(client, server->server))
@@ -135,8 +135,8 @@ static enum percuss_result explain(const struct search *search)
 /* The answering one that was up first; those that have not announced themselves come last. */
 static const struct client_server *find_first(const struct search *search)
 {
-    for (size_t i = 0; i < search->announced.count; ++i)
-        for (size_t k = 0; k < search->count; ++k)
+    for (size_t i = 0; i < search->announced.count; i++)
+        for (size_t k = 0; k < search->count; k++)
             if (memcmp(search->announced.servers[i].server, search->answering[k].id, 16) == 0)
                 return &search->answering[k];
     return search->answering;
@@ -147,7 +147,7 @@ static enum percuss_result find_wanted(const struct search *search,
                                        const struct client_server **found)
 {
     *found = NULL;
-    for (size_t k = 0; k < search->count; ++k) {
+    for (size_t k = 0; k < search->count; k++) {
         if (!is_wanted(search->client, search->answering[k].id))
             continue;
         if (*found)
@@ -166,7 +166,7 @@ static void settle_on(const struct search *search, const struct client_server *s
     struct percuss_client *client = search->client;
     pthread_mutex_lock(&client->lock);
     client->server = *server;
-    // false when it has gone already, which receive_note_loss sees too
+    /* false when it has gone already, which receive_note_loss sees too */
     matched_participant(dds_get_matched_publication_data, client->reply_reader, server->writer,
                         &client->server.participant);
     servers_describe(server->id, servers_find(&search->announced, server->id), client->server_name);
@@ -181,7 +181,7 @@ static bool may_be_more(const struct search *search)
 {
     bool more =
         search->count < servers_reading(search->client) || search->count < search->announced.count;
-    for (size_t k = 0; k < search->count; ++k)
+    for (size_t k = 0; k < search->count; k++)
         more = more || !servers_find(&search->announced, search->answering[k].id);
     return more;
 }
@@ -193,11 +193,11 @@ static enum percuss_result choose(struct search *search)
     const struct client_server *server;
     const double now = receive_now();
     if (search->count == 0)
-        return now - search->start < grace ? PERCUSS_RESULT_PENDING
+        return now - search->start < GRACE ? PERCUSS_RESULT_PENDING
                : check_compatible(client)  ? PERCUSS_RESULT_INCOMPATIBLE
                                            : PERCUSS_RESULT_PENDING;
     search->heard = fmin(search->heard, now);
-    double settled = search->heard + (may_be_more(search) ? SERVERS_SETTLING : discovery_spread);
+    double settled = search->heard + (may_be_more(search) ? SERVERS_SETTLING : DISCOVERY_SPREAD);
     if (now < fmin(settled, search->deadline))
         return PERCUSS_RESULT_PENDING;
     if (!client->wanted[0]) {
@@ -233,7 +233,7 @@ static enum percuss_result ping_all(struct search *search)
     struct percuss_client *client = search->client;
     pthread_mutex_lock(&client->lock);
     enum percuss_result result = write_ping(client, NULL);
-    double until = fmin(search->deadline, receive_now() + ping_interval);
+    double until = fmin(search->deadline, receive_now() + PING_INTERVAL);
     if (result == PERCUSS_RESULT_OK)
         result = receive_until(client, is_answered, &search->count, until);
     search->count = client->answering_count;
@@ -290,7 +290,7 @@ enum percuss_result percuss_ping(struct percuss_client *client, double timeout, 
     pthread_mutex_lock(&client->lock);
     result = exchange_check_connected(client);
     if (result == PERCUSS_RESULT_OK) {
-        // answers to earlier pings, which look the same, must not count
+        /* answers to earlier pings, which look the same, must not count */
         receive_until(client, never, NULL, 0.0);
         uint64_t before = client->pings_answered;
         double start = receive_now();

@@ -120,7 +120,7 @@ enum percuss_result exchange_solve(struct percuss_client *client,
     enum percuss_result result = send_request(client, request, true, gather, &pending);
     if (result == PERCUSS_RESULT_OK) {
         result = exchange_await(client, pending, deadline);
-        // a refusal has no contacts
+        /* a refusal has no contacts */
         struct histories histories = {gather, pending->reply.contact_count};
         if (result == PERCUSS_RESULT_OK && gather) {
             result = receive_until(client, histories_are_complete, &histories, deadline);

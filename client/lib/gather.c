@@ -30,7 +30,7 @@ static void place_columns(struct percuss_contact_trace *contact, double *block, 
         &contact->gap,        &contact->gap_rate,       &contact->displacement_a,
         &contact->velocity_a, &contact->displacement_b, &contact->velocity_b,
     };
-    for (size_t i = 0; i < COLUMNS; ++i)
+    for (size_t i = 0; i < COLUMNS; i++)
         *all[i] = block + i * room;
 }
 
@@ -61,19 +61,19 @@ void gather_add(struct gather *gather, const percuss_v1_Trace *wire)
     size_t length = wire->time._length;
     if (wire->parts != gather->parts[c] || contact->count + length > gather->room[c])
         return;
-    for (size_t i = 0; i < COLUMNS; ++i) {
+    for (size_t i = 0; i < COLUMNS; i++) {
         double *column = contact->time + i * gather->room[c] + contact->count;
-        // a column that the server does not know stays undefined
-        for (size_t k = 0; k < length; ++k)
+        /* a column that the server does not know stays undefined */
+        for (size_t k = 0; k < length; k++)
             column[k] = k < lists[i]->_length ? lists[i]->_buffer[k] : NAN;
     }
     contact->count += length;
-    ++gather->next[c];
+    gather->next[c]++;
 }
 
 bool gather_is_complete(const struct gather *gather, size_t contacts)
 {
-    for (size_t c = 0; c < contacts && !gather->out_of_memory; ++c)
+    for (size_t c = 0; c < contacts && !gather->out_of_memory; c++)
         if (gather->parts[c] == 0 || gather->next[c] < gather->parts[c])
             return false;
     return true;
@@ -95,14 +95,14 @@ enum percuss_result gather_collect(struct gather *gather, size_t contacts,
 
 void gather_clear(struct gather *gather)
 {
-    for (size_t c = 0; c < PERCUSS_MAX_CONTACTS; ++c)
+    for (size_t c = 0; c < PERCUSS_MAX_CONTACTS; c++)
         free(gather->contacts[c].time);
     *gather = (struct gather){0};
 }
 
 void percuss_trace_free(struct percuss_trace *trace)
 {
-    for (size_t c = 0; c < trace->contact_count; ++c)
+    for (size_t c = 0; c < trace->contact_count; c++)
         free(trace->contacts[c].time);
     free(trace->contacts);
     *trace = (struct percuss_trace){0};

@@ -23,7 +23,7 @@ static bool is_among(matched_data *data, dds_entity_t endpoint,
                      const dds_instance_handle_t *matches, int count, const dds_guid_t *participant)
 {
     dds_guid_t other;
-    for (int i = 0; i < count && i < MOST_MATCHES; ++i)
+    for (int i = 0; i < count && i < MOST_MATCHES; i++)
         if (matched_participant(data, endpoint, matches[i], &other) &&
             memcmp(&other, participant, sizeof other) == 0)
             return true;

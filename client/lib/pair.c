@@ -70,7 +70,7 @@ static void rotate(const double q[4], const double v[3], double result[3])
     double once[3], twice[3];
     cross(q + 1, v, once);
     cross(q + 1, once, twice);
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         result[i] = v[i] + 2.0 * (q[0] * once[i] + twice[i]);
 }
 
@@ -85,11 +85,11 @@ static void smallest_rotation(const double from[3], const double to[3], double q
         q[1] = q[2] = q[3] = 0.0;
     } else if (cosine < -0.5) {
         q[0] = 0.0;
-        for (int i = 0; i < 3; ++i)
+        for (int i = 0; i < 3; i++)
             q[1 + (i + 1) % 3] = fabs(from[i]);
     } else {
         q[0] = M_SQRT1_2;
-        for (int i = 0; i < 3; ++i)
+        for (int i = 0; i < 3; i++)
             q[1 + i] = M_SQRT1_2 * sine[i];
     }
 }
@@ -105,7 +105,7 @@ static enum percuss_result check_pair(const struct percuss_pair *pair)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "speed: %g: a finite number of m/s > 0 is needed", pair->speed);
     const double at[] = {pair->at_a, pair->at_b};
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2; i++)
         if (!(at[i] >= 0.0 && at[i] <= 1.0))
             return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "at: %g: a fraction 0..1 is needed",
                              at[i]);
@@ -138,20 +138,20 @@ enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
     percuss_request_add_body(request, pair->b->id);
     struct percuss_contact *contact = percuss_request_add_contact(request, 0, 1);
 
-    // B stands unrotated at the origin, so its site is the contact in the world
+    /* B stands unrotated at the origin, so its site is the contact in the world */
     memcpy(contact->point, site_b.point, sizeof contact->point);
     memcpy(contact->normal, site_b.normal, sizeof contact->normal);
 
     double facing[3], arm[3];
-    for (int i = 0; i < 3; ++i)
-        facing[i] = 0.0 - site_b.normal[i]; // not -0
-    // crossed beams: z to -z and x to y is the half turn about the diagonal of x and y
+    for (int i = 0; i < 3; i++)
+        facing[i] = 0.0 - site_b.normal[i]; /* not -0 */
+    /* crossed beams: z to -z and x to y is the half turn about the diagonal of x and y */
     if (both_beams(pair))
         memcpy(a->orientation, (double[4]){0.0, M_SQRT1_2, M_SQRT1_2, 0.0}, sizeof a->orientation);
     else
         smallest_rotation(site_a.normal, facing, a->orientation);
     rotate(a->orientation, site_a.point, arm);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         a->position[i] = contact->point[i] - arm[i];
         a->velocity[i] = pair->speed * facing[i];
     }

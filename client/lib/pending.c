@@ -25,7 +25,7 @@ enum percuss_result pending_add(struct pending_table *table, uint64_t sequence,
     added->sequence = sequence;
     added->next = *bucket;
     *bucket = added;
-    ++table->count;
+    table->count++;
     *pending = added;
     return PERCUSS_RESULT_OK;
 }
@@ -48,7 +48,7 @@ struct pending *pending_first_ready(const struct pending_table *table)
 
 bool pending_has_unwaited(const struct pending_table *table)
 {
-    for (size_t i = 0; i < PENDING_BUCKETS; ++i)
+    for (size_t i = 0; i < PENDING_BUCKETS; i++)
         for (const struct pending *pending = table->buckets[i]; pending; pending = pending->next)
             if (!pending->waited)
                 return true;
@@ -80,14 +80,14 @@ void pending_remove(struct pending_table *table, struct pending *pending)
     while (*link != pending)
         link = &(*link)->next;
     *link = pending->next;
-    --table->count;
+    table->count--;
     percuss_reply_free(&pending->reply);
     free(pending);
 }
 
 void pending_clear(struct pending_table *table)
 {
-    for (size_t i = 0; i < PENDING_BUCKETS; ++i)
+    for (size_t i = 0; i < PENDING_BUCKETS; i++)
         while (table->buckets[i])
             pending_remove(table, table->buckets[i]);
 }

@@ -15,7 +15,7 @@
 #include "gather.h"
 #include "matched.h"
 
-static const double longest_wait = 1e6; /* s; so that infinity fits nanoseconds and a timespec */
+static const double LONGEST_WAIT = 1e6; /* s; so that infinity fits nanoseconds and a timespec */
 
 double receive_now(void)
 {
@@ -45,7 +45,7 @@ static void file_ping(struct percuss_client *client, const struct client_server 
     size_t i = 0;
     client->pings_answered += client->connected && is_ours(client, server->id);
     while (i < client->answering_count && memcmp(client->answering[i].id, server->id, 16) != 0)
-        ++i;
+        i++;
     if (i == CLIENT_MOST_SERVERS)
         return;
     client->answering[i] = *server;
@@ -59,7 +59,7 @@ static void file_reply(struct percuss_client *client, struct percuss_reply *repl
 {
     pthread_mutex_lock(&client->lock);
     struct pending *pending = pending_find(&client->pending, reply->sequence);
-    // not by the server that it names: a durable reply may be older than the server that sends it
+    /* not by the server that it names: a durable reply may be older than its sender */
     bool ours = writer == client->server.writer;
     if (ours && pending && !pending->ready && !pending->batch && !pending->ensemble) {
         pending->reply = *reply;
@@ -142,10 +142,10 @@ static bool take_replies(struct percuss_client *client, dds_entity_t reader, dds
 {
     void *samples[CLIENT_TAKE_AT_ONCE];
     dds_sample_info_t infos[CLIENT_TAKE_AT_ONCE];
-    for (int i = 0; i < CLIENT_TAKE_AT_ONCE; ++i)
+    for (int i = 0; i < CLIENT_TAKE_AT_ONCE; i++)
         samples[i] = &client->taken[i];
     *count = dds_take(reader, samples, infos, CLIENT_TAKE_AT_ONCE, CLIENT_TAKE_AT_ONCE);
-    for (dds_return_t i = 0; i < *count; ++i)
+    for (dds_return_t i = 0; i < *count; i++)
         if (infos[i].valid_data)
             take_reply(client, &client->taken[i], infos[i].publication_handle);
     return *count == CLIENT_TAKE_AT_ONCE;
@@ -267,11 +267,11 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
     pthread_mutex_unlock(&client->lock);
 
     enum percuss_result result = PERCUSS_RESULT_OK;
-    dds_duration_t duration = (dds_duration_t)(1e9 * fmin(seconds, longest_wait));
+    dds_duration_t duration = (dds_duration_t)(1e9 * fmin(seconds, LONGEST_WAIT));
     dds_return_t triggered = dds_waitset_wait(client->waitset, NULL, 0, duration);
     if (triggered < 0)
         result = error_dds("waiting for replies", triggered);
-    // before what has arrived is taken: what a server wrote arrives before it is seen to go
+    /* before what has arrived is taken: what a server wrote arrives before it is seen to go */
     bool gone = triggered > 0 && has_gone(client, writer);
     if (triggered > 0)
         result = take_all(client, client->reply_reader, take_replies);
@@ -297,7 +297,7 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
 /* Sleeps until the leader has filed something or resigns. */
 static void follow(struct percuss_client *client, double deadline)
 {
-    double until = fmin(deadline, receive_now() + longest_wait);
+    double until = fmin(deadline, receive_now() + LONGEST_WAIT);
     struct timespec time = {.tv_sec = (time_t)until};
     time.tv_nsec = (long)(1e9 * (until - (double)time.tv_sec));
     pthread_cond_timedwait(&client->changed, &client->lock, &time);

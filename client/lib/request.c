@@ -6,13 +6,13 @@
 
 struct percuss_options percuss_options_default(void)
 {
-    // on the wire 0 selects the default of every option
+    /* on the wire 0 selects the default of every option */
     return (struct percuss_options){0};
 }
 
 void percuss_request_init(struct percuss_request *request)
 {
-    // the 32 KiB of bodies and contacts are filled as they are added
+    /* the 32 KiB of bodies and contacts are filled as they are added */
     request->sequence = 0;
     request->body_count = 0;
     request->contact_count = 0;

@@ -56,7 +56,7 @@ static int compare_sightings(const void *left, const void *right)
 static size_t list_sightings(const struct announcements *all, struct sighting *sightings)
 {
     size_t count = 0;
-    for (int i = 0; i < all->count; ++i) {
+    for (int i = 0; i < all->count; i++) {
         if (!all->infos[i].valid_data)
             continue;
         struct sighting *sighting = &sightings[count++];
@@ -100,7 +100,7 @@ enum percuss_result servers_look(struct percuss_client *client, struct percuss_s
     list->servers = calloc((size_t)all.count + 1, sizeof *list->servers);
     if (sightings && list->servers) {
         list->count = list_sightings(&all, sightings);
-        for (size_t i = 0; i < list->count; ++i)
+        for (size_t i = 0; i < list->count; i++)
             list->servers[i] = sightings[i].server;
     }
     announcements_release(&all);
@@ -117,7 +117,7 @@ enum percuss_result servers_look(struct percuss_client *client, struct percuss_s
 const struct percuss_server *servers_find(const struct percuss_server_list *list,
                                           const uint8_t id[16])
 {
-    for (size_t i = 0; i < list->count; ++i)
+    for (size_t i = 0; i < list->count; i++)
         if (memcmp(list->servers[i].server, id, 16) == 0)
             return &list->servers[i];
     return NULL;
@@ -172,14 +172,14 @@ enum percuss_result announcements_connected(struct percuss_client *client, doubl
     enum percuss_result result = exchange_check_connected(client);
     memcpy(name, client->server_name, sizeof name);
     pthread_mutex_unlock(&client->lock);
-    // another thread may have connected again in between
+    /* another thread may have connected again in between */
     if (!connected && result == PERCUSS_RESULT_OK)
         result = error_lost(name);
     if (result == PERCUSS_RESULT_OK)
         result = percuss_servers(client, timeout, &servers);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    // it may have gone meanwhile, while others are there
+    /* it may have gone meanwhile, while others are there */
     const struct percuss_server *ours = servers_find(&servers, id);
     if (ours)
         *server = *ours;

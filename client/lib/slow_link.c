@@ -6,7 +6,7 @@
 
 #include "receive.h"
 
-static const double busy_interval = 0.02; /* s until a busy server is asked again */
+static const double BUSY_INTERVAL = 0.02; /* s until a busy server is asked again */
 
 /* Sends the request and waits for its reply up to the deadline. NO_SERVER: the server has gone; the
  * request keeps its sequence, to be sent again to the next one. */
@@ -47,7 +47,7 @@ static enum percuss_result ask(void *context, const struct percuss_request *ques
         if (busy) {
             percuss_reply_free(reply);
             request.sequence = 0; /* the answer to this one is that the server is busy */
-            dds_sleepfor((dds_duration_t)(1e9 * busy_interval));
+            dds_sleepfor((dds_duration_t)(1e9 * BUSY_INTERVAL));
         }
     }
 }

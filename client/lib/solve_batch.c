@@ -54,7 +54,7 @@ static enum percuss_result convert_batch(const struct percuss_request *requests,
                                          struct batch_sample *sample)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
-    for (size_t i = 0; i < count && result == PERCUSS_RESULT_OK; ++i)
+    for (size_t i = 0; i < count && result == PERCUSS_RESULT_OK; i++)
         result = convert_request(&requests[i], &sample->storage[i], &sample->requests[i]);
     return result;
 }
@@ -71,7 +71,7 @@ static enum percuss_result send_batch(struct percuss_client *client, struct batc
     percuss_v1_BatchRequest wire = {.sequence = sequence};
     memcpy(wire.client, client->id, sizeof wire.client);
     memcpy(wire.server, client->server.id, sizeof wire.server);
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; i++) {
         memcpy(sample->requests[i].client, client->id, sizeof client->id);
         sample->requests[i].sequence = sequence + 1 + i;
     }

@@ -15,7 +15,7 @@
 #include "receive.h"
 
 /* Listed samples are written before the reply; they are waited for so long after it, s. */
-static const double straggler_seconds = 3.0;
+static const double STRAGGLER_SECONDS = 3.0;
 
 void percuss_ensemble_request_init(struct percuss_ensemble_request *request)
 {
@@ -46,7 +46,7 @@ static enum percuss_result open_endpoints(struct percuss_client *client)
         client->ensemble_writer = 0;
         return error_dds("writer of " WIRE_TOPIC_ENSEMBLE_REQUEST, code);
     }
-    for (size_t i = 0; i < sizeof readers / sizeof readers[0]; ++i) {
+    for (size_t i = 0; i < sizeof readers / sizeof readers[0]; i++) {
         if (*readers[i].entity)
             continue;
         dds_entity_t reader = client_reply_reader_create(client, readers[i].type, readers[i].topic);
@@ -68,7 +68,7 @@ static enum percuss_result connect_ensemble(struct percuss_client *client, doubl
                                     client->samples_reader};
     dds_entity_t writer = client->ensemble_writer;
     pthread_mutex_unlock(&client->lock);
-    for (size_t i = 0; result == PERCUSS_RESULT_OK && i < sizeof readers / sizeof readers[0]; ++i)
+    for (size_t i = 0; result == PERCUSS_RESULT_OK && i < sizeof readers / sizeof readers[0]; i++)
         result = connect_match(client, writer, readers[i], deadline);
     return result;
 }
@@ -181,7 +181,7 @@ static enum percuss_result exchange_ensemble(struct percuss_client *client,
         pending->ensemble = exchange;
         result = await(client, pending, timeout, watcher);
         if (result == PERCUSS_RESULT_OK && wire->list_samples && exchange->reply.samples > 0)
-            receive_until(client, samples_are_there, exchange, receive_now() + straggler_seconds);
+            receive_until(client, samples_are_there, exchange, receive_now() + STRAGGLER_SECONDS);
         if (result == PERCUSS_RESULT_NO_MEMORY)
             error_set(result, "the reply to an ensemble");
         pending_remove(&client->pending, pending);

@@ -20,7 +20,7 @@ static bool convert_specimen(const percuss_v1_Dents *wire, struct percuss_specim
     memcpy(specimen->name, wire->specimen, sizeof specimen->name);
     memcpy(specimen->body, wire->body, sizeof specimen->body);
     specimen->dents = calloc(specimen->dent_count + 1, sizeof *specimen->dents);
-    for (size_t i = 0; specimen->dents && i < specimen->dent_count; ++i) {
+    for (size_t i = 0; specimen->dents && i < specimen->dent_count; i++) {
         const percuss_v1_Dent *from = &wire->patches._buffer[i];
         struct percuss_dent *to = &specimen->dents[i];
         memcpy(to->point, from->point, sizeof to->point);
@@ -45,7 +45,7 @@ static bool collect(const struct announcements *all, const uint8_t server[16],
 {
     list->specimens = calloc((size_t)all->count + 1, sizeof *list->specimens);
     bool good = list->specimens;
-    for (int i = 0; good && i < all->count; ++i) {
+    for (int i = 0; good && i < all->count; i++) {
         const percuss_v1_Dents *wire = all->samples[i];
         if (all->infos[i].valid_data && memcmp(wire->server, server, 16) == 0)
             good = convert_specimen(wire, &list->specimens[list->count++]);
@@ -80,12 +80,12 @@ enum percuss_result percuss_specimens(struct percuss_client *client, double time
     double deadline;
     *list = (struct percuss_specimen_list){0};
     enum percuss_result result = receive_deadline(timeout, &deadline);
-    // opened first, so that the copies arrive while we wait for the server's announcement
+    /* opened first, so that the copies arrive while we wait for the server's announcement */
     if (result == PERCUSS_RESULT_OK)
         result = announcements_open(client, &client->dents_reader, &percuss_v1_Dents_desc,
                                     WIRE_TOPIC_DENTS);
     while (result == PERCUSS_RESULT_OK) {
-        // asked each time: the number changes
+        /* asked each time: the number changes */
         result = announcements_connected(client, timeout, &server);
         if (result != PERCUSS_RESULT_OK)
             return result;
@@ -108,7 +108,7 @@ static enum percuss_result find(struct percuss_client *client, const char *name,
     struct percuss_specimen_list list;
     enum percuss_result result = percuss_specimens(client, timeout, &list);
     *found = false;
-    for (size_t i = 0; i < list.count; ++i)
+    for (size_t i = 0; i < list.count; i++)
         *found = *found || strcmp(list.specimens[i].name, name) == 0;
     percuss_specimen_list_free(&list);
     return result;
@@ -144,7 +144,7 @@ enum percuss_result percuss_clear_specimen(struct percuss_client *client, const 
     if (result != PERCUSS_RESULT_OK)
         return result;
     announcements_server(client, wire.server);
-    memcpy(wire.specimen, name, strlen(name) + 1); // it fits: it was found
+    memcpy(wire.specimen, name, strlen(name) + 1); /* it fits: it was found */
     dds_return_t code = dds_write(client->dents_writer, &wire);
     if (code < 0)
         return error_dds("writing to " WIRE_TOPIC_DENTS, code);
@@ -160,7 +160,7 @@ void percuss_specimen_list_free(struct percuss_specimen_list *list)
 {
     if (!list)
         return;
-    for (size_t i = 0; i < list->count; ++i)
+    for (size_t i = 0; i < list->count; i++)
         free(list->specimens[i].dents);
     free(list->specimens);
     *list = (struct percuss_specimen_list){0};

@@ -72,7 +72,7 @@ static bool evaluate(void *context, const double *x, double *residuals)
     struct round *round = context;
     if (!round->problem->simulate(round->problem->context, x, 1.0, round->twins))
         return false;
-    for (size_t i = 0; i < round->count; ++i) {
+    for (size_t i = 0; i < round->count; i++) {
         const struct reading *reading = &round->readings[i];
         double off = deviation_of(round, reading->impact, reading->quantity);
         /* a second sub-impact that the model has lost on the way pulls nowhere, and one that has
@@ -87,8 +87,8 @@ static bool evaluate(void *context, const double *x, double *residuals)
  * differ from it by `change`. */
 static void compare_sides(struct round *round, double change)
 {
-    for (size_t i = 0; i < round->problem->set->count; ++i) {
-        for (int q = 0; q < QUANTITIES; ++q) {
+    for (size_t i = 0; i < round->problem->set->count; i++) {
+        for (int q = 0; q < QUANTITIES; q++) {
             double here = quantity_of(&round->twins[i], q);
             double below = quantity_of(&round->sides[0][i], q) / here - 1.0;
             double above = quantity_of(&round->sides[1][i], q) / here - 1.0;
@@ -106,15 +106,15 @@ static bool find_smooth(struct round *round, const double *x)
     const struct calibration_problem *problem = round->problem;
     double moved[FIT_PARAMETERS] = {0.0}, change = SPEED_DEVIATIONS * problem->noise;
     bool good = true;
-    for (size_t i = 0; i < problem->set->count * QUANTITIES; ++i)
+    for (size_t i = 0; i < problem->set->count * QUANTITIES; i++)
         round->smooth[i] = true;
-    for (int side = 0; good && side < 2; ++side)
+    for (int side = 0; good && side < 2; side++)
         good = problem->simulate(problem->context, x, side ? 1.0 + change : 1.0 - change,
                                  round->sides[side]);
     if (good)
         compare_sides(round, change);
-    for (size_t k = 0; good && k < problem->parameters; ++k) {
-        for (int side = 0; good && side < 2; ++side) {
+    for (size_t k = 0; good && k < problem->parameters; k++) {
+        for (int side = 0; good && side < 2; side++) {
             memcpy(moved, x, problem->parameters * sizeof *moved);
             moved[k] += side ? NEIGHBOURHOOD : -NEIGHBOURHOOD;
             good = problem->simulate(problem->context, moved, 1.0, round->sides[side]);
@@ -130,9 +130,9 @@ static void choose(struct round *round, const double allowed[QUANTITIES],
                    struct calibration *calibration)
 {
     round->count = 0;
-    for (int q = 0; q < QUANTITIES; ++q) {
+    for (int q = 0; q < QUANTITIES; q++) {
         calibration->known[q] = calibration->used[q] = 0;
-        for (size_t i = 0; i < round->problem->set->count; ++i) {
+        for (size_t i = 0; i < round->problem->set->count; i++) {
             calibration->known[q] += !isnan(quantity_of(&round->problem->set->impacts[i], q));
             if (!round->smooth[i * QUANTITIES + (size_t)q] ||
                 !(fabs(deviation_of(round, i, q)) <= allowed[q]))
@@ -147,9 +147,9 @@ static void choose(struct round *round, const double allowed[QUANTITIES],
 static void find_groups(struct round *round)
 {
     round->group_count = 0;
-    for (size_t i = 0; i < round->problem->set->count; ++i) {
+    for (size_t i = 0; i < round->problem->set->count; i++) {
         bool any = false;
-        for (size_t k = 0; k < round->count; ++k) {
+        for (size_t k = 0; k < round->count; k++) {
             if (round->readings[k].impact != i)
                 continue;
             round->groups[k] = round->group_count;
@@ -163,11 +163,11 @@ static void find_groups(struct round *round)
 static double scatter(const struct round *round, int quantity, double *room)
 {
     size_t count = 0;
-    for (size_t i = 0; i < round->count; ++i)
+    for (size_t i = 0; i < round->count; i++)
         if (round->readings[i].quantity == quantity)
             room[count++] = deviation_of(round, round->readings[i].impact, quantity);
     double middle = sample_median(room, count);
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         room[i] = fabs(room[i] - middle);
     return fmax(1.4826 * sample_median(room, count), LEAST_NOISE);
 }
@@ -176,12 +176,12 @@ static bool solve_rounds(struct round *round, double *room, struct calibration *
 {
     const struct calibration_problem *problem = round->problem;
     double allowed[QUANTITIES];
-    for (int q = 0; q < QUANTITIES; ++q) {
+    for (int q = 0; q < QUANTITIES; q++) {
         round->noise[q] = problem->noise;
         allowed[q] = FAR;
     }
     bool settled = false;
-    for (int k = 0; k < MOST_ROUNDS && !settled; ++k) {
+    for (int k = 0; k < MOST_ROUNDS && !settled; k++) {
         double before[FIT_PARAMETERS];
         memcpy(before, calibration->fit.x, sizeof before);
         if (!problem->simulate(problem->context, calibration->fit.x, 1.0, round->twins) ||
@@ -194,13 +194,13 @@ static bool solve_rounds(struct round *round, double *room, struct calibration *
         if (!fit_solve(&fit, &calibration->fit) ||
             !problem->simulate(problem->context, calibration->fit.x, 1.0, round->twins))
             return false;
-        for (int q = 0; q < QUANTITIES; ++q) {
+        for (int q = 0; q < QUANTITIES; q++) {
             if (calibration->used[q] > 0)
                 round->noise[q] = calibration->noise[q] = scatter(round, q, room);
             allowed[q] = OUTLIER * round->noise[q];
         }
         settled = k + 1 >= LEAST_ROUNDS;
-        for (size_t i = 0; i < problem->parameters; ++i)
+        for (size_t i = 0; i < problem->parameters; i++)
             settled = settled && fabs(calibration->fit.x[i] - before[i]) <=
                                      SETTLED * calibration->fit.deviation[i];
     }

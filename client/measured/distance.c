@@ -27,7 +27,7 @@ static int compare_pooled(const void *a, const void *b)
 static struct pooled *pool(const double *x, size_t nx, const double *y, size_t ny)
 {
     struct pooled *all = nx && ny ? calloc(nx + ny, sizeof *all) : NULL;
-    for (size_t i = 0; all && i < nx + ny; ++i)
+    for (size_t i = 0; all && i < nx + ny; i++)
         all[i] = (struct pooled){i < nx ? x[i] : y[i - nx], i < nx};
     if (all)
         qsort(all, nx + ny, sizeof *all, compare_pooled);
@@ -38,10 +38,10 @@ static double largest_difference(const struct pooled *all, size_t nx, size_t ny)
 {
     double worst = 0.0;
     size_t x = 0, y = 0;
-    for (size_t i = 0; i < nx + ny; ++i) {
+    for (size_t i = 0; i < nx + ny; i++) {
         x += all[i].first;
         y += !all[i].first;
-        // the distributions jump together at equal values
+        /* the distributions jump together at equal values */
         if (i + 1 < nx + ny && all[i + 1].value == all[i].value)
             continue;
         worst = fmax(worst, fabs((double)x / (double)nx - (double)y / (double)ny));
@@ -53,10 +53,10 @@ static double largest_difference(const struct pooled *all, size_t nx, size_t ny)
  * share of all paths from (0, 0) to (i, j) that do so all the way. */
 static double exact_below(double d, size_t nx, size_t ny, double *u)
 {
-    // what d is up to rounding counts as reached
+    /* what d is up to rounding counts as reached */
     double limit = d - 1e-9 / ((double)nx * (double)ny);
-    for (size_t i = 0; i <= nx; ++i) {
-        for (size_t j = 0; j <= ny; ++j) {
+    for (size_t i = 0; i <= nx; i++) {
+        for (size_t j = 0; j <= ny; j++) {
             bool inside = fabs((double)i / (double)nx - (double)j / (double)ny) < limit;
             double share = (double)i / (double)(i + j);
             if (!inside)
@@ -75,7 +75,7 @@ static double asymptotic_p(double d, double nx, double ny)
 {
     double root = sqrt(nx * ny / (nx + ny));
     double z = d * (root + 0.12 + 0.11 / root), sum = 0.0;
-    for (int k = 1; k <= 100; ++k)
+    for (int k = 1; k <= 100; k++)
         sum += (k % 2 ? 2.0 : -2.0) * exp(-2.0 * k * k * z * z);
     return z < 0.2 ? 1.0 : fmin(1.0, fmax(0.0, sum));
 }
@@ -100,7 +100,7 @@ bool distance_kolmogorov(const double *x, size_t nx, const double *y, size_t ny,
 static double energy_of(const struct pooled *all, size_t nx, size_t ny)
 {
     double sum = 0.0, x = 0.0, y = 0.0;
-    for (size_t i = 0; i + 1 < nx + ny; ++i) {
+    for (size_t i = 0; i + 1 < nx + ny; i++) {
         x += all[i].first;
         y += !all[i].first;
         double difference = x / (double)nx - y / (double)ny;
@@ -112,7 +112,7 @@ static double energy_of(const struct pooled *all, size_t nx, size_t ny)
 /* Hands the names out anew (Fisher and Yates). */
 static void shuffle(struct pooled *all, size_t count, struct random *random)
 {
-    for (size_t i = count - 1; i > 0; --i) {
+    for (size_t i = count - 1; i > 0; i--) {
         size_t j = (size_t)(random_uniform(random) * (double)(i + 1));
         bool first = all[i].first;
         all[i].first = all[j].first;
@@ -129,11 +129,11 @@ bool distance_energy(const double *x, size_t nx, const double *y, size_t ny, uns
     struct random random = {seed};
     unsigned reached = 0;
     distance->value = energy_of(all, nx, ny);
-    for (unsigned k = 0; k < permutations; ++k) {
+    for (unsigned k = 0; k < permutations; k++) {
         shuffle(all, nx + ny, &random);
         reached += energy_of(all, nx, ny) >= distance->value * (1.0 - 1e-12);
     }
-    // the order found is one of the permutations
+    /* the order found is one of the permutations */
     distance->p = (1.0 + reached) / (1.0 + permutations);
     free(all);
     return true;
@@ -142,7 +142,7 @@ bool distance_energy(const double *x, size_t nx, const double *y, size_t ny, uns
 double sample_mean(const double *x, size_t n)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < n; ++i)
+    for (size_t i = 0; i < n; i++)
         sum += x[i];
     return n ? sum / (double)n : NAN;
 }
@@ -150,7 +150,7 @@ double sample_mean(const double *x, size_t n)
 double sample_deviation(const double *x, size_t n)
 {
     double mean = sample_mean(x, n), sum = 0.0;
-    for (size_t i = 0; i < n; ++i)
+    for (size_t i = 0; i < n; i++)
         sum += (x[i] - mean) * (x[i] - mean);
     return n > 1 ? sqrt(sum / (double)(n - 1)) : NAN;
 }
@@ -175,7 +175,7 @@ static double student_within(double t, double freedom)
 {
     enum { PANELS = 400 };
     double end = atan(t / sqrt(freedom)), h = end / PANELS, sum = 0.0;
-    for (int i = 0; i <= PANELS; ++i) {
+    for (int i = 0; i <= PANELS; i++) {
         double weight = i == 0 || i == PANELS ? 1.0 : i % 2 ? 4.0 : 2.0;
         sum += weight * pow(cos(i * h), freedom - 1.0);
     }
@@ -188,7 +188,7 @@ double student_quantile(double p, double freedom)
     double within = fabs(2.0 * p - 1.0), low = 0.0, high = 1.0;
     while (student_within(high, freedom) < within && high < 1e9)
         high *= 2.0;
-    for (int i = 0; i < 100 && high - low > 1e-13 * high; ++i) {
+    for (int i = 0; i < 100 && high - low > 1e-13 * high; i++) {
         double middle = 0.5 * (low + high);
         if (student_within(middle, freedom) < within)
             low = middle;

@@ -44,7 +44,7 @@ static bool take(struct memory *memory, size_t m, size_t n)
     memory->work_long = at + m;
     memory->jacobian = at + 2 * m;
     memory->qtf = memory->jacobian + m * n;
-    for (size_t i = 0; i < 3; ++i)
+    for (size_t i = 0; i < 3; i++)
         memory->work[i] = memory->qtf + (i + 1) * n;
     return true;
 }
@@ -56,14 +56,14 @@ static void find_intervals(struct memory *memory, size_t m, size_t n, struct fit
     double *r = memory->jacobian;
     double scale = fit->sum / fit->freedom, quantile = student_quantile(0.975, fit->freedom);
     bool lost[FIT_PARAMETERS] = {false};
-    for (size_t k = 0; k < n; ++k)
+    for (size_t k = 0; k < n; k++)
         lost[memory->pivot[k] - 1] = fabs(r[k * m + k]) <= RANK_TOLERANCE * fabs(r[0]);
     covar((int)n, r, (int)m, memory->pivot, RANK_TOLERANCE, memory->work[0]);
-    for (size_t i = 0; i < n; ++i) {
+    for (size_t i = 0; i < n; i++) {
         double variance = scale * r[i * m + i];
         fit->deviation[i] = lost[i] ? INFINITY : sqrt(variance);
         fit->half_width[i] = quantile * fit->deviation[i];
-        for (size_t j = 0; j < n; ++j)
+        for (size_t j = 0; j < n; j++)
             fit->correlation[i][j] =
                 lost[i] || lost[j] ? NAN : r[i * m + j] / sqrt(r[i * m + i] * r[j * m + j]);
     }
@@ -72,17 +72,17 @@ static void find_intervals(struct memory *memory, size_t m, size_t n, struct fit
 /* Inverts a symmetric positive definite matrix of n rows in place (Gauss and Jordan). */
 static void invert(double a[FIT_PARAMETERS][FIT_PARAMETERS], size_t n)
 {
-    for (size_t k = 0; k < n; ++k) {
+    for (size_t k = 0; k < n; k++) {
         double pivot = 1.0 / a[k][k];
         a[k][k] = 1.0;
-        for (size_t j = 0; j < n; ++j)
+        for (size_t j = 0; j < n; j++)
             a[k][j] *= pivot;
-        for (size_t i = 0; i < n; ++i) {
+        for (size_t i = 0; i < n; i++) {
             double factor = a[i][k];
             if (i == k)
                 continue;
             a[i][k] = 0.0;
-            for (size_t j = 0; j < n; ++j)
+            for (size_t j = 0; j < n; j++)
                 a[i][j] -= factor * a[k][j];
         }
     }
@@ -95,14 +95,14 @@ static bool differentiate(const struct fit_problem *problem, const struct fit *f
     size_t m = problem->residuals;
     double *other = calloc(m, sizeof *other);
     bool good = other != NULL;
-    for (size_t k = 0; good && k < problem->parameters; ++k) {
+    for (size_t k = 0; good && k < problem->parameters; k++) {
         double x[FIT_PARAMETERS], h = problem->difference * fmax(fabs(fit->x[k]), 0.1);
         memcpy(x, fit->x, sizeof x);
         x[k] = fit->x[k] + h;
         good = problem->evaluate(problem->context, x, jacobian + k * m);
         x[k] = fit->x[k] - h;
         good = good && problem->evaluate(problem->context, x, other);
-        for (size_t i = 0; i < m; ++i)
+        for (size_t i = 0; i < m; i++)
             jacobian[k * m + i] = (jacobian[k * m + i] - other[i]) / (2.0 * h);
     }
     free(other);
@@ -117,12 +117,12 @@ static bool scatter_of_groups(const struct fit_problem *problem, const double *j
     double(*gradient)[FIT_PARAMETERS] = calloc(problem->groups, sizeof *gradient);
     if (!gradient)
         return false;
-    for (size_t i = 0; i < problem->residuals; ++i)
-        for (size_t k = 0; k < n; ++k)
+    for (size_t i = 0; i < problem->residuals; i++)
+        for (size_t k = 0; k < n; k++)
             gradient[problem->group[i]][k] += jacobian[k * problem->residuals + i] * residuals[i];
-    for (size_t g = 0; g < problem->groups; ++g)
-        for (size_t i = 0; i < n; ++i)
-            for (size_t j = 0; j < n; ++j)
+    for (size_t g = 0; g < problem->groups; g++)
+        for (size_t i = 0; i < n; i++)
+            for (size_t j = 0; j < n; j++)
                 sum[i][j] += gradient[g][i] * gradient[g][j];
     free(gradient);
     return true;
@@ -140,24 +140,24 @@ static bool find_grouped_intervals(const struct fit_problem *problem, struct mem
     if (!(fit->freedom >= 1.0) || !differentiate(problem, fit, memory->jacobian) ||
         !scatter_of_groups(problem, memory->jacobian, memory->residuals, b))
         return false;
-    for (size_t k = 0; k < n; ++k)
+    for (size_t k = 0; k < n; k++)
         if (isfinite(fit->deviation[k]))
             map[count++] = k;
-    for (size_t i = 0; i < count; ++i)
-        for (size_t j = 0; j < count; ++j)
-            for (size_t r = 0; r < m; ++r)
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < count; j++)
+            for (size_t r = 0; r < m; r++)
                 a[i][j] += memory->jacobian[map[i] * m + r] * memory->jacobian[map[j] * m + r];
     invert(a, count);
     double scale = (double)problem->groups / fit->freedom;
-    for (size_t i = 0; i < count; ++i)
-        for (size_t j = 0; j < count; ++j)
-            for (size_t k = 0; k < count; ++k)
-                for (size_t l = 0; l < count; ++l)
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < count; j++)
+            for (size_t k = 0; k < count; k++)
+                for (size_t l = 0; l < count; l++)
                     variance[i][j] += scale * a[i][k] * b[map[k]][map[l]] * a[l][j];
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; i++) {
         fit->deviation[map[i]] = sqrt(variance[i][i]);
         fit->half_width[map[i]] = student_quantile(0.975, fit->freedom) * sqrt(variance[i][i]);
-        for (size_t j = 0; j < count; ++j)
+        for (size_t j = 0; j < count; j++)
             fit->correlation[map[i]][map[j]] =
                 variance[i][j] / sqrt(variance[i][i] * variance[j][j]);
     }
@@ -175,7 +175,7 @@ bool fit_solve(const struct fit_problem *problem, struct fit *fit)
         free(memory.pivot);
         return false;
     }
-    for (size_t i = 0; i < n; ++i)
+    for (size_t i = 0; i < n; i++)
         scale[i] = 1.0;
     int info =
         lmdif(evaluate, (void *)problem, (int)m, (int)n, fit->x, memory.residuals, FLAT_ENOUGH,
@@ -186,7 +186,7 @@ bool fit_solve(const struct fit_problem *problem, struct fit *fit)
         fit->evaluations = (unsigned)evaluations;
         fit->freedom = (double)(m - n);
         fit->sum = 0.0;
-        for (size_t i = 0; i < m; ++i)
+        for (size_t i = 0; i < m; i++)
             fit->sum += memory.residuals[i] * memory.residuals[i];
         find_intervals(&memory, m, n, fit);
     }

@@ -48,7 +48,7 @@ static char *load(const char *file, struct measured_fault *fault)
 static char *trim(char *text)
 {
     while (isspace((unsigned char)*text))
-        ++text;
+        text++;
     char *end = text + strlen(text);
     while (end > text && isspace((unsigned char)end[-1]))
         *--end = '\0';
@@ -59,7 +59,7 @@ static char *trim(char *text)
 static size_t split(char *line, char **cells, size_t room)
 {
     size_t count = 0;
-    for (char *next = line; next; ++count) {
+    for (char *next = line; next; count++) {
         char *cell = next;
         next = strchr(cell, ',');
         if (next)
@@ -89,14 +89,14 @@ static char *next_line(char **rest, size_t *number)
 static size_t count_char(const char *text, char wanted)
 {
     size_t count = 0;
-    for (; *text; ++text)
+    for (; *text; text++)
         count += *text == wanted;
     return count;
 }
 
 static bool take_rows(struct table *table, char *rest, size_t number, struct measured_fault *fault)
 {
-    for (char *line; (line = next_line(&rest, &number)); ++table->rows) {
+    for (char *line; (line = next_line(&rest, &number)); table->rows++) {
         char **cells = table->cells + table->rows * table->columns;
         size_t count = split(line, cells, table->columns);
         table->lines[table->rows] = number;
@@ -146,7 +146,7 @@ void table_free(struct table *table)
 
 int table_column(const struct table *table, const char *name)
 {
-    for (size_t i = 0; i < table->columns; ++i)
+    for (size_t i = 0; i < table->columns; i++)
         if (!strcmp(table->names[i], name))
             return (int)i;
     return -1;

@@ -11,8 +11,8 @@
 #include "pairs.h"
 #include "question.h"
 
-static const double shortest_horizon = 1e-9; /* s, that the service allows */
-static const double margin = 1e-9; /* s before a sub-impact, for its touch not to be cut in two */
+static const double SHORTEST_HORIZON = 1e-9; /* s, that the service allows */
+static const double MARGIN = 1e-9; /* s before a sub-impact, for its touch not to be cut in two */
 
 static void episode_free(struct episode *episode)
 {
@@ -178,7 +178,7 @@ double episode_pause(const struct episode *episode, double time)
         moved = false;
         for (size_t i = 0; i < episode->entry_count; i++)
             if (episode->entries[i].start < pause && pause < episode->entries[i].end) {
-                pause = episode->entries[i].start - margin;
+                pause = episode->entries[i].start - MARGIN;
                 moved = true;
             }
     }
@@ -191,7 +191,7 @@ static enum percuss_result take_vibration(struct percuss_slow *slow, struct epis
                                           struct group *group, double time)
 {
     struct percuss_reply reply;
-    if (time < shortest_horizon) {
+    if (time < SHORTEST_HORIZON) {
         tokens_restore(slow, episode->contacts, &episode->request, episode->time);
         return PERCUSS_RESULT_OK;
     }
@@ -235,7 +235,7 @@ enum percuss_result episode_revoke(struct percuss_slow *slow, struct episode *ep
         struct entry *entry = &episode->entries[i];
         /* has happened, and was applied before its end; back at the start, nothing has: what lies
          * before it on a ringing body belongs to the same question */
-        if (entry->end <= time && time >= shortest_horizon)
+        if (entry->end <= time && time >= SHORTEST_HORIZON)
             continue;
         revoked++;
         if (i < episode->played)

@@ -13,10 +13,10 @@
 #include "question.h"
 
 /* Couplings below this, relative to the contacts' own inverse masses, are rounding. */
-static const double no_coupling = 1e-12;
+static const double NO_COUPLING = 1e-12;
 
 /* What an acceleration may bring during an impact, relative to the approach, to be left out. */
-static const double negligible = 1e-3;
+static const double NEGLIGIBLE = 1e-3;
 
 /* Whether an impulse at one contact is felt at the other, rigidly or through a shared body's
  * vibration. */
@@ -30,7 +30,7 @@ static bool are_coupled(const struct percuss_slow *slow, const struct group *see
             return true;
     size_t n = seen->count;
     double size = sqrt(seen->delassus[i * n + i] * seen->delassus[j * n + j]);
-    return fabs(seen->delassus[i * n + j]) > no_coupling * size;
+    return fabs(seen->delassus[i * n + j]) > NO_COUPLING * size;
 }
 
 /* Whether a contact may take part: it touches or nearly does, or its list is being played and can
@@ -250,7 +250,7 @@ static enum percuss_result check_places(const struct percuss_slow *slow, struct 
         const struct percuss_contact_result *contact = &group->reply->contacts[i];
         double a = acceleration(slow, &group->contacts[i]);
         if (slow->config.application == PERCUSS_SLOW_TOTAL &&
-            fabs(a) * contact->end_time > negligible * fabs(group->gap_rate[i]))
+            fabs(a) * contact->end_time > NEGLIGIBLE * fabs(group->gap_rate[i]))
             return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT,
                              "application: total: the gap of %s and %s accelerates with %.3g m/s^2 "
                              "during an impact of %.3g s, which would change its energy: give "

@@ -6,9 +6,9 @@
 
 #include "pairs.h"
 
-static const double slowest = 1e-3;  /* m/s: rounding and the engine's own contact stay below */
-static const double gravity = 9.81;  /* m/s^2: what presses a pair of unknown acceleration */
-static const double allowance = 1.5; /* of what one step can bring, for accelerations that change */
+static const double SLOWEST = 1e-3;  /* m/s: rounding and the engine's own contact stay below */
+static const double GRAVITY = 9.81;  /* m/s^2: what presses a pair of unknown acceleration */
+static const double ALLOWANCE = 1.5; /* of what one step can bring, for accelerations that change */
 
 bool pairs_is_same(const struct percuss_slow_contact *x, const struct percuss_slow_contact *y)
 {
@@ -99,7 +99,7 @@ void pairs_update(struct percuss_slow *slow, double now)
 /* What presses a pair together, m/s^2. */
 static double pressing(const struct percuss_slow_contact *contact)
 {
-    return contact->gap_acceleration != 0.0 ? fmax(0.0, -contact->gap_acceleration) : gravity;
+    return contact->gap_acceleration != 0.0 ? fmax(0.0, -contact->gap_acceleration) : GRAVITY;
 }
 
 /* A pair that lay together without approach at the last call can approach only by what presses it
@@ -112,8 +112,8 @@ double pairs_rest_speed(const struct percuss_slow *slow, const struct percuss_sl
         return slow->config.rest_speed;
     const struct pair *pair = pairs_find(slow, contact);
     if (!pair || !pair->lies)
-        return slowest;
-    return fmax(slowest, pair->had + allowance * pressing(contact) * (now - slow->time));
+        return SLOWEST;
+    return fmax(SLOWEST, pair->had + ALLOWANCE * pressing(contact) * (now - slow->time));
 }
 
 bool pairs_is_due(const struct percuss_slow *slow, const struct percuss_slow_contact *contact,

@@ -9,7 +9,7 @@
 #include "pairs.h"
 #include "question.h"
 
-static const double longest_horizon = 10.0; /* s, that the service allows */
+static const double LONGEST_HORIZON = 10.0; /* s, that the service allows */
 enum { MOST_LONGER = 2 };                   /* questions with a longer horizon */
 
 static const char *status_name(enum percuss_status status)
@@ -120,7 +120,7 @@ static enum percuss_result ask_longer(struct percuss_slow *slow, struct group *g
     for (int i = 0; i < MOST_LONGER && !reply->complete; i++) {
         bool cut =
             reply->end_reason == PERCUSS_END_HORIZON || reply->end_reason == PERCUSS_END_IN_CONTACT;
-        double horizon = fmin(4.0 * reply->window, longest_horizon);
+        double horizon = fmin(4.0 * reply->window, LONGEST_HORIZON);
         if (!cut || !(horizon > reply->window))
             break;
         struct percuss_reply longer;

@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-static const uint64_t multiplier_first = 0x87c37b91114253d5u;
-static const uint64_t multiplier_second = 0x4cf5ad432745937fu;
+static const uint64_t MULTIPLIER_FIRST = 0x87c37b91114253d5u;
+static const uint64_t MULTIPLIER_SECOND = 0x4cf5ad432745937fu;
 
 static uint64_t rotate(uint64_t x, int by)
 {
@@ -22,9 +22,9 @@ static uint64_t finish(uint64_t x)
 
 static void mix(struct hasher *hasher, uint64_t first, uint64_t second)
 {
-    hasher->first ^= rotate(first * multiplier_first, 31) * multiplier_second;
+    hasher->first ^= rotate(first * MULTIPLIER_FIRST, 31) * MULTIPLIER_SECOND;
     hasher->first = (rotate(hasher->first, 27) + hasher->second) * 5 + 0x52dce729;
-    hasher->second ^= rotate(second * multiplier_second, 33) * multiplier_first;
+    hasher->second ^= rotate(second * MULTIPLIER_SECOND, 33) * MULTIPLIER_FIRST;
     hasher->second = (rotate(hasher->second, 31) + hasher->first) * 5 + 0x38495ab5;
 }
 

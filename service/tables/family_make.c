@@ -16,7 +16,7 @@ enum { ALL_DEPTHS = FAMILY_DEPTHS + MORE_DEPTHS, ALL_SPRINGS = FAMILY_SPRINGS + 
 static const double hardenings[HARDENINGS] = {0.0, 0.01, 0.03, 0.1, 0.3, 1.0};
 static const double poissons[POISSONS] = {0.1, 0.3, 0.45};
 static const double shares[SHARES] = {0.1, 0.4, 0.7, 1.0};
-static const double base_poisson = 0.3, base_share = 0.7;
+static const double BASE_POISSON = 0.3, BASE_SHARE = 0.7;
 
 struct family_numbers {
     double depth[ALL_DEPTHS], largest[ALL_SPRINGS];
@@ -43,7 +43,7 @@ size_t family_fine_passages(void)
 
 static bool is_base(const struct contact_family_place *place)
 {
-    return place->poisson == base_poisson && place->share == base_share;
+    return place->poisson == BASE_POISSON && place->share == BASE_SHARE;
 }
 
 /* First order in the size of the elements: twice the fine mesh less the coarse one, at half the
@@ -62,7 +62,7 @@ static void extrapolate(size_t count, const double *depth, const double *coarse,
 static enum percuss_status make_base(const struct family_source *source, double hardening,
                                      struct base *base, double *error, struct fault *fault)
 {
-    struct contact_family_place place = {hardening, base_poisson, base_share};
+    struct contact_family_place place = {hardening, BASE_POISSON, BASE_SHARE};
     double largest[FAMILY_SPRINGS];
     for (size_t i = 0; i < FAMILY_SPRINGS; i++)
         largest[i] = family_largest(i);
