@@ -68,7 +68,6 @@ service/catalogue catalogue content names
 service/contact family family_parts
 service/fe complete_setup impact_complete indentation indentation_run mesh mesh_rings region
 service/fe region_parts solid solid_parts
-service/model beam body body_check torsion
 service/store table_file table_json
 END
 )

@@ -10,7 +10,6 @@
 
 #include "catalogue/keys.h"
 #include "catalogue/names.h"
-#include "model/body_check.h"
 
 struct materials {
     struct names names;
@@ -43,7 +42,7 @@ static enum percuss_status read_material(struct reader *reader, struct entry ent
     *material = (struct material){.yield = INFINITY};
     memcpy(material->name, entry.key->data.scalar.value, entry.key->data.scalar.length);
     size_t mark = reader_enter(reader, material->name);
-    enum percuss_status status = keys_read(reader, entry, &keys_material, KEYS_ANY, material);
+    enum percuss_status status = keys_read(reader, entry, &keys_material, material);
     if (status)
         return status;
     struct fault fault = {0};
@@ -76,16 +75,16 @@ static void materials_free(struct materials *materials)
     free(materials->list);
 }
 
-/* The shape decides which other keys are allowed. */
-static enum percuss_status read_shape(struct reader *reader, struct entry entry, struct body *body)
+/* The kind decides which other keys are allowed. */
+static enum percuss_status read_kind(struct reader *reader, struct entry entry, struct body *body)
 {
-    const struct key *key = keys_find(&keys_body, "shape", KEYS_ANY);
+    const struct key *key = &keys_body.keys[0];
     if (entry.value->type != YAML_MAPPING_NODE)
         return reader_refuse_value(reader, entry.value, "a mapping with shape, material, ...");
     const yaml_node_t *value = reader_find(reader, entry.value, key->name).value;
     size_t mark = reader_enter(reader, key->name);
     if (!value)
-        return reader_refuse(reader, entry.key, "missing: must be %s", keys_allowed(key).text);
+        return reader_refuse(reader, entry.key, "missing: must be %s", key_allowed(key).text);
     enum percuss_status status = keys_read_value(reader, value, key, body);
     if (!status)
         reader_leave(reader, mark);
@@ -112,16 +111,16 @@ static enum percuss_status read_body(struct reader *reader, struct entry entry,
     *body = (struct body){.tip_radius = INFINITY};
     memcpy(body->id, entry.key->data.scalar.value, entry.key->data.scalar.length);
     size_t mark = reader_enter(reader, body->id);
-    enum percuss_status status = read_shape(reader, entry, body);
-    if (!status)
-        status = keys_read(reader, entry, &keys_body, KEYS_OF(body->shape), body);
+    enum percuss_status status = read_kind(reader, entry, body);
+    if (status)
+        return status;
+    const struct key_table keys = {body->kind->name, body->kind->keys, body->kind->key_count,
+                                   &keys_body};
+    status = keys_read(reader, entry, &keys, body);
     if (!status)
         status = find_material(reader, entry, materials, body);
     if (status)
         return status;
-    if (body->shape == SHAPE_BEAM && body->radius == 0.0 && body->width == 0.0)
-        return reader_refuse(reader, entry.key,
-                             "radius or section missing: a beam must have one of them");
     struct fault fault = {0};
     if (body_complete(body, &fault))
         return refuse_field(reader, entry, fault.text);
@@ -154,8 +153,7 @@ enum percuss_status content_read(struct reader *reader, struct body_set *set)
     struct materials materials = {0};
     const yaml_node_t *root = yaml_document_get_root_node(reader->document);
     *set = (struct body_set){.compliance = PERCUSS_COMPLIANCE_MATCHED};
-    enum percuss_status status =
-        keys_read(reader, (struct entry){root, root}, &keys_top, KEYS_ANY, set);
+    enum percuss_status status = keys_read(reader, (struct entry){root, root}, &keys_top, set);
     if (!status)
         status = read_materials(reader, reader_find(reader, root, "materials").value, &materials);
     if (!status)

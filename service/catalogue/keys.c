@@ -8,13 +8,12 @@
 
 #include "model/body.h"
 
-_Static_assert(sizeof(enum support) == sizeof(unsigned) && sizeof(enum shape) == sizeof(unsigned),
-               "choices are stored as unsigned numbers");
+_Static_assert(sizeof(enum support) == sizeof(unsigned), "choices are stored as unsigned numbers");
 
 static enum percuss_status refuse(const struct reader *reader, const yaml_node_t *value,
                                   const struct key *key)
 {
-    return reader_refuse_value(reader, value, keys_allowed(key).text);
+    return reader_refuse_value(reader, value, key_allowed(key).text);
 }
 
 static bool read_number(const yaml_node_t *value, const struct key *key, void *field)
@@ -54,6 +53,14 @@ static bool read_shear(const yaml_node_t *value, const struct key *key, struct b
         return true;
     body->shear_rule = SHEAR_NUMBER;
     return read_number(value, key, &body->shear_number);
+}
+
+static bool read_kind(const yaml_node_t *value, const struct body_kind **field)
+{
+    size_t number = 0;
+    while ((*field = body_kind_at(number)) && !reader_is(value, (*field)->name))
+        number++;
+    return *field;
 }
 
 static bool read_name(const yaml_node_t *value, char *field)
@@ -118,6 +125,9 @@ enum percuss_status keys_read_value(struct reader *reader, const yaml_node_t *va
     case KEY_SHEAR:
         good = read_shear(value, key, object);
         break;
+    case KEY_KIND:
+        good = read_kind(value, (const struct body_kind **)field);
+        break;
     case KEY_NAME:
         good = read_name(value, field);
         break;
@@ -126,7 +136,7 @@ enum percuss_status keys_read_value(struct reader *reader, const yaml_node_t *va
     case KEY_ENDS:
         return read_ends(reader, value, key, field);
     case KEY_SECTION:
-        return keys_read(reader, (struct entry){value, value}, key->nested, KEYS_ANY, object);
+        return keys_read(reader, (struct entry){value, value}, key->nested, object);
     case KEY_CALLER:
         good = value->type == YAML_MAPPING_NODE;
         break;
@@ -134,52 +144,40 @@ enum percuss_status keys_read_value(struct reader *reader, const yaml_node_t *va
     return good ? PERCUSS_OK : refuse(reader, value, key);
 }
 
-const struct key *keys_find(const struct key_table *table, const char *name, unsigned shapes)
-{
-    for (size_t i = 0; i < table->count; i++)
-        if (table->keys[i].shapes & shapes && strcmp(table->keys[i].name, name) == 0)
-            return &table->keys[i];
-    return NULL;
-}
-
-static const char *owner_name(const struct key_table *table, unsigned shapes)
-{
-    unsigned shape = 0;
-    while (shape < SHAPE_HALF_SPACE && !(shapes & KEYS_OF(shape)))
-        shape++;
-    return table->owner ? table->owner : shape_name(shape);
-}
-
 static enum percuss_status refuse_key(const struct reader *reader, const yaml_node_t *key,
-                                      const struct key_table *table, unsigned shapes)
+                                      const struct key_table *table)
 {
     return reader_refuse(reader, key, "%s: unknown key; the keys of %s are %s",
-                         reader_excerpt(key).text, owner_name(table, shapes),
-                         keys_list(table, shapes).text);
+                         reader_excerpt(key).text, table->owner, key_list(table).text);
 }
 
+/* Whether the mapping has what this key asks for: itself, or the one that may stand instead. */
 static enum percuss_status check_required(struct reader *reader, struct entry entry,
-                                          const struct key_table *table, unsigned shapes)
+                                          const struct key_table *table)
 {
-    for (size_t i = 0; i < table->count; i++) {
-        const struct key *key = &table->keys[i];
-        if (!key->required || !(key->shapes & shapes) ||
-            reader_find(reader, entry.value, key->name).value)
+    const struct key *key;
+    for (size_t i = 0; (key = key_at(table, i)); i++) {
+        if ((!key->required && !key->instead) || reader_find(reader, entry.value, key->name).value)
             continue;
-        reader_enter(reader, key->name);
-        return reader_refuse(reader, entry.key, "missing: must be %s", keys_allowed(key).text);
+        if (key->required) {
+            reader_enter(reader, key->name);
+            return reader_refuse(reader, entry.key, "missing: must be %s", key_allowed(key).text);
+        }
+        if (!reader_find(reader, entry.value, key->instead).value)
+            return reader_refuse(reader, entry.key, "%s or %s missing: a %s must have one of them",
+                                 key->name, key->instead, table->owner);
     }
     return PERCUSS_OK;
 }
 
 /* One row of the table, or NULL. */
-static const struct key *key_of(const yaml_node_t *node, const struct key_table *table,
-                                unsigned shapes)
+static const struct key *key_of(const yaml_node_t *node, const struct key_table *table)
 {
-    for (size_t i = 0; i < table->count; i++)
-        if (table->keys[i].shapes & shapes && reader_is(node, table->keys[i].name))
-            return &table->keys[i];
-    return NULL;
+    const struct key *key;
+    size_t number = 0;
+    while ((key = key_at(table, number)) && !reader_is(node, key->name))
+        number++;
+    return key;
 }
 
 static enum percuss_status read_entry(struct reader *reader, const yaml_node_t *mapping,
@@ -197,7 +195,7 @@ static enum percuss_status read_entry(struct reader *reader, const yaml_node_t *
 }
 
 enum percuss_status keys_read(struct reader *reader, struct entry entry,
-                              const struct key_table *table, unsigned shapes, void *object)
+                              const struct key_table *table, void *object)
 {
     if (entry.value->type != YAML_MAPPING_NODE) {
         const struct key whole = {.type = KEY_SECTION, .nested = table};
@@ -205,12 +203,12 @@ enum percuss_status keys_read(struct reader *reader, struct entry entry,
     }
     for (size_t i = 0; i < reader_count(entry.value); i++) {
         struct entry item = reader_entry(reader, entry.value, i);
-        const struct key *key = key_of(item.key, table, shapes);
+        const struct key *key = key_of(item.key, table);
         if (!key)
-            return refuse_key(reader, item.key, table, shapes);
+            return refuse_key(reader, item.key, table);
         enum percuss_status status = read_entry(reader, entry.value, item, key, object);
         if (status)
             return status;
     }
-    return check_required(reader, entry, table, shapes);
+    return check_required(reader, entry, table);
 }

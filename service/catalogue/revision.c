@@ -4,6 +4,7 @@
 #include "catalogue/revision.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -61,7 +62,7 @@ static void hash_body(struct hash *hash, const struct body *body)
     };
     hash_text(hash, body->id);
     hash_material(hash, &body->material);
-    hash_number(hash, body->shape);
+    hash_number(hash, body_kind_number(body->kind));
     for (size_t i = 0; i < sizeof dimensions / sizeof *dimensions; i++)
         hash_double(hash, dimensions[i]);
     hash_number(hash, body->lateral_inertia);
@@ -70,8 +71,7 @@ static void hash_body(struct hash *hash, const struct body *body)
     hash_number(hash, body->modes);
     hash_number(hash, body->theory);
     /* the factors themselves: they are NAN where the rule has no effect */
-    bool shear = body->shape == SHAPE_BEAM && body->theory == THEORY_TIMOSHENKO;
-    for (int plane = 0; shear && plane < 2; plane++)
+    for (int plane = 0; plane < 2 && !isnan(body->shear_factor[plane]); plane++)
         hash_double(hash, body->shear_factor[plane]);
 }
 

@@ -8,37 +8,23 @@
 enum percuss_status complete_body_make(const struct body *body, struct complete_body *complete,
                                        struct fault *fault)
 {
+    struct solid solid = body_solid(body);
     *complete = (struct complete_body){
-        .shape = COMPLETE_CYLINDER,
-        .radius = body->radius,
-        .length = body->length,
+        .shape = solid.form == SOLID_BALL ? COMPLETE_SPHERE : COMPLETE_CYLINDER,
+        .radius = solid.radius,
+        .length = solid.length,
         .material = body->material,
     };
-    switch (body->shape) {
-    case SHAPE_SPHERE:
-        complete->shape = COMPLETE_SPHERE;
-        break;
-    case SHAPE_ROD:
-        if (isfinite(body->tip_radius))
-            return fault_set(
-                fault, PERCUSS_UNSUPPORTED_GEOMETRY,
-                "%s: tip_radius: %g: complete finite elements have rods with flat ends", body->id,
-                body->tip_radius);
-        break;
-    case SHAPE_CYLINDER:
-        break;
-    case SHAPE_BLOCK:
-        complete->radius = sqrt(body->size[0] * body->size[1] / M_PI);
-        complete->length = body->size[2];
-        break;
-    default:
+    if (solid.form != SOLID_BALL && solid.form != SOLID_CYLINDER)
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "%s: shape: %s: complete finite elements have sphere, rod, cylinder and "
                          "block",
-                         body->id, shape_name(body->shape));
-    }
-    if (body->shape == SHAPE_ROD &&
-        (body->supports[0] != SUPPORT_FREE || body->supports[1] != SUPPORT_FREE))
+                         body->id, body->kind->name);
+    if (solid.form == SOLID_CYLINDER && isfinite(solid.tip_radius))
+        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+                         "%s: tip_radius: %g: complete finite elements have rods with flat ends",
+                         body->id, solid.tip_radius);
+    if (body->supports[0] != SUPPORT_FREE || body->supports[1] != SUPPORT_FREE)
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "%s: supports: complete finite elements have free bodies only", body->id);
     if (body->damping > 0.0)

@@ -56,23 +56,22 @@ double matched_sphere(double poisson, double patch)
 
 bool matched_compliance(const struct body *body, double patch, double *compliance)
 {
+    struct solid solid = body_solid(body);
     double poisson = body->material.poisson;
-    double scale = 1.0 / (body->material.young * body->radius);
-    double slenderness = body->length / body->radius;
-    switch (body->shape) {
-    case SHAPE_HALF_SPACE:
+    double scale = 1.0 / (body->material.young * solid.radius);
+    double slenderness = solid.length / solid.radius;
+    double held = body_is_flexible(body) ? slenderness / (3.0 * M_PI) : 0.0;
+    switch (solid.form) {
+    case SOLID_HALF_SPACE:
         *compliance = 0.0;
         return true;
-    case SHAPE_SPHERE:
-        *compliance = scale * matched_sphere(poisson, patch / body->radius);
+    case SOLID_BALL:
+        *compliance = scale * matched_sphere(poisson, patch / solid.radius);
         return true;
-    case SHAPE_CYLINDER:
-        *compliance = scale * matched_cylinder(poisson, slenderness);
-        return isfinite(*compliance);
-    case SHAPE_ROD:
-        if (isfinite(body->tip_radius))
+    case SOLID_CYLINDER:
+        if (solid.approximate || isfinite(solid.tip_radius))
             return false;
-        *compliance = scale * (matched_cylinder(poisson, slenderness) - slenderness / (3.0 * M_PI));
+        *compliance = scale * (matched_cylinder(poisson, slenderness) - held);
         return isfinite(*compliance);
     default:
         return false;

@@ -22,7 +22,7 @@
  * away from the half-space's, which leaves a term in its logarithm; a flat end does not need it.
  * The basis held elsewhere is taken as rigid (sphere, cylinder) or as the free rod's L / (3 E A); a
  * rod whose other end is fixed gets the same, since both differ far from the hit end alone. False:
- * no solution for that shape (beam, block, rounded tip), or no memory. */
+ * no solution for such a solid (beam, block, rounded tip), or no memory. */
 bool matched_compliance(const struct body *body, double patch, double *compliance);
 
 /* Times young * radius, dimensionless: of a cylinder that is long or short, rigid basis. NAN: no

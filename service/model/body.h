@@ -10,9 +10,9 @@
 #include <stddef.h>
 
 #include "base/fault.h"
+#include "model/body_kind.h"
 #include "model/material.h"
 
-enum shape { SHAPE_SPHERE, SHAPE_ROD, SHAPE_BEAM, SHAPE_CYLINDER, SHAPE_BLOCK, SHAPE_HALF_SPACE };
 enum support { SUPPORT_FREE, SUPPORT_PINNED, SUPPORT_CLAMPED }; /* a rod's `fixed` is CLAMPED */
 enum beam_theory { THEORY_TIMOSHENKO, THEORY_EULER_BERNOULLI };
 enum shear_rule { SHEAR_COWPER, SHEAR_HUTCHINSON, SHEAR_NUMBER };
@@ -20,12 +20,12 @@ enum shear_rule { SHEAR_COWPER, SHEAR_HUTCHINSON, SHEAR_NUMBER };
 struct body {
     char id[PERCUSS_ID_SIZE];
     struct material material;
-    enum shape shape;
-    double radius;        /* sphere, rod, round beam, cylinder; 0 otherwise */
-    double width, height; /* rectangular beam: along y, along z; 0 otherwise */
-    double length;        /* rod, beam, cylinder */
-    double tip_radius;    /* rod; INFINITY: flat ends */
-    double size[3];       /* block: along x, y, z */
+    const struct body_kind *kind; /* what its shape is, and all that follows from that */
+    double radius;                /* sphere, rod, round beam, cylinder; 0 otherwise */
+    double width, height;         /* rectangular beam: along y, along z; 0 otherwise */
+    double length;                /* rod, beam, cylinder */
+    double tip_radius;            /* rod; INFINITY: flat ends */
+    double size[3];       /* block: along x, y, z; lengths of any other kind as its keys say */
     bool lateral_inertia; /* rod: Rayleigh-Love */
     enum beam_theory theory;
     enum shear_rule shear_rule;
@@ -76,8 +76,11 @@ bool body_is_flexible(const struct body *body);
  * INFINITY for a half-space. */
 double body_smallest_radius(const struct body *body);
 
-/* "sphere", "rod", ... */
-const char *shape_name(enum shape shape);
+/* What closed forms and axisymmetric meshes can take it for. */
+struct solid body_solid(const struct body *body);
+
+/* The theory of its vibration: rigid, rod, rayleigh-love, timoshenko, euler-bernoulli, ... */
+const char *body_theory(const struct body *body);
 
 /* An immutable catalogue. Owns its arrays; loaders fill it, see catalogue/. */
 struct body_set {

@@ -48,7 +48,7 @@ enum percuss_status body_vary(const struct body *body, const struct body_variati
         double *parameter = find_parameter(varied, variation->parameter);
         if (!parameter)
             return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %g: a %s has no such parameter", name,
-                             variation->value, shape_name(body->shape));
+                             variation->value, body->kind->name);
         if (given[variation->parameter])
             return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %g: must be given once only", name,
                              variation->value);

@@ -18,10 +18,20 @@ const struct limit limit_tangent = {0.0, 1e13, false, false,
                                     "a finite modulus >= 0 Pa and below young"};
 const struct limit limit_damping = {0.0, 1.0, false, true, "a ratio >= 0 and < 1"};
 const struct limit limit_shear_factor = {1e-3, 2.0, false, false, "a number > 0 (1e-3 to 2)"};
+const struct limit limit_modes = {1.0, LIMIT_MODES, false, false,
+                                  "a whole number, 1 to 5000; absent: from the tolerance"};
 
 bool limit_holds(const struct limit *limit, double value)
 {
     bool above = limit->low_open ? value > limit->low : value >= limit->low;
     bool below = limit->high_open ? value < limit->high : value <= limit->high;
     return above && below;
+}
+
+enum percuss_status limit_check(const struct limit *limit, const char *field, double value,
+                                struct fault *fault)
+{
+    if (limit_holds(limit, value))
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %.9g: must be %s", field, value, limit->text);
 }

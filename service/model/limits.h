@@ -8,6 +8,8 @@
 
 #include <stdbool.h>
 
+#include "base/fault.h"
+
 enum { LIMIT_MODES = 5000 }; /* fixed number of modes of a body, at most */
 
 struct limit {
@@ -24,8 +26,13 @@ extern const struct limit limit_yield;        /* Pa */
 extern const struct limit limit_tangent;      /* Pa */
 extern const struct limit limit_damping;      /* ratio; 1 would no longer oscillate */
 extern const struct limit limit_shear_factor; /* of a Timoshenko beam */
+extern const struct limit limit_modes;        /* a whole number */
 
 /* False for NAN and the infinities too. */
 bool limit_holds(const struct limit *limit, double value);
+
+/* PERCUSS_OK, or PERCUSS_BAD_REQUEST with "field: value: must be ...". */
+enum percuss_status limit_check(const struct limit *limit, const char *field, double value,
+                                struct fault *fault);
 
 #endif

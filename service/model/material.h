@@ -4,6 +4,7 @@
 #ifndef PERCUSS_MODEL_MATERIAL_H
 #define PERCUSS_MODEL_MATERIAL_H
 
+#include "base/fault.h"
 #include "percuss/vocabulary.h"
 
 struct material {
@@ -20,5 +21,9 @@ static inline double material_shear_modulus(const struct material *material)
 {
     return material->young / (2.0 * (1.0 + material->poisson));
 }
+
+/* PERCUSS_OK, or PERCUSS_BAD_REQUEST with "field: value: must be ...", the field under its
+ * catalogue name, so that a loader can find its line. */
+enum percuss_status material_check(const struct material *material, struct fault *fault);
 
 #endif

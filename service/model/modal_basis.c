@@ -33,7 +33,7 @@ struct site_load site_load_make(const struct body *body, const struct site *site
     load.end = site->point[0] > 0.0;
     load.axial = on_end ? direction[0] : 0.0;
     load.acts[FAMILY_AXIAL] = fabs(load.axial) > NEGLIGIBLE;
-    for (int plane = 0; plane < 2 && body->shape == SHAPE_BEAM; plane++) {
+    for (int plane = 0; plane < 2 && body->kind == &beam_kind; plane++) {
         /* a section turning by psi moves a point at the height y by -psi y along the axis */
         struct beam_load *bending = &load.bending[plane];
         bending->x = on_end ? copysign(half, site->point[0]) : x;
@@ -41,7 +41,7 @@ struct site_load site_load_make(const struct body *body, const struct site *site
         bending->moment = on_end ? -site->point[1 + plane] * direction[0] : 0.0;
     }
     find_bending(body, &load);
-    if (body->shape == SHAPE_BEAM && body->radius == 0.0 && !on_end)
+    if (body->kind == &beam_kind && body->radius == 0.0 && !on_end)
         load.torque = site->point[1] * direction[2] - site->point[2] * direction[1];
     load.acts[FAMILY_TORSION] = fabs(load.torque) > NEGLIGIBLE * body_smallest_radius(body);
     return load;
@@ -50,7 +50,7 @@ struct site_load site_load_make(const struct body *body, const struct site *site
 bool modal_planes_alike(const struct body *body)
 {
     bool timoshenko = body->theory == THEORY_TIMOSHENKO;
-    return body->shape == SHAPE_BEAM && body->second_moment[0] == body->second_moment[1] &&
+    return body->kind == &beam_kind && body->second_moment[0] == body->second_moment[1] &&
            (!timoshenko || body->shear_factor[0] == body->shear_factor[1]);
 }
 

@@ -15,8 +15,6 @@ struct mobility {
 static struct mobility mobility_of(const struct body *body)
 {
     struct mobility mobility = {0};
-    if (body->shape == SHAPE_HALF_SPACE)
-        return mobility;
     bool free[2] = {body->supports[0] == SUPPORT_FREE, body->supports[1] == SUPPORT_FREE};
     if (free[0] && free[1]) {
         mobility.inverse_mass = 1.0 / body->mass;

@@ -8,6 +8,7 @@
 
 #include "base/fault.h"
 #include "model/body.h"
+#include "model/face.h"
 
 /* Largest angle between a stated normal and the surface's. */
 #define SITE_MAX_ANGLE_DEGREES 5.0
@@ -15,12 +16,6 @@
 struct pose {
     double position[3];
     double rotation[9]; /* row-major, world = rotation body */
-};
-
-enum site_face {
-    SITE_ROUND,     /* sphere, side of a cylinder, plane of a half-space or block */
-    SITE_BEAM_SIDE, /* lateral surface of a rod or beam */
-    SITE_END        /* end face or tip of a rod, beam or cylinder */
 };
 
 struct site {

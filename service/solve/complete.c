@@ -58,13 +58,13 @@ static enum percuss_status check_options(const struct solve_request *request, st
 }
 
 /* The axis that a body turns symmetrically about, body frame; a sphere has all of them. */
-static void find_axis(const struct body *body, const double direction[3], double axis[3])
+static void find_axis(const struct solid *solid, const double direction[3], double axis[3])
 {
     memset(axis, 0, 3 * sizeof *axis);
-    if (body->shape == SHAPE_SPHERE)
+    if (solid->form == SOLID_BALL)
         memcpy(axis, direction, 3 * sizeof *axis);
     else
-        axis[body->shape == SHAPE_BLOCK ? 2 : 0] = 1.0;
+        axis[solid->axis] = 1.0;
 }
 
 /* Whether the impact's line is the body's axis, and the body does not turn about another one. */
@@ -73,28 +73,28 @@ static enum percuss_status check_side(const struct problem *problem, int which, 
     const struct contact_side *side = &problem->sides[0][which];
     const struct body *body = problem->bodies[side->body];
     const struct solve_body *stated = &problem->request->bodies[side->body];
+    struct solid solid = body_solid(body);
     double axis[3];
     double off[3];
     // the impact along the axis
-    find_axis(body, side->direction, axis);
+    find_axis(&solid, side->direction, axis);
     if (!(fabs(dot3(axis, side->direction)) >= 1.0 - 0.5 * ALONG * ALONG))
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
-                         "contacts[0].normal: complete-fe: must lie along the axis of %s (%s): hit "
+                         "contacts[0].normal: complete-fe: must lie along the axis of %s (%c): hit "
                          "in the middle of an end face",
-                         body->id, body->shape == SHAPE_BLOCK ? "z" : "x");
+                         body->id, "xyz"[solid.axis]);
     // and through the centre of mass
     cross3(side->site.point, side->direction, off);
-    double size = body->shape == SHAPE_BLOCK ? fmin(body->size[0], body->size[1]) : body->radius;
-    if (!(norm3(off) <= ALONG * size))
+    if (!(norm3(off) <= ALONG * solid.across))
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "contacts[0].point: complete-fe: the normal passes %g m beside the centre "
                          "of mass of %s: must be at most %g m",
-                         norm3(off), body->id, ALONG * size);
+                         norm3(off), body->id, ALONG * solid.across);
     // no turning across it
     double spin[3];
     rotate_back3(problem->poses[side->body].rotation, stated->angular_velocity, spin);
     cross3(spin, axis, off);
-    if (body->shape != SHAPE_SPHERE &&
+    if (solid.form != SOLID_BALL &&
         !(norm3(off) * body->length <= ALONG * fabs(problem->gap_rate[0])))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "bodies[%zu].angular_velocity: complete-fe: %g rad/s across the axis of "
@@ -222,7 +222,7 @@ static void fill_model(const struct complete_convergence *convergence,
         "the patch's rim; limit of the restitution %.5f, estimated error %.1g%s",
         convergence->cells, from->elements, from->plastic_elements, from->steps, finest->phases,
         convergence->restitution, convergence->error,
-        bodies[0]->shape == SHAPE_BLOCK || bodies[1]->shape == SHAPE_BLOCK
+        body_solid(bodies[0]).approximate || body_solid(bodies[1]).approximate
             ? "; the block is taken as a cylinder of the same section"
             : "");
     /* the work of closing nodes (some 1e-7) is the mesh's, and left in the closure */

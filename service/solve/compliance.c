@@ -47,10 +47,10 @@ static bool side_compliance(const struct problem *problem, size_t c, int which, 
 {
     const struct contact_side *side = &problem->sides[c][which];
     const struct body *body = problem->bodies[side->body];
-    bool ends = body->shape == SHAPE_ROD || body->shape == SHAPE_CYLINDER;
-    if (ends && !is_central(body, side->site.point))
+    enum solid_form form = body_solid(body).form;
+    if (form == SOLID_CYLINDER && !is_central(body, side->site.point))
         return false;
-    double patch = body->shape == SHAPE_SPHERE ? patch_radius(problem, c) : 0.0;
+    double patch = form == SOLID_BALL ? patch_radius(problem, c) : 0.0;
     return prepared_matched_get(problem->cache, body, patch, compliance);
 }
 

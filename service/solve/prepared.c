@@ -289,7 +289,7 @@ bool prepared_matched_get(struct prepared_cache *cache, const struct body *body,
     struct entry *entry = find_entry(cache, body);
     if (!entry)
         return false;
-    if (body->shape != SHAPE_SPHERE) {
+    if (body_solid(body).form != SOLID_BALL) {
         *compliance = matched_at(entry, body, 0);
         return isfinite(*compliance);
     }

@@ -40,7 +40,7 @@ struct radiator {
 
 static bool is_half_space(const struct problem *problem, size_t body)
 {
-    return problem->bodies[body]->shape == SHAPE_HALF_SPACE;
+    return body_solid(problem->bodies[body]).form == SOLID_HALF_SPACE;
 }
 
 /* One contact's collision, as far as its scale tells. */

@@ -86,15 +86,6 @@ void report_velocities(const struct problem *problem, struct solve_result *resul
     result->velocities_known = true;
 }
 
-static const char *theory_name(const struct body *body)
-{
-    if (body->shape == SHAPE_ROD)
-        return body->lateral_inertia ? "rayleigh-love" : "rod";
-    if (body->shape == SHAPE_BEAM)
-        return body->theory == THEORY_TIMOSHENKO ? "timoshenko" : "euler-bernoulli";
-    return "rigid";
-}
-
 static void fill_bodies(const struct problem *problem, const struct solution *solution,
                         struct solve_result *result)
 {
@@ -106,8 +97,8 @@ static void fill_bodies(const struct problem *problem, const struct solution *so
             .vibration = solution->outcome.vibration[b],
             .modes = (unsigned)solution->assembly->modes[b],
             .rigid = solution->assembly->modes[b] == 0,
-            .theory = theory_name(body),
-            .shear_factor = body->shape == SHAPE_BEAM ? body->shear_factor[1] : NAN,
+            .theory = body_theory(body),
+            .shear_factor = body->shear_factor[1],
             .state_after = state_after(solution->assembly, &solution->outcome, problem, b),
         };
         memcpy(out->id, body->id, sizeof out->id);

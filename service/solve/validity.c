@@ -48,7 +48,7 @@ double validity_wave_loss(const struct problem *problem)
         for (int which = 0; which < 2; which++) {
             const struct body *body = problem_body(problem, c, which);
             double ratio = speed / wave_speed(body);
-            if (body->shape != SHAPE_HALF_SPACE && !body_is_flexible(body))
+            if (isfinite(body->mass) && !body_is_flexible(body))
                 energy_share += SPHERE_VIBRATION * ratio;
         }
         /* e^2 = 1 - share */

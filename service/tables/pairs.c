@@ -11,7 +11,8 @@
 
 static bool has_sphere(const struct body *body)
 {
-    return body->shape == SHAPE_SPHERE || (body->shape == SHAPE_ROD && isfinite(body->tip_radius));
+    struct solid solid = body_solid(body);
+    return solid.form == SOLID_BALL || (solid.form == SOLID_CYLINDER && isfinite(solid.tip_radius));
 }
 
 bool table_pair_is_round(const struct body *a, const struct body *b)

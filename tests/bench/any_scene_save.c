@@ -8,7 +8,7 @@
 static const char *support_name(const struct body *body, int end)
 {
     static const char *const names[] = {"free", "pinned", "clamped"};
-    if (body->shape == SHAPE_ROD && body->supports[end] == SUPPORT_CLAMPED)
+    if (body->kind == &rod_kind && body->supports[end] == SUPPORT_CLAMPED)
         return "fixed";
     return names[body->supports[end]];
 }
@@ -29,28 +29,28 @@ static void write_bar(FILE *file, const struct body *body)
             support_name(body, 0), support_name(body, 1));
     if (body->modes)
         fprintf(file, ", modes: %u", body->modes);
-    if (body->shape == SHAPE_ROD && isfinite(body->tip_radius))
+    if (body->kind == &rod_kind && isfinite(body->tip_radius))
         fprintf(file, ", tip_radius: %.17g", body->tip_radius);
-    if (body->shape == SHAPE_ROD && body->lateral_inertia)
+    if (body->kind == &rod_kind && body->lateral_inertia)
         fprintf(file, ", lateral_inertia: true");
-    if (body->shape == SHAPE_BEAM)
+    if (body->kind == &beam_kind)
         fprintf(file, ", theory: %s",
                 body->theory == THEORY_TIMOSHENKO ? "timoshenko" : "euler-bernoulli");
-    if (body->shape == SHAPE_BEAM && body->theory == THEORY_TIMOSHENKO)
+    if (body->kind == &beam_kind && body->theory == THEORY_TIMOSHENKO)
         fprintf(file, ", shear_factor: %s",
                 body->shear_rule == SHEAR_COWPER ? "cowper" : "hutchinson");
 }
 
 static void write_body(FILE *file, const struct body *body)
 {
-    fprintf(file, "  %s: {shape: %s, material: of-%s", body->id, shape_name(body->shape), body->id);
-    if (body->shape == SHAPE_BLOCK)
+    fprintf(file, "  %s: {shape: %s, material: of-%s", body->id, body->kind->name, body->id);
+    if (body->kind == &block_kind)
         fprintf(file, ", size: [%.17g, %.17g, %.17g]", body->size[0], body->size[1], body->size[2]);
     else if (body->width > 0.0)
         fprintf(file, ", section: {width: %.17g, height: %.17g}", body->width, body->height);
-    else if (body->shape != SHAPE_HALF_SPACE)
+    else if (body->kind != &half_space_kind)
         fprintf(file, ", radius: %.17g", body->radius);
-    if (body->shape == SHAPE_CYLINDER)
+    if (body->kind == &cylinder_kind)
         fprintf(file, ", length: %.17g", body->length);
     if (body_is_flexible(body))
         write_bar(file, body);

@@ -123,7 +123,7 @@ static void describe(const struct run *run, const struct any_scene *scene, struc
 {
     const struct solve_options *options = &scene->drawn.request.options;
     snprintf(noted->text, sizeof noted->text, "%s %s%s%s: %s %s %.90s",
-             contact_model_name(options->contact_model), shape_name(run->lab->bodies[0].shape),
+             contact_model_name(options->contact_model), run->lab->bodies[0].kind->name,
              options->trace ? " traced" : "", noted->blow ? " ringing" : "",
              status_name(result->status), end_reason_name(result->end_reason), result->fault.text);
 }

@@ -70,11 +70,11 @@ static bool make_rods(struct rods *rods)
     for (size_t i = 0; i < COUNT(ids); i++) {
         struct body *body = &rods->bodies[i];
         struct fault fault;
-        *body = (struct body){.shape = SHAPE_SPHERE, .radius = sphere_radius};
+        *body = (struct body){.kind = &sphere_kind, .radius = sphere_radius};
         body->material = (struct material){"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};
         if (i > 0) {
             body->material = (struct material){"aluminium", 70e9, 0.33, 2700.0, yields[i], 0.0};
-            body->shape = SHAPE_ROD;
+            body->kind = &rod_kind;
             body->radius = 0.010;
             body->length = 1.0;
             body->tip_radius = INFINITY;

@@ -123,12 +123,13 @@ const struct bench_scene *bench_scene_find(const char *name)
     return NULL;
 }
 
-static struct body make(const char *id, enum shape shape, struct material material, double radius)
+static struct body make(const char *id, const struct body_kind *kind, struct material material,
+                        double radius)
 {
-    struct body body = {.material = material, .shape = shape, .radius = radius, .length = 1.0};
+    struct body body = {.material = material, .kind = kind, .radius = radius, .length = 1.0};
     snprintf(body.id, sizeof body.id, "%s", id);
     body.tip_radius = INFINITY;
-    if (shape == SHAPE_SPHERE)
+    if (kind == &sphere_kind)
         body.length = 0.0;
     return body;
 }
@@ -139,19 +140,19 @@ bool bench_catalogue_make(struct bench_catalogue *catalogue, unsigned modes)
     struct material aluminium = {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0};
     struct body *bodies = catalogue->bodies;
     size_t count = 0;
-    bodies[count++] = make("sphere", SHAPE_SPHERE, steel, SPHERE);
-    bodies[count++] = make("rod", SHAPE_ROD, aluminium, BAR);
-    bodies[count++] = make("beam", SHAPE_BEAM, aluminium, BAR);
-    bodies[count] = make("pinned", SHAPE_BEAM, aluminium, BAR);
+    bodies[count++] = make("sphere", &sphere_kind, steel, SPHERE);
+    bodies[count++] = make("rod", &rod_kind, aluminium, BAR);
+    bodies[count++] = make("beam", &beam_kind, aluminium, BAR);
+    bodies[count] = make("pinned", &beam_kind, aluminium, BAR);
     bodies[count].supports[0] = bodies[count].supports[1] = SUPPORT_PINNED;
     count++;
-    bodies[count] = make("tipped", SHAPE_ROD, aluminium, BAR);
+    bodies[count] = make("tipped", &rod_kind, aluminium, BAR);
     bodies[count].length = TIPPED_LENGTH;
     bodies[count].tip_radius = TIP;
     count++;
     for (size_t i = 0; i < count; i++) {
         struct fault fault = {0};
-        if (bodies[i].shape != SHAPE_SPHERE)
+        if (bodies[i].kind != &sphere_kind)
             bodies[i].modes = modes;
         if (body_complete(&bodies[i], &fault)) {
             fprintf(stderr, "bench: %s: %s\n", bodies[i].id, fault.text);

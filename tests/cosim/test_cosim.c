@@ -10,7 +10,7 @@ static const double ball = 0.015, bar = 0.010;
 static struct lab *make_lab(double damping)
 {
     struct lab *lab = lab_create();
-    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, bar, 1.0);
+    struct body beam = make_bar(&beam_kind, ALUMINIUM, bar, 1.0);
     beam.damping = damping;
     lab_add(lab, "beam", beam);
     lab_add(lab, "ball", make_sphere(STEEL, ball));

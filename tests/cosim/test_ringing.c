@@ -28,7 +28,7 @@ static struct lab *make_lab(void)
     struct lab *lab = lab_create();
     lab_add(
         lab, "beam",
-        make_supported(make_bar(SHAPE_BEAM, ALUMINIUM, bar, 1.0), SUPPORT_PINNED, SUPPORT_PINNED));
+        make_supported(make_bar(&beam_kind, ALUMINIUM, bar, 1.0), SUPPORT_PINNED, SUPPORT_PINNED));
     lab_add(lab, "ball", make_sphere(STEEL, ball));
     return lab;
 }

@@ -38,7 +38,7 @@ static inline void ensemble_lab_open(struct ensemble_lab *e)
     memset(e, 0, sizeof *e);
     e->lab = lab_create();
     lab_add(e->lab, "sphere", make_sphere(STEEL, 0.015));
-    lab_add(e->lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(e->lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     e->request = (struct solve_request){
         .body_count = 2,
         .contact_count = 1,

@@ -62,22 +62,22 @@ static inline const struct body *lab_add(struct lab *lab, const char *id, struct
     return &lab->bodies[at];
 }
 
-static inline struct body make_body(enum shape shape, struct material material)
+static inline struct body make_body(const struct body_kind *kind, struct material material)
 {
-    return (struct body){.material = material, .shape = shape, .tip_radius = INFINITY};
+    return (struct body){.material = material, .kind = kind, .tip_radius = INFINITY};
 }
 
 static inline struct body make_sphere(struct material material, double radius)
 {
-    struct body body = make_body(SHAPE_SPHERE, material);
+    struct body body = make_body(&sphere_kind, material);
     body.radius = radius;
     return body;
 }
 
-static inline struct body make_bar(enum shape shape, struct material material, double radius,
-                                   double length)
+static inline struct body make_bar(const struct body_kind *kind, struct material material,
+                                   double radius, double length)
 {
-    struct body body = make_body(shape, material);
+    struct body body = make_body(kind, material);
     body.radius = radius;
     body.length = length;
     return body;
@@ -120,7 +120,7 @@ static inline struct spot side_spot(const char *id, double x, double radius, dou
  * and no wave leaves. */
 static inline struct body rigid_wall(void)
 {
-    return make_body(SHAPE_HALF_SPACE,
+    return make_body(&half_space_kind,
                      (struct material){"rigid", 1e13, -1.0 + 1e-12, 1000.0, INFINITY, 0.0});
 }
 

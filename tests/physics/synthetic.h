@@ -20,7 +20,7 @@ static inline struct body synthetic_beam(void)
 {
     struct material material = ALUMINIUM;
     material.young = SYNTHETIC_YOUNG;
-    struct body beam = make_bar(SHAPE_BEAM, material, 0.010, 1.0);
+    struct body beam = make_bar(&beam_kind, material, 0.010, 1.0);
     beam.modes = 48;
     beam.damping = 3e-4;
     return beam;

@@ -11,7 +11,7 @@ static void timoshenko_1913(void **state)
     static struct solve_result result;
     struct material steel = {"steel-1913", 215.75e9, 0.30, 7960.0, INFINITY, 0.0};
     struct lab *lab = lab_create();
-    struct body beam = make_supported(make_body(SHAPE_BEAM, steel), SUPPORT_PINNED, SUPPORT_PINNED);
+    struct body beam = make_supported(make_body(&beam_kind, steel), SUPPORT_PINNED, SUPPORT_PINNED);
     beam.width = beam.height = 0.01;
     beam.length = 0.1535;
     beam.theory = THEORY_EULER_BERNOULLI;
@@ -39,7 +39,7 @@ static struct lab *paper_beam(void)
 {
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     return lab;
 }
 
@@ -123,7 +123,7 @@ static void every_beam_against_its_converged_solution(void **state)
     (void)state;
     struct lab *lab = paper_beam();
     for (size_t i = 0; i < 2 * COUNT(ends); i++) {
-        struct body beam = make_supported(make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0),
+        struct body beam = make_supported(make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0),
                                           ends[i / 2][0], ends[i / 2][1]);
         beam.theory = i % 2 ? THEORY_EULER_BERNOULLI : THEORY_TIMOSHENKO;
         lab_add(lab, "beam", beam);
@@ -146,7 +146,7 @@ static void every_beam_against_cvode(void **state)
     (void)state;
     struct lab *lab = paper_beam();
     for (size_t i = 0; i < 2 * COUNT(ends); i++) {
-        struct body beam = make_supported(make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0),
+        struct body beam = make_supported(make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0),
                                           ends[i / 2][0], ends[i / 2][1]);
         beam.theory = i % 2 ? THEORY_EULER_BERNOULLI : THEORY_TIMOSHENKO;
         beam.modes = 12;
@@ -173,7 +173,7 @@ static void a_beam_hit_on_its_end_is_the_rod(void **state)
     static struct solve_result result;
     struct lab *lab = paper_beam();
     double e[2];
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
     for (int i = 0; i < 2; i++) {
         struct solve_request request =
             strike(sphere_spot("ball", 0.015), end_spot(i ? "rod" : "beam", 1.0), 0.3);

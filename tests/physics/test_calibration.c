@@ -20,7 +20,7 @@ struct model {
 static struct lab *make_lab(void)
 {
     struct lab *lab = lab_create();
-    struct body other = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct body other = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
     lab_add(lab, "sphere", make_sphere(STEEL, 0.015));
     lab_add(lab, "beam", other);
     lab_add(lab, "true-beam", synthetic_beam());

@@ -21,7 +21,7 @@ static void answer(const struct blow *blow, double tolerance)
     struct material steel = {"steel", 210e9, 0.30, 7780.0, INFINITY, 0.0};
     struct material metal = {"metal", 73e9, 0.33, 2780.0, blow->yield, blow->tangent};
     lab_add(lab, "ball", make_sphere(steel, blow->sphere));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, metal, blow->rod, blow->length));
+    lab_add(lab, "rod", make_bar(&rod_kind, metal, blow->rod, blow->length));
     struct solve_request request =
         strike(sphere_spot("ball", blow->sphere), end_spot("rod", blow->length), blow->speed);
     request.options.contact_model = PERCUSS_CONTACT_COMPLETE_FE;

@@ -13,10 +13,10 @@ enum { SCENES = 6 };
 static struct lab *lab_with_damping(double damping, unsigned modes)
 {
     struct lab *lab = lab_create();
-    struct body rod = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 0.6);
-    struct body tipped = make_bar(SHAPE_ROD, STEEL, 0.008, 0.3);
-    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
-    struct body flat = make_supported(make_body(SHAPE_BEAM, STEEL), SUPPORT_PINNED, SUPPORT_FREE);
+    struct body rod = make_bar(&rod_kind, ALUMINIUM, 0.010, 0.6);
+    struct body tipped = make_bar(&rod_kind, STEEL, 0.008, 0.3);
+    struct body beam = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
+    struct body flat = make_supported(make_body(&beam_kind, STEEL), SUPPORT_PINNED, SUPPORT_FREE);
     tipped.tip_radius = 0.012;
     flat.width = 0.02;
     flat.height = 0.008;
@@ -167,7 +167,7 @@ static void a_ball_laid_down_keeps_its_energy(void **state)
     static struct solve_result result;
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(ALUMINIUM, 0.020));
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    lab_add(lab, "wall", make_body(&half_space_kind, STEEL));
     for (double speed = 3e-5; speed < 1e-3; speed *= 1.7) {
         for (double tolerance = 1e-3; tolerance <= 1e-2; tolerance *= 1.5) {
             struct solve_request request =

@@ -195,7 +195,7 @@ static void inputs_change_bodies(void **state)
     struct material soft = ALUMINIUM, heavy = STEEL;
     soft.young = 65e9;
     heavy.density = 8200.0;
-    lab_add(e.lab, "beam", make_bar(SHAPE_BEAM, soft, 0.010, 1.0));
+    lab_add(e.lab, "beam", make_bar(&beam_kind, soft, 0.010, 1.0));
     lab_add(e.lab, "sphere", make_sphere(heavy, 0.016));
     e.request.bodies[0].position[0] = e.request.contacts[0].point[0] = -0.2;
     e.request.bodies[0].position[2] = 0.026;
@@ -231,7 +231,7 @@ static void yields(void **state)
     ensemble_lab_clear(&e);
     struct material soft = ALUMINIUM;
     soft.yield = values[1];
-    lab_add(e.lab, "beam", make_bar(SHAPE_BEAM, soft, 0.010, 1.0));
+    lab_add(e.lab, "beam", make_bar(&beam_kind, soft, 0.010, 1.0));
     e.request.bodies[0].velocity[2] = -values[0];
     static struct solve_result result;
     assert_int_equal(solve(e.lab->workspace, &e.lab->means, &e.request, &result), PERCUSS_OK);

@@ -84,14 +84,14 @@ static struct lab *bodies(void)
     lab->set.compliance = PERCUSS_COMPLIANCE_MATCHED;
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "glass", make_sphere(GLASS, 0.010));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "rod-1", make_bar(SHAPE_ROD, AL_205, 0.010, 1.0));
-    lab_add(lab, "rod-2", make_bar(SHAPE_ROD, AL_575, 0.010, 1.0));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "beam-1", make_bar(SHAPE_BEAM, AL_205, 0.010, 1.0));
-    lab_add(lab, "disc", make_bar(SHAPE_CYLINDER, AL_205, 0.04, 0.08));
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
-    lab_add(lab, "floor", make_body(SHAPE_HALF_SPACE, AL_575));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod-1", make_bar(&rod_kind, AL_205, 0.010, 1.0));
+    lab_add(lab, "rod-2", make_bar(&rod_kind, AL_575, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam-1", make_bar(&beam_kind, AL_205, 0.010, 1.0));
+    lab_add(lab, "disc", make_bar(&cylinder_kind, AL_205, 0.04, 0.08));
+    lab_add(lab, "wall", make_body(&half_space_kind, STEEL));
+    lab_add(lab, "floor", make_body(&half_space_kind, AL_575));
     return lab;
 }
 

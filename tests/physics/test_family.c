@@ -25,8 +25,8 @@ static struct lab *ball_on(double radius, struct material soft, double length)
     lab->set.compliance = PERCUSS_COMPLIANCE_MATCHED;
     lab_add(lab, "ball", make_sphere(STEEL, radius));
     lab_add(lab, "soft",
-            length > 0.0 ? make_bar(SHAPE_ROD, soft, 0.010, length)
-                         : make_body(SHAPE_HALF_SPACE, soft));
+            length > 0.0 ? make_bar(&rod_kind, soft, 0.010, length)
+                         : make_body(&half_space_kind, soft));
     lab->means.tables = table_store_source(shipped);
     return lab;
 }
@@ -249,7 +249,7 @@ static void elliptic_contacts_have_it_too(void **state)
     (void)state;
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, AL_205, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, AL_205, 0.010, 1.0));
     lab->means.tables = table_store_source(shipped);
     struct solve_request request =
         strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.3);

@@ -8,9 +8,9 @@
 static struct lab *lab_of_bodies(void)
 {
     struct lab *lab = lab_create();
-    struct body tipped = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 0.4);
-    struct body flat = make_body(SHAPE_BEAM, ALUMINIUM);
-    struct body block = make_body(SHAPE_BLOCK, STEEL);
+    struct body tipped = make_bar(&rod_kind, ALUMINIUM, 0.010, 0.4);
+    struct body flat = make_body(&beam_kind, ALUMINIUM);
+    struct body block = make_body(&block_kind, STEEL);
     tipped.tip_radius = 0.015;
     flat.width = 0.03;
     flat.height = 0.012;
@@ -18,10 +18,10 @@ static struct lab *lab_of_bodies(void)
     memcpy(block.size, (double[]){0.05, 0.08, 0.03}, sizeof block.size);
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "tipped", tipped);
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     lab_add(lab, "flat", flat);
     lab_add(lab, "block", block);
-    lab_add(lab, "drum", make_bar(SHAPE_CYLINDER, STEEL, 0.02, 0.05));
+    lab_add(lab, "drum", make_bar(&cylinder_kind, STEEL, 0.02, 0.05));
     return lab;
 }
 

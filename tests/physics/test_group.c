@@ -9,7 +9,7 @@ enum { BALLS = 3, SCENES = 10 };
 /* Balls that come down on a beam side by side, each with its own speed and gap. */
 static struct solve_request balls_on_beam(struct lab *lab, uint64_t *seed, int balls)
 {
-    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct body beam = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
     beam.modes = 10;
     beam.damping = random_between(seed, 0.0, 1.0) < 0.5 ? 0.0 : 0.01;
     lab_add(lab, "beam", beam);
@@ -79,7 +79,7 @@ static void distant_contacts_are_single_ones(void **state)
     (void)state;
     static struct solve_result single, both;
     struct lab *lab = lab_create();
-    struct body beam = make_bar(SHAPE_BEAM, STEEL, 0.03, 6.0);
+    struct body beam = make_bar(&beam_kind, STEEL, 0.03, 6.0);
     beam.modes = 60;
     lab_add(lab, "beam", beam);
     lab_add(lab, "ball", make_sphere(STEEL, 0.012));

@@ -10,11 +10,11 @@ static const double ball_radius = 0.02, beam_radius = 0.01;
 static struct lab *make_lab(void)
 {
     struct lab *lab = lab_create();
-    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, beam_radius, 1.0);
+    struct body beam = make_bar(&beam_kind, ALUMINIUM, beam_radius, 1.0);
     beam.modes = 12;
     lab_add(lab, "beam", beam);
     lab_add(lab, "ball", make_sphere(STEEL, ball_radius));
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    lab_add(lab, "wall", make_body(&half_space_kind, STEEL));
     return lab;
 }
 

@@ -85,11 +85,11 @@ static void compact_bodies_return_everything(void **state)
     (void)state;
     static struct solve_result result;
     struct lab *lab = lab_create();
-    struct body block = make_body(SHAPE_BLOCK, ALUMINIUM);
+    struct body block = make_body(&block_kind, ALUMINIUM);
     memcpy(block.size, (double[]){0.05, 0.08, 0.03}, sizeof block.size);
     lab_add(lab, "block", block);
     lab_add(lab, "ball", make_sphere(STEEL, 0.012));
-    lab_add(lab, "drum", make_bar(SHAPE_CYLINDER, STEEL, 0.02, 0.05));
+    lab_add(lab, "drum", make_bar(&cylinder_kind, STEEL, 0.02, 0.05));
     const struct spot ball = sphere_spot("ball", 0.012);
     const struct spot block_off_centre = {"block", {0.01, -0.02, 0.015}, {0.0, 0.0, 1.0}, 0.3};
     const struct spot drum_side = side_spot("drum", 0.01, 0.02, 0.7);

@@ -10,8 +10,8 @@ static struct lab *matched_lab(void)
     struct lab *lab = lab_create();
     lab->set.compliance = PERCUSS_COMPLIANCE_MATCHED;
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     return lab;
 }
 
@@ -101,7 +101,7 @@ static void only_central_hits(void **state)
     (void)state;
     static struct solve_result result;
     struct lab *lab = matched_lab();
-    lab_add(lab, "block", make_bar(SHAPE_CYLINDER, ALUMINIUM, 0.020, 0.040));
+    lab_add(lab, "block", make_bar(&cylinder_kind, ALUMINIUM, 0.020, 0.040));
     struct solve_request request =
         strike(sphere_spot("ball", 0.015), end_spot("block", 0.040), 0.3);
     for (int beside = 0; beside < 2; beside++) {
@@ -121,7 +121,7 @@ static void too_stiff_contacts_do_without(void **state)
     (void)state;
     static struct solve_result result;
     struct lab *lab = matched_lab();
-    lab_add(lab, "thin", make_bar(SHAPE_ROD, ALUMINIUM, 0.002, 1.0));
+    lab_add(lab, "thin", make_bar(&rod_kind, ALUMINIUM, 0.002, 1.0));
     struct solve_request request = strike(sphere_spot("ball", 0.015), end_spot("thin", 1.0), 100.0);
     request.options.contact_model = PERCUSS_CONTACT_HERTZ;
     request.options.tolerance = 1e-4;

@@ -14,7 +14,7 @@ static struct solve_request impact(const char *sphere, const char *beam)
 static struct lab *lab_of_two(void)
 {
     struct lab *lab = lab_create();
-    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct body beam = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
     lab_add(lab, "sphere", make_sphere(STEEL, 0.015));
     lab_add(lab, "beam", beam);
     beam.material.young = 72e9;

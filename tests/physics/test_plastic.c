@@ -12,10 +12,10 @@ static struct lab *rods(void)
 {
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "rod-1", make_bar(SHAPE_ROD, AL_205, 0.010, 1.0));
-    lab_add(lab, "rod-2", make_bar(SHAPE_ROD, AL_575, 0.010, 1.0));
-    lab_add(lab, "beam-1", make_bar(SHAPE_BEAM, AL_205, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod-1", make_bar(&rod_kind, AL_205, 0.010, 1.0));
+    lab_add(lab, "rod-2", make_bar(&rod_kind, AL_575, 0.010, 1.0));
+    lab_add(lab, "beam-1", make_bar(&beam_kind, AL_205, 0.010, 1.0));
     return lab;
 }
 
@@ -160,7 +160,7 @@ static void a_soft_sphere_keeps_its_dent(void **state)
     static struct solve_result result;
     struct lab *lab = rods();
     lab_add(lab, "soft-ball", make_sphere(AL_205, 0.015));
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    lab_add(lab, "wall", make_body(&half_space_kind, STEEL));
     struct solve_request request = strike(sphere_spot("soft-ball", 0.015), wall_spot("wall"), 0.5);
     lab_solve(lab, &request, &result);
     assert_int_equal(result.contact_model, PERCUSS_CONTACT_CLOSED_FORM);

@@ -30,13 +30,13 @@ static struct spot random_striker(struct lab *lab, uint64_t *seed, int kind)
     struct spot spot = sphere_spot("striker", body.radius);
     if (kind == 1) {
         double length = random_between(seed, 0.1, 0.6);
-        body = make_bar(SHAPE_ROD, body.material, 0.5 * body.radius, length);
+        body = make_bar(&rod_kind, body.material, 0.5 * body.radius, length);
         body.tip_radius = random_between(seed, 1.1, 3.0) * body.radius;
         body.lateral_inertia = random_between(seed, 0.0, 1.0) < 0.5;
         spot = end_spot("striker", length);
     } else if (kind == 2) {
         double length = random_between(seed, 0.2, 0.6);
-        body = make_bar(SHAPE_BEAM, body.material, body.radius, length);
+        body = make_bar(&beam_kind, body.material, body.radius, length);
         spot = side_spot("striker", random_between(seed, -0.45, 0.45) * length, body.radius,
                          random_between(seed, -3.0, 3.0));
     }
@@ -53,7 +53,7 @@ static struct spot random_target(struct lab *lab, uint64_t *seed, int kind)
     double length = random_between(seed, 0.3, 1.2);
     double radius = random_between(seed, 0.006, 0.015);
     double x = random_between(seed, -0.48, 0.48) * length;
-    struct body body = make_bar(kind == 2 ? SHAPE_ROD : SHAPE_BEAM, material, radius, length);
+    struct body body = make_bar(kind == 2 ? &rod_kind : &beam_kind, material, radius, length);
     struct spot spot = side_spot("target", x, radius, random_between(seed, -3.0, 3.0));
     if (kind == 1) {
         body.radius = 0.0;
@@ -64,10 +64,10 @@ static struct spot random_target(struct lab *lab, uint64_t *seed, int kind)
     } else if (kind == 2) {
         spot = end_spot("target", length);
     } else if (kind == 3) {
-        body = make_body(SHAPE_HALF_SPACE, material);
+        body = make_body(&half_space_kind, material);
         spot = wall_spot("target");
     }
-    if (body.shape == SHAPE_BEAM) {
+    if (body.kind == &beam_kind) {
         body.theory =
             random_between(seed, 0.0, 1.0) < 0.5 ? THEORY_TIMOSHENKO : THEORY_EULER_BERNOULLI;
         for (int end = 0; end < 2; end++)
@@ -150,9 +150,8 @@ static void random_scenes_agree(void **state)
         enum percuss_status status = solve(lab->workspace, &lab->means, &request, &modal);
         if (getenv("PERCUSS_MEASURE"))
             print_message("scene %d: %s on %s, %s, %zu sub-impacts, end %u %s\n", i,
-                          shape_name(lab->bodies[0].shape), shape_name(lab->bodies[1].shape),
-                          status_name(status), modal.contacts[0].sub_impact_count, modal.end_reason,
-                          modal.fault.text);
+                          lab->bodies[0].kind->name, lab->bodies[1].kind->name, status_name(status),
+                          modal.contacts[0].sub_impact_count, modal.end_reason, modal.fault.text);
         assert_true(status == PERCUSS_OK || status == PERCUSS_TRUNCATED);
         /* the sub-impacts listed belong to the workspace */
         struct solve_workspace *other = solve_workspace_create();

@@ -66,13 +66,13 @@ enum { SCENES = 7, RECORD = 600 };
 static struct lab *lab_of_bodies(void)
 {
     struct lab *lab = lab_create();
-    struct body rod = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 0.4);
-    struct body damped = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 0.8);
+    struct body rod = make_bar(&rod_kind, ALUMINIUM, 0.010, 0.4);
+    struct body damped = make_bar(&beam_kind, ALUMINIUM, 0.010, 0.8);
     rod.tip_radius = 0.015;
     damped.damping = 0.01;
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "rod", rod);
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     lab_add(lab, "damped", damped);
     return lab;
 }

@@ -111,7 +111,7 @@ static void modes_and_waves_agree(void **state)
         double v = random_between(&seed, 0.05, 1.0);
         const struct body *ball = lab_add(lab, "ball", make_sphere(hard, radius));
         const struct body *rod =
-            lab_add(lab, "rod", make_bar(SHAPE_ROD, soft, sizes[i].bar, length));
+            lab_add(lab, "rod", make_bar(&rod_kind, soft, sizes[i].bar, length));
         struct solve_request request =
             strike(sphere_spot("ball", radius), end_spot("rod", length), v);
         request.options.tolerance = 1e-7;

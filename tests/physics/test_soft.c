@@ -94,7 +94,7 @@ static void a_soft_wall_gives_back_what_its_dent_does(void **state)
         struct soft_law law = make_law(yields[y], 0.015);
         const struct body *ball = lab_add(lab, "ball", make_sphere(STEEL, 0.015));
         /* a block, through which no waves leave */
-        struct body block = make_body(SHAPE_BLOCK, soft_metal(yields[y]));
+        struct body block = make_body(&block_kind, soft_metal(yields[y]));
         memcpy(block.size, (double[]){1.0, 1.0, 1.0}, sizeof block.size);
         double mass = 1.0 / (1.0 / ball->mass + 1.0 / lab_add(lab, "wall", block)->mass);
         double before = 1.0 + 1e-9;
@@ -183,7 +183,7 @@ static void a_soft_rod_answers_as_its_waves_do(void **state)
         struct lab *lab = lab_create();
         const struct body *ball = lab_add(lab, "ball", make_sphere(STEEL, 0.015));
         const struct body *rod =
-            lab_add(lab, "rod", make_bar(SHAPE_ROD, soft_metal(blows[i][0]), 0.010, 0.5));
+            lab_add(lab, "rod", make_bar(&rod_kind, soft_metal(blows[i][0]), 0.010, 0.5));
         struct solve_request request =
             strike(sphere_spot("ball", 0.015), end_spot("rod", 0.5), blows[i][1]);
         request.options.contact_model = PERCUSS_CONTACT_CLOSED_FORM;
@@ -206,7 +206,7 @@ static void cvode_says_the_same(void **state)
             for (size_t v = 0; v < COUNT(speeds); v++) {
                 struct lab *lab = lab_create();
                 struct body bar =
-                    make_bar(bends ? SHAPE_BEAM : SHAPE_ROD, soft_metal(yields[y]), 0.010, 0.3);
+                    make_bar(bends ? &beam_kind : &rod_kind, soft_metal(yields[y]), 0.010, 0.3);
                 bar.modes = 8;
                 lab_add(lab, "ball", make_sphere(STEEL, 0.008));
                 lab_add(lab, "bar", bar);
@@ -238,7 +238,7 @@ static void a_soft_rod_does_without_its_matched_compliance(void **state)
         for (size_t v = 0; v < COUNT(speeds); v++) {
             struct lab *lab = lab_create();
             lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-            lab_add(lab, "rod", make_bar(SHAPE_ROD, soft_metal(yields[y]), 0.010, 1.0));
+            lab_add(lab, "rod", make_bar(&rod_kind, soft_metal(yields[y]), 0.010, 1.0));
             struct solve_request request =
                 strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), speeds[v]);
             request.options.contact_model = PERCUSS_CONTACT_CLOSED_FORM;
@@ -270,7 +270,7 @@ static void blows_into_a_soft_dent_end(void **state)
         uint64_t seed = 3;
         double depth = 0.0;
         lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-        lab_add(lab, "rod", make_bar(SHAPE_ROD, soft_metal(yields[y]), 0.010, 1.0));
+        lab_add(lab, "rod", make_bar(&rod_kind, soft_metal(yields[y]), 0.010, 1.0));
         for (int blow = 0; blow < 10; blow++) {
             double speed = exp(random_between(&seed, log(0.01), log(10.0)));
             struct solve_request request =

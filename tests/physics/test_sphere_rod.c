@@ -14,7 +14,7 @@ static void the_paper_s_rod_at_four_speeds(void **state)
     static struct solve_result result;
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
     for (size_t i = 0; i < COUNT(speeds); i++) {
         struct solve_request request =
             strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), speeds[i]);
@@ -46,7 +46,7 @@ static void the_tolerance_is_kept(void **state)
     struct material rod = {"rod", 73e9, 0.33, 2780.0, INFINITY, 0.0};
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(steel, 0.015));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, rod, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, rod, 0.010, 1.0));
     struct solve_request request = strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), 0.3);
     request.options.tolerance = 1e-9;
     lab_solve(lab, &request, &result);
@@ -108,7 +108,7 @@ static void a_fixed_number_of_modes_is_kept(void **state)
     struct material steel = {"steel", 210e9, 0.30, 7780.0, INFINITY, 0.0};
     struct material aluminium = {"rod", 73e9, 0.33, 2780.0, INFINITY, 0.0};
     struct lab *lab = lab_create();
-    struct body rod = make_bar(SHAPE_ROD, aluminium, 0.010, 1.0);
+    struct body rod = make_bar(&rod_kind, aluminium, 0.010, 1.0);
     lab_add(lab, "ball", make_sphere(steel, 0.015));
     for (unsigned modes = 10; modes <= 20; modes += 10) {
         rod.modes = modes;

@@ -34,7 +34,7 @@ static struct ringing ring(double damping, unsigned modes)
 {
     static struct solve_result result;
     struct ringing ringing = {.lab = lab_create()};
-    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct body beam = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
     beam.damping = damping;
     beam.modes = modes;
     lab_add(ringing.lab, "ball", make_sphere(STEEL, 0.015));
@@ -320,7 +320,7 @@ static void questions_on_ringing_beams_take_no_seconds(void **state)
     double longest = 0.0;
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     for (size_t i = 0; i < COUNT(ids); i++) {
-        struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+        struct body beam = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
         beam.damping = dampings[i];
         lab_add(lab, ids[i], beam);
     }

@@ -12,14 +12,14 @@ enum { KINDS = 9 };
 static struct lab *lab_of_all(void)
 {
     struct lab *lab = lab_create();
-    struct body damped = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct body damped = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
     struct material yielding = ALUMINIUM;
     damped.damping = 0.01;
     yielding.yield = 205e6;
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     lab_add(lab, "damped", damped);
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, yielding, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, yielding, 0.010, 1.0));
     return lab;
 }
 

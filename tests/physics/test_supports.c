@@ -30,7 +30,7 @@ static void supports_rule_w(void **state)
         enum support left = (enum support)(i % 3);
         enum support right = (enum support)(i / 3 % 3);
         struct body beam =
-            make_supported(make_bar(SHAPE_BEAM, ALUMINIUM, RADIUS, LENGTH), left, right);
+            make_supported(make_bar(&beam_kind, ALUMINIUM, RADIUS, LENGTH), left, right);
         beam.theory = i < 9 ? THEORY_TIMOSHENKO : THEORY_EULER_BERNOULLI;
         lab_add(lab, "beam", beam);
         /* notes: Euler-Bernoulli M L^2/12, Timoshenko M (L^2/12 + r^2/4) */
@@ -63,7 +63,7 @@ static void the_pin_stays(void **state)
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "beam",
-            make_supported(make_bar(SHAPE_BEAM, ALUMINIUM, RADIUS, LENGTH), SUPPORT_FREE,
+            make_supported(make_bar(&beam_kind, ALUMINIUM, RADIUS, LENGTH), SUPPORT_FREE,
                            SUPPORT_PINNED));
     struct solve_request request =
         strike(sphere_spot("ball", 0.015), side_spot("beam", X, RADIUS, 0.0), 0.2);
@@ -95,7 +95,7 @@ static void a_fixed_rod_starts_like_a_free_one(void **state)
     const struct body *ball = lab_add(lab, "ball", make_sphere(STEEL, 0.006));
     for (int fixed = 0; fixed < 2; fixed++) {
         lab_add(lab, "rod",
-                make_supported(make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0),
+                make_supported(make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0),
                                fixed ? SUPPORT_CLAMPED : SUPPORT_FREE, SUPPORT_FREE));
         struct solve_request request =
             strike(sphere_spot("ball", 0.006), end_spot("rod", 1.0), 0.5);
@@ -120,12 +120,12 @@ static void who_cannot_move_cannot_meet(void **state)
     static struct solve_result result;
     struct lab *lab = lab_create();
     struct body tipped =
-        make_supported(make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 0.4), SUPPORT_CLAMPED, SUPPORT_FREE);
+        make_supported(make_bar(&rod_kind, ALUMINIUM, 0.010, 0.4), SUPPORT_CLAMPED, SUPPORT_FREE);
     tipped.tip_radius = 0.02;
     lab_add(lab, "tipped", tipped);
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    lab_add(lab, "wall", make_body(&half_space_kind, STEEL));
     lab_add(lab, "pinned",
-            make_supported(make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0), SUPPORT_PINNED,
+            make_supported(make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0), SUPPORT_PINNED,
                            SUPPORT_PINNED));
     struct solve_request requests[] = {
         strike(end_spot("tipped", 0.4), wall_spot("wall"), 0.3),

@@ -11,9 +11,9 @@ static struct lab *rods(void)
 {
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "rod-1", make_bar(SHAPE_ROD, AL_205, 0.010, 1.0));
-    lab_add(lab, "rod-2", make_bar(SHAPE_ROD, AL_575, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod-1", make_bar(&rod_kind, AL_205, 0.010, 1.0));
+    lab_add(lab, "rod-2", make_bar(&rod_kind, AL_575, 0.010, 1.0));
     lab->means.tables = table_store_source(shipped);
     return lab;
 }
@@ -94,7 +94,7 @@ static void twice_the_size_is_the_same_impact(void **state)
     struct solve_result *small = strike_rod(lab, "rod-1", 0.3, PERCUSS_CONTACT_TABLE);
     double e = small->contacts[0].restitution, impulse = small->contacts[0].impulse;
     lab_add(lab, "big-ball", make_sphere(STEEL, 0.030));
-    lab_add(lab, "big-rod", make_bar(SHAPE_ROD, AL_205, 0.020, 2.0));
+    lab_add(lab, "big-rod", make_bar(&rod_kind, AL_205, 0.020, 2.0));
     struct solve_request request =
         strike(sphere_spot("big-ball", 0.030), end_spot("big-rod", 2.0), 0.3);
     request.options.tolerance = 1e-5;

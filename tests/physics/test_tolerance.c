@@ -27,12 +27,12 @@ static struct solve_request random_scene(struct lab *lab, uint64_t *seed, int in
     struct spot target = end_spot("target", length);
     struct body body = make_sphere(random_material(seed), radius);
     if (index % 4 == 3) {
-        body = make_bar(SHAPE_ROD, body.material, 0.6 * radius, 0.5 * length);
+        body = make_bar(&rod_kind, body.material, 0.6 * radius, 0.5 * length);
         body.tip_radius = radius;
         striker = end_spot("striker", 0.5 * length);
     }
     lab_add(lab, "striker", body);
-    body = make_bar(index % 2 ? SHAPE_BEAM : SHAPE_ROD, random_material(seed), thickness, length);
+    body = make_bar(index % 2 ? &beam_kind : &rod_kind, random_material(seed), thickness, length);
     if (index % 2) {
         double x = random_between(seed, -0.45, 0.45) * length;
         target = side_spot("target", x, thickness, 0.0);

@@ -7,7 +7,7 @@
 /* 300 x 40 x 4 mm of aluminium, a steel ball of 8 mm radius at 0.5 m/s. */
 static struct body strip_body(enum support left, enum support right)
 {
-    struct body strip = make_supported(make_bar(SHAPE_BEAM, ALUMINIUM, 0.0, 0.3), left, right);
+    struct body strip = make_supported(make_bar(&beam_kind, ALUMINIUM, 0.0, 0.3), left, right);
     strip.width = 0.04;
     strip.height = 0.004;
     strip.shear_rule = SHEAR_COWPER; /* Hutchinson's is negative for so wide a section */

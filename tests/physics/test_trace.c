@@ -14,8 +14,8 @@ static struct lab *lab_of_three(void)
 {
     struct lab *lab = lab_create();
     lab_add(lab, "sphere", make_sphere(STEEL, 0.015));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
     return lab;
 }
 
@@ -145,7 +145,7 @@ static void a_rod_a_wall_and_a_ringing_beam(void **state)
     shows_the_reply(&result);
     bodies_meet_while_they_touch(&result, 0, 2e-5);
     /* a wall's point moves with the waves that leave: into it first, and out of it at the end */
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    lab_add(lab, "wall", make_body(&half_space_kind, STEEL));
     request = strike(sphere_spot("sphere", 0.015), wall_spot("wall"), 2.0);
     request.options.trace = true;
     lab_solve(lab, &request, &result);
@@ -231,7 +231,7 @@ static void an_overlap_is_shown_without_end(void **state)
     (void)state;
     static struct solve_result result;
     struct lab *lab = lab_of_three();
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    lab_add(lab, "wall", make_body(&half_space_kind, STEEL));
     uint64_t seed = 20;
     /* a solve takes a millisecond: only a hang lasts so long */
     alarm(120);
@@ -271,7 +271,7 @@ static void histories_have_their_bounds(void **state)
     static struct solve_result result;
     struct lab *lab = lab_of_three();
     struct body beam =
-        make_supported(make_bar(SHAPE_BEAM, ALUMINIUM, 0.001, 0.5), SUPPORT_PINNED, SUPPORT_PINNED);
+        make_supported(make_bar(&beam_kind, ALUMINIUM, 0.001, 0.5), SUPPORT_PINNED, SUPPORT_PINNED);
     double work[2];
     beam.modes = 100;
     lab_add(lab, "light", beam);

@@ -8,13 +8,13 @@
 static struct lab *lab_of_bars(void)
 {
     struct lab *lab = lab_create();
-    struct body tipped = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 0.4);
+    struct body tipped = make_bar(&rod_kind, ALUMINIUM, 0.010, 0.4);
     tipped.tip_radius = 0.015;
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "tipped", tipped);
-    lab_add(lab, "flat", make_bar(SHAPE_ROD, STEEL, 0.010, 0.7));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "steel-beam", make_bar(SHAPE_BEAM, STEEL, 0.012, 0.5));
+    lab_add(lab, "flat", make_bar(&rod_kind, STEEL, 0.010, 0.7));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "steel-beam", make_bar(&beam_kind, STEEL, 0.012, 0.5));
     return lab;
 }
 
@@ -103,11 +103,11 @@ static void equal_rods_are_a_rod_on_a_mirror(void **state)
     (void)state;
     static struct solve_result result;
     struct lab *lab = lab_create();
-    struct body rod = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 0.4);
+    struct body rod = make_bar(&rod_kind, ALUMINIUM, 0.010, 0.4);
     rod.tip_radius = 0.015;
     lab_add(lab, "rod", rod);
     lab_add(lab, "wall",
-            make_body(SHAPE_HALF_SPACE,
+            make_body(&half_space_kind,
                       (struct material){"rigid", 1e13, -1.0 + 1e-12, 1000.0, INFINITY, 0.0}));
     struct solve_request pair = strike(end_spot("rod", 0.4), end_spot("rod", 0.4), 0.6);
     struct solve_request mirror = strike(end_spot("rod", 0.4), wall_spot("wall"), 0.3);
@@ -153,10 +153,10 @@ static void a_roll_does_not_decide_a_long_sequence(void **state)
     (void)state;
     static struct solve_result result;
     struct lab *lab = lab_create();
-    struct body rod = make_bar(SHAPE_ROD, ALUMINIUM, 0.0116339, 0.996043);
+    struct body rod = make_bar(&rod_kind, ALUMINIUM, 0.0116339, 0.996043);
     rod.tip_radius = 0.0324624;
     lab_add(lab, "rod", rod);
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.00777971, 1.11376));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.00777971, 1.11376));
     double e = NAN;
     for (double about = 0.0; about < 3.2; about += 0.25 * M_PI) {
         struct spot side = side_spot("beam", -0.530729, 0.00777971, about);

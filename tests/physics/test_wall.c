@@ -18,7 +18,7 @@ static struct lab *wall_lab(struct material ball, struct material wall)
 {
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(ball, 0.015));
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, wall));
+    lab_add(lab, "wall", make_body(&half_space_kind, wall));
     return lab;
 }
 

@@ -69,7 +69,7 @@ const struct body *scene_beam(struct lab *lab, uint64_t *r, const char *id)
 {
     double radius = scene_log(r, 0.001, 0.02);
     struct body beam =
-        make_bar(SHAPE_BEAM, scene_material(r), radius, radius * scene_log(r, 20.0, 200.0));
+        make_bar(&beam_kind, scene_material(r), radius, radius * scene_log(r, 20.0, 200.0));
     beam.theory = scene_pick(r, 4) ? THEORY_TIMOSHENKO : THEORY_EULER_BERNOULLI;
     beam.damping = draw_damping(r);
     for (int end = 0; end < 2; end++)
@@ -93,7 +93,7 @@ static void say_beam(struct scene_drawn *scene, const struct body *beam)
     static const char *const ends[] = {"free", "pinned", "clamped"};
     scene_say(scene, "%s %s-%s %s r %.4g mm L %.4g m zeta %.2g", beam->material.name,
               ends[beam->supports[0]], ends[beam->supports[1]],
-              beam->shape == SHAPE_ROD                 ? "rod"
+              beam->kind == &rod_kind                  ? "rod"
               : beam->theory == THEORY_EULER_BERNOULLI ? "Euler beam"
                                                        : "beam",
               1e3 * beam->radius, beam->length, beam->damping);
@@ -109,7 +109,7 @@ static void draw_single(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
     const struct body *bar;
     if (rod) {
         struct body body =
-            make_bar(SHAPE_ROD, scene_material(r), radius, radius * scene_log(r, 5.0, 300.0));
+            make_bar(&rod_kind, scene_material(r), radius, radius * scene_log(r, 5.0, 300.0));
         body.damping = draw_damping(r);
         body.lateral_inertia = scene_pick(r, 4) == 0;
         body.supports[0] = scene_pick(r, 3) ? SUPPORT_FREE : SUPPORT_CLAMPED;

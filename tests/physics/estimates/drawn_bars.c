@@ -16,7 +16,7 @@ static const struct body *tipped_rod(struct lab *lab, uint64_t *r, const char *i
 {
     double radius = scene_log(r, 0.003, 0.02);
     struct body rod =
-        make_bar(SHAPE_ROD, scene_material(r), radius, radius * scene_log(r, 8.0, 200.0));
+        make_bar(&rod_kind, scene_material(r), radius, radius * scene_log(r, 8.0, 200.0));
     rod.tip_radius = radius * scene_log(r, 1.05, 4.0);
     rod.damping = scene_pick(r, 3) ? 0.0 : scene_log(r, 1e-4, 0.05);
     return lab_add(lab, id, rod);
@@ -38,7 +38,7 @@ bool scene_draw_ringing(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
     static struct solve_result first;
     bool both = scene_pick(r, 4) == 0;
     const struct body *bar = scene_pick(r, 4) ? scene_beam(lab, r, "b") : tipped_rod(lab, r, "b");
-    bool beam = bar->shape == SHAPE_BEAM;
+    bool beam = bar->kind == &beam_kind;
     double size = bar->radius, length = bar->length;
     struct spot striker = draw_striker(lab, r, size, both);
     double speed = scene_log(r, 0.03, 1.0);
@@ -68,7 +68,7 @@ bool scene_draw_ringing(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
 
 static const struct body *rectangular_bar(struct lab *lab, uint64_t *r, const char *id)
 {
-    struct body bar = make_bar(SHAPE_BEAM, scene_material(r), 0.0, 0.0);
+    struct body bar = make_bar(&beam_kind, scene_material(r), 0.0, 0.0);
     bar.height = scene_log(r, 0.002, 0.03);
     bar.width = bar.height * scene_log(r, 0.3, 10.0);
     bar.length = fmax(bar.height, bar.width) * scene_log(r, 6.0, 60.0);

@@ -68,7 +68,7 @@ static void draw_once(struct lab *lab, enum plastic_class class, uint64_t *r,
     bool soft_ball = class == PLASTIC_BALL;
     scene->radius = sphere;
     lab_add(lab, "ball", make_sphere(soft_ball ? metal : other, sphere));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, soft_ball ? other : metal, ratio * sphere, length));
+    lab_add(lab, "rod", make_bar(&rod_kind, soft_ball ? other : metal, ratio * sphere, length));
     scene->request = strike(sphere_spot("ball", sphere), end_spot("rod", length), speed);
     snprintf(scene->text, sizeof scene->text,
              "R %.3g mm, rod %.3g mm x %.3g m, %.3g m/s, metal %.3g GPa/%.2f/%.0f %.3g MPa tangent "

@@ -102,8 +102,8 @@ static void references_settle_to_known_numbers(void **state)
     struct truth_settings settings = {.goal = 1e-6, .effort = 1e8, .modes = 40};
     assert_non_null(room);
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     struct solve_request request = strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), 0.3);
     assert_true(truth_find(room, &lab->set, &request, &settings, &truth));
     assert_true(truth.spread <= 1e-6);
@@ -130,7 +130,7 @@ static void broken_answers_are_seen(void **state)
     static struct solve_result result;
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     struct solve_request request =
         strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.2);
     lab_solve(lab, &request, &result);

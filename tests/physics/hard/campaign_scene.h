@@ -55,7 +55,7 @@ static inline struct spot draw_rod(struct lab *lab, uint64_t *r, const char *id,
                                    bool tipped)
 {
     double length = radius * log_between(r, 5.0, 300.0);
-    struct body rod = make_bar(SHAPE_ROD, draw_material(r), radius, length);
+    struct body rod = make_bar(&rod_kind, draw_material(r), radius, length);
     rod.tip_radius = tipped ? radius * log_between(r, 1.01, 10.0) : INFINITY;
     rod.damping = draw_damping(r);
     rod.lateral_inertia = pick(r, 4) == 0;
@@ -68,7 +68,7 @@ static inline struct spot draw_rod(struct lab *lab, uint64_t *r, const char *id,
 static inline struct spot draw_beam(struct lab *lab, uint64_t *r, const char *id, double radius)
 {
     double length = radius * log_between(r, 8.0, 300.0);
-    struct body beam = make_bar(SHAPE_BEAM, draw_material(r), radius, length);
+    struct body beam = make_bar(&beam_kind, draw_material(r), radius, length);
     bool round = pick(r, 3) > 0;
     if (!round) {
         beam.radius = 0.0;
@@ -93,17 +93,17 @@ static inline struct spot draw_beam(struct lab *lab, uint64_t *r, const char *id
 static inline struct spot draw_compact(struct lab *lab, uint64_t *r, const char *id, double radius)
 {
     int kind = pick(r, 4);
-    struct body body = make_body(SHAPE_HALF_SPACE, draw_material(r));
+    struct body body = make_body(&half_space_kind, draw_material(r));
     struct spot spot = wall_spot(id);
     if (kind == 0) {
         body = make_sphere(draw_material(r), radius);
         spot = sphere_spot(id, radius);
     } else if (kind == 1) {
-        body = make_bar(SHAPE_CYLINDER, draw_material(r), radius, 3.0 * radius);
+        body = make_bar(&cylinder_kind, draw_material(r), radius, 3.0 * radius);
         spot = side_spot(id, radius * random_between(r, -1.0, 1.0), radius, 0.0);
         spot.roll = random_between(r, 0.0, 3.14);
     } else if (kind == 2) {
-        body = make_body(SHAPE_BLOCK, draw_material(r));
+        body = make_body(&block_kind, draw_material(r));
         for (int i = 0; i < 3; i++)
             body.size[i] = radius * random_between(r, 1.0, 4.0);
         spot = (struct spot){id, {0.0, 0.0, 0.5 * body.size[2]}, {0.0, 0.0, 1.0}, 0.0};
@@ -154,7 +154,7 @@ static inline void draw_pair(struct lab *lab, uint64_t *r, struct drawn *drawn)
     drawn->passive = true;
     draw_motion(r, drawn, speed, fmin(radius, other));
     snprintf(drawn->text, sizeof drawn->text, "%s R=%.3g on %s R=%.3g L=%.3g zeta=%.2g v=%.3g",
-             shape_name(lab->bodies[0].shape), radius, shape_name(lab->bodies[1].shape), other,
+             lab->bodies[0].kind->name, radius, lab->bodies[1].kind->name, other,
              lab->bodies[1].length, lab->bodies[1].damping, speed);
 }
 
@@ -195,7 +195,7 @@ static inline void draw_landing(struct lab *lab, uint64_t *r, struct drawn *draw
     size_t count = 2 + (size_t)pick(r, 3);
     double radius = log_between(r, 0.003, 0.02);
     double length = radius * log_between(r, 20.0, 150.0);
-    struct body beam = make_bar(SHAPE_BEAM, draw_material(r), radius, length);
+    struct body beam = make_bar(&beam_kind, draw_material(r), radius, length);
     beam.damping = draw_damping(r);
     draw_supports(r, &beam);
     memset(request, 0, sizeof *request);

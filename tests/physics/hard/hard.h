@@ -59,11 +59,11 @@ static inline void assert_cut(const struct solve_result *result, enum percuss_en
 static inline struct lab *paper_lab(double damping)
 {
     struct lab *lab = lab_create();
-    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct body beam = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
     beam.damping = damping;
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "beam", beam);
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
     lab_add(lab, "wall", rigid_wall());
     return lab;
 }

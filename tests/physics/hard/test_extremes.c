@@ -115,7 +115,7 @@ static void every_number_of_a_body(void **state)
 {
     (void)state;
     struct body ball = make_sphere(STEEL, 0.015);
-    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct body beam = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
     const struct {
         const char *name;
         double *value;
@@ -154,7 +154,7 @@ static void the_bounds_of_the_catalogue(void **state)
         struct material stuff = {"stuff", youngs[i >> 1 & 1], 0.3, densities[i >> 2 & 1], INFINITY,
                                  0.0};
         lab_add(lab, "ball", make_sphere(stuff, radius));
-        lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, stuff));
+        lab_add(lab, "wall", make_body(&half_space_kind, stuff));
         struct solve_request request = strike(sphere_spot("ball", radius), wall_spot("wall"), 1e-3);
         request.options.horizon = 1e9;
         hard_solve(lab, &request, &result);

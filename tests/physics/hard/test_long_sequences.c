@@ -15,7 +15,7 @@ static struct lab *lab_of_heavy_ball(enum support left, enum support right)
 {
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, ball_radius));
-    lab_add(lab, "beam", make_supported(make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0), left, right));
+    lab_add(lab, "beam", make_supported(make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0), left, right));
     return lab;
 }
 

@@ -94,7 +94,7 @@ static void dozens_of_sub_impacts(void **state)
     static struct solve_result result;
     struct lab *lab = paper_lab(0.0);
     struct body beam =
-        make_supported(make_bar(SHAPE_BEAM, ALUMINIUM, 0.001, 0.5), SUPPORT_PINNED, SUPPORT_PINNED);
+        make_supported(make_bar(&beam_kind, ALUMINIUM, 0.001, 0.5), SUPPORT_PINNED, SUPPORT_PINNED);
     beam.modes = 12;
     lab_add(lab, "beam", beam);
     struct solve_request request =

@@ -94,7 +94,7 @@ static void five_thousand_modes(void **state)
     (void)state;
     static struct solve_result result;
     struct lab *lab = paper_lab(0.0);
-    struct body rod = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0);
+    struct body rod = make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0);
     struct solve_request request = on_rod(0.3);
     request.options.tolerance = 1e-6;
     lab_solve(lab, &request, &result);

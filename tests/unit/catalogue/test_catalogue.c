@@ -39,7 +39,7 @@ static void loads_the_shipped_bodies(void **state)
     assert_int_equal(set->compliance, PERCUSS_COMPLIANCE_MATCHED);
 
     const struct body *sphere = get(set, "steel-sphere");
-    assert_int_equal(sphere->shape, SHAPE_SPHERE);
+    assert_ptr_equal(sphere->kind, &sphere_kind);
     is_read_as(sphere->mass, 4.0 / 3.0 * pi * 0.015 * 0.015 * 0.015 * 7800.0);
     is_read_as(sphere->material.young, 210e9);
 

@@ -20,12 +20,12 @@ static void described(const struct body *body, const char *shape, const char *de
     assert_true(wire.mass == body->mass);
     for (int i = 0; i < 3; i++)
         assert_true(wire.half_extents[i] == half_extents[i]);
-    bool is_rod = body->shape == SHAPE_ROD;
+    bool is_rod = body->kind == &rod_kind;
     assert_true(wire.tip_radius == (is_rod ? body->tip_radius : 0.0));
     assert_true(wire.radius == body->radius);
     assert_int_equal(wire.supports[1], body->supports[1]);
     assert_true(wire.parameters[PERCUSS_PARAMETER_YOUNG] == 7.0);
-    bool flexible = is_rod || body->shape == SHAPE_BEAM;
+    bool flexible = is_rod || body->kind == &beam_kind;
     assert_int_equal(isnan(wire.parameters[PERCUSS_PARAMETER_DAMPING]), !flexible);
     assert_int_equal(isnan(wire.parameters[PERCUSS_PARAMETER_RADIUS]), body->radius == 0.0);
 }
@@ -35,13 +35,13 @@ static void described(const struct body *body, const char *shape, const char *de
 static void describes_every_shape(void **state)
 {
     (void)state;
-    struct body sphere = {COMMON, .shape = SHAPE_SPHERE, .radius = 0.5};
+    struct body sphere = {COMMON, .kind = &sphere_kind, .radius = 0.5};
     described(&sphere, "sphere", "radius 0.5 m", (double[]){0.5, 0.5, 0.5});
-    struct body cylinder = {COMMON, .shape = SHAPE_CYLINDER, .radius = 0.5, .length = 4.0};
+    struct body cylinder = {COMMON, .kind = &cylinder_kind, .radius = 0.5, .length = 4.0};
     described(&cylinder, "cylinder", "length 4 m, radius 0.5 m", (double[]){2.0, 0.5, 0.5});
-    struct body block = {COMMON, .shape = SHAPE_BLOCK, .size = {1.0, 2.0, 4.0}};
+    struct body block = {COMMON, .kind = &block_kind, .size = {1.0, 2.0, 4.0}};
     described(&block, "block", "1 m x 2 m x 4 m", (double[]){0.5, 1.0, 2.0});
-    struct body ground = {COMMON, .shape = SHAPE_HALF_SPACE};
+    struct body ground = {COMMON, .kind = &half_space_kind};
     described(&ground, "half-space", "fills z <= 0, immovable", (double[]){0.0, 0.0, 0.0});
 }
 
@@ -49,7 +49,7 @@ static void describes_rods_and_beams(void **state)
 {
     (void)state;
     struct body rod = {COMMON,
-                       .shape = SHAPE_ROD,
+                       .kind = &rod_kind,
                        .radius = 0.5,
                        .length = 4.0,
                        .tip_radius = INFINITY,
@@ -62,7 +62,7 @@ static void describes_rods_and_beams(void **state)
               "damping ratio 0.01, 12 modes",
               (double[]){2.0, 0.5, 0.5});
     struct body beam = {COMMON,
-                        .shape = SHAPE_BEAM,
+                        .kind = &beam_kind,
                         .width = 1.0,
                         .height = 2.0,
                         .length = 4.0,

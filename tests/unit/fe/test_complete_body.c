@@ -24,11 +24,11 @@ static void keeps_size_mass_and_material(void **unused)
 {
     (void)unused;
     const struct body bodies[] = {
-        made((struct body){.shape = SHAPE_SPHERE, .radius = 0.02}),
+        made((struct body){.kind = &sphere_kind, .radius = 0.02}),
         made((struct body){
-            .shape = SHAPE_ROD, .radius = 0.01, .length = 0.5, .tip_radius = INFINITY}),
-        made((struct body){.shape = SHAPE_CYLINDER, .radius = 0.03, .length = 0.05}),
-        made((struct body){.shape = SHAPE_BLOCK, .size = {0.1, 0.2, 0.3}}),
+            .kind = &rod_kind, .radius = 0.01, .length = 0.5, .tip_radius = INFINITY}),
+        made((struct body){.kind = &cylinder_kind, .radius = 0.03, .length = 0.05}),
+        made((struct body){.kind = &block_kind, .size = {0.1, 0.2, 0.3}}),
     };
     for (size_t i = 0; i < sizeof bodies / sizeof *bodies; i++) {
         struct complete_body complete;
@@ -49,21 +49,21 @@ static void refuses_what_it_cannot_mesh(void **unused)
         struct body body;
         const char *message;
     } cases[] = {
-        {made((struct body){.shape = SHAPE_ROD, .radius = 0.01, .length = 0.5, .tip_radius = 0.02}),
+        {made((struct body){.kind = &rod_kind, .radius = 0.01, .length = 0.5, .tip_radius = 0.02}),
          "tip_radius: 0.02"},
-        {made((struct body){.shape = SHAPE_ROD,
+        {made((struct body){.kind = &rod_kind,
                             .radius = 0.01,
                             .length = 0.5,
                             .tip_radius = INFINITY,
                             .supports = {SUPPORT_FREE, SUPPORT_CLAMPED}}),
          "supports"},
-        {made((struct body){.shape = SHAPE_ROD,
+        {made((struct body){.kind = &rod_kind,
                             .radius = 0.01,
                             .length = 0.5,
                             .tip_radius = INFINITY,
                             .damping = 0.01}),
          "damping: 0.01"},
-        {made((struct body){.shape = SHAPE_HALF_SPACE}), "half-space"},
+        {made((struct body){.kind = &half_space_kind}), "half-space"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct complete_body complete;

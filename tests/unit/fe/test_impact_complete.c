@@ -110,7 +110,7 @@ static double wave_restitution(double mass, double k, double impedance, double s
 
 static double matched(const struct complete_body *body, double patch)
 {
-    struct body real = {.shape = body->shape == COMPLETE_SPHERE ? SHAPE_SPHERE : SHAPE_ROD,
+    struct body real = {.kind = body->shape == COMPLETE_SPHERE ? &sphere_kind : &rod_kind,
                         .material = body->material,
                         .radius = body->radius,
                         .length = body->length,

@@ -186,7 +186,7 @@ static void knows_its_shapes(void **state)
 {
     (void)state;
     double compliance;
-    struct body body = {.shape = SHAPE_ROD,
+    struct body body = {.kind = &rod_kind,
                         .material = {"al", 70e9, 0.33, 2700.0, INFINITY, 0.0},
                         .radius = 0.010,
                         .length = 1.0,
@@ -195,14 +195,14 @@ static void knows_its_shapes(void **state)
     near(compliance * 70e9 * 0.010, -0.5876, 2e-3);
     body.tip_radius = 0.02;
     assert_false(matched_compliance(&body, 3e-4, &compliance));
-    body.shape = SHAPE_SPHERE;
+    body.kind = &sphere_kind;
     assert_true(matched_compliance(&body, 3e-4, &compliance));
     near(compliance * 70e9 * 0.010, matched_sphere(0.33, 0.03), 1e-12);
-    body.shape = SHAPE_CYLINDER;
+    body.kind = &cylinder_kind;
     assert_true(matched_compliance(&body, 3e-4, &compliance));
-    body.shape = SHAPE_HALF_SPACE;
+    body.kind = &half_space_kind;
     assert_true(matched_compliance(&body, 3e-4, &compliance) && compliance == 0.0);
-    body.shape = SHAPE_BEAM;
+    body.kind = &beam_kind;
     assert_false(matched_compliance(&body, 3e-4, &compliance));
 }
 

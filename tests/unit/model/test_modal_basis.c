@@ -6,12 +6,12 @@
 #include "check.h"
 #include "model/modal_basis.h"
 
-static struct body bar(enum shape shape, enum support left, enum support right)
+static struct body bar(const struct body_kind *kind, enum support left, enum support right)
 {
     struct body body = {
         .id = "bar",
         .material = {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0},
-        .shape = shape,
+        .kind = kind,
         .radius = 0.01,
         .length = 1.0,
         .tip_radius = INFINITY,
@@ -29,9 +29,9 @@ static struct site site(enum site_face face, double x, double y, double z)
 static void loads_drive_what_they_should(void **state)
 {
     (void)state;
-    const struct body rod = bar(SHAPE_ROD, SUPPORT_FREE, SUPPORT_FREE);
-    const struct body beam = bar(SHAPE_BEAM, SUPPORT_FREE, SUPPORT_FREE);
-    const struct body ball = {.shape = SHAPE_SPHERE, .radius = 1.0};
+    const struct body rod = bar(&rod_kind, SUPPORT_FREE, SUPPORT_FREE);
+    const struct body beam = bar(&beam_kind, SUPPORT_FREE, SUPPORT_FREE);
+    const struct body ball = {.kind = &sphere_kind, .radius = 1.0};
     struct site end = site(SITE_END, 0.5, 0.0, 0.0), side = site(SITE_BEAM_SIDE, 0.2, 0.0, 0.01);
     struct site beside = site(SITE_END, -0.5, 0.003, 0.0);
     const double along[3] = {-1.0, 0.0, 0.0}, down[3] = {0.0, 0.0, -1.0};
@@ -64,7 +64,7 @@ static void rods_have_closed_forms(void **state)
     (void)state;
     double c = sqrt(70e9 / 2700.0);
     for (int held = 0; held < 2; held++) {
-        struct body rod = bar(SHAPE_ROD, held ? SUPPORT_CLAMPED : SUPPORT_FREE, SUPPORT_FREE);
+        struct body rod = bar(&rod_kind, held ? SUPPORT_CLAMPED : SUPPORT_FREE, SUPPORT_FREE);
         struct modal_family *modes = modal_family_create(&rod, FAMILY_AXIAL, 50);
         struct site_load right = {.acts = {true}, .axial = 1.0, .end = 1};
         struct site_load left = {.acts = {true}, .axial = 1.0, .end = 0};
@@ -89,7 +89,7 @@ static void rods_have_closed_forms(void **state)
 static void lateral_inertia_slows_waves(void **state)
 {
     (void)state;
-    struct body rod = bar(SHAPE_ROD, SUPPORT_FREE, SUPPORT_FREE);
+    struct body rod = bar(&rod_kind, SUPPORT_FREE, SUPPORT_FREE);
     rod.lateral_inertia = true;
     struct modal_family *modes = modal_family_create(&rod, FAMILY_AXIAL, 200);
     assert_non_null(modes);
@@ -127,7 +127,7 @@ static void compliances_complete_the_modal_sums(void **state)
                                            {SUPPORT_FREE, SUPPORT_CLAMPED}};
     for (int s = 0; s < 3; s++) {
         for (int love = 0; love < 2; love++) {
-            struct body rod = bar(SHAPE_ROD, ends[s][0], ends[s][1]);
+            struct body rod = bar(&rod_kind, ends[s][0], ends[s][1]);
             rod.lateral_inertia = love;
             int end = ends[s][1] == SUPPORT_FREE;
             struct site_load i = {.acts = {true}, .axial = 0.9, .end = end};
@@ -150,8 +150,8 @@ static void compliances_of_the_notes(void **state)
 {
     (void)state;
     static const double rows[][2] = {{0.0, 5.695448e-6}, {0.31 - 0.5, 2.324630e-6}};
-    const struct body beam = bar(SHAPE_BEAM, SUPPORT_FREE, SUPPORT_FREE);
-    const struct body rod = bar(SHAPE_ROD, SUPPORT_FREE, SUPPORT_FREE);
+    const struct body beam = bar(&beam_kind, SUPPORT_FREE, SUPPORT_FREE);
+    const struct body rod = bar(&rod_kind, SUPPORT_FREE, SUPPORT_FREE);
     for (int i = 0; i < 2; i++) {
         struct site_load load = {.acts = {false, false, true},
                                  .bending = {{0}, {.x = rows[i][0], .force = 1.0}}};
@@ -167,7 +167,7 @@ static void compliances_of_the_notes(void **state)
 static void planes_and_parities(void **state)
 {
     (void)state;
-    struct body flat = bar(SHAPE_BEAM, SUPPORT_FREE, SUPPORT_FREE);
+    struct body flat = bar(&beam_kind, SUPPORT_FREE, SUPPORT_FREE);
     flat.radius = 0.0;
     flat.width = 0.04;
     flat.height = 0.01;

@@ -12,7 +12,7 @@ static struct body beam(enum support left, enum support right)
     struct body body = {
         .id = "beam",
         .material = {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0},
-        .shape = SHAPE_BEAM,
+        .kind = &beam_kind,
         .width = 0.02,
         .height = 0.05,
         .length = 0.4,
@@ -87,7 +87,7 @@ static void held_bodies_do_not_move(void **state)
         if (i == 5) {
             body = (struct body){.id = "wall",
                                  .material = {"steel", 210e9, 0.3, 7800.0, INFINITY, 0.0},
-                                 .shape = SHAPE_HALF_SPACE,
+                                 .kind = &half_space_kind,
                                  .tip_radius = INFINITY};
             assert_int_equal(body_complete(&body, NULL), PERCUSS_OK);
         }

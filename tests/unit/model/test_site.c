@@ -9,12 +9,12 @@
 #include "model/site.h"
 #include "model/vector.h"
 
-static struct body make(enum shape shape)
+static struct body make(const struct body_kind *kind)
 {
     struct body body = {
         .id = "thing",
         .material = {"steel", 210e9, 0.3, 7800.0, INFINITY, 0.0},
-        .shape = shape,
+        .kind = kind,
         .radius = 0.01,
         .length = 0.2,
         .tip_radius = INFINITY,
@@ -25,7 +25,7 @@ static struct body make(enum shape shape)
 
 static struct body flat_beam(void)
 {
-    struct body body = make(SHAPE_BEAM);
+    struct body body = make(&beam_kind);
     body.radius = 0.0;
     body.width = 0.03;
     body.height = 0.01;
@@ -34,7 +34,7 @@ static struct body flat_beam(void)
 
 static struct body tipped_rod(void)
 {
-    struct body body = make(SHAPE_ROD);
+    struct body body = make(&rod_kind);
     body.tip_radius = 0.025;
     return body;
 }
@@ -78,21 +78,21 @@ static void every_shape_has_its_faces(void **state)
         enum site_face face;
         double bends[3]; /* curvature along x, y, z */
     } cases[] = {
-        {make(SHAPE_SPHERE), {0, 0, 0.01}, {0, 0, 1}, SITE_ROUND, {100, 100, 0}},
-        {make(SHAPE_SPHERE), {-0.01, 0, 0}, {-1, 0, 0}, SITE_ROUND, {0, 100, 100}},
-        {make(SHAPE_ROD), {0.1, 0, 0}, {1, 0, 0}, SITE_END, {0, 0, 0}},
+        {make(&sphere_kind), {0, 0, 0.01}, {0, 0, 1}, SITE_ROUND, {100, 100, 0}},
+        {make(&sphere_kind), {-0.01, 0, 0}, {-1, 0, 0}, SITE_ROUND, {0, 100, 100}},
+        {make(&rod_kind), {0.1, 0, 0}, {1, 0, 0}, SITE_END, {0, 0, 0}},
         {tipped_rod(), {-0.1, 0, 0}, {-1, 0, 0}, SITE_END, {0, 40, 40}},
-        {make(SHAPE_BEAM), {0.05, 0, 0.01}, {0, 0, 1}, SITE_BEAM_SIDE, {0, 100, 0}},
-        {make(SHAPE_BEAM), {0.05, -0.01, 0}, {0, -1, 0}, SITE_BEAM_SIDE, {0, 0, 100}},
-        {make(SHAPE_BEAM), {-0.1, 0.005, 0}, {-1, 0, 0}, SITE_END, {0, 0, 0}},
+        {make(&beam_kind), {0.05, 0, 0.01}, {0, 0, 1}, SITE_BEAM_SIDE, {0, 100, 0}},
+        {make(&beam_kind), {0.05, -0.01, 0}, {0, -1, 0}, SITE_BEAM_SIDE, {0, 0, 100}},
+        {make(&beam_kind), {-0.1, 0.005, 0}, {-1, 0, 0}, SITE_END, {0, 0, 0}},
         {flat_beam(), {-0.05, 0.01, 0.005}, {0, 0, 1}, SITE_BEAM_SIDE, {0, 0, 0}},
         {flat_beam(), {-0.05, 0.015, 0.001}, {0, 1, 0}, SITE_BEAM_SIDE, {0, 0, 0}},
         {flat_beam(), {0.1, 0.01, -0.002}, {1, 0, 0}, SITE_END, {0, 0, 0}},
-        {make(SHAPE_CYLINDER), {0.02, 0, -0.01}, {0, 0, -1}, SITE_ROUND, {0, 100, 0}},
-        {make(SHAPE_CYLINDER), {0.1, 0.002, 0}, {1, 0, 0}, SITE_END, {0, 0, 0}},
-        {make(SHAPE_BLOCK), {0.05, 0.01, -0.01}, {1, 0, 0}, SITE_ROUND, {0, 0, 0}},
-        {make(SHAPE_BLOCK), {0.02, 0.01, -0.02}, {0, 0, -1}, SITE_ROUND, {0, 0, 0}},
-        {make(SHAPE_HALF_SPACE), {3, -7, 0}, {0, 0, 1}, SITE_ROUND, {0, 0, 0}},
+        {make(&cylinder_kind), {0.02, 0, -0.01}, {0, 0, -1}, SITE_ROUND, {0, 100, 0}},
+        {make(&cylinder_kind), {0.1, 0.002, 0}, {1, 0, 0}, SITE_END, {0, 0, 0}},
+        {make(&block_kind), {0.05, 0.01, -0.01}, {1, 0, 0}, SITE_ROUND, {0, 0, 0}},
+        {make(&block_kind), {0.02, 0.01, -0.02}, {0, 0, -1}, SITE_ROUND, {0, 0, 0}},
+        {make(&half_space_kind), {3, -7, 0}, {0, 0, 1}, SITE_ROUND, {0, 0, 0}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct body body = cases[i].body;
@@ -117,7 +117,7 @@ static void round_faces_turn_with_the_point(void **state)
     (void)state;
     for (double angle = 0.1; angle < 6.3; angle += 0.7) {
         double c = cos(angle), s = sin(angle);
-        struct body body = make(SHAPE_BEAM);
+        struct body body = make(&beam_kind);
         struct site site;
         struct fault fault = {""};
         /* 0.4 mm outside */
@@ -128,7 +128,7 @@ static void round_faces_turn_with_the_point(void **state)
         near(bend(&site, 0.0, -s, c), 100.0, 1e-9);
         near(bend(&site, 1.0, 0.0, 0.0), 0.0, 1e-9);
         near(bend(&site, 0.0, c, s), 0.0, 1e-9);
-        struct body ball = make(SHAPE_SPHERE);
+        struct body ball = make(&sphere_kind);
         const double inside[3] = {0.0093 * c, 0.0, 0.0093 * s};
         assert_int_equal(locate(&ball, inside, (double[]){c, 0.0, s}, &site, &fault), PERCUSS_OK);
         near(site.distance, -0.0007, 1e-14);
@@ -156,26 +156,26 @@ static void refuses_with_words(void **state)
     static const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1}, down[3] = {0, 0, -1};
     const double tilted[3] = {0.0, sin(0.12), cos(0.12)}; /* 6.9 degrees */
     const double edge[3] = {M_SQRT1_2, 0.0, M_SQRT1_2};   /* 45 degrees */
-    struct body held = make(SHAPE_BEAM);
+    struct body held = make(&beam_kind);
     held.supports[1] = SUPPORT_PINNED;
-    refuse(make(SHAPE_SPHERE), 0, 0, 0.0115, z, PERCUSS_BAD_REQUEST,
+    refuse(make(&sphere_kind), 0, 0, 0.0115, z, PERCUSS_BAD_REQUEST,
            "contacts[2].point: lies 0.0015 m off the surface");
-    refuse(make(SHAPE_SPHERE), 0, 0, 0, z, PERCUSS_BAD_REQUEST, "contacts[2].point: lies 0.01 m");
-    refuse(make(SHAPE_BEAM), 0.15, 0, 0.01, z, PERCUSS_BAD_REQUEST, "off the surface");
-    refuse(make(SHAPE_SPHERE), 0, 0, 0.01, down, PERCUSS_BAD_REQUEST,
+    refuse(make(&sphere_kind), 0, 0, 0, z, PERCUSS_BAD_REQUEST, "contacts[2].point: lies 0.01 m");
+    refuse(make(&beam_kind), 0.15, 0, 0.01, z, PERCUSS_BAD_REQUEST, "off the surface");
+    refuse(make(&sphere_kind), 0, 0, 0.01, down, PERCUSS_BAD_REQUEST,
            "contacts[2].normal: points from a to b");
-    refuse(make(SHAPE_SPHERE), 0, 0, 0.01, tilted, PERCUSS_BAD_REQUEST, "6.88 degrees off");
-    refuse(make(SHAPE_BEAM), 0.05, 0, 0.01, x, PERCUSS_BAD_REQUEST, "90 degrees off");
-    refuse(make(SHAPE_BEAM), 0.1, 0, 0.01, edge, PERCUSS_UNSUPPORTED_GEOMETRY, "on an edge");
-    refuse(make(SHAPE_BLOCK), 0.05, 0, 0.02, edge, PERCUSS_UNSUPPORTED_GEOMETRY, "on an edge");
-    refuse(make(SHAPE_BEAM), 0.1005, 0, 0.01, z, PERCUSS_UNSUPPORTED_GEOMETRY,
+    refuse(make(&sphere_kind), 0, 0, 0.01, tilted, PERCUSS_BAD_REQUEST, "6.88 degrees off");
+    refuse(make(&beam_kind), 0.05, 0, 0.01, x, PERCUSS_BAD_REQUEST, "90 degrees off");
+    refuse(make(&beam_kind), 0.1, 0, 0.01, edge, PERCUSS_UNSUPPORTED_GEOMETRY, "on an edge");
+    refuse(make(&block_kind), 0.05, 0, 0.02, edge, PERCUSS_UNSUPPORTED_GEOMETRY, "on an edge");
+    refuse(make(&beam_kind), 0.1005, 0, 0.01, z, PERCUSS_UNSUPPORTED_GEOMETRY,
            "beyond the edge of the face");
-    refuse(make(SHAPE_ROD), 0.02, 0, 0.01, z, PERCUSS_UNSUPPORTED_GEOMETRY,
+    refuse(make(&rod_kind), 0.02, 0, 0.01, z, PERCUSS_UNSUPPORTED_GEOMETRY,
            "a rod has longitudinal waves only: declare it as shape: beam");
-    refuse(make(SHAPE_ROD), 0.1, 0.002, 0, x, PERCUSS_UNSUPPORTED_GEOMETRY,
+    refuse(make(&rod_kind), 0.1, 0.002, 0, x, PERCUSS_UNSUPPORTED_GEOMETRY,
            "beside the axis bends it");
     refuse(held, 0.1, 0, 0, x, PERCUSS_UNSUPPORTED_GEOMETRY, "held by a support");
-    refuse(make(SHAPE_HALF_SPACE), 0, 0, 0.002, z, PERCUSS_BAD_REQUEST, "0.002 m off");
+    refuse(make(&half_space_kind), 0, 0, 0.002, z, PERCUSS_BAD_REQUEST, "0.002 m off");
 }
 
 static void what_is_just_allowed(void **state)
@@ -183,7 +183,7 @@ static void what_is_just_allowed(void **state)
     (void)state;
     struct site site;
     struct fault fault = {""};
-    struct body ball = make(SHAPE_SPHERE), beam = make(SHAPE_BEAM), rod = make(SHAPE_ROD);
+    struct body ball = make(&sphere_kind), beam = make(&beam_kind), rod = make(&rod_kind);
     const double tilted[3] = {0.0, sin(0.087), cos(0.087)}; /* 4.98 degrees */
     const double up[3] = {0, 0, 1}, along[3] = {1, 0, 0};
     assert_int_equal(locate(&ball, (double[]){0, 0, 0.01099}, up, &site, &fault), PERCUSS_OK);
@@ -205,7 +205,7 @@ static void relative_curvatures_of_crossed_cylinders(void **state)
 {
     (void)state;
     for (double angle = 0.0; angle < 1.6; angle += 0.2) {
-        struct body thick = make(SHAPE_CYLINDER), thin = make(SHAPE_CYLINDER);
+        struct body thick = make(&cylinder_kind), thin = make(&cylinder_kind);
         struct site a, b;
         struct fault fault = {""};
         struct pose upper = {.position = {0.0, 0.0, 0.03}}, lower = {.position = {0.0, 0.0, -0.01}};

@@ -12,7 +12,7 @@ static struct body strip(double width, double height, enum support left, enum su
     struct body body = {
         .id = "strip",
         .material = {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0},
-        .shape = SHAPE_BEAM,
+        .kind = &beam_kind,
         .theory = THEORY_EULER_BERNOULLI,
         .width = width,
         .height = height,
@@ -166,7 +166,7 @@ static void blows_beside_the_axis_twist(void **state)
     assert_true(load.acts[FAMILY_TORSION] && load.acts[FAMILY_BENDING_Z]);
     near(load.torque, -0.005, 1e-18);
     assert_false(beside(&body, 0.05, 0.0).acts[FAMILY_TORSION]);
-    struct body round = {.id = "round", .material = body.material, .shape = SHAPE_BEAM};
+    struct body round = {.id = "round", .material = body.material, .kind = &beam_kind};
     round.radius = 0.01;
     round.length = 0.3;
     assert_int_equal(body_complete(&round, NULL), PERCUSS_OK);

@@ -24,8 +24,8 @@ static struct bench *bench_create(void)
     bench->cache = prepared_cache_create();
     assert_non_null(bench->cache);
     lab_add(bench->lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(bench->lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
-    lab_add(bench->lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
+    lab_add(bench->lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(bench->lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
     return bench;
 }
 
@@ -124,7 +124,7 @@ static void a_fixed_number_is_that_number(void **state)
 {
     (void)state;
     struct bench *bench = bench_create();
-    struct body beam = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct body beam = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
     struct solve_request request = on_beam(0.1, 0.0);
     beam.modes = 16;
     lab_add(bench->lab, "beam", beam);

@@ -11,12 +11,12 @@ static struct lab *shapes(void)
     struct lab *lab = lab_create();
     struct material soft = ALUMINIUM;
     soft.yield = 205e6;
-    struct body tipped = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0);
+    struct body tipped = make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0);
     tipped.tip_radius = 0.02;
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "soft-ball", make_sphere(soft, 0.015));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     lab_add(lab, "tipped", tipped);
     return lab;
 }

@@ -13,10 +13,10 @@ static struct lab *shapes(void)
     struct material soft = ALUMINIUM;
     soft.yield = 205e6;
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "soft", make_bar(SHAPE_ROD, soft, 0.010, 1.0));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "wall", make_body(&half_space_kind, STEEL));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "soft", make_bar(&rod_kind, soft, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     return lab;
 }
 

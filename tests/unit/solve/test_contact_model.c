@@ -59,10 +59,10 @@ static struct lab *bodies(void)
     struct lab *lab = lab_create();
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "small", make_sphere(STEEL, 0.005));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "rod-1", make_bar(SHAPE_ROD, AL_205, 0.010, 1.0));
-    lab_add(lab, "beam-1", make_bar(SHAPE_BEAM, AL_205, 0.010, 1.0));
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, AL_205));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod-1", make_bar(&rod_kind, AL_205, 0.010, 1.0));
+    lab_add(lab, "beam-1", make_bar(&beam_kind, AL_205, 0.010, 1.0));
+    lab_add(lab, "wall", make_body(&half_space_kind, AL_205));
     return lab;
 }
 

@@ -8,13 +8,13 @@
 static struct lab *shapes(void)
 {
     struct lab *lab = lab_create();
-    struct body block = make_body(SHAPE_BLOCK, STEEL);
+    struct body block = make_body(&block_kind, STEEL);
     memcpy(block.size, (double[]){0.1, 0.06, 0.04}, sizeof block.size);
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "drum", make_bar(SHAPE_CYLINDER, STEEL, 0.02, 0.05));
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "drum", make_bar(&cylinder_kind, STEEL, 0.02, 0.05));
+    lab_add(lab, "wall", make_body(&half_space_kind, STEEL));
     lab_add(lab, "block", block);
     return lab;
 }

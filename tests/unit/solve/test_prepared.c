@@ -8,7 +8,7 @@
 
 static struct body beam(const char *id, double length)
 {
-    struct body body = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, length);
+    struct body body = make_bar(&beam_kind, ALUMINIUM, 0.010, length);
     snprintf(body.id, sizeof body.id, "%s", id);
     assert_int_equal(body_complete(&body, NULL), PERCUSS_OK);
     return body;

@@ -9,20 +9,20 @@ static struct solve_result result;
 static struct lab *shapes(void)
 {
     struct lab *lab = lab_create();
-    struct body love = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0);
-    struct body slim = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct body love = make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0);
+    struct body slim = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
     struct material soft = ALUMINIUM;
     love.lateral_inertia = true;
     slim.theory = THEORY_EULER_BERNOULLI;
     soft.yield = 205e6;
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-    lab_add(lab, "rod", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
     lab_add(lab, "love", love);
-    lab_add(lab, "beam", make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
     lab_add(lab, "slim", slim);
-    lab_add(lab, "soft", make_bar(SHAPE_ROD, soft, 0.010, 1.0));
-    lab_add(lab, "wall", make_body(SHAPE_HALF_SPACE, STEEL));
-    lab_add(lab, "bead", make_bar(SHAPE_ROD, STEEL, 0.02, 0.04));
+    lab_add(lab, "soft", make_bar(&rod_kind, soft, 0.010, 1.0));
+    lab_add(lab, "wall", make_body(&half_space_kind, STEEL));
+    lab_add(lab, "bead", make_bar(&rod_kind, STEEL, 0.02, 0.04));
     return lab;
 }
 
@@ -243,13 +243,13 @@ static void an_unmet_tolerance_has_its_reason(void **state)
 {
     (void)state;
     struct lab *lab = shapes();
-    struct body three = make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 1.0);
-    struct body cantilever = make_bar(SHAPE_BEAM, ALUMINIUM, 0.010, 1.0);
+    struct body three = make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0);
+    struct body cantilever = make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0);
     three.modes = 3;
     cantilever.supports[0] = SUPPORT_CLAMPED;
     lab_add(lab, "three", three);
     lab_add(lab, "cantilever", cantilever);
-    lab_add(lab, "long", make_bar(SHAPE_ROD, ALUMINIUM, 0.010, 100.0));
+    lab_add(lab, "long", make_bar(&rod_kind, ALUMINIUM, 0.010, 100.0));
     lab_add(lab, "heavy", make_sphere(STEEL, 0.050));
     lab_add(lab, "grain", make_sphere(STEEL, 0.0005));
     const struct spot grain = sphere_spot("grain", 0.0005);

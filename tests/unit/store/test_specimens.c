@@ -38,7 +38,7 @@ static int remove_folder(void **state)
 
 static struct body rod(void)
 {
-    struct body body = {.shape = SHAPE_ROD, .radius = 0.01, .length = 1.0, .tip_radius = INFINITY};
+    struct body body = {.kind = &rod_kind, .radius = 0.01, .length = 1.0, .tip_radius = INFINITY};
     strcpy(body.id, "rod");
     body.material = (struct material){"al", 70e9, 0.33, 2700.0, 205e6, 0.0};
     return body;

@@ -1,10 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include <stdio.h>
-#include <string.h>
+#include "model/key.h"
 
-#include "catalogue/keys.h"
+#include <stdio.h>
+
+#include "model/body_kind.h"
 
 /* A text that grows and is cut where it must. */
 struct growing {
@@ -30,28 +31,43 @@ static void grow_words(struct growing *growing, const struct key *key)
     }
 }
 
-/* A key with several rows (one a shape) is named once. */
-static void grow_keys(struct growing *growing, const struct key_table *table, unsigned shapes)
+static void grow_keys(struct growing *growing, const struct key_table *table)
 {
     const char *before = "";
-    for (size_t i = 0; i < table->count; i++) {
-        const struct key *key = &table->keys[i];
-        if (!(key->shapes & shapes) || keys_find(table, key->name, shapes) != key)
-            continue;
+    const struct key *key;
+    for (size_t i = 0; (key = key_at(table, i)); i++) {
         grow(growing, before, key->name);
         before = ", ";
     }
 }
 
-struct key_text keys_list(const struct key_table *table, unsigned shapes)
+static void grow_kinds(struct growing *growing)
+{
+    const char *before = "one of ";
+    const struct body_kind *kind;
+    for (size_t i = 0; (kind = body_kind_at(i)); i++) {
+        grow(growing, before, kind->name);
+        before = ", ";
+    }
+}
+
+const struct key *key_at(const struct key_table *table, size_t number)
+{
+    size_t before = table->before ? table->before->count : 0;
+    if (number < before)
+        return &table->before->keys[number];
+    return number - before < table->count ? &table->keys[number - before] : NULL;
+}
+
+struct key_text key_list(const struct key_table *table)
 {
     struct key_text list = {{0}};
     struct growing growing = {list.text, sizeof list.text, 0};
-    grow_keys(&growing, table, shapes);
+    grow_keys(&growing, table);
     return list;
 }
 
-struct key_text keys_allowed(const struct key *key)
+struct key_text key_allowed(const struct key *key)
 {
     struct key_text allowed = {{0}};
     struct growing growing = {allowed.text, sizeof allowed.text, 0};
@@ -79,12 +95,15 @@ struct key_text keys_allowed(const struct key *key)
         grow_words(&growing, key);
         grow(&growing, " or ", key->limit->text);
         break;
+    case KEY_KIND:
+        grow_kinds(&growing);
+        break;
     case KEY_NAME:
         grow(&growing, "", "a name of materials");
         break;
     case KEY_SECTION:
         grow(&growing, "a mapping of ", "");
-        grow_keys(&growing, key->nested, KEYS_ANY);
+        grow_keys(&growing, key->nested);
         break;
     case KEY_CALLER:
         grow(&growing, "", "a mapping of ids");

@@ -1,0 +1,47 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "model/bar.h"
+
+#include <math.h>
+
+void bar_complete_round(struct body *body)
+{
+    double r = body->radius, length = body->length;
+    double area = M_PI * r * r;
+    body->mass = body->material.density * area * length;
+    body->inertia[0] = 0.5 * body->mass * r * r;
+    body->inertia[1] = body->inertia[2] = body->mass * (3.0 * r * r + length * length) / 12.0;
+}
+
+int bar_round_faces(const struct body *body, double tip_radius, const double p[3],
+                    struct face *faces)
+{
+    double half = 0.5 * body->length;
+    for (int end = 0; end < 2; end++) {
+        double sign = end == 0 ? -1.0 : 1.0;
+        faces[end] = isfinite(tip_radius) ? face_ball(sign * (half - tip_radius), tip_radius, p)
+                                          : face_plane(0, sign, half, p);
+        faces[end].kind = SITE_END;
+        faces[end].beyond = sign * p[0] > 0.0 ? hypot(p[1], p[2]) - body->radius : INFINITY;
+    }
+    faces[2] = face_bar_side(body->radius, half, p);
+    return 3;
+}
+
+const char *bar_why_not(const struct body *body, const struct site *site)
+{
+    if (site->face == SITE_END && body->supports[site->point[0] > 0.0] != SUPPORT_FREE)
+        return "this end is held by a support: hit the free end or the side";
+    return NULL;
+}
+
+void bar_describe_ends(const struct body *body, struct body_description *description)
+{
+    static const char *const names[] = {"free", "pinned", "clamped"};
+    describe_add(description, "ends %s and %s", names[body->supports[0]], names[body->supports[1]]);
+    if (body->damping > 0.0)
+        describe_add(description, "modal damping ratio %g", body->damping);
+    if (body->modes > 0)
+        describe_add(description, "%u modes", body->modes);
+}

@@ -1,0 +1,79 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A kind of body: what the solver asks of a body, whatever its shape. Each kind is one constant in
+ * a file of its own, kind_*.c, and a line in the list at the end. */
+#ifndef PERCUSS_MODEL_BODY_KIND_H
+#define PERCUSS_MODEL_BODY_KIND_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/fault.h"
+
+struct body;
+struct body_description;
+struct face;
+struct key;
+struct site;
+
+/* Most pieces that the surface of a body has near a point. */
+enum { BODY_MOST_FACES = 6 };
+
+/* What closed forms and axisymmetric meshes can take a body for. */
+enum solid_form { SOLID_NONE, SOLID_BALL, SOLID_CYLINDER, SOLID_HALF_SPACE };
+struct solid {
+    enum solid_form form;
+    int axis;              /* of a cylinder: 0, 1, 2 for x, y, z */
+    double radius, length; /* m */
+    double across;         /* smallest radius of the real section, m */
+    double tip_radius;     /* of a cylinder's ends, m; INFINITY: flat */
+    bool approximate;      /* of the same section, but not round */
+};
+
+struct body_kind {
+    const char *name; /* in the catalogue, on the wire, in messages */
+
+    /* What a catalogue states of such a body besides shape and material. */
+    const struct key *keys;
+    size_t key_count;
+
+    /* What no single key's limit tells; NULL: nothing. PERCUSS_OK or PERCUSS_BAD_REQUEST. */
+    enum percuss_status (*check)(const struct body *body, struct fault *fault);
+
+    /* Mass, inertia and what else follows from the dimensions, which are checked. */
+    enum percuss_status (*complete)(struct body *body, struct fault *fault);
+
+    /* See body_smallest_radius. */
+    double (*smallest_radius)(const struct body *body);
+
+    /* The pieces of the surface near a point (body frame); their number. */
+    int (*faces)(const struct body *body, const double point[3], struct face *faces);
+
+    /* Why no model covers a site that the surface has; NULL: one does. NULL: all are. */
+    const char *(*why_not)(const struct body *body, const struct site *site);
+
+    /* NULL: none. */
+    struct solid (*solid)(const struct body *body);
+
+    /* The theory of its vibration; NULL: "rigid". */
+    const char *(*theory)(const struct body *body);
+
+    /* Its size, and its dimensions, theory and ends in words. */
+    void (*describe)(const struct body *body, struct body_description *description);
+};
+
+/* All kinds, in an order that catalogue revisions depend on: new ones go to the end. */
+#define BODY_KINDS(KIND)                                                                           \
+    KIND(sphere) KIND(rod) KIND(beam) KIND(cylinder) KIND(block) KIND(half_space)
+
+#define BODY_KIND_DECLARE(kind) extern const struct body_kind kind##_kind;
+BODY_KINDS(BODY_KIND_DECLARE)
+
+/* The kind number `number`; NULL: there are no more. */
+const struct body_kind *body_kind_at(size_t number);
+
+/* Its place in the list. */
+size_t body_kind_number(const struct body_kind *kind);
+
+#endif

@@ -1,0 +1,63 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The keys of a catalogue, as tables: they drive the reading of mappings into structs, the checks
+ * of what stands in those, and say in messages what is allowed. */
+#ifndef PERCUSS_MODEL_KEY_H
+#define PERCUSS_MODEL_KEY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "model/limits.h"
+
+enum key_type {
+    KEY_NUMBER,  /* double within `limit` */
+    KEY_NUMBERS, /* list of three of them */
+    KEY_WHOLE,   /* unsigned, 1 .. limit->high; 0: absent */
+    KEY_FLAG,    /* bool */
+    KEY_WORD,    /* enum: the index in `words` */
+    KEY_ENDS,    /* two enums: one word for both, or a list of two */
+    KEY_SHEAR,   /* struct body's shear_rule and shear_number */
+    KEY_KIND,    /* struct body's kind */
+    KEY_NAME,    /* char[PERCUSS_ID_SIZE]; the caller looks it up */
+    KEY_SECTION, /* a mapping of `nested` keys into the same struct */
+    KEY_CALLER   /* a mapping the caller reads */
+};
+
+struct key {
+    const char *name;
+    enum key_type type;
+    const struct limit *limit; /* the unit stands in its text */
+    bool required;
+    size_t offset; /* in the struct read into */
+    const char *const *words;
+    size_t word_count; /* NULL among the words: a number without a word */
+    const struct key_table *nested;
+    double absent;       /* KEY_NUMBER, not required: its value where the key is */
+    const char *instead; /* the key that must be there where this one is not; NULL: none */
+};
+
+struct key_table {
+    const char *owner; /* "a material", "rod" */
+    const struct key *keys;
+    size_t count;
+    const struct key_table *before; /* keys that come before these; NULL: none */
+};
+
+#define KEY_WORDS(array)   .words = array, .word_count = sizeof array / sizeof *array
+#define KEY_OF(of, member) .offset = offsetof(struct of, member)
+
+/* What a key's value may be, in words that follow "must be". */
+struct key_text {
+    char text[320];
+};
+struct key_text key_allowed(const struct key *key);
+
+/* The names of a table's keys. */
+struct key_text key_list(const struct key_table *table);
+
+/* A table's key number `number`; NULL: there are no more. */
+const struct key *key_at(const struct key_table *table, size_t number);
+
+#endif

@@ -1,0 +1,170 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+
+#include "model/bar.h"
+#include "model/beam.h"
+#include "model/key.h"
+#include "model/torsion.h"
+
+static const char *const ends[] = {
+    [SUPPORT_FREE] = "free",
+    [SUPPORT_PINNED] = "pinned",
+    [SUPPORT_CLAMPED] = "clamped",
+};
+static const char *const theories[] = {
+    [THEORY_TIMOSHENKO] = "timoshenko",
+    [THEORY_EULER_BERNOULLI] = "euler-bernoulli",
+};
+static const char *const shear_rules[] = {
+    [SHEAR_COWPER] = "cowper",
+    [SHEAR_HUTCHINSON] = "hutchinson",
+};
+static const struct key section[] = {
+    {"width", KEY_NUMBER, &limit_length, true, KEY_OF(body, width)},
+    {"height", KEY_NUMBER, &limit_length, true, KEY_OF(body, height)},
+};
+static const struct key_table keys_section = {"a section", section, 2, NULL};
+static const struct key keys[] = {
+    {"radius", KEY_NUMBER, &limit_length, KEY_OF(body, radius), .instead = "section"},
+    {"section", KEY_SECTION, .nested = &keys_section},
+    {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length)},
+    {"theory", KEY_WORD, KEY_OF(body, theory), KEY_WORDS(theories)},
+    {"shear_factor", KEY_SHEAR, &limit_shear_factor, KEY_OF(body, shear_rule),
+     KEY_WORDS(shear_rules)},
+    {"ends", KEY_ENDS, KEY_OF(body, supports), KEY_WORDS(ends)},
+    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping)},
+    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes)},
+};
+
+static bool is_round(const struct body *body)
+{
+    return body->radius > 0.0;
+}
+
+static enum percuss_status check(const struct body *body, struct fault *fault)
+{
+    if (is_round(body) && (body->width != 0.0 || body->height != 0.0))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "section: %.9g x %.9g: must be absent beside radius (%.9g m)", body->width,
+                         body->height, body->radius);
+    if (is_round(body))
+        return PERCUSS_OK;
+    enum percuss_status status = limit_check(&limit_length, "section.width", body->width, fault);
+    return status ? status : limit_check(&limit_length, "section.height", body->height, fault);
+}
+
+/* Sections: circle I = pi r^4/4; rectangle, deflection along y: height width^3/12. Rotation about y
+ * goes with deflection along z. */
+static void complete_section(struct body *body)
+{
+    double length = body->length;
+    double *second = body->second_moment;
+    if (is_round(body)) {
+        double r2 = body->radius * body->radius;
+        body->area = M_PI * r2;
+        second[0] = second[1] = 0.25 * M_PI * r2 * r2;
+    } else {
+        double w = body->width, h = body->height;
+        body->area = w * h;
+        second[0] = h * w * w * w / 12.0;
+        second[1] = w * h * h * h / 12.0;
+    }
+    body->mass = body->material.density * body->area * length;
+    body->torsion_constant = torsion_constant(body);
+    body->warping_constant = torsion_warping_constant(body);
+
+    /* Euler-Bernoulli's sections carry no rotatory inertia in bending */
+    bool rotatory = body->theory == THEORY_TIMOSHENKO;
+    double slender = length * length / 12.0;
+    body->inertia[0] = body->mass * (second[0] + second[1]) / body->area;
+    body->inertia[1] = body->mass * (slender + (rotatory ? second[1] / body->area : 0.0));
+    body->inertia[2] = body->mass * (slender + (rotatory ? second[0] / body->area : 0.0));
+}
+
+static void shear_factors(struct body *body)
+{
+    double poisson = body->material.poisson, w = body->width, h = body->height;
+    double *factor = body->shear_factor;
+    if (body->shear_rule == SHEAR_NUMBER) {
+        factor[0] = factor[1] = body->shear_number;
+    } else if (body->shear_rule == SHEAR_COWPER) {
+        factor[0] = factor[1] = is_round(body) ? beam_shear_cowper_circle(poisson)
+                                               : beam_shear_cowper_rectangle(poisson);
+    } else if (is_round(body)) {
+        factor[0] = factor[1] = beam_shear_hutchinson_circle(poisson);
+    } else {
+        factor[0] = beam_shear_hutchinson_rectangle(poisson, w, h);
+        factor[1] = beam_shear_hutchinson_rectangle(poisson, h, w);
+    }
+}
+
+static enum percuss_status complete(struct body *body, struct fault *fault)
+{
+    complete_section(body);
+    if (body->theory == THEORY_EULER_BERNOULLI)
+        return PERCUSS_OK;
+    shear_factors(body);
+    const double *factor = body->shear_factor;
+    if (limit_holds(&limit_shear_factor, factor[0]) && limit_holds(&limit_shear_factor, factor[1]))
+        return PERCUSS_OK;
+    if (body->shear_rule == SHEAR_NUMBER)
+        return limit_check(&limit_shear_factor, "shear_factor", body->shear_number, fault);
+    /* Hutchinson's quotient has a pole in the auxetic range, near poisson -0.79 for a circle */
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "shear_factor: %s: must be a number here: with poisson %.9g the rule gives "
+                     "%.9g and %.9g, beyond 1e-3 to 2",
+                     shear_rules[body->shear_rule], body->material.poisson, factor[0], factor[1]);
+}
+
+static double smallest_radius(const struct body *body)
+{
+    return fmin(is_round(body) ? body->radius : 0.5 * fmin(body->width, body->height),
+                0.5 * body->length);
+}
+
+static int find_faces(const struct body *body, const double p[3], struct face *faces)
+{
+    const double half[3] = {0.5 * body->length, 0.5 * body->width, 0.5 * body->height};
+    int count =
+        is_round(body) ? bar_round_faces(body, INFINITY, p, faces) : face_box(half, p, faces);
+    for (int i = 0; i < count; i++)
+        faces[i].kind = i < 2 ? SITE_END : SITE_BEAM_SIDE;
+    return count;
+}
+
+static const char *theory(const struct body *body)
+{
+    return theories[body->theory];
+}
+
+static void describe(const struct body *body, struct body_description *description)
+{
+    describe_add(description, "length %g m", body->length);
+    if (is_round(body)) {
+        describe_extents(description, 0.5 * body->length, body->radius, body->radius);
+        describe_add(description, "radius %g m", body->radius);
+    } else {
+        describe_extents(description, 0.5 * body->length, 0.5 * body->width, 0.5 * body->height);
+        describe_add(description, "section %g m x %g m", body->width, body->height);
+    }
+    if (body->theory == THEORY_TIMOSHENKO)
+        describe_add(description, "Timoshenko, shear factor %.4g", body->shear_factor[1]);
+    else
+        describe_add(description, "Euler-Bernoulli");
+    bar_describe_ends(body, description);
+}
+
+const struct body_kind beam_kind = {
+    .name = "beam",
+    .keys = keys,
+    .key_count = sizeof keys / sizeof *keys,
+    .check = check,
+    .complete = complete,
+    .smallest_radius = smallest_radius,
+    .faces = find_faces,
+    .why_not = bar_why_not,
+    .theory = theory,
+    .describe = describe,
+};

@@ -1,0 +1,56 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+
+#include "model/bar.h"
+#include "model/key.h"
+
+static const struct key keys[] = {
+    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius)},
+    {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length)},
+};
+
+static enum percuss_status complete(struct body *body, struct fault *fault)
+{
+    (void)fault;
+    bar_complete_round(body);
+    return PERCUSS_OK;
+}
+
+static double smallest_radius(const struct body *body)
+{
+    return fmin(body->radius, 0.5 * body->length);
+}
+
+static int find_faces(const struct body *body, const double p[3], struct face *faces)
+{
+    return bar_round_faces(body, INFINITY, p, faces);
+}
+
+static struct solid solid(const struct body *body)
+{
+    return (struct solid){.form = SOLID_CYLINDER,
+                          .radius = body->radius,
+                          .length = body->length,
+                          .across = body->radius,
+                          .tip_radius = INFINITY};
+}
+
+static void describe(const struct body *body, struct body_description *description)
+{
+    describe_extents(description, 0.5 * body->length, body->radius, body->radius);
+    describe_add(description, "length %g m", body->length);
+    describe_add(description, "radius %g m", body->radius);
+}
+
+const struct body_kind cylinder_kind = {
+    .name = "cylinder",
+    .keys = keys,
+    .key_count = sizeof keys / sizeof *keys,
+    .complete = complete,
+    .smallest_radius = smallest_radius,
+    .faces = find_faces,
+    .solid = solid,
+    .describe = describe,
+};

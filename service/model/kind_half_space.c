@@ -1,0 +1,51 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+
+#include "model/body.h"
+#include "model/describe.h"
+#include "model/face.h"
+
+static enum percuss_status complete(struct body *body, struct fault *fault)
+{
+    (void)fault;
+    body->mass = INFINITY;
+    for (int i = 0; i < 3; i++)
+        body->inertia[i] = INFINITY;
+    return PERCUSS_OK;
+}
+
+static double smallest_radius(const struct body *body)
+{
+    (void)body;
+    return INFINITY;
+}
+
+static int find_faces(const struct body *body, const double p[3], struct face *faces)
+{
+    (void)body;
+    faces[0] = face_plane(2, 1.0, 0.0, p);
+    return 1;
+}
+
+static struct solid solid(const struct body *body)
+{
+    (void)body;
+    return (struct solid){.form = SOLID_HALF_SPACE, .axis = 2};
+}
+
+static void describe(const struct body *body, struct body_description *description)
+{
+    (void)body;
+    describe_add(description, "fills z <= 0, immovable");
+}
+
+const struct body_kind half_space_kind = {
+    .name = "half-space",
+    .complete = complete,
+    .smallest_radius = smallest_radius,
+    .faces = find_faces,
+    .solid = solid,
+    .describe = describe,
+};

@@ -1,0 +1,105 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+
+#include "model/bar.h"
+#include "model/key.h"
+
+static const char *const ends[] = {
+    [SUPPORT_FREE] = "free",
+    [SUPPORT_CLAMPED] = "fixed",
+};
+static const struct key keys[] = {
+    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius)},
+    {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length)},
+    {"tip_radius", KEY_NUMBER, &limit_length, KEY_OF(body, tip_radius), .absent = INFINITY},
+    {"lateral_inertia", KEY_FLAG, KEY_OF(body, lateral_inertia)},
+    {"ends", KEY_ENDS, KEY_OF(body, supports), KEY_WORDS(ends)},
+    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping)},
+    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes)},
+};
+
+/* A smaller tip would not cover the face: its rim would stand beside the cap. */
+static enum percuss_status check(const struct body *body, struct fault *fault)
+{
+    if (body->tip_radius >= body->radius)
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "tip_radius: %.9g: must be at least radius (%.9g m); absent: flat ends",
+                     body->tip_radius, body->radius);
+}
+
+static enum percuss_status complete(struct body *body, struct fault *fault)
+{
+    (void)fault;
+    bar_complete_round(body);
+    body->area = M_PI * body->radius * body->radius;
+    return PERCUSS_OK;
+}
+
+static double smallest_radius(const struct body *body)
+{
+    return fmin(fmin(body->radius, body->tip_radius), 0.5 * body->length);
+}
+
+static int find_faces(const struct body *body, const double p[3], struct face *faces)
+{
+    int count = bar_round_faces(body, body->tip_radius, p, faces);
+    faces[count - 1].kind = SITE_BEAM_SIDE;
+    return count;
+}
+
+static const char *why_not(const struct body *body, const struct site *site)
+{
+    if (site->face == SITE_BEAM_SIDE)
+        return "a hit on the side bends it, and a rod has longitudinal waves only: declare it as "
+               "shape: beam";
+    if (hypot(site->point[1], site->point[2]) > 0.1 * body->radius)
+        return "a hit beside the axis bends it (more than 10 % of the radius), and a rod has "
+               "longitudinal waves only: declare it as shape: beam";
+    return bar_why_not(body, site);
+}
+
+static struct solid solid(const struct body *body)
+{
+    return (struct solid){.form = SOLID_CYLINDER,
+                          .radius = body->radius,
+                          .length = body->length,
+                          .across = body->radius,
+                          .tip_radius = body->tip_radius};
+}
+
+static const char *theory(const struct body *body)
+{
+    return body->lateral_inertia ? "rayleigh-love" : "rod";
+}
+
+static void describe(const struct body *body, struct body_description *description)
+{
+    describe_extents(description, 0.5 * body->length, body->radius, body->radius);
+    description->tip_radius = body->tip_radius;
+    describe_add(description, "length %g m", body->length);
+    describe_add(description, "radius %g m", body->radius);
+    if (isinf(body->tip_radius))
+        describe_add(description, "flat tips");
+    else
+        describe_add(description, "tip radius %g m", body->tip_radius);
+    if (body->lateral_inertia)
+        describe_add(description, "lateral inertia");
+    bar_describe_ends(body, description);
+}
+
+const struct body_kind rod_kind = {
+    .name = "rod",
+    .keys = keys,
+    .key_count = sizeof keys / sizeof *keys,
+    .check = check,
+    .complete = complete,
+    .smallest_radius = smallest_radius,
+    .faces = find_faces,
+    .why_not = why_not,
+    .solid = solid,
+    .theory = theory,
+    .describe = describe,
+};

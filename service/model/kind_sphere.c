@@ -1,0 +1,56 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+
+#include "model/body.h"
+#include "model/describe.h"
+#include "model/face.h"
+#include "model/key.h"
+
+static const struct key keys[] = {
+    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius)},
+};
+
+static enum percuss_status complete(struct body *body, struct fault *fault)
+{
+    (void)fault;
+    double r = body->radius;
+    body->mass = 4.0 / 3.0 * M_PI * r * r * r * body->material.density;
+    for (int i = 0; i < 3; i++)
+        body->inertia[i] = 0.4 * body->mass * r * r;
+    return PERCUSS_OK;
+}
+
+static double smallest_radius(const struct body *body)
+{
+    return body->radius;
+}
+
+static int find_faces(const struct body *body, const double p[3], struct face *faces)
+{
+    faces[0] = face_ball(0.0, body->radius, p);
+    return 1;
+}
+
+static struct solid solid(const struct body *body)
+{
+    return (struct solid){.form = SOLID_BALL, .radius = body->radius, .across = body->radius};
+}
+
+static void describe(const struct body *body, struct body_description *description)
+{
+    describe_extents(description, body->radius, body->radius, body->radius);
+    describe_add(description, "radius %g m", body->radius);
+}
+
+const struct body_kind sphere_kind = {
+    .name = "sphere",
+    .keys = keys,
+    .key_count = sizeof keys / sizeof *keys,
+    .complete = complete,
+    .smallest_radius = smallest_radius,
+    .faces = find_faces,
+    .solid = solid,
+    .describe = describe,
+};
