@@ -7,8 +7,9 @@
 
 #include <stddef.h>
 
+#include "base/arena.h"
 #include "contact/law.h"
-#include "model/modal_basis.h"
+#include "model/roll.h"
 
 /* A patch of the surface that yielded: contacts within `size` of its middle feel it. */
 struct dent {
@@ -24,16 +25,16 @@ enum { BODY_STATE_MAX_DENTS = 256 };
  * modes in the body frame, lowest first; the dents follow. One block of memory, free() releases it.
  */
 struct body_state {
-    size_t count[FAMILY_COUNT];
+    size_t count[BODY_MOST_FAMILIES];
     size_t dents;
     double coordinates[];
 };
 
 /* Number of pairs of the families below one. */
-static inline size_t body_state_pairs(const struct body_state *state, int family)
+static inline size_t body_state_pairs(const struct body_state *state, size_t family)
 {
     size_t pairs = 0;
-    for (int f = 0; f < family; f++)
+    for (size_t f = 0; f < family; f++)
         pairs += state->count[f];
     return pairs;
 }
@@ -41,12 +42,13 @@ static inline size_t body_state_pairs(const struct body_state *state, int family
 /* Number of bytes of a state. */
 static inline size_t body_state_size(const struct body_state *state)
 {
-    return sizeof *state + 2 * body_state_pairs(state, FAMILY_COUNT) * sizeof *state->coordinates +
+    return sizeof *state +
+           2 * body_state_pairs(state, BODY_MOST_FAMILIES) * sizeof *state->coordinates +
            state->dents * sizeof(struct dent);
 }
 
 /* The pairs of one family. */
-static inline const double *body_state_family(const struct body_state *state, int family)
+static inline const double *body_state_family(const struct body_state *state, size_t family)
 {
     return state->coordinates + 2 * body_state_pairs(state, family);
 }
@@ -54,7 +56,17 @@ static inline const double *body_state_family(const struct body_state *state, in
 /* The dents: all their members are doubles. */
 static inline const struct dent *body_state_dents(const struct body_state *state)
 {
-    return (const struct dent *)body_state_family(state, FAMILY_COUNT);
+    return (const struct dent *)body_state_family(state, BODY_MOST_FAMILIES);
 }
+
+/* What sizes a state needs for the turn of a roll: as many modes in either family. */
+void body_state_make_room(const struct roll *roll, struct body_state *sizes);
+
+/* A copy whose modes are those of the roll; dents stay. From the arena; NULL: out of memory. */
+const struct body_state *body_state_turned(const struct body_state *state, const struct roll *roll,
+                                           struct arena *arena);
+
+/* Turns a state with room for it back into the body's own planes. */
+void body_state_turn_back(const struct roll *roll, struct body_state *state);
 
 #endif

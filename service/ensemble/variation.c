@@ -63,7 +63,7 @@ static enum percuss_status check_site(const struct variation *variation, size_t 
     const struct body *body = body_set_find(spec->catalogue, id);
     const struct solve_contact *contact = &spec->request->contacts[0];
     bool touches = contact->a == input->body || contact->b == input->body;
-    if (touches && body->kind == &beam_kind && is_on_side(spec->request, input->body))
+    if (touches && body_bends(body) && is_on_side(spec->request, input->body))
         return PERCUSS_OK;
     return fault_set(fault, PERCUSS_BAD_REQUEST,
                      "inputs[%zu].body: %s: must be a beam that is hit on its side for the "
@@ -144,7 +144,7 @@ static void keep_touching(struct variation *variation, const char *id, double gr
     for (int side = 0; side < 2; side++) {
         size_t index = side == 0 ? contact->a : contact->b;
         bool round = body_solid(body).form == SOLID_BALL ||
-                     (body->kind == &beam_kind && is_on_side(request, index));
+                     (body_bends(body) && is_on_side(request, index));
         if (round && strcmp(request->bodies[index].id, id) == 0)
             move(request->bodies[index].position, contact->normal, side == 0 ? growth : -growth);
     }

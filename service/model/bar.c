@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+static const double NEGLIGIBLE = 1e-9;
+
 void bar_complete_round(struct body *body)
 {
     double r = body->radius, length = body->length;
@@ -34,6 +36,28 @@ const char *bar_why_not(const struct body *body, const struct site *site)
     if (site->face == SITE_END && body->supports[site->point[0] > 0.0] != SUPPORT_FREE)
         return "this end is held by a support: hit the free end or the side";
     return NULL;
+}
+
+double bar_place(const struct body *body, const struct site *site)
+{
+    double half = 0.5 * body->length;
+    return site->face == SITE_END ? copysign(half, site->point[0])
+                                  : fmax(-half, fmin(half, site->point[0]));
+}
+
+void bar_load_along(const struct body *body, const struct site *site, const double direction[3],
+                    struct family_load *load)
+{
+    load->bar.x = bar_place(body, site);
+    load->bar.force = site->face == SITE_END ? direction[0] : 0.0;
+    bar_load_settle(body, load);
+}
+
+void bar_load_settle(const struct body *body, struct family_load *load)
+{
+    double moment = fabs(load->bar.moment);
+    load->acts = fabs(load->bar.force) > NEGLIGIBLE ||
+                 (moment > 0.0 && moment / body_smallest_radius(body) > NEGLIGIBLE);
 }
 
 void bar_describe_ends(const struct body *body, struct body_description *description)

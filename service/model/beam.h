@@ -47,7 +47,11 @@ void beam_modes(const struct beam_plane *plane, size_t count, struct beam_mode *
 void beam_mode_at(const struct beam_plane *plane, const struct beam_mode *mode, double x, double *w,
                   double *psi);
 
-/* A transverse force and a moment (conjugate to psi) acting at x. */
+/* One plane of bending of a completed beam: 0 along y, 1 along z. */
+struct beam_plane beam_plane_of(const struct body *body, int plane);
+
+/* A transverse force and a moment (conjugate to psi) acting at x. Other waves of a bar have a force
+ * along it or a moment about it. */
 struct beam_load {
     double x;
     double force;

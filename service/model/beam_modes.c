@@ -17,6 +17,23 @@ static struct beam_ratios ratios_of(const struct beam_plane *plane)
     };
 }
 
+struct beam_plane beam_plane_of(const struct body *body, int plane)
+{
+    const struct material *material = &body->material;
+    bool timoshenko = body->theory == THEORY_TIMOSHENKO;
+    double shear = timoshenko
+                       ? body->shear_factor[plane] * material_shear_modulus(material) * body->area
+                       : INFINITY;
+    return (struct beam_plane){
+        .length = body->length,
+        .bending_stiffness = material->young * body->second_moment[plane],
+        .shear_stiffness = shear,
+        .line_mass = material->density * body->area,
+        .line_inertia = timoshenko ? material->density * body->second_moment[plane] : 0.0,
+        .supports = {body->supports[0], body->supports[1]},
+    };
+}
+
 /* The largest of the elements that elimination has not yet reached. */
 static void find_pivot(size_t n, double matrix[4][4], size_t step, size_t pivot[2])
 {

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "model/key.h"
+#include "model/mode_family.h"
 
 static enum percuss_status refuse_number(const struct key *key, unsigned number,
                                          struct fault *fault)
@@ -95,7 +96,15 @@ enum percuss_status body_complete(struct body *body, struct fault *fault)
 
 bool body_is_flexible(const struct body *body)
 {
-    return body->kind->theory != NULL;
+    return body->kind->family_count > 0;
+}
+
+bool body_bends(const struct body *body)
+{
+    bool bends = false;
+    for (size_t f = 0; f < body->kind->family_count; f++)
+        bends = bends || body->kind->families[f]->bends;
+    return bends;
 }
 
 double body_smallest_radius(const struct body *body)

@@ -69,8 +69,11 @@ double body_parameter(const struct body *body, enum percuss_parameter parameter)
 /* Whether two variants of one body of the catalogue have the same modes. */
 bool body_same_modes(const struct body *a, const struct body *b);
 
-/* Whether it can vibrate: a rod or a beam. */
+/* Whether it can vibrate: its kind has families of modes. */
 bool body_is_flexible(const struct body *body);
+
+/* Whether it can be hit on its side anywhere along x and bends then: a beam. */
+bool body_bends(const struct body *body);
 
 /* The smallest dimension that curves or bounds its surface: radius, half the thickness, tip;
  * INFINITY for a half-space. */

@@ -15,10 +15,15 @@ struct body;
 struct body_description;
 struct face;
 struct key;
+struct mode_family;
 struct site;
+struct site_load;
 
 /* Most pieces that the surface of a body has near a point. */
 enum { BODY_MOST_FACES = 6 };
+
+/* Most families of modes of a body. */
+enum { BODY_MOST_FAMILIES = 4 };
 
 /* What closed forms and axisymmetric meshes can take a body for. */
 enum solid_form { SOLID_NONE, SOLID_BALL, SOLID_CYLINDER, SOLID_HALF_SPACE };
@@ -52,6 +57,19 @@ struct body_kind {
 
     /* Why no model covers a site that the surface has; NULL: one does. NULL: all are. */
     const char *(*why_not)(const struct body *body, const struct site *site);
+
+    /* Its families of modes, see mode_family.h; none: it is rigid. */
+    const struct mode_family *const *families;
+    size_t family_count;
+
+    /* What one newton along `direction` (body frame) at a site does to each family; NULL: it has
+     * none. */
+    void (*load)(const struct body *body, const struct site *site, const double direction[3],
+                 struct site_load *load);
+
+    /* Whether two families, *first and the next, are alike, so that they may be turned about the
+     * body's axis into the plane of a load (roll.h); NULL: none are. */
+    bool (*alike)(const struct body *body, size_t *first);
 
     /* NULL: none. */
     struct solid (*solid)(const struct body *body);

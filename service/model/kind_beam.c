@@ -5,7 +5,9 @@
 
 #include "model/bar.h"
 #include "model/beam.h"
+#include "model/beam_families.h"
 #include "model/key.h"
+#include "model/longitudinal.h"
 #include "model/torsion.h"
 
 static const char *const ends[] = {
@@ -134,6 +136,45 @@ static int find_faces(const struct body *body, const double p[3], struct face *f
     return count;
 }
 
+static const struct mode_family *const families[] = {
+    [BAR_LONGITUDINAL] = &longitudinal_family,
+    [BAR_BENDING_Y] = &beam_bending_family,
+    [BAR_BENDING_Z] = &beam_bending_family,
+    [BAR_TWIST] = &beam_twist_family,
+};
+
+/* A section turning by psi moves a point at the height y by -psi y along the axis. A hit on the
+ * side of a rectangular section twists it about the axis; without friction one on a round section
+ * or on an end face does not. */
+static void load_families(const struct body *body, const struct site *site,
+                          const double direction[3], struct site_load *load)
+{
+    bool on_end = site->face == SITE_END;
+    double x = bar_place(body, site);
+    const double *point = site->point;
+    bar_load_along(body, site, direction, &load->family[BAR_LONGITUDINAL]);
+    for (int plane = 0; plane < 2; plane++) {
+        struct family_load *bending = &load->family[BAR_BENDING_Y + plane];
+        bending->bar.x = x;
+        bending->bar.force = direction[1 + plane];
+        bending->bar.moment = on_end ? -point[1 + plane] * direction[0] : 0.0;
+        bar_load_settle(body, bending);
+    }
+    struct family_load *twist = &load->family[BAR_TWIST];
+    twist->bar.x = x;
+    if (!is_round(body) && !on_end)
+        twist->bar.moment = point[1] * direction[2] - point[2] * direction[1];
+    bar_load_settle(body, twist);
+}
+
+/* Round and square sections bend alike in all planes through the axis. */
+static bool alike(const struct body *body, size_t *first)
+{
+    *first = BAR_BENDING_Y;
+    return body->second_moment[0] == body->second_moment[1] &&
+           (body->theory != THEORY_TIMOSHENKO || body->shear_factor[0] == body->shear_factor[1]);
+}
+
 static const char *theory(const struct body *body)
 {
     return theories[body->theory];
@@ -165,6 +206,10 @@ const struct body_kind beam_kind = {
     .smallest_radius = smallest_radius,
     .faces = find_faces,
     .why_not = bar_why_not,
+    .families = families,
+    .family_count = sizeof families / sizeof *families,
+    .load = load_families,
+    .alike = alike,
     .theory = theory,
     .describe = describe,
 };

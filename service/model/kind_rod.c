@@ -5,6 +5,7 @@
 
 #include "model/bar.h"
 #include "model/key.h"
+#include "model/longitudinal.h"
 
 static const char *const ends[] = {
     [SUPPORT_FREE] = "free",
@@ -18,6 +19,10 @@ static const struct key keys[] = {
     {"ends", KEY_ENDS, KEY_OF(body, supports), KEY_WORDS(ends)},
     {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping)},
     {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes)},
+};
+
+static const struct mode_family *const families[] = {
+    [BAR_LONGITUDINAL] = &longitudinal_family,
 };
 
 /* A smaller tip would not cover the face: its rim would stand beside the cap. */
@@ -61,6 +66,12 @@ static const char *why_not(const struct body *body, const struct site *site)
     return bar_why_not(body, site);
 }
 
+static void load_families(const struct body *body, const struct site *site,
+                          const double direction[3], struct site_load *load)
+{
+    bar_load_along(body, site, direction, &load->family[BAR_LONGITUDINAL]);
+}
+
 static struct solid solid(const struct body *body)
 {
     return (struct solid){.form = SOLID_CYLINDER,
@@ -99,6 +110,9 @@ const struct body_kind rod_kind = {
     .smallest_radius = smallest_radius,
     .faces = find_faces,
     .why_not = why_not,
+    .families = families,
+    .family_count = sizeof families / sizeof *families,
+    .load = load_families,
     .solid = solid,
     .theory = theory,
     .describe = describe,

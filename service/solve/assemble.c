@@ -22,12 +22,12 @@ struct addition {
     const struct body_state *state;
     double elapsed;
     size_t body;
-    enum mode_family family;
+    size_t family;
     const struct prepared_family *prepared;
     size_t count; /* modes of the family that take part */
 };
 
-static bool family_is_loaded(const struct problem *problem, size_t body, enum mode_family family)
+static bool family_is_loaded(const struct problem *problem, size_t body, size_t family)
 {
     for (size_t c = 0; c < problem->contact_count; c++)
         if (problem_load(problem, c, body, family))
@@ -41,7 +41,7 @@ static bool set_initial(const struct addition *add, struct scene_group *group,
 {
     if (!add->state || add->state->count[add->family] == 0)
         return true;
-    const double *pairs = body_state_family(add->state, (int)add->family);
+    const double *pairs = body_state_family(add->state, add->family);
     double *q = arena_take(add->problem->arena, group->stride, sizeof *q);
     double *v = arena_take(add->problem->arena, group->stride, sizeof *v);
     if (!q || !v)
@@ -61,14 +61,13 @@ static bool set_initial(const struct addition *add, struct scene_group *group,
 
 /* Fills one row of participations; returns its largest magnitude. */
 static double fill_row(const struct addition *add, const struct prepared_group *source,
-                       const struct site_load *load, size_t count, double *row)
+                       const struct family_load *load, size_t count, double *row)
 {
-    const struct body *body = add->problem->bodies[add->body];
     double largest = 0.0;
-    for (size_t k = 0; k < count; k++) {
-        row[k] = modal_participation(body, add->prepared->modes, source->mode[k], load);
+    modal_participations(add->problem->bodies[add->body], add->prepared->modes, source->mode, count,
+                         load, row);
+    for (size_t k = 0; k < count; k++)
         largest = fmax(largest, fabs(row[k]));
-    }
     return largest;
 }
 
@@ -94,7 +93,7 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
     double scale = participation_scale(add->problem->bodies[add->body]);
     *added = false;
     for (size_t c = 0; c < n && group->count; c++) {
-        const struct site_load *load = problem_load(add->problem, c, add->body, add->family);
+        const struct family_load *load = problem_load(add->problem, c, add->body, add->family);
         if (!load)
             continue;
         double *row = arena_take(add->problem->arena, group->stride, sizeof *row);
@@ -128,7 +127,7 @@ static void add_omitted(const struct addition *add, size_t first)
     double omega = add->prepared->modes->omega[add->count];
     double stand_in = modal_remainder_frequency(body, add->prepared->modes, add->count);
     for (size_t i = 0; i < add->problem->contact_count; i++) {
-        const struct site_load *load = problem_load(add->problem, i, add->body, add->family);
+        const struct family_load *load = problem_load(add->problem, i, add->body, add->family);
         if (!load)
             continue;
         double left = modal_compliance(body, add->family, load, load);
@@ -152,8 +151,8 @@ static bool add_family(const struct addition *add, double *residual)
     size_t first_group = assembly->scene.groups;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++) {
-            const struct site_load *a = problem_load(problem, i, add->body, add->family);
-            const struct site_load *b = problem_load(problem, j, add->body, add->family);
+            const struct family_load *a = problem_load(problem, i, add->body, add->family);
+            const struct family_load *b = problem_load(problem, j, add->body, add->family);
             if (a && b)
                 residual[i * n + j] += modal_compliance(body, add->family, a, b);
         }
@@ -216,13 +215,13 @@ static size_t wanted(const struct addition *add, const struct scene *rigid,
 static bool create(struct assembly *assembly, const struct problem *problem)
 {
     /* two parities of every family of a body, and what half-spaces radiate of each contact */
-    size_t groups = 2 * FAMILY_COUNT * problem->body_count + problem->contact_count;
+    size_t groups = 2 * BODY_MOST_FAMILIES * problem->body_count + problem->contact_count;
     *assembly = (struct assembly){.lowest_omitted = INFINITY};
     assembly->groups = arena_take(problem->arena, groups, sizeof *assembly->groups);
     assembly->sources = arena_take(problem->arena, groups, sizeof(struct prepared_group *));
     assembly->families = arena_take(problem->arena, groups, sizeof *assembly->families);
     /* either side of a contact, every family */
-    assembly->parts = arena_take(problem->arena, 2 * FAMILY_COUNT * problem->contact_count,
+    assembly->parts = arena_take(problem->arena, 2 * BODY_MOST_FAMILIES * problem->contact_count,
                                  sizeof *assembly->parts);
     assembly->omitted =
         arena_take(problem->arena, problem->contact_count, sizeof *assembly->omitted);
@@ -243,13 +242,13 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
     const struct scene rigid = assembly->scene;
     for (size_t b = 0; b < problem->body_count; b++) {
         const struct body *body = problem->bodies[b];
-        for (int f = 0; f < FAMILY_COUNT && body_is_flexible(body); f++) {
+        for (size_t f = 0; f < body->kind->family_count; f++) {
             struct addition add = {.assembly = assembly,
                                    .problem = problem,
                                    .state = problem->states[b],
                                    .elapsed = problem->request->bodies[b].elapsed,
                                    .body = b,
-                                   .family = (enum mode_family)f};
+                                   .family = f};
             if (!family_is_loaded(problem, b, add.family))
                 continue;
             add.count = wanted(&add, &rigid, choice);

@@ -11,7 +11,7 @@
 /* The modes from `first` on of a family of a body, omitted, as one contact on it sees them. */
 struct omitted_part {
     size_t body, contact;
-    enum mode_family family;
+    size_t family;
     size_t first;
     double compliance; /* m/N */
 };
@@ -28,7 +28,7 @@ struct assembly {
     struct scene scene;
     struct scene_group *groups;
     const struct prepared_group **sources; /* of each group; NULL: a half-space's */
-    enum mode_family *families;            /* of each group; FAMILY_COUNT: a half-space's */
+    size_t *families;                      /* of each group; BODY_MOST_FAMILIES: a half-space's */
     struct omitted_part *parts;
     size_t part_count;
     struct omitted *omitted;          /* [contact] */

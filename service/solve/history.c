@@ -24,9 +24,9 @@ static double residual_of_side(const struct problem *problem, const struct assem
                                size_t contact_i, size_t contact_j)
 {
     double sum = 0.0;
-    for (int f = 0; f < FAMILY_COUNT; f++)
-        if (i->load.acts[f] && j->load.acts[f])
-            sum += modal_compliance(problem->bodies[i->body], f, &i->load, &j->load);
+    const struct body *body = problem->bodies[i->body];
+    for (size_t f = 0; f < body->kind->family_count; f++)
+        sum += modal_compliance(body, f, &i->load.family[f], &j->load.family[f]);
     for (size_t g = 0; g < assembly->scene.groups; g++) {
         const struct scene_group *group = &assembly->groups[g];
         const double *a = group->participation[contact_i];

@@ -15,7 +15,7 @@ enum { FIRST_MODES = 32 };
 
 /* One contact that may excite the family. */
 struct demand {
-    const struct site_load *load;
+    const struct family_load *load;
     double left;   /* compliance that the modes so far do not hold, m/N */
     double weight; /* effect of omitted inertia on the restitution, N/(m s^2) */
     double delay;  /* effect of omitted viscosity over that of inertia, s */
@@ -25,7 +25,7 @@ struct demand {
  * F'^2 over an elastic collision (see track.h) are 1.78 k^2 v d_m and 1.6 k^2 v d_m^2; the
  * compression impulse is v/W. */
 static struct demand make_demand(const struct scene *scene, size_t contact, double rate,
-                                 const struct site_load *load)
+                                 const struct family_load *load)
 {
     struct impact_scale scale = impact_scale_of(scene, contact, rate);
     double stiffness = scale.force / scale.indentation;
@@ -38,14 +38,14 @@ static struct demand make_demand(const struct scene *scene, size_t contact, doub
 /* The contacts that load the family, as if each closed like the fastest of all: what rests on a
  * body hands on the blow that it gets. */
 static size_t find_demands(const struct problem *problem, const struct scene *scene, size_t body,
-                           enum mode_family family, struct demand *demands)
+                           size_t family, struct demand *demands)
 {
     size_t count = 0;
     double rate = 0.0;
     for (size_t c = 0; c < scene->contacts; c++)
         rate = fmin(rate, scene->gap_rate[c]);
     for (size_t c = 0; rate < 0.0 && c < scene->contacts; c++) {
-        const struct site_load *load = problem_load(problem, c, body, family);
+        const struct family_load *load = problem_load(problem, c, body, family);
         if (!load)
             continue;
         demands[count] = make_demand(scene, c, rate, load);
@@ -69,7 +69,7 @@ static bool suffices(const struct body *body, const struct modal_family *modes, 
 }
 
 size_t mode_choice_count(const struct mode_choice *choice, const struct problem *problem,
-                         const struct scene *scene, size_t body, enum mode_family family)
+                         const struct scene *scene, size_t body, size_t family)
 {
     struct demand demands[PERCUSS_MAX_CONTACTS];
     const struct body *owner = problem->bodies[body];

@@ -23,6 +23,6 @@ struct mode_choice {
 /* The number of modes of a loaded family of a body; `scene` needs no groups yet. More than
  * MODE_CHOICE_MOST: out of memory. */
 size_t mode_choice_count(const struct mode_choice *choice, const struct problem *problem,
-                         const struct scene *scene, size_t body, enum mode_family family);
+                         const struct scene *scene, size_t body, size_t family);
 
 #endif

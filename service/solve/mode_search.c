@@ -75,9 +75,11 @@ bool mode_search_expects_sequence(const struct problem *problem)
         return true;
     for (size_t c = 0; c < problem->contact_count; c++)
         for (int which = 0; which < 2; which++) {
-            const bool *acts = problem->sides[c][which].load.acts;
-            if (acts[FAMILY_BENDING_Y] || acts[FAMILY_BENDING_Z])
-                return true;
+            const struct contact_side *side = &problem->sides[c][which];
+            const struct body_kind *kind = problem->bodies[side->body]->kind;
+            for (size_t f = 0; f < kind->family_count; f++)
+                if (side->load.family[f].acts && kind->families[f]->bends)
+                    return true;
         }
     return false;
 }

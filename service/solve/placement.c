@@ -11,7 +11,6 @@
 #include "model/vector.h"
 #include "numeric/lcp.h"
 #include "numeric/linear.h"
-#include "solve/roll.h"
 
 /* Faster approaches are outside everything that the models describe. */
 static const double MAX_SPEED = 1e4;
@@ -251,6 +250,40 @@ static enum percuss_status check_approach(const struct problem *problem, struct 
     return PERCUSS_OK;
 }
 
+/* The planes of a body's modes: those that the first load that bends it excites. */
+static void choose_planes(struct problem *problem, size_t body)
+{
+    const struct body *rolled = problem->bodies[body];
+    struct roll *roll = &problem->rolls[body];
+    bool chosen = false;
+    *roll = (struct roll){0, 1.0, 0.0};
+    for (size_t i = 0; !chosen && i < 2 * problem->contact_count; i++) {
+        const struct contact_side *side = &problem->sides[i / 2][i % 2];
+        chosen = side->body == body && roll_choose(rolled, &side->load, roll);
+    }
+    for (size_t i = 0; roll->sine != 0.0 && i < 2 * problem->contact_count; i++) {
+        struct contact_side *side = &problem->sides[i / 2][i % 2];
+        if (side->body == body)
+            roll_load(rolled, roll, &side->load);
+    }
+}
+
+/* Of all bodies, after the contacts are placed; states are turned with them. False: out of memory.
+ */
+static bool choose_all_planes(struct problem *problem)
+{
+    for (size_t b = 0; b < problem->body_count; b++) {
+        const struct body_state *state = problem->request->bodies[b].state;
+        choose_planes(problem, b);
+        problem->states[b] = state;
+        if (state && problem->rolls[b].sine != 0.0)
+            problem->states[b] = body_state_turned(state, &problem->rolls[b], problem->arena);
+        if (state && !problem->states[b])
+            return false;
+    }
+    return true;
+}
+
 static bool allocate(struct problem *problem)
 {
     size_t n = problem->contact_count;
@@ -281,7 +314,7 @@ enum percuss_status placement_find(struct problem *problem, const struct body_se
     enum percuss_status status = find_bodies(problem, catalogue, fault);
     for (size_t i = 0; !status && i < problem->contact_count; i++)
         status = place_contact(problem, i, fault);
-    if (!status && !roll_choose(problem))
+    if (!status && !choose_all_planes(problem))
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     if (!status)
         status = choose_w(problem, fault);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "fe/matched.h"
+#include "model/roll.h"
 
 /* Patches from a half of a sphere's radius down to 1/1024; smaller ones are extrapolated. */
 enum { OCTAVES = 11 };
@@ -33,8 +34,8 @@ struct radiation {
 struct entry {
     struct entry *next;
     struct body body; /* a copy: its key, see body_same_modes */
-    struct prepared_family *families[FAMILY_COUNT];
-    struct remainder *remainders[FAMILY_COUNT];
+    struct prepared_family *families[BODY_MOST_FAMILIES];
+    struct remainder *remainders[BODY_MOST_FAMILIES];
     struct radiation *radiation;
     enum { UNASKED, KNOWN, NONE } matched_is[OCTAVES];
     double matched[OCTAVES]; /* [k]: with the patch radius/2^k; [0] where it does not matter */
@@ -77,8 +78,7 @@ static bool group_create(struct prepared_group *group, const struct body *body,
     return group->set != NULL;
 }
 
-static struct prepared_family *family_create(const struct body *body, enum mode_family which,
-                                             size_t count)
+static struct prepared_family *family_create(const struct body *body, size_t which, size_t count)
 {
     struct prepared_family *family = calloc(1, sizeof *family);
     if (!family)
@@ -118,7 +118,7 @@ static void remainders_free(struct remainder *list)
 
 static void entry_clear(struct entry *entry)
 {
-    for (int f = 0; f < FAMILY_COUNT; f++) {
+    for (int f = 0; f < BODY_MOST_FAMILIES; f++) {
         family_free(entry->families[f]);
         remainders_free(entry->remainders[f]);
         entry->families[f] = NULL;
@@ -205,12 +205,13 @@ static struct entry *find_entry(struct prepared_cache *cache, const struct body 
 }
 
 const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
-                                                  const struct body *body, enum mode_family family,
+                                                  const struct body *body, size_t family,
                                                   size_t count)
 {
     struct entry *entry = find_entry(cache, body);
     if (!entry)
         return NULL;
+    family = roll_common_family(body, family);
     struct prepared_family *known = entry->families[family];
     if (known && known->modes->count >= count)
         return known;
@@ -227,7 +228,7 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
 }
 
 struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
-                                           enum mode_family family, size_t first)
+                                           size_t family, size_t first)
 {
     const struct prepared_family *modes = prepared_family_get(cache, body, family, first + 1);
     struct entry *entry = modes ? find_entry(cache, body) : NULL;

@@ -35,15 +35,16 @@ void prepared_cache_use(struct prepared_cache *cache, const char *revision);
 /* Forgets one body: the next one of that id is another. No scene may use it any more. */
 void prepared_cache_forget(struct prepared_cache *cache, const char *id);
 
-/* At least `count` modes of a family of a body (of the revision in use). The result stays valid
+/* At least `count` modes of a family of a body (of the revision in use); families that are alike
+ * (roll.h) share theirs. The result stays valid
  * until the next prepared_cache_use. NULL: out of memory. */
 const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
-                                                  const struct body *body, enum mode_family family,
+                                                  const struct body *body, size_t family,
                                                   size_t count);
 
 /* The oscillator of modal_remainder_frequency, with its step tables. NULL: out of memory. */
 struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
-                                           enum mode_family family, size_t first);
+                                           size_t family, size_t first);
 
 /* Frequencies of prepared_radiation_get in an octave: fine enough to come within a tenth of what is
  * wanted, coarse enough that few are ever made. */

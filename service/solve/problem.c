@@ -18,13 +18,13 @@ struct problem *problem_create(const struct solve_request *request, struct prepa
     return problem;
 }
 
-const struct site_load *problem_load(const struct problem *problem, size_t contact, size_t body,
-                                     enum mode_family family)
+const struct family_load *problem_load(const struct problem *problem, size_t contact, size_t body,
+                                       size_t family)
 {
     for (int which = 0; which < 2; which++) {
         const struct contact_side *side = &problem->sides[contact][which];
-        if (side->body == body && side->load.acts[family])
-            return &side->load;
+        if (side->body == body && side->load.family[family].acts)
+            return &side->load.family[family];
     }
     return NULL;
 }

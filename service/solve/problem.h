@@ -10,7 +10,7 @@
 #include "base/arena.h"
 #include "contact/hertz.h"
 #include "contact/law.h"
-#include "model/modal_basis.h"
+#include "model/roll.h"
 #include "solve/prepared.h"
 #include "solve/request.h"
 
@@ -22,12 +22,6 @@ struct contact_side {
     struct site site;
     double direction[3]; /* of the force on the body per newton, body frame */
     struct site_load load;
-};
-
-/* Planes of bending turned about the body's axis: the scene's deflections are cosine y - sine z and
- * cosine z + sine y. */
-struct roll {
-    double cosine, sine;
 };
 
 /* The contacts' laws, see contact_model.h. */
@@ -84,7 +78,7 @@ static inline const struct body *problem_body(const struct problem *problem, siz
 }
 
 /* The load of contact `contact` on a body (an index) if it acts on the family, or NULL. */
-const struct site_load *problem_load(const struct problem *problem, size_t contact, size_t body,
-                                     enum mode_family family);
+const struct family_load *problem_load(const struct problem *problem, size_t contact, size_t body,
+                                       size_t family);
 
 #endif

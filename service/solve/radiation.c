@@ -201,7 +201,7 @@ static bool add_group(struct arena *arena, const struct radiator *radiator, stru
                 residual[i * n + j] -=
                     group->participation[i][0] * group->participation[j][0] / (omega * omega);
     assembly->sources[assembly->scene.groups] = NULL;
-    assembly->families[assembly->scene.groups] = FAMILY_COUNT;
+    assembly->families[assembly->scene.groups] = BODY_MOST_FAMILIES;
     assembly->scene.groups++;
     return true;
 }

@@ -7,16 +7,15 @@
 
 #include "impact/oscillator.h"
 #include "solve/contact_model.h"
-#include "solve/roll.h"
 
 /* How many modes of a family the new state holds. */
 static size_t family_size(const struct assembly *assembly, const struct body_state *before,
-                          size_t body, int family)
+                          size_t body, size_t family)
 {
     size_t size = before ? before->count[family] : 0;
     for (size_t g = 0; g < assembly->scene.groups; g++) {
         const struct scene_group *group = &assembly->groups[g];
-        if (group->body != body || assembly->families[g] != (enum mode_family)family)
+        if (group->body != body || assembly->families[g] != family)
             continue;
         size_t last = assembly->sources[g]->mode[group->count - 1] + 1;
         size = last > size ? last : size;
@@ -25,12 +24,12 @@ static size_t family_size(const struct assembly *assembly, const struct body_sta
 }
 
 /* Frequencies of modes that took no part are asked of the body anew. */
-static void move_freely(const struct body *body, enum mode_family family,
-                        const struct body_state *before, double time, double *pairs)
+static void move_freely(const struct body *body, size_t family, const struct body_state *before,
+                        double time, double *pairs)
 {
     size_t count = before->count[family];
     struct modal_family *modes = modal_family_create(body, family, count);
-    memcpy(pairs, body_state_family(before, (int)family), 2 * count * sizeof *pairs);
+    memcpy(pairs, body_state_family(before, family), 2 * count * sizeof *pairs);
     for (size_t k = 0; modes && k < count; k++)
         oscillator_advance(modes->omega[k], body->damping, time, &pairs[2 * k], &pairs[2 * k + 1]);
     modal_family_free(modes);
@@ -42,13 +41,13 @@ static void fill_modes(const struct assembly *assembly, const struct impact_outc
 {
     const struct body *body = problem->bodies[index];
     const struct body_state *before = problem->states[index];
-    for (int f = 0; f < FAMILY_COUNT; f++) {
+    for (size_t f = 0; f < body->kind->family_count; f++) {
         double *family = (double *)body_state_family(state, f);
         if (before && before->count[f])
-            move_freely(body, (enum mode_family)f, before, elapsed + outcome->window, family);
+            move_freely(body, f, before, elapsed + outcome->window, family);
         for (size_t g = 0; g < assembly->scene.groups; g++) {
             const struct scene_group *group = &assembly->groups[g];
-            if (group->body != index || assembly->families[g] != (enum mode_family)f)
+            if (group->body != index || assembly->families[g] != f)
                 continue;
             for (size_t k = 0; k < group->count; k++) {
                 size_t mode = assembly->sources[g]->mode[k];
@@ -105,10 +104,10 @@ const struct body_state *state_after(const struct assembly *assembly,
         sizes.dents = find_dents(outcome, problem, stated->state, body, dents);
     if (!flexible && !sizes.dents)
         return NULL;
-    for (int f = 0; flexible && f < FAMILY_COUNT; f++)
+    for (size_t f = 0; f < problem->bodies[body]->kind->family_count; f++)
         sizes.count[f] = family_size(assembly, problem->states[body], body, f);
     // one block of it
-    roll_size(&problem->rolls[body], &sizes);
+    body_state_make_room(&problem->rolls[body], &sizes);
     struct body_state *state = arena_take(problem->arena, 1, body_state_size(&sizes));
     if (!state)
         return NULL;
@@ -116,7 +115,7 @@ const struct body_state *state_after(const struct assembly *assembly,
     // filled
     if (flexible) {
         fill_modes(assembly, outcome, problem, stated->elapsed, state, body);
-        roll_back(&problem->rolls[body], state);
+        body_state_turn_back(&problem->rolls[body], state);
     }
     if (sizes.dents)
         memcpy((struct dent *)body_state_dents(state), dents, sizes.dents * sizeof *dents);

@@ -3,6 +3,7 @@
 
 /* The paper's experiments as far as its elastic bodies go: statistics of the chaotic beam, bodies
  * of equal mass and different shape, and the frequencies of its beam. */
+#include "model/bar.h"
 #include "physics/support.h"
 
 static struct lab *paper(void)
@@ -110,7 +111,7 @@ static void the_beam_s_symmetric_frequencies(void **state)
     struct material metal = {"metal", 68.9e9, 0.33, 2710.0, INFINITY, 0.0};
     struct lab *lab = lab_create();
     const struct body *beam = lab_add(lab, "beam", make_bar(&beam_kind, metal, 0.010, 1.0));
-    struct modal_family *modes = modal_family_create(beam, FAMILY_BENDING_Z, 10);
+    struct modal_family *modes = modal_family_create(beam, BAR_BENDING_Z, 10);
     assert_non_null(modes);
     for (size_t i = 0; i < 5; i++)
         measured("Hz", modes->omega[2 * i] / (2.0 * M_PI), hertz[i], 5e-6);

@@ -5,6 +5,7 @@
  * body answers differently from a silent one. */
 #include <time.h>
 
+#include "model/bar.h"
 #include "physics/support.h"
 
 struct ringing {
@@ -58,11 +59,10 @@ static void ring_free(struct ringing *ringing)
 static double state_energy(const struct body *body, const struct body_state *state)
 {
     double sum = 0.0;
-    for (int f = 0; f < FAMILY_COUNT; f++) {
+    for (size_t f = 0; f < BODY_MOST_FAMILIES; f++) {
         if (!state->count[f])
             continue;
-        struct modal_family *modes =
-            modal_family_create(body, (enum mode_family)f, state->count[f]);
+        struct modal_family *modes = modal_family_create(body, f, state->count[f]);
         const double *pairs = body_state_family(state, f);
         assert_non_null(modes);
         for (size_t k = 0; k < state->count[f]; k++) {
@@ -78,9 +78,9 @@ static void a_state_holds_the_vibration(void **state)
 {
     (void)state;
     struct ringing ringing = ring(0.0, 100);
-    assert_true(ringing.state->count[FAMILY_BENDING_Y] > 0);
-    assert_true(ringing.state->count[FAMILY_BENDING_Z] > 0);
-    assert_int_equal(ringing.state->count[FAMILY_AXIAL], 0);
+    assert_true(ringing.state->count[BAR_BENDING_Y] > 0);
+    assert_true(ringing.state->count[BAR_BENDING_Z] > 0);
+    assert_int_equal(ringing.state->count[BAR_LONGITUDINAL], 0);
     /* two sums of the same terms in different order */
     measured_relative("energy of the state", state_energy(&ringing.lab->bodies[1], ringing.state),
                       ringing.vibration, 1e-12);
@@ -118,11 +118,10 @@ static void flights_add_up(void **state)
         struct body_state *parts = fly(&ringing, 2);
         double scale = sqrt(ringing.vibration);
         assert_memory_equal(whole->count, parts->count, sizeof whole->count);
-        for (int f = 0; f < FAMILY_COUNT; f++) {
+        for (size_t f = 0; f < BODY_MOST_FAMILIES; f++) {
             if (!whole->count[f])
                 continue;
-            struct modal_family *modes =
-                modal_family_create(beam, (enum mode_family)f, whole->count[f]);
+            struct modal_family *modes = modal_family_create(beam, f, whole->count[f]);
             const double *a = body_state_family(whole, f);
             const double *b = body_state_family(parts, f);
             assert_non_null(modes);
@@ -270,12 +269,12 @@ static void modes_that_take_no_part_ring_on(void **state)
     lab_solve(ringing.lab, &request, &result);
     const struct body_state *after = result.bodies[1].state_after;
     /* along z at the centre: nothing of the plane y, nothing odd of the plane z */
-    const double *y0 = body_state_family(ringing.state, FAMILY_BENDING_Y);
-    const double *y1 = body_state_family(after, FAMILY_BENDING_Y);
-    size_t count = ringing.state->count[FAMILY_BENDING_Y];
-    struct modal_family *modes = modal_family_create(beam, FAMILY_BENDING_Y, count);
+    const double *y0 = body_state_family(ringing.state, BAR_BENDING_Y);
+    const double *y1 = body_state_family(after, BAR_BENDING_Y);
+    size_t count = ringing.state->count[BAR_BENDING_Y];
+    struct modal_family *modes = modal_family_create(beam, BAR_BENDING_Y, count);
     assert_non_null(modes);
-    assert_int_equal(after->count[FAMILY_BENDING_Y], count);
+    assert_int_equal(after->count[BAR_BENDING_Y], count);
     for (size_t k = 0; k < count; k++) {
         double w = modes->omega[k];
         double t = result.window;

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Blows beside the axis of a rectangular bar: it twists away under the ball. */
+#include "model/bar.h"
 #include "physics/support.h"
 
 /* 300 x 40 x 4 mm of aluminium, a steel ball of 8 mm radius at 0.5 m/s. */
@@ -136,7 +137,7 @@ static void the_twist_rings_on(void **state)
     double silent = restitution(lab, &request, &result);
     double held = result.bodies[1].vibration;
     struct body_state *ringing = copy_state(result.bodies[1].state_after);
-    assert_true(ringing->count[FAMILY_TORSION] > 0);
+    assert_true(ringing->count[BAR_TWIST] > 0);
     request.bodies[1].state = ringing;
     request.bodies[1].elapsed = 0.001;
     double e = restitution(lab, &request, &result);
@@ -148,9 +149,9 @@ static void the_twist_rings_on(void **state)
     central.bodies[1].state = ringing;
     restitution(lab, &central, &result);
     const struct body_state *after = result.bodies[1].state_after;
-    assert_int_equal(after->count[FAMILY_TORSION], ringing->count[FAMILY_TORSION]);
-    const double *before = body_state_family(ringing, FAMILY_TORSION);
-    const double *later = body_state_family(after, FAMILY_TORSION);
+    assert_int_equal(after->count[BAR_TWIST], ringing->count[BAR_TWIST]);
+    const double *before = body_state_family(ringing, BAR_TWIST);
+    const double *later = body_state_family(after, BAR_TWIST);
     assert_true(before[0] != later[0]);
     free(ringing);
     lab_free(lab);
@@ -169,7 +170,7 @@ static void an_end_hit_beside_the_axis_bends_and_pushes(void **state)
     request.options.tolerance = 1e-7;
     lab_solve(lab, &request, &modal);
     assert_int_equal(modal.bodies[1].modes, 36);
-    assert_int_equal(modal.bodies[1].state_after->count[FAMILY_TORSION], 0);
+    assert_int_equal(modal.bodies[1].state_after->count[BAR_TWIST], 0);
     request.options.method = PERCUSS_METHOD_CVODE;
     lab_solve(lab, &request, &cvode);
     /* tolerance 1e-7 each, amplified by a sequence */

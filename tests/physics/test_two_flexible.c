@@ -3,6 +3,7 @@
 
 /* Two flexible bodies in one contact, and what must not matter: which of them is called a, and how
  * a round beam is turned about its axis. */
+#include "model/bar.h"
 #include "physics/support.h"
 
 static struct lab *lab_of_bars(void)
@@ -251,7 +252,7 @@ static void two_planes_take_part_where_contacts_ask_for_them(void **state)
             measured("e of either ball", result.contacts[c].restitution, e[c], 1e-8);
         }
         const struct body_state *after = result.bodies[1].state_after;
-        assert_true(after->count[FAMILY_BENDING_Y] > 0 && after->count[FAMILY_BENDING_Z] > 0);
+        assert_true(after->count[BAR_BENDING_Y] > 0 && after->count[BAR_BENDING_Z] > 0);
     }
     lab_free(lab);
 }

@@ -3,13 +3,14 @@
 
 /* Modes in unusual places and numbers: a contact at their node, 5000 of them, equal frequencies,
  * any damping, contacts longer than the slowest of them. */
+#include "model/bar.h"
 #include "physics/hard/hard.h"
 #include "unit/impact/toy_scene.h"
 
 /* First node of the first bending mode of the paper's beam, by bisection of its shape. */
 static double first_node(const struct body *beam)
 {
-    struct modal_family *modes = modal_family_create(beam, FAMILY_BENDING_Z, 1);
+    struct modal_family *modes = modal_family_create(beam, BAR_BENDING_Z, 1);
     assert_non_null(modes);
     double low = 0.0;
     double high = 0.4;
@@ -21,7 +22,7 @@ static double first_node(const struct body *beam)
                                 .point = {which ? middle : 0.0, 0.0, beam->radius},
                                 .outward = {0.0, 0.0, 1.0}};
             struct site_load load = site_load_make(beam, &site, (double[]){0.0, 0.0, -1.0});
-            sign[which] = modal_participation(beam, modes, 0, &load);
+            sign[which] = modal_participation(beam, modes, 0, &load.family[BAR_BENDING_Z]);
         }
         if (sign[0] * sign[1] > 0.0)
             low = middle;

@@ -7,6 +7,7 @@
 #include <pthread.h>
 
 #include "endpoint/token_store.h"
+#include "model/bar.h"
 
 static const struct token_limits roomy = {100, 1 << 20, 60.0};
 static const struct token_subject beam = {"r1", "beam"};
@@ -16,7 +17,7 @@ static struct body_state *state_of(double number)
 {
     struct body_state *state = calloc(1, sizeof *state + 4 * sizeof(double));
     assert_non_null(state);
-    state->count[FAMILY_AXIAL] = 2;
+    state->count[BAR_LONGITUDINAL] = 2;
     state->coordinates[3] = number;
     return state;
 }
@@ -52,7 +53,7 @@ static void gives_back_what_was_put(void **state)
     assert_int_equal(token_store_count(store), 2);
     const struct body_state *held = token_store_hold(store, token, &beam, 2.0, NULL);
     assert_non_null(held);
-    assert_int_equal(held->count[FAMILY_AXIAL], 2);
+    assert_int_equal(held->count[BAR_LONGITUDINAL], 2);
     assert_true(held->coordinates[3] == 1.5);
     token_store_release(store, held);
     token_store_free(store);

@@ -4,7 +4,7 @@
 /* Mirrors service/model/modal_basis.c: which families a load drives, frequencies and participations
  * of rods in closed form, and compliances that the modal sums approach. */
 #include "check.h"
-#include "model/modal_basis.h"
+#include "model/bar.h"
 
 static struct body bar(const struct body_kind *kind, enum support left, enum support right)
 {
@@ -36,26 +36,28 @@ static void loads_drive_what_they_should(void **state)
     struct site beside = site(SITE_END, -0.5, 0.003, 0.0);
     const double along[3] = {-1.0, 0.0, 0.0}, down[3] = {0.0, 0.0, -1.0};
     struct site_load load = site_load_make(&rod, &end, along);
-    assert_true(load.acts[FAMILY_AXIAL] && !load.acts[FAMILY_BENDING_Y]);
-    assert_true(load.axial == -1.0 && load.end == 1);
+    assert_true(load.family[BAR_LONGITUDINAL].acts && !load.family[BAR_BENDING_Y].acts);
+    assert_true(load.family[BAR_LONGITUDINAL].bar.force == -1.0);
+    assert_true(load.family[BAR_LONGITUDINAL].bar.x == 0.5);
     load = site_load_make(&beam, &side, down);
-    assert_true(!load.acts[FAMILY_AXIAL] && !load.acts[FAMILY_BENDING_Y]);
-    assert_true(load.acts[FAMILY_BENDING_Z]);
-    near(load.bending[1].x, 0.2, 0.0);
-    near(load.bending[1].force, -1.0, 0.0);
-    near(load.bending[1].moment, 0.0, 0.0);
+    assert_true(!load.family[BAR_LONGITUDINAL].acts && !load.family[BAR_BENDING_Y].acts);
+    assert_true(load.family[BAR_BENDING_Z].acts);
+    near(load.family[BAR_BENDING_Z].bar.x, 0.2, 0.0);
+    near(load.family[BAR_BENDING_Z].bar.force, -1.0, 0.0);
+    near(load.family[BAR_BENDING_Z].bar.moment, 0.0, 0.0);
     /* beside the axis a hit on the end bends too: psi moves a point at y by -y psi */
     load = site_load_make(&beam, &beside, (double[]){1.0, 0.0, 0.0});
-    assert_true(load.acts[FAMILY_AXIAL] && load.acts[FAMILY_BENDING_Y]);
-    assert_false(load.acts[FAMILY_BENDING_Z]);
-    near(load.bending[0].moment, -0.003, 0.0);
-    near(load.bending[0].x, -0.5, 0.0);
-    assert_int_equal(load.end, 0);
+    assert_true(load.family[BAR_LONGITUDINAL].acts && load.family[BAR_BENDING_Y].acts);
+    assert_false(load.family[BAR_BENDING_Z].acts);
+    near(load.family[BAR_BENDING_Y].bar.moment, -0.003, 0.0);
+    near(load.family[BAR_BENDING_Y].bar.x, -0.5, 0.0);
+    assert_true(load.family[BAR_LONGITUDINAL].bar.x == -0.5);
     /* rounding of the pose drives nothing */
     load = site_load_make(&beam, &side, (double[]){1e-10, 1e-10, 1.0});
-    assert_true(!load.acts[FAMILY_AXIAL] && !load.acts[FAMILY_BENDING_Y]);
+    assert_true(!load.family[BAR_LONGITUDINAL].acts && !load.family[BAR_BENDING_Y].acts);
     load = site_load_make(&ball, &end, along);
-    assert_false(load.acts[0] || load.acts[1] || load.acts[2]);
+    for (size_t f = 0; f < BODY_MOST_FAMILIES; f++)
+        assert_false(load.family[f].acts);
 }
 
 /* omega_k = k pi c/L and sqrt(2/M), signs (-1)^k at the far end; held at one end (k - 1/2). */
@@ -65,9 +67,9 @@ static void rods_have_closed_forms(void **state)
     double c = sqrt(70e9 / 2700.0);
     for (int held = 0; held < 2; held++) {
         struct body rod = bar(&rod_kind, held ? SUPPORT_CLAMPED : SUPPORT_FREE, SUPPORT_FREE);
-        struct modal_family *modes = modal_family_create(&rod, FAMILY_AXIAL, 50);
-        struct site_load right = {.acts = {true}, .axial = 1.0, .end = 1};
-        struct site_load left = {.acts = {true}, .axial = 1.0, .end = 0};
+        struct modal_family *modes = modal_family_create(&rod, BAR_LONGITUDINAL, 50);
+        struct family_load right = {true, {.x = 0.5, .force = 1.0}};
+        struct family_load left = {true, {.x = -0.5, .force = 1.0}};
         assert_non_null(modes);
         for (size_t k = 0; k < 50; k++) {
             double number = (double)k + (held ? 0.5 : 1.0);
@@ -91,14 +93,14 @@ static void lateral_inertia_slows_waves(void **state)
     (void)state;
     struct body rod = bar(&rod_kind, SUPPORT_FREE, SUPPORT_FREE);
     rod.lateral_inertia = true;
-    struct modal_family *modes = modal_family_create(&rod, FAMILY_AXIAL, 200);
+    struct modal_family *modes = modal_family_create(&rod, BAR_LONGITUDINAL, 200);
     assert_non_null(modes);
     double c = sqrt(70e9 / 2700.0);
     for (size_t k = 0; k < 200; k++) {
         double wave = (double)(k + 1) * M_PI;
         double share = 0.33 * 0.33 * wave * wave * 0.5e-4;
         near(modes->omega[k], wave * c / sqrt(1.0 + share), 1e-13 * wave * c);
-        struct site_load load = {.acts = {true}, .axial = 1.0, .end = 1};
+        struct family_load load = {true, {.x = 0.5, .force = 1.0}};
         double phi = modal_participation(&rod, modes, k, &load);
         near(phi * phi, 2.0 / (rod.mass * (1.0 + share)), 1e-13 / rod.mass);
     }
@@ -106,8 +108,8 @@ static void lateral_inertia_slows_waves(void **state)
 }
 
 /* Sum of phi_i phi_j/omega^2 over N modes; the rest falls like 1/N. */
-static double modal_sum(const struct body *body, enum mode_family family, size_t count,
-                        const struct site_load *i, const struct site_load *j)
+static double modal_sum(const struct body *body, size_t family, size_t count,
+                        const struct family_load *i, const struct family_load *j)
 {
     struct modal_family *modes = modal_family_create(body, family, count);
     double sum = 0.0;
@@ -129,17 +131,17 @@ static void compliances_complete_the_modal_sums(void **state)
         for (int love = 0; love < 2; love++) {
             struct body rod = bar(&rod_kind, ends[s][0], ends[s][1]);
             rod.lateral_inertia = love;
-            int end = ends[s][1] == SUPPORT_FREE;
-            struct site_load i = {.acts = {true}, .axial = 0.9, .end = end};
-            struct site_load j = {.acts = {true}, .axial = -0.7, .end = end};
-            double exact = modal_compliance(&rod, FAMILY_AXIAL, &i, &j);
+            double end = ends[s][1] == SUPPORT_FREE ? 0.5 : -0.5;
+            struct family_load i = {true, {.x = end, .force = 0.9}};
+            struct family_load j = {true, {.x = end, .force = -0.7}};
+            double exact = modal_compliance(&rod, BAR_LONGITUDINAL, &i, &j);
             /* the terms left out: 2 L/(EA pi^2) sum 1/k^2 = 1/N of it */
-            near(modal_sum(&rod, FAMILY_AXIAL, 4000, &i, &j), exact, 3e-4 * fabs(exact));
+            near(modal_sum(&rod, BAR_LONGITUDINAL, 4000, &i, &j), exact, 3e-4 * fabs(exact));
             if (s == 0) {
-                j.end = 1 - end;
+                j.bar.x = -end;
                 /* alternating terms: 1/N^2 */
-                exact = modal_compliance(&rod, FAMILY_AXIAL, &i, &j);
-                near(modal_sum(&rod, FAMILY_AXIAL, 4000, &i, &j), exact, 1e-6 * fabs(exact));
+                exact = modal_compliance(&rod, BAR_LONGITUDINAL, &i, &j);
+                near(modal_sum(&rod, BAR_LONGITUDINAL, 4000, &i, &j), exact, 1e-6 * fabs(exact));
             }
         }
     }
@@ -153,14 +155,14 @@ static void compliances_of_the_notes(void **state)
     const struct body beam = bar(&beam_kind, SUPPORT_FREE, SUPPORT_FREE);
     const struct body rod = bar(&rod_kind, SUPPORT_FREE, SUPPORT_FREE);
     for (int i = 0; i < 2; i++) {
-        struct site_load load = {.acts = {false, false, true},
-                                 .bending = {{0}, {.x = rows[i][0], .force = 1.0}}};
-        near(modal_compliance(&beam, FAMILY_BENDING_Z, &load, &load), rows[i][1], 6e-13);
-        load.acts[FAMILY_BENDING_Z] = false;
-        near(modal_compliance(&beam, FAMILY_BENDING_Z, &load, &load), 0.0, 0.0);
+        struct family_load load = {true, {.x = rows[i][0], .force = 1.0}};
+        near(modal_compliance(&beam, BAR_BENDING_Z, &load, &load), rows[i][1], 6e-13);
+        load.acts = false;
+        near(modal_compliance(&beam, BAR_BENDING_Z, &load, &load), 0.0, 0.0);
     }
-    struct site_load end = {.acts = {true}, .axial = 1.0, .end = 1};
-    near(modal_compliance(&rod, FAMILY_AXIAL, &end, &end), 1.0 / (3.0 * 70e9 * M_PI * 1e-4), 1e-20);
+    struct family_load end = {true, {.x = 0.5, .force = 1.0}};
+    near(modal_compliance(&rod, BAR_LONGITUDINAL, &end, &end), 1.0 / (3.0 * 70e9 * M_PI * 1e-4),
+         1e-20);
 }
 
 /* Rectangular sections bend in two different planes; even and odd shapes are told apart. */
@@ -172,12 +174,12 @@ static void planes_and_parities(void **state)
     flat.width = 0.04;
     flat.height = 0.01;
     assert_int_equal(body_complete(&flat, NULL), PERCUSS_OK);
-    struct modal_family *wide = modal_family_create(&flat, FAMILY_BENDING_Y, 6);
-    struct modal_family *thin = modal_family_create(&flat, FAMILY_BENDING_Z, 6);
+    struct modal_family *wide = modal_family_create(&flat, BAR_BENDING_Y, 6);
+    struct modal_family *thin = modal_family_create(&flat, BAR_BENDING_Z, 6);
     assert_true(wide && thin);
     /* Euler-Bernoulli's ratio of 4, less a few percent of shear in the stiffer plane */
     near(wide->omega[0] / thin->omega[0], 4.0, 0.05);
-    struct site_load centre = {.acts = {false, false, true}, .bending = {{0}, {.force = 1.0}}};
+    struct family_load centre = {true, {.force = 1.0}};
     for (size_t k = 0; k < 6; k++) {
         assert_int_equal(thin->odd[k], k % 2);
         double phi = modal_participation(&flat, thin, k, &centre);
@@ -186,13 +188,13 @@ static void planes_and_parities(void **state)
         else
             assert_true(fabs(phi) > 0.1);
     }
-    struct beam_plane plane = modal_beam_plane(&flat, FAMILY_BENDING_Y);
+    struct beam_plane plane = beam_plane_of(&flat, 0);
     near(plane.bending_stiffness, 70e9 * 0.01 * 0.04 * 0.04 * 0.04 / 12.0, 1e-6);
     near(plane.line_mass, 2700.0 * 4e-4, 1e-15);
     modal_family_free(wide);
     modal_family_free(thin);
     flat.supports[0] = SUPPORT_PINNED;
-    thin = modal_family_create(&flat, FAMILY_BENDING_Z, 6);
+    thin = modal_family_create(&flat, BAR_BENDING_Z, 6);
     assert_non_null(thin);
     for (size_t k = 0; k < 6; k++)
         assert_int_equal(thin->odd[k], 0); /* no symmetry, no parity */

@@ -4,6 +4,7 @@
 /* Mirrors service/model/torsion.c: the section's constants, modes against Vlasov's equation, static
  * compliances that the modal sums approach, and d'Alembert's waves. */
 #include "check.h"
+#include "model/bar.h"
 #include "model/modal_basis.h"
 #include "model/torsion.h"
 
@@ -123,7 +124,7 @@ static void a_round_bar_has_even_frequencies(void **state)
         body.width = body.height = 0.0;
         assert_int_equal(body_complete(&body, NULL), PERCUSS_OK);
         bool one_held = s == 1 || s == 2;
-        struct modal_family *modes = modal_family_create(&body, FAMILY_TORSION, 20);
+        struct modal_family *modes = modal_family_create(&body, BAR_TWIST, 20);
         assert_non_null(modes);
         for (size_t k = 0; k < 20; k++) {
             double number = (double)k + (one_held ? 0.5 : 1.0);
@@ -163,9 +164,9 @@ static void blows_beside_the_axis_twist(void **state)
     (void)state;
     struct body body = strip(0.04, 0.004, SUPPORT_FREE, SUPPORT_FREE);
     struct site_load load = beside(&body, 0.05, 0.005);
-    assert_true(load.acts[FAMILY_TORSION] && load.acts[FAMILY_BENDING_Z]);
-    near(load.torque, -0.005, 1e-18);
-    assert_false(beside(&body, 0.05, 0.0).acts[FAMILY_TORSION]);
+    assert_true(load.family[BAR_TWIST].acts && load.family[BAR_BENDING_Z].acts);
+    near(load.family[BAR_TWIST].bar.moment, -0.005, 1e-18);
+    assert_false(beside(&body, 0.05, 0.0).family[BAR_TWIST].acts);
     struct body round = {.id = "round", .material = body.material, .kind = &beam_kind};
     round.radius = 0.01;
     round.length = 0.3;
@@ -173,7 +174,7 @@ static void blows_beside_the_axis_twist(void **state)
     /* a normal 3 degrees askew: no friction, no torque on a round section */
     struct site site = {.face = SITE_BEAM_SIDE, .point = {0.0, 0.0, 0.01}};
     load = site_load_make(&round, &site, (double[]){0.0, 0.0523, -0.9986});
-    assert_false(load.acts[FAMILY_TORSION]);
+    assert_false(load.family[BAR_TWIST].acts);
 }
 
 /* The exact compliance is the sum over all modes; N of them leave 1/N. */
@@ -183,20 +184,20 @@ static void compliance_completes_the_modal_sum(void **state)
     const size_t count = 2000;
     for (int s = 0; s < 4; s++) {
         struct body body = strip(0.04, 0.004, ENDS[s][0], ENDS[s][1]);
-        struct modal_family *modes = modal_family_create(&body, FAMILY_TORSION, count);
+        struct modal_family *modes = modal_family_create(&body, BAR_TWIST, count);
         static const double sites[] = {-0.15, -0.06, 0.0, 0.11, 0.15};
         double scale = torsion_compliance(&body, 0.03, 0.03);
         assert_non_null(modes);
         for (int pair = 0; pair < 25; pair++) {
-            struct site_load i = beside(&body, sites[pair / 5], 0.005);
-            struct site_load j = beside(&body, sites[pair % 5], -0.012);
+            struct family_load i = beside(&body, sites[pair / 5], 0.005).family[BAR_TWIST];
+            struct family_load j = beside(&body, sites[pair % 5], -0.012).family[BAR_TWIST];
             double sum = 0.0;
             for (size_t k = count; k-- > 0;)
                 sum += modal_participation(&body, modes, k, &i) *
                        modal_participation(&body, modes, k, &j) /
                        (modes->omega[k] * modes->omega[k]);
             /* 2/(pi^2 N) of L/(GJ), which is some ten times the scale; 60e-6 of torques */
-            near(sum, modal_compliance(&body, FAMILY_TORSION, &i, &j), 1e-3 * scale * 60e-6);
+            near(sum, modal_compliance(&body, BAR_TWIST, &i, &j), 1e-3 * scale * 60e-6);
         }
         modal_family_free(modes);
     }

@@ -3,6 +3,7 @@
 
 /* Mirrors service/solve/assemble.c: which modes take part, and the residual flexibility of the
  * rest. */
+#include "model/bar.h"
 #include "physics/support.h"
 #include "solve/assemble.h"
 #include "solve/contact_model.h"
@@ -216,7 +217,7 @@ static void a_state_brings_its_modes(void **state)
     struct body_state *ringing =
         calloc(1, sizeof *ringing + 2 * count * sizeof *ringing->coordinates);
     assert_non_null(ringing);
-    ringing->count[FAMILY_BENDING_Z] = count;
+    ringing->count[BAR_BENDING_Z] = count;
     for (size_t k = 0; k < count; k++)
         ringing->coordinates[2 * k] = 1e-6 * (double)(k + 1);
     request.bodies[1].state = ringing;

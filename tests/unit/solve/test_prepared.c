@@ -3,6 +3,7 @@
 
 /* Mirrors service/solve/prepared.c: a hit and a miss give the same bits, growing keeps what scenes
  * point at, a new revision forgets. */
+#include "model/bar.h"
 #include "physics/support.h"
 #include "solve/prepared.h"
 
@@ -21,18 +22,18 @@ static void more_modes_change_no_bit(void **state)
     struct prepared_cache *cache = prepared_cache_create();
     assert_non_null(cache);
     prepared_cache_use(cache, "one");
-    const struct prepared_family *few = prepared_family_get(cache, &body, FAMILY_BENDING_Z, 5);
+    const struct prepared_family *few = prepared_family_get(cache, &body, BAR_BENDING_Z, 5);
     assert_non_null(few);
     assert_true(few->modes->count >= 5);
     size_t count = few->modes->count;
-    const struct prepared_family *many = prepared_family_get(cache, &body, FAMILY_BENDING_Z, 300);
+    const struct prepared_family *many = prepared_family_get(cache, &body, BAR_BENDING_Z, 300);
     assert_non_null(many);
     assert_true(many != few && many->modes->count >= 300);
     /* the smaller one is still there: a scene may hold it */
     assert_memory_equal(few->modes->omega, many->modes->omega, count * sizeof(double));
-    assert_memory_equal(few->modes->beam, many->modes->beam, count * sizeof *few->modes->beam);
+    assert_memory_equal(few->modes->shapes, many->modes->shapes, count * sizeof(struct beam_mode));
     assert_memory_equal(few->modes->odd, many->modes->odd, count);
-    assert_ptr_equal(prepared_family_get(cache, &body, FAMILY_BENDING_Z, 4), many);
+    assert_ptr_equal(prepared_family_get(cache, &body, BAR_BENDING_Z, 4), many);
     prepared_cache_free(cache);
 }
 
@@ -44,7 +45,7 @@ static void groups_split_by_parity(void **state)
     struct prepared_cache *cache = prepared_cache_create();
     assert_non_null(cache);
     prepared_cache_use(cache, "one");
-    const struct prepared_family *family = prepared_family_get(cache, &body, FAMILY_BENDING_Y, 40);
+    const struct prepared_family *family = prepared_family_get(cache, &body, BAR_BENDING_Y, 40);
     assert_non_null(family);
     assert_int_equal(family->group_count, 2);
     size_t seen = 0;
@@ -59,7 +60,7 @@ static void groups_split_by_parity(void **state)
     assert_int_equal(seen, family->modes->count);
     body.supports[0] = SUPPORT_CLAMPED;
     snprintf(body.id, sizeof body.id, "cantilever");
-    family = prepared_family_get(cache, &body, FAMILY_BENDING_Y, 40);
+    family = prepared_family_get(cache, &body, BAR_BENDING_Y, 40);
     assert_non_null(family);
     assert_int_equal(family->group_count, 1);
     prepared_cache_free(cache);
@@ -73,29 +74,28 @@ static void bodies_and_revisions_are_kept_apart(void **state)
     assert_non_null(cache);
     prepared_cache_use(cache, "one");
     double omega[2];
-    omega[0] = prepared_family_get(cache, &first, FAMILY_BENDING_Z, 8)->modes->omega[0];
-    omega[1] = prepared_family_get(cache, &second, FAMILY_BENDING_Z, 8)->modes->omega[0];
+    omega[0] = prepared_family_get(cache, &first, BAR_BENDING_Z, 8)->modes->omega[0];
+    omega[1] = prepared_family_get(cache, &second, BAR_BENDING_Z, 8)->modes->omega[0];
     assert_true(omega[1] > 3.0 * omega[0]);
     /* the same revision remembers, another one looks again */
     second.length = 0.25;
     assert_int_equal(body_complete(&second, NULL), PERCUSS_OK);
     prepared_cache_use(cache, "one");
-    assert_true(prepared_family_get(cache, &second, FAMILY_BENDING_Z, 8)->modes->omega[0] ==
-                omega[1]);
+    assert_true(prepared_family_get(cache, &second, BAR_BENDING_Z, 8)->modes->omega[0] == omega[1]);
     prepared_cache_use(cache, "two");
-    assert_true(prepared_family_get(cache, &second, FAMILY_BENDING_Z, 8)->modes->omega[0] >
+    assert_true(prepared_family_get(cache, &second, BAR_BENDING_Z, 8)->modes->omega[0] >
                 2.0 * omega[1]);
     /* several hundred bodies share buckets */
     for (int i = 0; i < 400; i++) {
         char id[32];
         snprintf(id, sizeof id, "beam-%d", i);
         struct body body = beam(id, 0.5 + 0.001 * i);
-        assert_non_null(prepared_family_get(cache, &body, FAMILY_AXIAL, 1));
+        assert_non_null(prepared_family_get(cache, &body, BAR_LONGITUDINAL, 1));
     }
     struct body again = beam("beam-7", 0.507);
     double c = sqrt(70e9 / 2700.0);
     measured_relative("beam-7",
-                      prepared_family_get(cache, &again, FAMILY_AXIAL, 1)->modes->omega[0],
+                      prepared_family_get(cache, &again, BAR_LONGITUDINAL, 1)->modes->omega[0],
                       M_PI * c / 0.507, 1e-14);
     prepared_cache_free(cache);
     prepared_cache_free(NULL);

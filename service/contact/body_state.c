@@ -1,0 +1,46 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "contact/body_state.h"
+
+#include <string.h>
+
+void body_state_make_room(const struct roll *roll, struct body_state *sizes)
+{
+    size_t *y = &sizes->count[roll->first];
+    size_t *z = y + 1;
+    if (roll->sine != 0.0)
+        *y = *z = *y > *z ? *y : *z;
+}
+
+static void turn(const struct roll *roll, struct body_state *state)
+{
+    double *y = (double *)body_state_family(state, roll->first);
+    double *z = (double *)body_state_family(state, roll->first + 1);
+    roll_coordinates(roll, 2 * state->count[roll->first], y, z);
+}
+
+const struct body_state *body_state_turned(const struct body_state *state, const struct roll *roll,
+                                           struct arena *arena)
+{
+    struct body_state sizes = *state;
+    body_state_make_room(roll, &sizes);
+    struct body_state *turned = arena_take(arena, 1, body_state_size(&sizes));
+    if (!turned)
+        return NULL;
+    *turned = sizes;
+    for (size_t f = 0; f < BODY_MOST_FAMILIES; f++)
+        memcpy((double *)body_state_family(turned, f), body_state_family(state, f),
+               2 * state->count[f] * sizeof *state->coordinates);
+    memcpy((struct dent *)body_state_dents(turned), body_state_dents(state),
+           state->dents * sizeof(struct dent));
+    turn(roll, turned);
+    return turned;
+}
+
+void body_state_turn_back(const struct roll *roll, struct body_state *state)
+{
+    const struct roll back = {roll->first, roll->cosine, -roll->sine};
+    if (roll->sine != 0.0)
+        turn(&back, state);
+}
