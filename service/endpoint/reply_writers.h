@@ -10,13 +10,7 @@
 #include <stdbool.h>
 
 #include "base/fault.h"
-#include "endpoint/answer.h"
-
-/* More clients than this at once get no replies. */
-enum { REPLY_WRITERS_CLIENTS = 1024 };
-
-/* What is written to clients: the replies of each exchange, and these. */
-enum { CHANNEL_PROGRESS = EXCHANGE_COUNT, CHANNEL_SAMPLES, CHANNEL_TRACE, CHANNEL_COUNT };
+#include "endpoint/destinations.h"
 
 struct reply_writers;
 
@@ -39,12 +33,6 @@ typedef void presence_function(void *context, const uint8_t client[16], enum pre
  * only. */
 void reply_writers_follow(struct reply_writers *writers, presence_function *presence,
                           void *context);
-
-enum delivery {
-    DELIVERY_DONE,
-    DELIVERY_NO_READER, /* the client has no reader of such replies */
-    DELIVERY_STALLED    /* it does not take what it was sent; tried again after a second */
-};
 
 /* Writes the answer, all parts of it, to its client. */
 enum delivery reply_writers_write(struct reply_writers *writers, const uint8_t client[16],

@@ -1,0 +1,215 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "endpoint/destinations.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/queue.h>
+
+#include "endpoint/clock.h"
+#include "endpoint/key_map.h"
+
+static const double stall_pause = 1.0; /* s */
+
+/* A client. */
+struct destination {
+    struct key_node node; /* key: client */
+    LIST_ENTRY(destination) all;
+    uint8_t client[16];
+    unsigned readers[CHANNEL_COUNT];
+    dds_entity_t writers[CHANNEL_COUNT]; /* 0: none */
+    double stalled_until[CHANNEL_COUNT];
+};
+
+/* A reader of replies somewhere in the domain; when it goes, only its key is told. */
+struct remote_reader {
+    struct key_node node; /* key: GUID */
+    LIST_ENTRY(remote_reader) all;
+    struct destination *destination;
+    unsigned channel;
+};
+
+struct destinations {
+    writer_maker *make;
+    void *context;        /* of that */
+    pthread_mutex_t lock; /* of the clients and what is in them */
+    struct key_map clients;
+    LIST_HEAD(destination_list, destination) all_clients;
+    /* of the thread that adds and removes them */
+    struct key_map readers;
+    LIST_HEAD(reader_list, remote_reader) all_readers;
+};
+
+struct destinations *destinations_create(writer_maker *make, void *context)
+{
+    struct destinations *destinations = calloc(1, sizeof *destinations);
+    if (!destinations)
+        return NULL;
+    destinations->make = make;
+    destinations->context = context;
+    pthread_mutex_init(&destinations->lock, NULL);
+    if (key_map_create(&destinations->clients, DESTINATIONS_MOST) &&
+        key_map_create(&destinations->readers, DESTINATIONS_MOST))
+        return destinations;
+    destinations_free(destinations);
+    return NULL;
+}
+
+void destinations_free(struct destinations *destinations)
+{
+    if (!destinations)
+        return;
+    while (!LIST_EMPTY(&destinations->all_readers)) {
+        struct remote_reader *reader = LIST_FIRST(&destinations->all_readers);
+        LIST_REMOVE(reader, all);
+        free(reader);
+    }
+    while (!LIST_EMPTY(&destinations->all_clients)) {
+        struct destination *destination = LIST_FIRST(&destinations->all_clients);
+        LIST_REMOVE(destination, all);
+        free(destination);
+    }
+    key_map_release(&destinations->readers);
+    key_map_release(&destinations->clients);
+    pthread_mutex_destroy(&destinations->lock);
+    free(destinations);
+}
+
+static struct destination *find(const struct destinations *destinations, const uint8_t client[16])
+{
+    struct key_node *node = key_map_find(&destinations->clients, digest_of_octets(client));
+    return node ? KEY_MAP_OWNER(node, struct destination, node) : NULL;
+}
+
+/* The destination, old or new; NULL: too many clients, or no memory. */
+static struct destination *find_or_create(struct destinations *destinations,
+                                          const uint8_t client[16])
+{
+    struct destination *destination = find(destinations, client);
+    if (destination || destinations->clients.count >= DESTINATIONS_MOST)
+        return destination;
+    destination = calloc(1, sizeof *destination);
+    if (!destination)
+        return NULL;
+    destination->node.key = digest_of_octets(client);
+    memcpy(destination->client, client, sizeof destination->client);
+    key_map_insert(&destinations->clients, &destination->node);
+    LIST_INSERT_HEAD(&destinations->all_clients, destination, all);
+    return destination;
+}
+
+static void drop_if_unread(struct destinations *destinations, struct destination *destination)
+{
+    for (int i = 0; i < CHANNEL_COUNT; i++) {
+        if (destination->readers[i] > 0)
+            return;
+    }
+    key_map_remove(&destinations->clients, &destination->node);
+    LIST_REMOVE(destination, all);
+    free(destination);
+}
+
+bool destinations_know(const struct destinations *destinations, struct digest reader)
+{
+    return key_map_find(&destinations->readers, reader) != NULL;
+}
+
+bool destinations_add(struct destinations *destinations, struct digest reader,
+                      const uint8_t client[16], unsigned channel)
+{
+    struct remote_reader *added = calloc(1, sizeof *added);
+    if (!added)
+        return false;
+    pthread_mutex_lock(&destinations->lock);
+    struct destination *destination = find_or_create(destinations, client);
+    if (destination) {
+        destination->readers[channel]++;
+        if (!destination->writers[channel])
+            destination->writers[channel] =
+                destinations->make(destinations->context, client, channel);
+    }
+    pthread_mutex_unlock(&destinations->lock);
+    if (!destination) {
+        free(added);
+        return false;
+    }
+    added->node.key = reader;
+    added->destination = destination;
+    added->channel = channel;
+    key_map_insert(&destinations->readers, &added->node);
+    LIST_INSERT_HEAD(&destinations->all_readers, added, all);
+    return true;
+}
+
+dds_entity_t destinations_remove(struct destinations *destinations, struct digest reader,
+                                 uint8_t client[16])
+{
+    struct key_node *node = key_map_find(&destinations->readers, reader);
+    struct remote_reader *gone = KEY_MAP_OWNER(node, struct remote_reader, node);
+    struct destination *destination = gone->destination;
+    dds_entity_t unread = 0;
+    /* writes that go on in other threads meanwhile fail on their own */
+    pthread_mutex_lock(&destinations->lock);
+    memcpy(client, destination->client, sizeof destination->client);
+    if (--destination->readers[gone->channel] == 0) {
+        unread = destination->writers[gone->channel];
+        destination->writers[gone->channel] = 0;
+        drop_if_unread(destinations, destination);
+    }
+    pthread_mutex_unlock(&destinations->lock);
+    key_map_remove(&destinations->readers, node);
+    LIST_REMOVE(gone, all);
+    free(gone);
+    return unread;
+}
+
+dds_entity_t destinations_writer(struct destinations *destinations, const uint8_t client[16],
+                                 unsigned channel, enum delivery *reason)
+{
+    dds_entity_t writer = 0;
+    *reason = DELIVERY_NO_READER;
+    pthread_mutex_lock(&destinations->lock);
+    const struct destination *destination = find(destinations, client);
+    if (destination && destination->writers[channel]) {
+        bool stalled = clock_now() < destination->stalled_until[channel];
+        *reason = stalled ? DELIVERY_STALLED : DELIVERY_DONE;
+        writer = stalled ? 0 : destination->writers[channel];
+    }
+    pthread_mutex_unlock(&destinations->lock);
+    return writer;
+}
+
+void destinations_stall(struct destinations *destinations, const uint8_t client[16],
+                        unsigned channel)
+{
+    pthread_mutex_lock(&destinations->lock);
+    struct destination *destination = find(destinations, client);
+    if (destination)
+        destination->stalled_until[channel] = clock_now() + stall_pause;
+    pthread_mutex_unlock(&destinations->lock);
+}
+
+void destinations_visit(struct destinations *destinations,
+                        void (*visit)(void *context, dds_entity_t writer), void *context)
+{
+    struct destination *destination;
+    pthread_mutex_lock(&destinations->lock);
+    LIST_FOREACH(destination, &destinations->all_clients, all)
+    {
+        for (int i = 0; i < CHANNEL_COUNT; i++) {
+            if (destination->writers[i])
+                visit(context, destination->writers[i]);
+        }
+    }
+    pthread_mutex_unlock(&destinations->lock);
+}
+
+size_t destinations_count(struct destinations *destinations)
+{
+    pthread_mutex_lock(&destinations->lock);
+    size_t count = destinations->clients.count;
+    pthread_mutex_unlock(&destinations->lock);
+    return count;
+}

@@ -1,0 +1,107 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Tests endpoint/destinations.c: a writer for each client and channel as long as somebody reads. */
+#include <string.h>
+
+#include "check.h"
+#include "endpoint/destinations.h"
+
+/* Writers are numbered as they are made. */
+static dds_entity_t number_writer(void *made, const uint8_t client[16], unsigned channel)
+{
+    (void)client, (void)channel;
+    return ++*(dds_entity_t *)made;
+}
+
+static void sum_writers(void *sum, dds_entity_t writer)
+{
+    *(int *)sum += writer;
+}
+
+static struct digest key_of(uint64_t number)
+{
+    return (struct digest){number, 0};
+}
+
+static const uint8_t one[16] = {1}, other[16] = {2};
+
+static void a_writer_lives_as_long_as_its_readers(void **state)
+{
+    (void)state;
+    enum delivery delivery;
+    uint8_t client[16];
+    dds_entity_t made = 0;
+    struct destinations *destinations = destinations_create(number_writer, &made);
+    assert_int_equal(destinations_writer(destinations, one, 0, &delivery), 0);
+    assert_int_equal(delivery, DELIVERY_NO_READER);
+    /* two readers of one channel share a writer */
+    assert_true(destinations_add(destinations, key_of(1), one, 0));
+    assert_true(destinations_add(destinations, key_of(2), one, 0));
+    assert_true(destinations_add(destinations, key_of(3), one, CHANNEL_TRACE));
+    assert_true(destinations_add(destinations, key_of(4), other, 0));
+    assert_int_equal(made, 3);
+    assert_int_equal(destinations_count(destinations), 2);
+    assert_int_equal(destinations_writer(destinations, one, 0, &delivery), 1);
+    assert_int_equal(delivery, DELIVERY_DONE);
+    int sum = 0;
+    destinations_visit(destinations, sum_writers, &sum);
+    assert_int_equal(sum, 1 + 2 + 3);
+    /* the last one of them gives it back */
+    assert_int_equal(destinations_remove(destinations, key_of(1), client), 0);
+    assert_memory_equal(client, one, sizeof one);
+    assert_false(destinations_know(destinations, key_of(1)));
+    assert_true(destinations_know(destinations, key_of(2)));
+    assert_int_equal(destinations_remove(destinations, key_of(2), client), 1);
+    assert_int_equal(destinations_writer(destinations, one, 0, &delivery), 0);
+    assert_int_equal(destinations_writer(destinations, one, CHANNEL_TRACE, &delivery), 2);
+    /* and with the last channel the client goes */
+    assert_int_equal(destinations_remove(destinations, key_of(3), client), 2);
+    assert_int_equal(destinations_count(destinations), 1);
+    destinations_free(destinations);
+}
+
+static void who_stalls_is_left_alone_on_that_channel(void **state)
+{
+    (void)state;
+    enum delivery delivery;
+    dds_entity_t made = 0;
+    struct destinations *destinations = destinations_create(number_writer, &made);
+    assert_true(destinations_add(destinations, key_of(1), one, 0));
+    assert_true(destinations_add(destinations, key_of(2), one, 1));
+    destinations_stall(destinations, one, 0);
+    destinations_stall(destinations, other, 0); /* is not there */
+    assert_int_equal(destinations_writer(destinations, one, 0, &delivery), 0);
+    assert_int_equal(delivery, DELIVERY_STALLED);
+    assert_int_equal(destinations_writer(destinations, one, 1, &delivery), 2);
+    assert_int_equal(delivery, DELIVERY_DONE);
+    destinations_free(destinations);
+}
+
+static void too_many_clients_are_refused(void **state)
+{
+    (void)state;
+    dds_entity_t made = 0;
+    struct destinations *destinations = destinations_create(number_writer, &made);
+    uint8_t client[16] = {0};
+    for (uint32_t i = 0; i <= DESTINATIONS_MOST; i++) {
+        memcpy(client, &i, sizeof i);
+        assert_int_equal(destinations_add(destinations, key_of(i), client, 0),
+                         i < DESTINATIONS_MOST);
+    }
+    /* a channel more of one that is there is none too many */
+    memset(client, 0, sizeof client);
+    assert_true(destinations_add(destinations, key_of(DESTINATIONS_MOST + 1), client, 1));
+    assert_int_equal(destinations_count(destinations), DESTINATIONS_MOST);
+    destinations_free(destinations);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_writer_lives_as_long_as_its_readers),
+        cmocka_unit_test(who_stalls_is_left_alone_on_that_channel),
+        cmocka_unit_test(too_many_clients_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
