@@ -1,9 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* An ensemble that a client asks for: decoded, its samples solved by several threads with progress
- * on the wire, and reported. It ends early, with the samples solved so far, when it is cancelled or
- * its deadline passes; without a reply when its client is gone. */
+/* Ensembles that clients ask for. */
 #ifndef PERCUSS_DAEMON_ENSEMBLE_JOB_H
 #define PERCUSS_DAEMON_ENSEMBLE_JOB_H
 
