@@ -44,6 +44,7 @@ static void note(void *context, const percuss_v1_ServerStatus *status)
     bool alike = strcmp(status->catalogue_revision, look->revision) == 0;
     if (!neighbour)
         return;
+    /* who it is */
     bool is_new = neighbour == &neighbours->each[neighbours->count];
     if (is_new) {
         memcpy(neighbour->server, status->server, sizeof neighbour->server);
@@ -53,6 +54,7 @@ static void note(void *context, const percuss_v1_ServerStatus *status)
                  status->host);
         neighbours->count++;
     }
+    /* what is new of it */
     neighbour->there = true;
     if (!is_new && alike == neighbour->alike)
         return;

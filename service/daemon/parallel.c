@@ -79,6 +79,7 @@ static void attend(struct parallel *parallel, struct thread *threads, unsigned c
     clock_gettime(CLOCK_MONOTONIC, &wake);
     pthread_mutex_lock(&parallel->lock);
     while (parallel->running > 0) {
+        /* until the next look, or the end of the last thread */
         long long nanoseconds = wake.tv_nsec + watch_nanoseconds;
         wake.tv_sec += nanoseconds / 1000000000;
         wake.tv_nsec = nanoseconds % 1000000000;
@@ -116,6 +117,7 @@ uint64_t parallel_run(const struct parallel_loop *loop)
 {
     struct parallel parallel = {.loop = loop};
     struct thread threads[MOST_THREADS];
+    /* what the threads share */
     pthread_condattr_t monotonic;
     atomic_init(&parallel.next, loop->first);
     atomic_init(&parallel.stopped, false);
@@ -124,6 +126,7 @@ uint64_t parallel_run(const struct parallel_loop *loop)
     pthread_mutex_init(&parallel.lock, NULL);
     pthread_cond_init(&parallel.finished, &monotonic);
     pthread_condattr_destroy(&monotonic);
+    /* their work */
     unsigned wanted = loop->threads < MOST_THREADS ? loop->threads : MOST_THREADS;
     unsigned count = start(&parallel, threads, wanted);
     attend(&parallel, threads, count);

@@ -57,12 +57,14 @@ static struct token_subject subject_of(const struct question *question, size_t i
                                        struct subject_name *name)
 {
     const percuss_v1_BodyMotion *body = &question->request->bodies._buffer[index];
+    /* what the overrides say, whatever their number */
     struct hasher hasher = {0};
     for (uint32_t i = 0; i < body->overrides._length; i++) {
         hash_number(&hasher, body->overrides._buffer[i].parameter);
         hash_bytes(&hasher, &body->overrides._buffer[i].value, sizeof(double));
     }
     struct digest digest = hash_digest(&hasher);
+    /* the body, and that */
     if (body->overrides._length > 0)
         snprintf(name->text, sizeof name->text, "%s/%016llx%016llx", body->id,
                  (unsigned long long)digest.first, (unsigned long long)digest.second);
@@ -182,14 +184,17 @@ static struct answer *compute(struct responder *responder, const struct question
     const struct envelope *envelope = &question->envelope;
     struct solve_result *result = &responder->result;
     struct inquiry inquiry = {.question = question};
+    /* nobody may want it any more */
     if (!still_wanted(&inquiry, "before the solve began"))
         return refuse(&inquiry);
+    /* the solve, as long as somebody does */
     const struct solve_means means = {
         question->snapshot->set,
         table_maker_begin(&responder->maker, question->snapshot->tables, question->request,
                           envelope->client, question->arrival),
         {goes_on, &inquiry}};
     solve(responder->workspace, &means, &responder->request, result);
+    /* why there is no result */
     if (responder->maker.status)
         return encode_refusal(envelope, responder->maker.status, responder->maker.fault.text);
     if (result->status == PERCUSS_INTERNAL)
@@ -201,6 +206,7 @@ static struct answer *compute(struct responder *responder, const struct question
         return refuse(&inquiry);
     if (!encode_status_has_result(result->status))
         return encode_refusal(envelope, result->status, result->fault.text);
+    /* the reply on it */
     if (!name_states(responder, question))
         return encode_refusal(envelope, PERCUSS_INTERNAL, "out of memory");
     const char(*names)[PERCUSS_ID_SIZE] = (const char(*)[PERCUSS_ID_SIZE])responder->states_after;

@@ -24,6 +24,7 @@ static bool create_stores(struct shared *shared)
         .clients = REMEMBERED_CLIENTS,
         .seconds = 60.0 * settings->session_minutes,
     };
+    /* all are tried: what was made is released */
     shared->tokens = token_store_create(&tokens);
     shared->replies = reply_store_create(&replies);
     bool good = shared->tokens && shared->replies;

@@ -224,16 +224,17 @@ struct answer *specimen_lane_respond(struct specimen_lane *lane, struct responde
     struct digest content = question_digest_single(question->request);
     struct stored_reply reply = {.sequence = question->envelope.sequence,
                                  .content = {content.first, content.second}};
+    memcpy(reply.client, question->envelope.client, sizeof reply.client);
     struct stored_reply kept = reply;
     struct fault fault;
-    memcpy(reply.client, question->envelope.client, sizeof reply.client);
-    memcpy(kept.client, reply.client, sizeof kept.client);
+    /* what was answered before */
     enum percuss_status status = specimen_store_find(lane->store, &kept, &fault);
     if (status == PERCUSS_INTERNAL)
         return kept.damaged ? refuse_damaged(question, fault.text)
                             : refuse_for_now(question, fault.text);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
+    /* the same again, or what the impact does */
     struct answer *answer =
         kept.bytes ? recall(question, &kept, content) : compute(lane, responder, question, &reply);
     free(kept.bytes);

@@ -32,6 +32,7 @@ void status_announce(struct shared *shared)
         .uptime = clock_now() - shared->started,
         .specimens = shared->specimens ? (uint32_t)specimen_lane_count(shared->specimens) : 0,
     };
+    /* its texts */
     activity_read(&shared->activity, status.activity, sizeof status.activity, &status.progress);
     COPY_TEXT(status.version, PERCUSS_VERSION);
     COPY_TEXT(status.state, atomic_load(&shared->draining) ? "draining" : "ready");

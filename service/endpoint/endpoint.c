@@ -113,12 +113,14 @@ struct endpoint *endpoint_create(uint32_t domain, struct fault *fault)
         free(endpoint);
         return NULL;
     }
+    /* the domain */
     endpoint->participant = wire_participant_create(domain);
     if (endpoint->participant < 0) {
         fault_set(fault, PERCUSS_INTERNAL, "DDS: participant: %s",
                   wire_participant_problem(endpoint->participant));
         goto failed;
     }
+    /* readers, writers, and what wakes the reading thread */
     endpoint->writers = reply_writers_create(endpoint->participant, fault);
     if (!endpoint->writers || !create_readers(endpoint, fault) ||
         !create_announcer(endpoint, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS,
@@ -210,6 +212,7 @@ void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *hand
     bool ready[SOURCE_COUNT] = {false};
     bool left = false; /* requests that no wake-up will tell of */
     while (!atomic_load(&endpoint->stopped)) {
+        /* who has something, since the last time or now */
         dds_attach_t woken[SOURCE_COUNT];
         dds_return_t count =
             dds_waitset_wait(endpoint->waitset, woken, SOURCE_COUNT, left ? 0 : DDS_INFINITY);
@@ -221,6 +224,7 @@ void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *hand
         if (ready[SOURCE_DENTS])
             dents_topic_take(&endpoint->dents, handler->clear, handler->context);
         ready[SOURCE_SUBSCRIPTIONS] = ready[SOURCE_DENTS] = left = false;
+        /* then the requests, some of each kind */
         for (int i = 0; i < EXCHANGE_COUNT; i++) {
             ready[i] = ready[i] && take(endpoint, handler, i);
             left = left || ready[i];

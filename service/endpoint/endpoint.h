@@ -52,8 +52,8 @@ void endpoint_flush(struct endpoint *endpoint, double seconds);
 /* Number of clients that read replies. Thread-safe. */
 size_t endpoint_clients(struct endpoint *endpoint);
 
-/* Announces the bodies of `set` and withdraws those that only `before` (may be NULL) has. False:
- * not all were announced. */
+/* Announces the bodies of `set` and withdraws those that only `before` (may be NULL) has. One
+ * thread at a time. False: not all were announced. */
 bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *set,
                               const struct body_set *before);
 
@@ -67,7 +67,7 @@ void endpoint_withdraw_dents(struct endpoint *endpoint, const char *specimen);
 /* Shows the other servers of the domain. One thread at a time. */
 void endpoint_visit_servers(struct endpoint *endpoint, server_visitor *visitor, void *context);
 
-/* Announces the state of the server; fills status->server. */
+/* Announces the state of the server; fills status->server. Thread-safe. */
 void endpoint_announce_status(struct endpoint *endpoint, percuss_v1_ServerStatus *status);
 
 #endif

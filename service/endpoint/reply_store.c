@@ -129,6 +129,7 @@ static struct session *session_open(struct reply_store *store, const uint8_t cli
         session_seen(store, session, now);
         return session;
     }
+    /* a client that is new or was forgotten */
     session = calloc(1, sizeof *session);
     if (!session)
         return NULL;

@@ -189,6 +189,7 @@ static struct stored_state *find(struct token_store *store, const char *token,
                                  const struct token_subject *subject, struct fault *fault)
 {
     struct digest key;
+    /* any state of that token */
     struct key_node *node = parse_token(token, &key) ? key_map_find(&store->map, key) : NULL;
     if (!node) {
         fault_set(fault, PERCUSS_UNKNOWN_STATE,
@@ -197,6 +198,7 @@ static struct stored_state *find(struct token_store *store, const char *token,
         return NULL;
     }
     struct stored_state *stored = KEY_MAP_OWNER(node, struct stored_state, node);
+    /* of this body and catalogue */
     if (strcmp(stored->body, subject->body) != 0) {
         fault_set(fault, PERCUSS_UNKNOWN_STATE, "%s: is a state of %s: must be one of %s", token,
                   stored->body, subject->body);
