@@ -134,16 +134,16 @@ static bool is_for_here(const struct shared *shared, const percuss_v1_Request *r
 }
 
 /* How long a solve may keep the reading thread. */
-struct patience {
+struct time_limit {
     double end; /* monotonic, s */
     bool over;
 };
 
 static enum percuss_status is_quick(void *context, struct fault *fault)
 {
-    struct patience *patience = context;
-    patience->over = clock_now() > patience->end;
-    return patience->over ? fault_set(fault, PERCUSS_BUSY, "for the workers") : PERCUSS_OK;
+    struct time_limit *limit = context;
+    limit->over = clock_now() > limit->end;
+    return limit->over ? fault_set(fault, PERCUSS_BUSY, "for the workers") : PERCUSS_OK;
 }
 
 /* False: it takes longer than the reading thread has; nothing is answered yet. */
@@ -151,7 +151,7 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
                         const percuss_v1_Request *request, double arrival)
 {
     struct shared *shared = dispatch->shared;
-    struct patience patience = {.end = arrival + inline_seconds};
+    struct time_limit limit = {.end = arrival + inline_seconds};
     struct snapshot *snapshot = snapshots_hold(&shared->snapshots);
     struct question question = {
         .request = request,
@@ -159,14 +159,14 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
         .envelope = delivery_envelope(shared, name, snapshot),
         .arrival = arrival,
         .still_wanted = is_quick,
-        .context = &patience,
+        .context = &limit,
     };
     struct answer *answer = responder_answer(dispatch->responder, &question);
-    if (!patience.over)
+    if (!limit.over)
         deliver(shared, name, answer);
     answer_release(answer);
     snapshots_release(&shared->snapshots, snapshot);
-    return !patience.over;
+    return !limit.over;
 }
 
 static void receive_single(void *context, const percuss_v1_Request *request, bool alone)

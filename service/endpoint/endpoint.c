@@ -18,15 +18,18 @@ enum { TAKEN_AT_ONCE = 32, WRITE_ATTEMPTS = 20 };
 enum { SOURCE_SUBSCRIPTIONS = EXCHANGE_COUNT, SOURCE_STOP, SOURCE_DENTS, SOURCE_COUNT };
 
 struct endpoint {
+    /* never changed once it is made; DDS lets any thread use its entities */
+    uint8_t server[16];
     dds_entity_t participant, waitset, stop;
     dds_entity_t readers[EXCHANGE_COUNT];
-    void *samples[EXCHANGE_COUNT]; /* the one at hand; its memory serves the next one */
     dds_entity_t status_writer, body_writer;
-    dds_entity_t servers; /* the reader of what others announce */
-    struct reply_writers *writers;
     struct dents_topic dents;
-    atomic_bool stopped;
-    uint8_t server[16];
+    struct reply_writers *writers; /* thread-safe, but for what its header says */
+    /* of the thread that runs it */
+    void *samples[EXCHANGE_COUNT]; /* the one at hand; its memory serves the next one */
+    /* of the thread that looks for other servers */
+    dds_entity_t servers; /* the reader of what they announce */
+    atomic_bool stopped;  /* any thread sets it */
 };
 
 static const struct {
