@@ -10,7 +10,21 @@
 #include "impact/node_solver.h"
 #include "numeric/linear.h"
 
+/* Newton's method takes two to five iterations, and some ten from a bad start. */
 enum { MAX_ITERATIONS = 40 };
+
+/* One contact: its method squares the relative change, so that after this one rounding is left. */
+static const double SQUARES_TO_ROUNDING = 1e-7;
+/* What rounding leaves of an approach, which can be far larger than the indentation. */
+static const double APPROACH_ROUNDING = 1e-15;
+
+/* Several contacts: change of the indentations over their largest, or over the largest approach,
+ * which is some ten roundings; and what is accepted where the law's kinks keep it from that. */
+static const double TO_ROUNDING = 1e-14;
+static const double AFTER_ALL = 1e-9;
+
+/* Share of the law's compliance that a negative series compliance may take away. */
+static const double BEARABLE = 0.5;
 
 bool contact_step_create(struct contact_step *step, const struct scene *scene, struct arena *arena)
 {
@@ -22,28 +36,31 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, s
     step->stiffness = arena_take(arena, n, sizeof *step->stiffness);
     step->end_indentation = arena_take(arena, n, sizeof(double));
     step->matrix = arena_take(arena, unknowns * unknowns, sizeof(double));
-    step->residual = arena_take(arena, unknowns, sizeof(double));
+    step->excess = arena_take(arena, unknowns, sizeof(double));
     step->target = arena_take(arena, n, sizeof *step->target);
     step->approach = arena_take(arena, n, sizeof(double));
     step->end_force = arena_take(arena, n, sizeof(double));
     return step->indentation && step->force && step->stiffness && step->end_indentation &&
-           step->matrix && step->residual && step->target && step->approach && step->end_force &&
+           step->matrix && step->excess && step->target && step->approach && step->end_force &&
            motion_create(&step->end, scene, arena);
 }
 
 /* What a unit force of contact b at node j does to the approach of contact a at node i, with the
  * residual flexibility: rigid double integral, modes, and the series compliance at the same node.
- */
-static const double (*coupling_of_level(struct contact_step *step, const struct scene *scene,
-                                        int level))[NODES][NODES]
+ * OK, INTERNAL without memory, TIMEOUT where the pace stopped it. */
+static enum percuss_status find_coupling(struct contact_step *step, const struct scene *scene,
+                                         int level)
 {
-    if (step->coupling[level])
-        return (const double(*)[NODES][NODES])step->coupling[level];
     size_t n = scene->contacts;
     double h = step_length(level);
+    for (size_t g = 0; g < scene->groups; g++) {
+        enum percuss_status status = oscillators_prepare(scene->group[g].set, level, step->pace);
+        if (status != PERCUSS_OK)
+            return status;
+    }
     double(*all)[NODES][NODES] = arena_take(step->arena, n * n, sizeof *all);
     if (!all)
-        return NULL;
+        return PERCUSS_INTERNAL;
     for (size_t a = 0; a < n; a++) {
         for (size_t b = 0; b <= a; b++) {
             double(*m)[NODES] = all[a * n + b];
@@ -56,22 +73,16 @@ static const double (*coupling_of_level(struct contact_step *step, const struct 
                 const struct scene_group *group = &scene->group[g];
                 const double *pa = group->participation[a];
                 const double *pb = group->participation[b];
-                /* a level's tables take milliseconds to make */
-                if (!group->set->tables[level] && !pace_ask(step->pace, 0.0))
-                    return NULL;
-                const struct step_table *table = oscillators_table(group->set, level);
-                if (!table)
-                    return NULL;
                 if (pa && pb)
-                    kernel_response(table, group->stride, pa, pb, m);
+                    kernel_response(group->set->tables[level], group->stride, pa, pb, m);
             }
-            /* W, the residual and the modes' products are symmetric */
+            // W, the residual flexibility and the modes' products are symmetric
             if (a != b)
                 memcpy(all[b * n + a], m, sizeof all[b * n + a]);
         }
     }
     step->coupling[level] = all;
-    return (const double(*)[NODES][NODES])all;
+    return PERCUSS_OK;
 }
 
 /* Approach at the nodes if no force acted on this step. */
@@ -94,95 +105,23 @@ static void free_approach(const struct scene *scene, const struct motion *motion
     }
 }
 
-static size_t active_list(const struct scene *scene, const bool *active, size_t *list)
-{
-    size_t count = 0;
-    for (size_t c = 0; c < scene->contacts; c++)
-        if (active[c])
-            list[count++] = c;
-    return count;
-}
-
-static void push_rigid(struct contact_step *step, const struct scene *scene, const size_t *list,
-                       size_t count, double h)
-{
-    for (size_t b = 0; b < count; b++) {
-        double impulse = 0.0;
-        double travel = 0.0;
-        for (int j = 0; j < NODES; j++) {
-            impulse += h * collocation.weight[j] * step->force[list[b]][j];
-            travel += h * h * collocation.position_end[j] * step->force[list[b]][j];
-        }
-        for (size_t a = 0; a < scene->contacts; a++) {
-            step->end.gap[a] += scene->w[a * scene->contacts + list[b]] * travel;
-            step->end.gap_rate[a] += scene->w[a * scene->contacts + list[b]] * impulse;
-        }
-    }
-}
-
-/* What the dampers of one group take, by the quadratic form of its table. */
-static double group_loss(const struct contact_step *step, const struct scene_group *group,
-                         const double *const state[2], const size_t *list, size_t count, int level)
+double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,
+                         double (*const force)[NODES])
 {
     struct kernel_load loads[PERCUSS_MAX_CONTACTS];
-    size_t used = 0;
-    for (size_t b = 0; b < count; b++)
-        if (group->participation[list[b]])
-            loads[used++] =
-                (struct kernel_load){group->participation[list[b]], step->force[list[b]]};
-    return kernel_loss(group->set->tables[level], group->stride, state, loads, used);
-}
-
-/* Many contacts of a group are open most of the time. */
-static bool bears_force(const double force[NODES])
-{
-    for (int j = 0; j < NODES; j++)
-        if (force[j] != 0.0)
-            return true;
-    return false;
-}
-
-double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,
-                         double force[1][NODES])
-{
-    const size_t contact = 0;
-    struct contact_step step = {.force = force};
     double sum = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
-        if (group->set->damping > 0.0)
-            sum += group_loss(&step, group, (const double *const[]){motion->q[g], motion->v[g]},
-                              &contact, 1, level);
+        size_t used = 0;
+        if (!(group->set->damping > 0.0))
+            continue;
+        for (size_t c = 0; c < scene->contacts; c++)
+            if (group->participation[c])
+                loads[used++] = (struct kernel_load){group->participation[c], force[c]};
+        sum += kernel_loss(group->set->tables[level], group->stride,
+                           (const double *const[]){motion->q[g], motion->v[g]}, loads, used);
     }
     return sum;
-}
-
-static void advance(struct contact_step *step, const struct scene *scene,
-                    const struct motion *motion, const size_t *list, size_t count, int level)
-{
-    double h = step_length(level);
-    step->end.time = motion->time + h;
-    for (size_t c = 0; c < scene->contacts; c++) {
-        double a = scene->gap_acceleration[c];
-        step->end.gap[c] = motion->gap[c] + h * (motion->gap_rate[c] + 0.5 * a * h);
-        step->end.gap_rate[c] = motion->gap_rate[c] + a * h;
-    }
-    push_rigid(step, scene, list, count, h);
-    step->loss = 0.0;
-    for (size_t g = 0; g < scene->groups; g++) {
-        const struct scene_group *group = &scene->group[g];
-        const struct step_table *table = group->set->tables[level];
-        kernel_advance(table, group->stride, motion->q[g], motion->v[g], step->end.q[g],
-                       step->end.v[g]);
-        for (size_t b = 0; b < count; b++)
-            if (group->participation[list[b]] && bears_force(step->force[list[b]]))
-                kernel_push(table, group->stride, group->participation[list[b]],
-                            step->force[list[b]], step->end.q[g], step->end.v[g]);
-        if (group->set->damping > 0.0)
-            step->loss +=
-                group_loss(step, group, (const double *const[]){motion->q[g], motion->v[g]}, list,
-                           count, level);
-    }
 }
 
 /* One contact: Newton's method for d + c F(d) = approach. */
@@ -195,8 +134,8 @@ static bool local_of_one(const struct contact_law *law, double c, double approac
         *force = contact_law_force(law, d, &stiffness);
         double change = (d + c * *force - approach) / (1.0 + c * stiffness);
         d -= change;
-        /* quadratic in the indentation, or down to the approach's rounding */
-        if (fabs(change) <= 1e-7 * fabs(d) || fabs(change) <= 1e-15 * fabs(approach)) {
+        if (fabs(change) <= SQUARES_TO_ROUNDING * fabs(d) ||
+            fabs(change) <= APPROACH_ROUNDING * fabs(approach)) {
             *force = fmax(0.0, *force - stiffness * change);
             *indentation = d;
             return true;
@@ -205,35 +144,34 @@ static bool local_of_one(const struct contact_law *law, double c, double approac
     return false;
 }
 
-static bool local_of_many(const struct scene *scene, const size_t *list, size_t count,
-                          const double *approach, double *indentation, double *force,
-                          double *matrix)
+/* All contacts at once: Newton's method for d_a + sum_b C_ab F_b(d_b) = approach_a. */
+static bool local_of_many(const struct scene *scene, const double *approach, double *indentation,
+                          double *force, double *matrix)
 {
     size_t n = scene->contacts;
-    double unknown[PERCUSS_MAX_CONTACTS];
+    double excess[PERCUSS_MAX_CONTACTS];
     double stiffness[PERCUSS_MAX_CONTACTS];
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
         double change = 0.0;
         double scale = 0.0;
-        for (size_t a = 0; a < count; a++)
-            force[list[a]] =
-                contact_law_force(&scene->laws[list[a]], indentation[list[a]], &stiffness[a]);
-        for (size_t a = 0; a < count; a++) {
-            unknown[a] = indentation[list[a]] - approach[list[a]];
-            for (size_t b = 0; b < count; b++) {
-                double c = scene->residual[list[a] * n + list[b]];
-                unknown[a] += c * force[list[b]];
-                matrix[a * count + b] = c * stiffness[b] + (a == b);
+        for (size_t c = 0; c < n; c++)
+            force[c] = contact_law_force(&scene->laws[c], indentation[c], &stiffness[c]);
+        for (size_t a = 0; a < n; a++) {
+            excess[a] = indentation[a] - approach[a];
+            for (size_t b = 0; b < n; b++) {
+                double c = scene->residual[a * n + b];
+                excess[a] += c * force[b];
+                matrix[a * n + b] = c * stiffness[b] + (a == b);
             }
         }
-        if (!linear_solve(count, matrix, unknown))
+        if (!linear_solve(n, matrix, excess))
             return false;
-        for (size_t a = 0; a < count; a++) {
-            indentation[list[a]] -= unknown[a];
-            change = fmax(change, fabs(unknown[a]));
-            scale = fmax(scale, fmax(fabs(indentation[list[a]]), fabs(approach[list[a]])));
+        for (size_t c = 0; c < n; c++) {
+            indentation[c] -= excess[c];
+            change = fmax(change, fabs(excess[c]));
+            scale = fmax(scale, fmax(fabs(indentation[c]), fabs(approach[c])));
         }
-        if (change <= (iteration + 1 < MAX_ITERATIONS ? 1e-14 : 1e-9) * scale)
+        if (change <= (iteration + 1 < MAX_ITERATIONS ? TO_ROUNDING : AFTER_ALL) * scale)
             return true;
     }
     return false;
@@ -241,51 +179,35 @@ static bool local_of_many(const struct scene *scene, const size_t *list, size_t 
 
 bool contact_bears(const struct scene *scene, size_t contact, double stiffness)
 {
-    return -scene->residual[contact * (scene->contacts + 1)] * stiffness < 0.5;
+    return -scene->residual[contact * (scene->contacts + 1)] * stiffness < BEARABLE;
 }
 
-bool contact_local_indentation(const struct scene *scene, const bool *active,
-                               const double *approach, double *indentation, double *force,
-                               double *matrix)
+bool contact_local_indentation(const struct scene *scene, const double *approach,
+                               double *indentation, double *force, double *matrix)
 {
-    size_t n = scene->contacts;
-    size_t list[PERCUSS_MAX_CONTACTS];
-    size_t count = active_list(scene, active, list);
-    memset(force, 0, n * sizeof *force);
-    bool solved = count == 0;
-    if (count == 1) {
-        size_t c = list[0];
-        solved = local_of_one(&scene->laws[c], scene->residual[c * n + c], approach[c],
-                              &indentation[c], &force[c]);
-    }
-    if (!solved)
-        solved = local_of_many(scene, list, count, approach, indentation, force, matrix);
-    for (size_t a = 0; a < n; a++) {
-        if (active[a])
-            continue;
-        indentation[a] = approach[a];
-        for (size_t b = 0; b < count; b++)
-            indentation[a] -= scene->residual[a * n + list[b]] * force[list[b]];
-    }
-    return solved;
+    if (scene->contacts == 1 &&
+        local_of_one(&scene->laws[0], scene->residual[0], approach[0], &indentation[0], &force[0]))
+        return true;
+    return local_of_many(scene, approach, indentation, force, matrix);
 }
 
-bool contact_step_solve(struct contact_step *step, const struct scene *scene,
-                        const struct motion *motion, const bool *active, int level,
-                        const struct contact_start *start)
+enum contact_step_end contact_step_solve(struct contact_step *step, const struct scene *scene,
+                                         const struct motion *motion, int level,
+                                         const struct contact_start *start)
 {
     double h = step_length(level);
-    const double(*coupling)[NODES][NODES] = coupling_of_level(step, scene, level);
-    if (!coupling)
-        return false;
-    size_t list[PERCUSS_MAX_CONTACTS];
-    size_t count = active_list(scene, active, list);
-    for (size_t a = 0; a < count; a++) {
-        const struct contact_start *from = &start[list[a]];
-        free_approach(scene, motion, list[a], level, step->target[a]);
+    if (!step->coupling[level]) {
+        enum percuss_status status = find_coupling(step, scene, level);
+        if (status != PERCUSS_OK)
+            return status == PERCUSS_TIMEOUT ? STEP_STOPPED : STEP_MEMORY;
+    }
+    // approaches without force, and indentations as the step before has it
+    for (size_t c = 0; c < scene->contacts; c++) {
+        const struct contact_start *from = &start[c];
+        free_approach(scene, motion, c, level, step->target[c]);
         for (int i = 0; i < NODES; i++) {
             double t = collocation.node[i] * h;
-            step->indentation[list[a]][i] =
+            step->indentation[c][i] =
                 from->indentation +
                 t * (from->rate + t * (0.5 * from->curvature + t / 6.0 * from->bend));
         }
@@ -293,22 +215,25 @@ bool contact_step_solve(struct contact_step *step, const struct scene *scene,
     struct node_problem problem = {
         .laws = scene->laws,
         .contacts = scene->contacts,
-        .list = list,
-        .count = count,
-        .coupling = coupling,
+        .coupling = (const double(*)[NODES][NODES])step->coupling[level],
         .target = (const double(*)[NODES])step->target,
         .matrix = step->matrix,
-        .residual = step->residual,
+        .excess = step->excess,
         .last_change = node_solver_last_change(step->accuracy),
     };
     if (!node_solve(&problem, step->indentation, step->force, step->stiffness, &step->iterations))
-        return false;
-    advance(step, scene, motion, list, count, level);
-    double ignored;
+        return STEP_UNSOLVED;
+    // the state at the end, which follows from the forces
+    motion_step(&step->end, motion, scene, level);
+    motion_push(&step->end, scene, level, step->force);
+    step->loss = contact_step_loss(scene, motion, level, step->force);
     for (size_t c = 0; c < scene->contacts; c++) {
+        double ignored;
         motion_approach(&step->end, scene, c, &step->approach[c], &ignored);
-        step->end_indentation[c] = active[c] ? collocation_value(step->indentation[c], 1.0) : 0.0;
+        step->end_indentation[c] = collocation_value(step->indentation[c], 1.0);
     }
-    return contact_local_indentation(scene, active, step->approach, step->end_indentation,
-                                     step->end_force, step->matrix);
+    return contact_local_indentation(scene, step->approach, step->end_indentation, step->end_force,
+                                     step->matrix)
+               ? STEP_SOLVED
+               : STEP_UNSOLVED;
 }

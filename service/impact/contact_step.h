@@ -13,17 +13,17 @@
 
 struct contact_step {
     struct motion end;            /* the state after the step */
-    double (*indentation)[NODES]; /* [contact] local, at the nodes; active contacts only */
+    double (*indentation)[NODES]; /* [contact] local, at the nodes */
     double (*force)[NODES];
     double (*stiffness)[NODES]; /* of the law, dF/d(indentation) */
-    double *end_indentation;    /* [contact], all contacts */
+    double *end_indentation;    /* [contact] */
     double loss;                /* taken by damping, J */
     unsigned long iterations;   /* Newton's, since creation */
     double accuracy;            /* relative, of the forces; 0: to rounding */
 
-    double (*coupling[STEP_LEVELS])[NODES][NODES]; /* [contact][contact]: residual + response */
+    double (*coupling[STEP_LEVELS])[NODES][NODES]; /* [contact][contact], m/N; NULL: not yet */
     double (*target)[NODES];                       /* scratch */
-    double *matrix, *residual;
+    double *matrix, *excess;
     double *approach, *end_force;
     struct arena *arena;
     struct pace *pace; /* asked before a level's tables are made; NULL (as created): nobody */
@@ -40,27 +40,32 @@ struct contact_start {
     double bend;        /* its rate, m/s^3 */
 };
 
-/* Solves a step of a level from `motion` with the `active` contacts; `start` by contact. False: no
- * solution found (the step is too long) or out of memory. `motion` is not changed. */
-bool contact_step_solve(struct contact_step *step, const struct scene *scene,
-                        const struct motion *motion, const bool *active, int level,
-                        const struct contact_start *start);
+enum contact_step_end {
+    STEP_SOLVED,
+    STEP_UNSOLVED, /* no solution was found: it is too long */
+    STEP_STOPPED,  /* by the pace */
+    STEP_MEMORY    /* it ran out */
+};
+
+/* Solves a step of a level from `motion`, which is not changed; `start` by contact. */
+enum contact_step_end contact_step_solve(struct contact_step *step, const struct scene *scene,
+                                         const struct motion *motion, int level,
+                                         const struct contact_start *start);
 
 /* Energy (J) that damping takes on a step from `motion`, at a level whose tables are ready, under
- * the forces of a scene's only contact at the nodes. */
+ * the contacts' forces at the nodes: the quadratic forms of the tables. */
 double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,
-                         double force[1][NODES]);
+                         double (*const force)[NODES]);
 
 /* Whether the series compliance of a contact bears a law of that stiffness, N/m: a negative one
  * (see solve/compliance.h) takes |C| dF/dd < 0.5, else small differences of the approach are large
  * ones of the indentation, and from 1 on there are several. */
 bool contact_bears(const struct scene *scene, size_t contact, double stiffness);
 
-/* Local indentation of every contact for approaches d: F_i = law(d_i - sum_j residual_ij F_j) for
- * the active ones, d_i - sum_j residual_ij F_j for the others. `indentation` holds starting values.
- */
-bool contact_local_indentation(const struct scene *scene, const bool *active,
-                               const double *approach, double *indentation, double *force,
-                               double *matrix);
+/* Local indentations and forces of all contacts for approaches d: F_i = law_i(d_i - sum_j C_ij F_j)
+ * with the residual flexibility C. `indentation` holds starting values; `matrix`: contacts^2,
+ * scratch. False: no solution found. */
+bool contact_local_indentation(const struct scene *scene, const double *approach,
+                               double *indentation, double *force, double *matrix);
 
 #endif

@@ -171,22 +171,12 @@ static void find_approaches(struct flight *flight, const struct scene *scene)
 /* The next step of the scan, along exact motion. OK, INTERNAL (no memory) or TIMEOUT. */
 static enum percuss_status move_probe(struct flight *flight, const struct scene *scene, int level)
 {
-    double h = step_length(level);
-    for (size_t c = 0; c < scene->contacts; c++) {
-        double a = scene->gap_acceleration[c];
-        flight->probe.gap[c] += h * (flight->probe.gap_rate[c] + 0.5 * a * h);
-        flight->probe.gap_rate[c] += a * h;
-    }
     for (size_t g = 0; g < scene->groups; g++) {
-        const struct step_table *table;
-        enum percuss_status status =
-            oscillators_prepare(scene->group[g].set, level, flight->pace, &table);
+        enum percuss_status status = oscillators_prepare(scene->group[g].set, level, flight->pace);
         if (status != PERCUSS_OK)
             return status;
-        kernel_advance(table, scene->group[g].stride, flight->probe.q[g], flight->probe.v[g],
-                       flight->probe.q[g], flight->probe.v[g]);
     }
-    flight->probe.time += h;
+    motion_step(&flight->probe, &flight->probe, scene, level);
     find_approaches(flight, scene);
     return PERCUSS_OK;
 }

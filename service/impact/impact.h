@@ -37,8 +37,7 @@ struct impact_outcome {
     struct motion motion; /* at the end; gaps count to the bottoms of the dents */
     unsigned long steps;  /* contact steps accepted */
     unsigned long rejected;
-    unsigned long intervals; /* of flights */
-    unsigned long effort;    /* of all that, in steps; failures to converge count as several */
+    unsigned long effort; /* of all that, in steps; failures to converge count as several */
 };
 
 /* Memory for outcomes of a scene (and of scenes with fewer oscillators). */

@@ -1,64 +1,67 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+/* The modal method: in a contact phase the forces at four Gauss nodes of a step are the only
+ * unknowns, and the modes follow them exactly. */
 #include <math.h>
 #include <string.h>
 
 #include "contact/plastic.h"
 #include "impact/contact_step.h"
-#include "impact/energy.h"
-#include "impact/flight.h"
-#include "impact/impact.h"
-#include "impact/rewind.h"
-#include "impact/step_cost.h"
+#include "impact/march.h"
 #include "impact/step_limits.h"
 #include "impact/yielding.h"
 
-/* A run of the modal method. */
 struct modal_run {
-    const struct scene *scene;
+    struct march march;
     const struct impact_settings *settings;
-    struct impact_outcome *outcome;
-    struct motion *motion; /* the outcome's: the current state */
     struct step_limits limits;
     struct contact_step step;
-    struct flight flight;
     struct yielding yielding;
-    bool *active;   /* [contact] */
-    bool *everyone; /* [contact] true: all contacts are in the equations of a contact phase */
-    struct contact_start *now;     /* [contact], local */
-    double *final;                 /* [contact], indentation at the end of the window */
-    struct impact_scale *scales;   /* [contact], of the sub-impact under way */
-    double *longest;               /* [contact], stable step, s */
-    double damping;                /* J taken so far */
-    double roughness;              /* largest highest-order share of a force on an accepted step */
-    unsigned long used, max_steps; /* contact steps and flight intervals */
-    double step_cost;              /* of each of them */
+    struct contact_start *now;   /* [contact], local */
+    struct impact_scale *scales; /* [contact], of the sub-impact under way */
+    double *longest;             /* [contact], stable step, s */
 };
 
-static bool any_active(const struct modal_run *run)
-{
-    for (size_t c = 0; c < run->scene->contacts; c++)
-        if (run->active[c])
-            return true;
-    return false;
-}
+/* A contact that opens without speed has no duration of its own: its shortest step is that of a
+ * contact as long as this share of the horizon. */
+static const double SLOWEST_SHARE = 0.01;
+
+/* A step goes at most this share of the way to where a contact would open at its present rate. */
+static const double SHARE_TO_OPENING = 0.75;
+
+/* A contact that opens without speed in a group has no scale of its own: its roughness counts
+ * against this share of the group's force. */
+static const double SHARE_OF_GROUP = 0.01;
+
+/* Half a step has an eighth of the roughness, whose coefficient falls with the third power. A step
+ * is thrown away from nearly the geometric middle of the two on: the next ones are shorter anyway.
+ */
+static const double LONGER_ROUGHER = 8.0;
+static const double TOO_ROUGH = 3.0;
+
+enum {
+    /* Roughness may ask for more than events do, as a graze is shorter than its scale: by 2^8. */
+    GRAZE_LEVELS = 8,
+    /* A step takes two or three iterations; so many more cost as much as one more. */
+    ITERATIONS_PER_STEP = 8
+};
 
 /* Laws have yielded: what follows has the scale of their branches, which are shorter, stiffest at
  * the top and hold less energy: the speed goes with its root. */
 static void rescale(struct modal_run *run)
 {
-    for (size_t c = 0; c < run->scene->contacts; c++) {
+    for (size_t c = 0; c < run->march.scene.contacts; c++) {
         struct impact_scale *scale = &run->scales[c];
-        double span = contact_law_limit(&run->scene->laws[c]);
-        double force = run->scene->laws[c].history.max_force;
-        if (!run->active[c] || !(force > 0.0) || !(span < scale->indentation))
+        double span = contact_law_limit(&run->march.scene.laws[c]);
+        double force = run->march.scene.laws[c].history.max_force;
+        if (!run->march.closed[c] || !(force > 0.0) || !(span < scale->indentation))
             continue;
         double slower = sqrt(force * span / (scale->force * scale->indentation));
         scale->duration *= span / (scale->indentation * slower);
         scale->indentation = span;
         scale->force = force;
-        run->longest[c] = step_limits_stable(run->scene, c, scale, run->limits.coupling);
+        run->longest[c] = step_limits_stable(&run->march.scene, c, scale, run->limits.coupling);
     }
 }
 
@@ -66,74 +69,72 @@ static void rescale(struct modal_run *run)
 static bool unload(struct modal_run *run)
 {
     rescale(run);
-    for (size_t c = 0; c < run->scene->contacts; c++)
-        if (!contact_bears(run->scene, c, contact_law_unloading(&run->scene->laws[c])))
-            run->outcome->too_stiff = true;
-    return !run->outcome->too_stiff;
+    for (size_t c = 0; c < run->march.scene.contacts; c++)
+        if (!contact_bears(&run->march.scene, c, contact_law_unloading(&run->march.scene.laws[c])))
+            run->march.outcome->too_stiff = true;
+    return !run->march.outcome->too_stiff;
 }
 
-/* A sub-impact begins at `time` with an approach rate. */
-static void activate(struct modal_run *run, size_t contact, double time, double rate)
+/* A sub-impact of a contact begins at `time` with an approach rate. */
+static void open_contact(struct modal_run *run, size_t contact, double time, double rate)
 {
-    run->active[contact] = true;
-    run->scales[contact] = impact_scale_of(run->scene, contact, rate);
+    struct march *march = &run->march;
+    run->scales[contact] = impact_scale_of(&march->scene, contact, rate);
     run->longest[contact] =
-        step_limits_stable(run->scene, contact, &run->scales[contact], run->limits.coupling);
-    track_open(&run->outcome->tracks[contact], time, run->motion->gap_rate[contact]);
+        step_limits_stable(&march->scene, contact, &run->scales[contact], run->limits.coupling);
+    march_open(march, contact, time, march->outcome->motion.gap_rate[contact]);
 }
 
-/* It ends at `time`; the motion may be a little later. */
-static void deactivate(struct modal_run *run, size_t contact, double time)
+/* It ends at `time`; the motion is a little later. */
+static void close_contact(struct modal_run *run, size_t contact, double time)
 {
-    run->active[contact] = false;
-    double late = run->motion->time - time;
-    track_close(&run->outcome->tracks[contact], &run->scene->laws[contact], time,
-                run->motion->gap_rate[contact] - run->scene->gap_acceleration[contact] * late);
+    struct march *march = &run->march;
+    double late = march->outcome->motion.time - time;
+    march_close(march, contact, time,
+                march->outcome->motion.gap_rate[contact] -
+                    march->scene.gap_acceleration[contact] * late);
 }
 
 /* The finest level that events and grading need. */
 static int finest_level(const struct modal_run *run)
 {
-    /* a contact that opens without speed has no duration of its own */
-    double shortest = 0.01 * run->settings->horizon;
-    for (size_t c = 0; c < run->scene->contacts; c++)
-        if (run->active[c])
+    double shortest = SLOWEST_SHARE * run->march.horizon;
+    for (size_t c = 0; c < run->march.scene.contacts; c++)
+        if (run->march.closed[c])
             shortest = fmin(shortest, run->scales[c].duration);
     return step_level(shortest * run->limits.event_share);
 }
 
-/* A step must not jump over a contact's end (at most three quarters of the way there), nor pump a
+/* A step must not jump over a contact's end, nor pump a
  * mode, nor pass the horizon. */
 static int limit_level(const struct modal_run *run, int level, int finest)
 {
-    for (size_t c = 0; c < run->scene->contacts; c++) {
-        if (!run->active[c])
+    for (size_t c = 0; c < run->march.scene.contacts; c++) {
+        if (!run->march.closed[c])
             continue;
         double left = run->longest[c];
         if (run->now[c].rate < 0.0)
-            left = fmin(left, 0.75 * run->now[c].indentation / -run->now[c].rate);
+            left = fmin(left, SHARE_TO_OPENING * run->now[c].indentation / -run->now[c].rate);
         while (level < finest && step_length(level) > left)
             level++;
     }
-    double remaining = run->settings->horizon - run->motion->time;
+    double remaining = run->march.horizon - run->march.outcome->motion.time;
     while (level < STEP_LEVELS - 1 && step_length(level) > remaining)
         level++;
     return level;
 }
 
-/* Force against which a contact's roughness counts: its scale, or what it bears already. A contact
- * that opens without speed in a group has no scale of its own: a hundredth of the group's will do.
- */
+/* Force against which a contact's roughness counts: its scale, or what it bears already. */
 static double force_scale(const struct modal_run *run, size_t contact)
 {
     double own = run->scales[contact].force;
     double group = 0.0;
     for (int j = 0; j < NODES; j++)
         own = fmax(own, run->step.force[contact][j]);
-    for (size_t c = 0; c < run->scene->contacts; c++)
-        if (run->active[c])
+    for (size_t c = 0; c < run->march.scene.contacts; c++)
+        if (run->march.closed[c])
             group = fmax(group, run->scales[c].force);
-    return fmax(own, 0.01 * group);
+    return fmax(own, SHARE_OF_GROUP * group);
 }
 
 /* How much of the contacts' forces the highest coefficient of the step's cubic is. In a group a
@@ -141,7 +142,7 @@ static double force_scale(const struct modal_run *run, size_t contact)
 static double step_roughness(const struct modal_run *run)
 {
     double worst = 0.0;
-    size_t contacts = run->scene->contacts;
+    size_t contacts = run->march.scene.contacts;
     for (size_t c = 0; c < contacts; c++) {
         const double *force = run->step.force[c];
         double highest = 0.0;
@@ -160,9 +161,9 @@ static bool has_event(const struct modal_run *run)
 {
     size_t closed = 0;
     bool ends = false;
-    for (size_t c = 0; c < run->scene->contacts; c++) {
-        closed += run->active[c];
-        ends = ends || (run->active[c] && !(run->step.end_indentation[c] > 0.0));
+    for (size_t c = 0; c < run->march.scene.contacts; c++) {
+        closed += run->march.closed[c];
+        ends = ends || (run->march.closed[c] && !(run->step.end_indentation[c] > 0.0));
     }
     return closed == 1 && ends;
 }
@@ -238,12 +239,12 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
     struct track_values values = {run->now[c].indentation, end, run->step.indentation[c],
                                   run->step.force[c], run->step.stiffness[c]};
     struct contact_start after = end_values(run->step.indentation[c], h, end);
-    if (!run->active[c] && (end > 0.0 || bears(run, c)))
-        activate(run, c, closing_time(run, c, start, h), fmax(run->now[c].rate, after.rate));
-    if (run->active[c]) {
-        track_step(&run->outcome->tracks[c], start, h, &values);
+    if (!run->march.closed[c] && (end > 0.0 || bears(run, c)))
+        open_contact(run, c, closing_time(run, c, start, h), fmax(run->now[c].rate, after.rate));
+    if (run->march.closed[c]) {
+        track_step(&run->march.outcome->tracks[c], start, h, &values);
         if (end <= 0.0)
-            deactivate(run, c, release_time(run, c, start, h));
+            close_contact(run, c, release_time(run, c, start, h));
     }
     run->now[c] = after;
 }
@@ -251,186 +252,148 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
 /* Makes the step just solved the present. */
 static void accept(struct modal_run *run, int level)
 {
-    double start = run->motion->time;
-    struct motion old = *run->motion;
+    struct impact_outcome *outcome = run->march.outcome;
+    struct motion old = outcome->motion;
+    double start = old.time;
     if (run->settings->log)
         force_log_add(run->settings->log, start, level, run->step.force, run->step.indentation);
-    *run->motion = run->step.end;
+    outcome->motion = run->step.end;
     run->step.end = old;
-    run->damping += run->step.loss;
-    run->outcome->steps++;
-    for (size_t c = 0; c < run->scene->contacts; c++)
+    run->march.damping += run->step.loss;
+    outcome->steps++;
+    for (size_t c = 0; c < run->march.scene.contacts; c++)
         keep_books(run, c, start, step_length(level));
 }
 
-/* Starting values of the contacts that are open while another one is closed. */
-static void begin_phase(struct modal_run *run)
+/* The touch that ended the flight, and starting values of the contacts that are still open. */
+static void begin_phase(struct modal_run *run, size_t contact)
 {
-    for (size_t c = 0; c < run->scene->contacts; c++) {
+    const struct motion *motion = &run->march.outcome->motion;
+    for (size_t c = 0; c < run->march.scene.contacts; c++) {
         double d;
         double rate;
-        if (run->active[c])
-            continue;
-        motion_approach(run->motion, run->scene, c, &d, &rate);
-        run->now[c] = (struct contact_start){fmin(d, 0.0), rate, 0.0, 0.0};
+        motion_approach(motion, &run->march.scene, c, &d, &rate);
+        run->now[c] = (struct contact_start){c == contact ? 0.0 : fmin(d, 0.0), rate, 0.0, 0.0};
+        if (c == contact)
+            open_contact(run, c, motion->time, rate);
     }
 }
 
-/* From the first touch until every contact is open again, the horizon, or the limit. */
-static enum percuss_end_reason contact_phase(struct modal_run *run)
+/* Whether the step just solved is too long: rough, or the only contact ends within it. */
+static bool is_coarse(const struct modal_run *run, double roughness)
 {
-    double allowed = run->limits.roughness;
+    return roughness > TOO_ROUGH * run->limits.roughness || has_event(run);
+}
+
+/* The level after an accepted step. */
+static int next_level(const struct modal_run *run, int level, double roughness)
+{
+    if (roughness < run->limits.roughness / LONGER_ROUGHER && level > 0)
+        return level - 1;
+    return roughness > run->limits.roughness ? level + 1 : level;
+}
+
+/* Solves the step of a level and counts what that took. */
+static enum contact_step_end solve_step(struct modal_run *run, int level)
+{
+    unsigned long before = run->step.iterations;
+    enum contact_step_end end = contact_step_solve(&run->step, &run->march.scene,
+                                                   &run->march.outcome->motion, level, run->now);
+    run->march.used += (run->step.iterations - before) / ITERATIONS_PER_STEP;
+    return end;
+}
+
+/* From the first touch until every contact is open again, the horizon, or the limit. */
+static enum percuss_end_reason contact_phase(void *state, size_t contact)
+{
+    struct modal_run *run = state;
+    struct march *march = &run->march;
+    begin_phase(run, contact);
     int level = finest_level(run);
-    begin_phase(run);
-    while (any_active(run)) {
-        if (++run->used > run->max_steps || !pace_keeps(run->settings->pace, run->step_cost))
+    while (march_in_contact(march)) {
+        if (++march->used > march->most || !pace_keeps(march->pace, march->cost))
             return PERCUSS_END_LIMIT;
+        // the length of the next step
         int finest = finest_level(run);
-        /* roughness may ask for more than events do: a graze is shorter than its scale */
-        int deepest = finest + 8;
+        int deepest = finest + GRAZE_LEVELS;
         level = limit_level(run, level < deepest ? level : deepest, finest);
         if (run->yielding.any)
             level = yielding_level(&run->yielding, level);
         double h = step_length(level);
-        if (run->motion->time + h == run->motion->time ||
-            run->settings->horizon - run->motion->time < step_length(finest))
+        double time = march->outcome->motion.time;
+        if (time + h == time || march->horizon - time < step_length(finest))
             return PERCUSS_END_IN_CONTACT;
-        unsigned long before = run->step.iterations;
-        bool solved =
-            contact_step_solve(&run->step, run->scene, run->motion, run->everyone, level, run->now);
-        /* a step takes two or three iterations; one that does not converge costs as much as ten */
-        run->used += (run->step.iterations - before) / 8;
+
+        // one that has no solution or is too coarse is tried again with half its length
+        enum contact_step_end end = solve_step(run, level);
+        if (end == STEP_MEMORY)
+            return march_fail(march, PERCUSS_INTERNAL);
+        bool solved = end == STEP_SOLVED;
         double roughness = solved ? step_roughness(run) : INFINITY;
-        bool fine = level >= finest;
-        if (!solved || (!fine && (roughness > 3.0 * allowed || has_event(run)))) {
-            /* a step is not shortened any further: again the same would be tried */
+        if (!solved || (level < finest && is_coarse(run, roughness))) {
             if (level >= (solved ? STEP_LEVELS - 1 : deepest))
                 return PERCUSS_END_LIMIT;
-            run->outcome->rejected++;
+            march->outcome->rejected++;
             level++;
             continue;
         }
+        // one that passes the instant at which a law changes, with another length or another law
         if (run->yielding.any && yielding_passes(&run->yielding, h, &level)) {
             if (!unload(run))
                 return PERCUSS_END_LIMIT;
-            run->outcome->rejected++;
+            march->outcome->rejected++;
             continue;
         }
         accept(run, level);
-        run->roughness = fmax(run->roughness, roughness);
-        /* the coefficient falls with the third power of the step */
-        if (roughness < allowed / 8.0 && level > 0)
-            level--;
-        else if (roughness > allowed)
-            level++;
+        level = next_level(run, level, roughness);
         if (run->yielding.any && yielding_meet(&run->yielding, h, &level) && !unload(run))
             return PERCUSS_END_LIMIT;
     }
     return PERCUSS_END_NONE;
 }
 
-/* Free motion to the next touch. NONE: touched. */
-static enum percuss_end_reason fly(struct modal_run *run)
+/* The window ends: contacts that are being loaded yield so far, and all keep what they store. */
+static void end_march(void *state)
 {
-    double time = 0.0;
-    size_t contact = 0;
-    unsigned long before = run->flight.intervals;
-    double allowed = run->settings->horizon - run->motion->time;
-    /* the last step of a contact phase may have taken more than was left */
-    unsigned long left = run->used < run->max_steps ? run->max_steps - run->used : 0;
-    enum flight_end end =
-        flight_find(&run->flight, run->scene, run->motion, allowed, left, &time, &contact);
-    run->used += run->flight.intervals - before;
-    if ((end == FLIGHT_LIMIT || end == FLIGHT_MEMORY) || run->used > run->max_steps)
-        return PERCUSS_END_LIMIT;
-    run->damping += motion_free_loss(run->motion, run->scene, time);
-    motion_advance(run->motion, run->scene, time);
-    if (end == FLIGHT_TIMEOUT)
-        return PERCUSS_END_HORIZON;
-    if (end == FLIGHT_COMPLETE) {
-        for (size_t c = 0; c < run->scene->contacts; c++)
-            if (run->scene->gap_acceleration[c] < 0.0)
-                return PERCUSS_END_HANDED_BACK;
-        return PERCUSS_END_SEPARATED;
-    }
-    double d;
-    double rate;
-    motion_approach(run->motion, run->scene, contact, &d, &rate);
-    activate(run, contact, run->motion->time, rate);
-    run->now[contact] = (struct contact_start){0.0, rate, 0.0, 0.0};
-    return PERCUSS_END_NONE;
+    struct modal_run *run = state;
+    yielding_end(&run->yielding);
+    for (size_t c = 0; c < run->march.scene.contacts; c++)
+        run->march.indentation[c] = run->march.closed[c] ? run->now[c].indentation : 0.0;
 }
 
-static bool run_create(struct modal_run *run, const struct scene *scene, struct arena *arena)
+static bool run_create(struct modal_run *run, struct arena *arena)
 {
-    run->active = arena_take(arena, scene->contacts, sizeof *run->active);
-    run->everyone = arena_take(arena, scene->contacts, sizeof *run->everyone);
-    for (size_t c = 0; run->everyone && c < scene->contacts; c++)
-        run->everyone[c] = true;
+    const struct scene *scene = &run->march.scene;
+    if (!march_create(&run->march, arena))
+        return false;
     run->now = arena_take(arena, scene->contacts, sizeof *run->now);
-    run->final = arena_take(arena, scene->contacts, sizeof *run->final);
     run->scales = arena_take(arena, scene->contacts, sizeof *run->scales);
     run->longest = arena_take(arena, scene->contacts, sizeof *run->longest);
     run->yielding = (struct yielding){.scene = scene,
-                                      .outcome = run->outcome,
+                                      .outcome = run->march.outcome,
                                       .step = &run->step,
                                       .now = run->now,
-                                      .active = run->active,
+                                      .closed = run->march.closed,
                                       .scales = run->scales,
                                       .accuracy = run->settings->accuracy};
-    return run->active && run->everyone && run->now && run->final && run->scales && run->longest &&
-           contact_step_create(&run->step, scene, arena) &&
-           flight_create(&run->flight, scene, arena) && yielding_create(&run->yielding, arena);
+    if (!run->now || !run->scales || !run->longest ||
+        !contact_step_create(&run->step, scene, arena) || !yielding_create(&run->yielding, arena))
+        return false;
+    run->step.accuracy = run->settings->accuracy;
+    run->step.pace = run->march.pace;
+    return true;
 }
 
 enum percuss_status impact_modal(const struct scene *scene, const struct impact_settings *settings,
                                  struct arena *arena, struct impact_outcome *outcome)
 {
-    /* the laws change as they yield: the outcome's own */
-    struct scene own = *scene;
-    struct modal_run run = {.scene = &own, .settings = settings, .outcome = outcome};
-    own.laws = outcome->laws;
-    run.motion = &outcome->motion;
-    impact_begin(outcome, scene);
-    run.limits = step_limits_make(settings->accuracy);
-    if (!run_create(&run, &own, arena))
-        return PERCUSS_INTERNAL;
-    run.step.accuracy = settings->accuracy;
-    outcome->steps = outcome->rejected = 0;
-    motion_start(run.motion, scene);
-    run.max_steps = impact_max_steps(scene, settings);
-    run.step_cost = run.flight.cost = step_cost(scene);
-    run.flight.pace = run.step.pace = settings->pace;
-    struct rewind rewind = {settings->horizon, run.max_steps, arena, settings->pace, false};
-    enum rewind_end start = rewind_to_touch(&rewind, scene, run.motion, &outcome->time_shift);
-    outcome->always_overlapped = start == REWIND_NEVER;
-    outcome->beyond_horizon = rewind.beyond;
-    if (outcome->always_overlapped)
-        return PERCUSS_OK;
-    run.used = run.max_steps - rewind.intervals;
-    bool touched = false;
-    enum percuss_end_reason end =
-        (start == REWIND_LIMIT || start == REWIND_MEMORY) ? PERCUSS_END_LIMIT : PERCUSS_END_NONE;
-    while (end == PERCUSS_END_NONE) {
-        end = fly(&run);
-        if (end != PERCUSS_END_NONE)
-            break;
-        if (!touched && outcome->time_shift == 0.0)
-            outcome->time_shift = run.motion->time;
-        touched = true;
-        end = contact_phase(&run);
-    }
-    yielding_end(&run.yielding);
-    for (size_t c = 0; c < scene->contacts; c++) {
-        run.final[c] = run.active[c] ? run.now[c].indentation : 0.0;
-        if (run.active[c])
-            deactivate(&run, c, run.motion->time);
-        track_mark_negligible(&outcome->tracks[c]);
-    }
-    outcome->end_reason = end;
-    outcome->window = run.motion->time;
-    outcome->intervals = run.flight.intervals;
-    outcome->effort = run.used;
-    return energy_audit(scene, run.final, run.damping, arena, outcome) ? pace_status(settings->pace)
-                                                                       : PERCUSS_INTERNAL;
+    static const struct march_method method = {.contact_phase = contact_phase, .end = end_march};
+    struct modal_run run = {.march = {.stated = scene,
+                                      .outcome = outcome,
+                                      .horizon = settings->horizon,
+                                      .most = impact_max_steps(scene, settings),
+                                      .pace = settings->pace},
+                            .settings = settings,
+                            .limits = step_limits_make(settings->accuracy)};
+    return run_create(&run, arena) ? march_run(&run.march, &method, &run, arena) : PERCUSS_INTERNAL;
 }

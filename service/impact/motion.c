@@ -90,6 +90,57 @@ void motion_rewind(struct motion *motion, const struct scene *scene, double time
     move(motion, scene, -time);
 }
 
+void motion_step(struct motion *to, const struct motion *from, const struct scene *scene, int level)
+{
+    double h = step_length(level);
+    to->time = from->time + h;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double a = scene->gap_acceleration[c];
+        to->gap[c] = from->gap[c] + h * (from->gap_rate[c] + 0.5 * a * h);
+        to->gap_rate[c] = from->gap_rate[c] + a * h;
+    }
+    for (size_t g = 0; g < scene->groups; g++)
+        kernel_advance(scene->group[g].set->tables[level], scene->group[g].stride, from->q[g],
+                       from->v[g], to->q[g], to->v[g]);
+}
+
+/* Many contacts of a group are open most of the time. */
+static bool bears_force(const double force[NODES])
+{
+    for (int j = 0; j < NODES; j++)
+        if (force[j] != 0.0)
+            return true;
+    return false;
+}
+
+void motion_push(struct motion *end, const struct scene *scene, int level,
+                 double (*const force)[NODES])
+{
+    double h = step_length(level);
+    for (size_t b = 0; b < scene->contacts; b++) {
+        double impulse = 0.0;
+        double travel = 0.0;
+        if (!bears_force(force[b]))
+            continue;
+        // the rigid gaps by the force's integral and its double integral
+        for (int j = 0; j < NODES; j++) {
+            impulse += h * collocation.weight[j] * force[b][j];
+            travel += h * h * collocation.position_end[j] * force[b][j];
+        }
+        for (size_t a = 0; a < scene->contacts; a++) {
+            end->gap[a] += scene->w[a * scene->contacts + b] * travel;
+            end->gap_rate[a] += scene->w[a * scene->contacts + b] * impulse;
+        }
+        // the modes by their tables
+        for (size_t g = 0; g < scene->groups; g++) {
+            const struct scene_group *group = &scene->group[g];
+            if (group->participation[b])
+                kernel_push(group->set->tables[level], group->stride, group->participation[b],
+                            force[b], end->q[g], end->v[g]);
+        }
+    }
+}
+
 void motion_approach(const struct motion *motion, const struct scene *scene, size_t contact,
                      double *approach, double *rate)
 {

@@ -32,6 +32,15 @@ void motion_advance(struct motion *motion, const struct scene *scene, double tim
  * rounding of fast modes up without bound. The vibration's energy stays what it is. */
 void motion_rewind(struct motion *motion, const struct scene *scene, double time);
 
+/* Free motion over the step of a level whose tables are ready, from `from` into `to`, which may be
+ * the same. */
+void motion_step(struct motion *to, const struct motion *from, const struct scene *scene,
+                 int level);
+
+/* Adds to the end of such a step what the contact forces at its nodes do. */
+void motion_push(struct motion *end, const struct scene *scene, int level,
+                 double (*const force)[NODES]);
+
 /* d and its rate at one contact. */
 void motion_approach(const struct motion *motion, const struct scene *scene, size_t contact,
                      double *approach, double *rate);

@@ -7,9 +7,21 @@
 
 #include "numeric/linear.h"
 
-enum { MAX_ITERATIONS = 40 };
 /* One row of a 4 x 4 system; the lanes' order of operations is that of scalars. */
 typedef double quad __attribute__((vector_size(NODES * sizeof(double))));
+
+/* Newton's method takes two or three iterations in an ordinary step; where it takes so many it
+ * would take for ever. */
+enum { MAX_ITERATIONS = 40 };
+
+/* A change below this share of the approaches, which can be far larger than the indentations in a
+ * long contact, is their rounding. */
+static const double ROUNDING = 1e-15;
+/* Below this share a change that has stopped falling is rounding too, of sums of many terms. */
+static const double ROUNDING_OF_SUMS = 1e-12;
+
+/* Pivots, 1 where nothing couples, from which on elimination without exchanges loses a digit. */
+static const double LEAST_PIVOT = 0.1;
 
 /* Solves a x = b by elimination in the order given; the matrix is the identity plus a small causal
  * one. False: a pivot is too small for that order. */
@@ -17,7 +29,7 @@ static bool eliminate(quad a[NODES], double b[NODES])
 {
     double inverse[NODES];
     for (int c = 0; c < NODES; c++) {
-        if (!(fabs(a[c][c]) > 0.1))
+        if (!(fabs(a[c][c]) > LEAST_PIVOT))
             return false;
         inverse[c] = 1.0 / a[c][c];
         for (int i = c + 1; i < NODES; i++) {
@@ -54,11 +66,14 @@ static void look_at(struct progress *progress, double change, double indentation
     progress->target = larger(progress->target, fabs(target));
 }
 
+/* Whether the iteration ends: the change was small enough for its square to be nothing, or was
+ * rounding. */
 static bool settled(const struct progress *progress, double last_change)
 {
     return progress->change <= last_change * progress->indentation ||
-           progress->change <= 1e-15 * progress->target ||
-           (progress->change <= 1e-12 * progress->target && progress->change >= progress->previous);
+           progress->change <= ROUNDING * progress->target ||
+           (progress->change <= ROUNDING_OF_SUMS * progress->target &&
+            progress->change >= progress->previous);
 }
 
 /* Forces after the last, tiny update: the slope that it was made with carries them along. */
@@ -68,18 +83,18 @@ static void follow(double force[NODES], const double stiffness[NODES], const dou
         force[i] = fmax(0.0, force[i] - stiffness[i] * change[i]);
 }
 
-/* One active contact: the usual case, without scratch memory. */
+/* One contact: the usual case, without scratch memory. */
 static bool solve_one(const struct node_problem *problem, double d[NODES], double force[NODES],
                       double stiffness[NODES], unsigned long *iterations)
 {
-    size_t contact = problem->list[0];
-    const struct contact_law *law = &problem->laws[contact];
-    const double(*m)[NODES] = problem->coupling[contact * problem->contacts + contact];
+    const struct contact_law *law = problem->laws;
+    const double(*m)[NODES] = problem->coupling[0];
     const double *target = problem->target[0];
     double previous = INFINITY;
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        quad jacobian[NODES];
-        double residual[NODES];
+        // the excess e, and the matrix 1 + coupling F'
+        quad matrix[NODES];
+        double change[NODES];
         for (int i = 0; i < NODES; i++)
             force[i] = contact_law_force(law, d[i], &stiffness[i]);
         const quad forces = {force[0], force[1], force[2], force[3]};
@@ -87,22 +102,23 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
         for (int i = 0; i < NODES; i++) {
             const quad coupling = {m[i][0], m[i][1], m[i][2], m[i][3]};
             quad moved = coupling * forces;
-            residual[i] = d[i] - target[i] + ((moved[0] + moved[1]) + (moved[2] + moved[3]));
-            jacobian[i] = coupling * slopes;
-            jacobian[i][i] += 1.0;
+            change[i] = d[i] - target[i] + ((moved[0] + moved[1]) + (moved[2] + moved[3]));
+            matrix[i] = coupling * slopes;
+            matrix[i][i] += 1.0;
         }
-        if (!eliminate(jacobian, residual))
+        if (!eliminate(matrix, change))
             return false;
         ++*iterations;
+        // the update, and whether it was the last one
         struct progress progress = {.previous = previous};
         for (int i = 0; i < NODES; i++) {
-            d[i] -= residual[i];
-            look_at(&progress, residual[i], d[i], target[i]);
+            d[i] -= change[i];
+            look_at(&progress, change[i], d[i], target[i]);
         }
         if (!isfinite(progress.change))
             return false;
         if (settled(&progress, problem->last_change)) {
-            follow(force, stiffness, residual);
+            follow(force, stiffness, change);
             return true;
         }
         previous = progress.change;
@@ -113,9 +129,9 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
 /* Newton's system of several contacts. An open contact bears no force and its indentation follows
  * from those of the pressed ones, so that only these are solved for. */
 struct system {
-    double (*stiffness)[NODES];                  /* [all contacts] */
+    double (*stiffness)[NODES];                  /* [contact] */
     double change[PERCUSS_MAX_CONTACTS * NODES]; /* of the pressed ones */
-    size_t pressed[PERCUSS_MAX_CONTACTS];        /* places in the problem's list */
+    size_t pressed[PERCUSS_MAX_CONTACTS];        /* contacts */
     size_t pressed_count;
 };
 
@@ -123,8 +139,7 @@ static void find_forces(const struct node_problem *problem, struct system *syste
                         double (*indentation)[NODES], double (*force)[NODES])
 {
     system->pressed_count = 0;
-    for (size_t a = 0; a < problem->count; a++) {
-        size_t c = problem->list[a];
+    for (size_t c = 0; c < problem->contacts; c++) {
         bool presses = false;
         for (int i = 0; i < NODES; i++) {
             force[c][i] =
@@ -132,79 +147,75 @@ static void find_forces(const struct node_problem *problem, struct system *syste
             presses = presses || system->stiffness[c][i] != 0.0 || force[c][i] != 0.0;
         }
         if (presses)
-            system->pressed[system->pressed_count++] = a;
+            system->pressed[system->pressed_count++] = c;
     }
 }
 
-static const double (*coupling_of(const struct node_problem *problem, size_t a, size_t b))[NODES]
-{
-    return problem->coupling[problem->list[a] * problem->contacts + problem->list[b]];
-}
-
-/* Residuals of all contacts, and the matrix of the pressed ones. */
+/* The excess e of all contacts, and the matrix 1 + coupling F' of the pressed ones. */
 static void assemble(const struct node_problem *problem, const struct system *system,
                      double (*indentation)[NODES], double (*force)[NODES])
 {
-    for (size_t a = 0; a < problem->count; a++)
+    size_t n = problem->contacts;
+    for (size_t a = 0; a < n; a++)
         for (int i = 0; i < NODES; i++) {
-            double sum = indentation[problem->list[a]][i] - problem->target[a][i];
+            double sum = indentation[a][i] - problem->target[a][i];
             for (size_t q = 0; q < system->pressed_count; q++) {
-                const double(*m)[NODES] = coupling_of(problem, a, system->pressed[q]);
-                const double *f = force[problem->list[system->pressed[q]]];
+                size_t b = system->pressed[q];
+                const double(*m)[NODES] = problem->coupling[a * n + b];
                 for (int j = 0; j < NODES; j++)
-                    sum += m[i][j] * f[j];
+                    sum += m[i][j] * force[b][j];
             }
-            problem->residual[a * NODES + (size_t)i] = sum;
+            problem->excess[a * NODES + (size_t)i] = sum;
         }
     size_t size = system->pressed_count * NODES;
     for (size_t p = 0; p < system->pressed_count; p++)
         for (size_t q = 0; q < system->pressed_count; q++) {
-            const double(*m)[NODES] = coupling_of(problem, system->pressed[p], system->pressed[q]);
-            const double *stiffness = system->stiffness[problem->list[system->pressed[q]]];
+            size_t b = system->pressed[q];
+            const double(*m)[NODES] = problem->coupling[system->pressed[p] * n + b];
             for (size_t i = 0; i < NODES; i++) {
                 double *row = problem->matrix + (p * NODES + i) * size + q * NODES;
                 for (size_t j = 0; j < NODES; j++)
-                    row[j] = m[i][j] * stiffness[j] + (p == q && i == j);
+                    row[j] = m[i][j] * system->stiffness[b][j] + (p == q && i == j);
             }
         }
 }
 
-/* Turns the residuals into the changes of all indentations. */
+/* Turns the excess into the changes of all indentations: of the pressed ones by their system, of
+ * an open one a: change_a = e_a - sum over the pressed b of coupling_ab F'_b change_b. */
 static bool find_changes(const struct node_problem *problem, struct system *system)
 {
-    size_t size = system->pressed_count * NODES;
+    size_t n = problem->contacts;
     bool open[PERCUSS_MAX_CONTACTS];
-    for (size_t a = 0; a < problem->count; a++)
+    for (size_t a = 0; a < n; a++)
         open[a] = true;
     for (size_t p = 0; p < system->pressed_count; p++) {
         open[system->pressed[p]] = false;
         for (size_t i = 0; i < NODES; i++)
-            system->change[p * NODES + i] = problem->residual[system->pressed[p] * NODES + i];
+            system->change[p * NODES + i] = problem->excess[system->pressed[p] * NODES + i];
     }
-    if (!linear_solve(size, problem->matrix, system->change))
+    if (!linear_solve(system->pressed_count * NODES, problem->matrix, system->change))
         return false;
-    for (size_t a = 0; a < problem->count; a++) {
+    for (size_t a = 0; a < n; a++) {
         for (size_t q = 0; open[a] && q < system->pressed_count; q++) {
-            const double(*m)[NODES] = coupling_of(problem, a, system->pressed[q]);
-            const double *stiffness = system->stiffness[problem->list[system->pressed[q]]];
+            size_t b = system->pressed[q];
+            const double(*m)[NODES] = problem->coupling[a * n + b];
             for (size_t i = 0; i < NODES; i++)
                 for (size_t j = 0; j < NODES; j++)
-                    problem->residual[a * NODES + i] -=
-                        m[i][j] * stiffness[j] * system->change[q * NODES + j];
+                    problem->excess[a * NODES + i] -=
+                        m[i][j] * system->stiffness[b][j] * system->change[q * NODES + j];
         }
     }
     for (size_t p = 0; p < system->pressed_count; p++)
         for (size_t i = 0; i < NODES; i++)
-            problem->residual[system->pressed[p] * NODES + i] = system->change[p * NODES + i];
+            problem->excess[system->pressed[p] * NODES + i] = system->change[p * NODES + i];
     return true;
 }
 
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
                 double (*force)[NODES], double (*stiffness)[NODES], unsigned long *iterations)
 {
-    size_t first = problem->list[0];
-    if (problem->count == 1 &&
-        solve_one(problem, indentation[first], force[first], stiffness[first], iterations))
+    if (problem->contacts == 1 &&
+        solve_one(problem, indentation[0], force[0], stiffness[0], iterations))
         return true;
     struct system system;
     system.stiffness = stiffness; /* the rest is scratch */
@@ -215,19 +226,18 @@ bool node_solve(const struct node_problem *problem, double (*indentation)[NODES]
         if (!find_changes(problem, &system))
             return false;
         ++*iterations;
+        // the update, and whether it was the last one
         struct progress progress = {.previous = previous};
-        for (size_t row = 0; row < problem->count * NODES; row++) {
-            double *d = &indentation[problem->list[row / NODES]][row % NODES];
-            *d -= problem->residual[row];
-            look_at(&progress, problem->residual[row], *d,
-                    problem->target[row / NODES][row % NODES]);
+        for (size_t row = 0; row < problem->contacts * NODES; row++) {
+            double *d = &indentation[row / NODES][row % NODES];
+            *d -= problem->excess[row];
+            look_at(&progress, problem->excess[row], *d, problem->target[row / NODES][row % NODES]);
         }
         if (!isfinite(progress.change))
             return false;
         if (settled(&progress, problem->last_change)) {
-            for (size_t a = 0; a < problem->count; a++)
-                follow(force[problem->list[a]], stiffness[problem->list[a]],
-                       problem->residual + a * NODES);
+            for (size_t c = 0; c < problem->contacts; c++)
+                follow(force[c], stiffness[c], problem->excess + c * NODES);
             return true;
         }
         previous = progress.change;

@@ -1,7 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The nonlinear equations of one contact step: indentations at the nodes of all active contacts. */
+/* The nonlinear equations of one contact step: indentations d at the nodes of all contacts,
+ *
+ *   e_ai(d) = d_ai + sum_bj coupling_ab,ij F_b(d_bj) - target_ai = 0
+ *
+ * for contact a at node i, by Newton's method: (1 + coupling F') change = e, d -= change. An open
+ * contact has F = F' = 0: its columns are those of the identity. */
 #ifndef PERCUSS_IMPACT_NODE_SOLVER_H
 #define PERCUSS_IMPACT_NODE_SOLVER_H
 
@@ -11,14 +16,12 @@
 #include "impact/scene.h"
 
 struct node_problem {
-    const struct contact_law *laws; /* [all contacts] */
-    size_t contacts;                /* all */
-    const size_t *list;             /* the active ones */
-    size_t count;
+    const struct contact_law *laws; /* [contact] */
+    size_t contacts;
     const double (*coupling)[NODES][NODES]; /* [contact a][contact b]: approach of a at node i by
                                                the force of b at node j, m/N */
-    const double (*target)[NODES];          /* [active]: approaches without force */
-    double *matrix, *residual;              /* scratch: (count NODES)^2, count NODES */
+    const double (*target)[NODES];          /* [contact]: approaches without force */
+    double *matrix, *excess;                /* scratch: (contacts NODES)^2, contacts NODES */
     double last_change; /* the iteration ends with a relative change of the indentations below */
 };
 
@@ -26,13 +29,17 @@ struct node_problem {
  * indentation): the change after which the forces have a relative accuracy. */
 static inline double node_solver_last_change(double accuracy)
 {
-    double change = 0.1 * sqrt(accuracy);
-    return change > 1e-7 ? change : 1e-7; /* what is left after that is rounding */
+    /* the square has a factor of the order of one, and the forces sum up several of them */
+    static const double RESERVE = 0.1;
+    /* what is left after that is rounding */
+    static const double SMALLEST = 1e-7;
+    double change = RESERVE * sqrt(accuracy);
+    return change > SMALLEST ? change : SMALLEST;
 }
 
-/* Newton's method for indentation_i + sum coupling force(indentation) = target. [all
- * contacts][node] `indentation` holds starting values and becomes the solution, `force` belongs to
- * it. False: no convergence. Adds to *iterations. */
+/* [contact][node]: `indentation` holds starting values and becomes the solution, `force` belongs to
+ * it, `stiffness` to the values before its last change. False: no convergence. Adds to *iterations.
+ */
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
                 double (*force)[NODES], double (*stiffness)[NODES], unsigned long *iterations);
 

@@ -134,11 +134,9 @@ const struct step_table *oscillators_table(struct oscillators *set, int level)
     return set->tables[level];
 }
 
-enum percuss_status oscillators_prepare(struct oscillators *set, int level, struct pace *pace,
-                                        const struct step_table **table)
+enum percuss_status oscillators_prepare(struct oscillators *set, int level, struct pace *pace)
 {
     if (!set->tables[level] && !pace_ask(pace, 0.0))
         return PERCUSS_TIMEOUT;
-    *table = oscillators_table(set, level);
-    return *table ? PERCUSS_OK : PERCUSS_INTERNAL;
+    return oscillators_table(set, level) ? PERCUSS_OK : PERCUSS_INTERNAL;
 }

@@ -53,9 +53,8 @@ int step_level(double h);
 /* The table of a level, computed when first asked for. NULL: out of memory. */
 const struct step_table *oscillators_table(struct oscillators *set, int level);
 
-/* The same, but asks before it makes one, which takes milliseconds. INTERNAL: out of memory;
- * TIMEOUT: the pace stopped it. */
-enum percuss_status oscillators_prepare(struct oscillators *set, int level, struct pace *pace,
-                                        const struct step_table **table);
+/* Makes sure that there is one, and asks before it makes it, which takes milliseconds. INTERNAL:
+ * out of memory; TIMEOUT: the pace stopped it. */
+enum percuss_status oscillators_prepare(struct oscillators *set, int level, struct pace *pace);
 
 #endif

@@ -154,54 +154,30 @@ static void sample(struct tracer *tracer, const double *force, const double *ind
     }
 }
 
-/* What the forces at the nodes of a step do to the rigid motion, and their integrals. */
-static void push_rigid(struct tracer *tracer, double (*const force)[NODES], double h)
-{
-    size_t n = tracer->scene->contacts;
-    for (size_t b = 0; b < n; b++) {
-        double impulse = 0.0;
-        double travel = 0.0;
-        for (int j = 0; j < NODES; j++) {
-            impulse += h * collocation.weight[j] * force[b][j];
-            travel += h * h * collocation.position_end[j] * force[b][j];
-        }
-        tracer->travel[b] += h * tracer->impulse[b] + travel;
-        tracer->impulse[b] += impulse;
-        for (size_t a = 0; a < n; a++) {
-            tracer->next.gap[a] += tracer->scene->w[a * n + b] * travel;
-            tracer->next.gap_rate[a] += tracer->scene->w[a * n + b] * impulse;
-        }
-    }
-}
-
 /* A step of a level with these forces at its nodes. False: out of memory or work, or stopped. */
 static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
 {
     const struct scene *scene = tracer->scene;
-    const struct motion *now = &tracer->now;
-    struct motion *next = &tracer->next;
     double h = step_length(level);
     tracer->left -= tracer->cost;
     if (tracer->left < 0.0 || !pace_keeps(tracer->pace, tracer->cost))
         return false;
-    next->time = now->time + h;
-    for (size_t c = 0; c < scene->contacts; c++) {
-        double a = scene->gap_acceleration[c];
-        next->gap[c] = now->gap[c] + h * (now->gap_rate[c] + 0.5 * a * h);
-        next->gap_rate[c] = now->gap_rate[c] + a * h;
-    }
-    push_rigid(tracer, force, h);
-    for (size_t g = 0; g < scene->groups; g++) {
-        const struct scene_group *group = &scene->group[g];
-        const struct step_table *table = oscillators_table(group->set, level);
-        if (!table)
+    for (size_t g = 0; g < scene->groups; g++)
+        if (oscillators_prepare(scene->group[g].set, level, tracer->pace) != PERCUSS_OK)
             return false;
-        kernel_advance(table, group->stride, now->q[g], now->v[g], next->q[g], next->v[g]);
-        for (size_t c = 0; c < scene->contacts; c++)
-            if (group->participation[c])
-                kernel_push(table, group->stride, group->participation[c], force[c], next->q[g],
-                            next->v[g]);
+    // integrals of the forces
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double impulse = 0.0;
+        double travel = 0.0;
+        for (int j = 0; j < NODES; j++) {
+            impulse += h * collocation.weight[j] * force[c][j];
+            travel += h * h * collocation.position_end[j] * force[c][j];
+        }
+        tracer->travel[c] += h * tracer->impulse[c] + travel;
+        tracer->impulse[c] += impulse;
     }
+    motion_step(&tracer->next, &tracer->now, scene, level);
+    motion_push(&tracer->next, scene, level, force);
     struct motion old = tracer->now;
     tracer->now = tracer->next;
     tracer->next = old;

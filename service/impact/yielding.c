@@ -124,10 +124,10 @@ static double crossing_on(const struct path *path, double target)
 static double duration_of(const struct yielding *yielding, size_t contact)
 {
     double shortest = INFINITY;
-    if (yielding->active[contact])
+    if (yielding->closed[contact])
         return yielding->scales[contact].duration;
     for (size_t c = 0; c < yielding->scene->contacts; c++)
-        if (yielding->active[c])
+        if (yielding->closed[c])
             shortest = fmin(shortest, yielding->scales[c].duration);
     return shortest;
 }
@@ -257,7 +257,7 @@ static double peak_indentation(const struct yielding *yielding, size_t contact, 
 static bool take(struct yielding *yielding, size_t contact, bool seen)
 {
     yielding->when[contact] = INFINITY;
-    if (isfinite(yielding->target[contact]) || !yielding->active[contact])
+    if (isfinite(yielding->target[contact]) || !yielding->closed[contact])
         return false;
     double peak = peak_indentation(yielding, contact, seen);
     if (!exceeds(yielding, contact, peak))
@@ -323,7 +323,7 @@ bool yielding_meet(struct yielding *yielding, double h, int *level)
 void yielding_end(struct yielding *yielding)
 {
     for (size_t c = 0; c < yielding->scene->contacts; c++)
-        if (yielding->active[c] &&
+        if (yielding->closed[c] &&
             yielding->now[c].indentation > contact_law_limit(&yielding->scene->laws[c]))
             yield(yielding, c, yielding->now[c].indentation);
 }

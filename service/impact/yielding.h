@@ -21,8 +21,8 @@ struct yielding {
     struct impact_outcome *outcome;
     const struct contact_step *step;   /* the one just solved */
     struct contact_start *now;         /* [contact] */
-    const bool *active;                /* [contact] */
-    const struct impact_scale *scales; /* [contact], of active ones */
+    const bool *closed;                /* [contact] */
+    const struct impact_scale *scales; /* [contact], of closed ones */
     double accuracy;
     bool any; /* a law can yield; false: nothing below is used */
 

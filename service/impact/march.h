@@ -1,0 +1,68 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The march through one impact: back to the touch where bodies overlap, flights and contact phases
+ * in turn, and at the end the books and the energy's audit. Methods differ in the contact phase. */
+#ifndef PERCUSS_IMPACT_MARCH_H
+#define PERCUSS_IMPACT_MARCH_H
+
+#include "impact/flight.h"
+#include "impact/impact.h"
+
+struct march {
+    const struct scene *stated; /* as asked */
+    struct scene scene;         /* the same with the outcome's laws, which change as they yield */
+    struct impact_outcome *outcome; /* from impact_create; its motion is the present */
+    double horizon;                 /* s from the stated instant */
+    unsigned long most;             /* contact steps and flight intervals that are allowed */
+    struct pace *pace;              /* NULL: nobody waits */
+    struct fault *fault;            /* of what makes it fail; NULL: nobody reads it */
+
+    enum percuss_status status; /* not OK: it has failed */
+    unsigned long used;         /* of `most` */
+    double cost;                /* work of a step or interval */
+    double damping;             /* taken so far, J */
+    bool *closed;               /* [contact]: a sub-impact is under way */
+    double *indentation;        /* [contact], local, when the window ends */
+    struct flight flight;
+};
+
+/* A method of solving contacts. `method` is its own state. */
+struct march_method {
+    bool flies; /* passes flights too: its contact phase begins at once and ends the march */
+    /* From a touch of `contact` until every contact is open again (NONE), or what ends the march.
+     * Moves the outcome's motion, keeps its books by march_open and march_close, adds to `used`
+     * and `damping`. */
+    enum percuss_end_reason (*contact_phase)(void *method, size_t contact);
+    /* The march has ended, for outcome->end_reason: the last entries into the books of contacts
+     * that are still closed, and their `indentation`. */
+    void (*end)(void *method);
+};
+
+/* Prepares a march whose members down to `fault` are set (but for `scene`): the outcome has no
+ * sub-impacts yet, its motion is that of the stated instant. `arena` holds all of it. False: out of
+ * memory. */
+bool march_create(struct march *march, struct arena *arena);
+
+/* Goes through the impact. PERCUSS_OK (also where no touch was found behind an overlap: see
+ * outcome->always_overlapped), TIMEOUT where the pace stopped it, or why it failed: the outcome
+ * then says nothing. */
+enum percuss_status march_run(struct march *march, const struct march_method *method, void *state,
+                              struct arena *arena);
+
+/* A sub-impact of a contact begins at `time`, or ends, with a rigid gap rate. */
+void march_open(struct march *march, size_t contact, double time, double gap_rate);
+void march_close(struct march *march, size_t contact, double time, double gap_rate);
+
+/* Whether any contact is closed. */
+bool march_in_contact(const struct march *march);
+
+/* Why a march ends whose bodies part for good: acceleration that presses brings them together
+ * again, on the slow scale. */
+enum percuss_end_reason march_parted(const struct march *march);
+
+/* The march has failed: INTERNAL without memory, or another status whose message is written.
+ * Returns an end of contact phases. */
+enum percuss_end_reason march_fail(struct march *march, enum percuss_status status);
+
+#endif
