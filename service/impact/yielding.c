@@ -11,33 +11,38 @@
 bool yielding_create(struct yielding *yielding, struct arena *arena)
 {
     size_t n = yielding->scene->contacts;
-    yielding->any = false;
-    yielding->resume = -1;
+    yielding->any = yielding->approaching = false;
     for (size_t c = 0; c < n; c++)
         yielding->any = yielding->any || yielding->scene->laws[c].operations->curve;
     if (!yielding->any)
         return true;
-    yielding->when = arena_take(arena, n, sizeof(double));
-    yielding->target = arena_take(arena, n, sizeof(double));
-    yielding->within = arena_take(arena, n, sizeof(double));
-    yielding->largest = arena_take(arena, n, sizeof(double));
-    for (size_t c = 0; yielding->when && c < n; c++)
-        yielding->when[c] = INFINITY;
-    return yielding->when && yielding->target && yielding->within && yielding->largest;
+    yielding->event = arena_take(arena, n, sizeof *yielding->event);
+    return yielding->event != NULL;
 }
+
+/* The errors of the two below are then an eighth and a quarter of the accuracy. */
+static const double NEARNESS = 0.5;
+
+/* An event is placed anew by the motion at the end of a step if it is this many such steps ahead:
+ * nearer, a parabola has it. */
+static const double FORESIGHT = 2.0;
+
+/* The motion tells the peak this many times as near as a step must end to it: it may lie as far
+ * behind as it may lie ahead, and has been placed anew meanwhile. */
+static const double AROUND_PEAK = 2.0;
 
 /* Unloading that begins a time t late, or early, gives a force wrong by its slope's jump times the
  * travel, a t^2/2, for that time: the impulse is wrong by about (t/duration)^3. The duration is
  * that of unloading where it is shorter: a deep dent springs back by next to nothing, at once. */
 static double near_peak(const struct yielding *yielding, double duration)
 {
-    return 0.5 * cbrt(yielding->accuracy) * duration;
+    return NEARNESS * cbrt(yielding->accuracy) * duration;
 }
 
 /* Where reloading comes back to the virgin curve the travel is v t: (t/duration)^2. */
 static double near_kink(const struct yielding *yielding, double duration)
 {
-    return 0.5 * sqrt(yielding->accuracy) * duration;
+    return NEARNESS * sqrt(yielding->accuracy) * duration;
 }
 
 /* Rate of the cubic through the nodes. */
@@ -67,18 +72,19 @@ struct path {
     int points;
     double place[NODES + 3], value[NODES + 3]; /* share of the step, m */
     double rise;                               /* rate at the start, m/s */
-    double peak;                               /* share of the step; INFINITY: none */
-    double largest;                            /* indentation there */
+    bool turns;                                /* from rising to falling, */
+    double peak;                               /* at this share of the step, */
+    double largest;                            /* with this indentation */
 };
 
 /* Inserts the first turn, where the rate changes sign between two points. */
 static void add_peak(struct path *path, const double nodes[NODES], double before)
 {
-    path->peak = INFINITY;
     for (int i = 1; i < path->points; i++) {
         double after = rate_at(nodes, path->place[i]);
         double step = path->place[i] - path->place[i - 1];
         if (before > 0.0 && after <= 0.0) {
+            path->turns = true;
             path->peak = path->place[i - 1] + step * before / (before - after);
             path->largest = collocation_value(nodes, path->peak);
             size_t rest = (size_t)(path->points - i);
@@ -108,16 +114,19 @@ static struct path path_of(const struct yielding *yielding, size_t contact, doub
     return path;
 }
 
-/* Where an indentation is first passed, linear between the points around; INFINITY: nowhere. */
-static double crossing_on(const struct path *path, double target)
+/* Whether an indentation is passed, and at which share of the step first, linear between the points
+ * around. */
+static bool passes_on(const struct path *path, double target, double *place)
 {
     for (int i = 1; i < path->points; i++) {
         double before = fmin(path->value[i - 1], target);
-        if (path->value[i] > target)
-            return path->place[i - 1] + (path->place[i] - path->place[i - 1]) * (target - before) /
-                                            (path->value[i] - before);
+        if (!(path->value[i] > target))
+            continue;
+        *place = path->place[i - 1] + (path->place[i] - path->place[i - 1]) * (target - before) /
+                                          (path->value[i] - before);
+        return true;
     }
-    return INFINITY;
+    return false;
 }
 
 /* Duration of the contact, or of the shortest one while it is still open. */
@@ -151,15 +160,12 @@ static double unloading_time(const struct yielding *yielding, size_t contact,
     return bend > 0.0 ? sqrt(2.0 * springs_back / bend) : INFINITY;
 }
 
-/* Notes an event at a share of the step if it is the first so far. */
-static void note(struct yielding *yielding, size_t contact, double when, double target,
-                 double within)
+/* Notes an event if it is the first so far. */
+static void note(struct yielding *yielding, size_t contact, struct yielding_event event)
 {
-    if (!(when < yielding->when[contact]))
-        return;
-    yielding->when[contact] = when;
-    yielding->target[contact] = target;
-    yielding->within[contact] = within;
+    struct yielding_event *first = &yielding->event[contact];
+    if (first->kind == EVENT_NONE || event.time < first->time)
+        *first = event;
 }
 
 /* Looks for the first event of a contact on the step just solved. One that was expected beyond the
@@ -173,24 +179,30 @@ static void expect(struct yielding *yielding, size_t contact, double h)
     double limit = contact_law_limit(law);
     double rise = fmax(0.0, path.rise);
     double residual = law->history.residual;
+    double place;
+    if (yielding->event[contact].time < time + h)
+        yielding->event[contact].kind = EVENT_NONE;
+    // reloading comes back to the virgin curve
     double within = near_kink(yielding, duration);
-    if (yielding->when[contact] < time + h)
-        yielding->when[contact] = INFINITY;
-    if (law->history.max_indentation > 0.0 && path.value[0] + rise * within < limit)
-        note(yielding, contact, time + h * crossing_on(&path, limit), limit, within);
+    if (law->history.max_indentation > 0.0 && path.value[0] + rise * within < limit &&
+        passes_on(&path, limit, &place))
+        note(yielding, contact,
+             (struct yielding_event){EVENT_PASSING, time + h * place, within, limit});
 
+    // the curve has a joint
     within = near_peak(yielding, duration);
     double start = fmax(path.value[0] + rise * within + residual, law->history.max_indentation);
     double joint = law->operations->curve->joint(law, start) - residual;
-    note(yielding, contact, time + h * crossing_on(&path, joint), joint, within);
+    if (passes_on(&path, joint, &place))
+        note(yielding, contact,
+             (struct yielding_event){EVENT_PASSING, time + h * place, within, joint});
 
-    if (!exceeds(yielding, contact, path.largest))
+    // loading beyond the limit ends
+    if (!path.turns || !exceeds(yielding, contact, path.largest))
         return;
     within = near_peak(yielding, fmin(duration, unloading_time(yielding, contact, &path, h)));
-    double peak = time + h * path.peak;
-    note(yielding, contact, peak, INFINITY, within);
-    if (yielding->when[contact] == peak)
-        yielding->largest[contact] = path.largest;
+    note(yielding, contact,
+         (struct yielding_event){EVENT_PEAK, time + h * path.peak, within, path.largest});
 }
 
 /* First positive root of d + v t + a t^2/2 = target; INFINITY: none. */
@@ -205,18 +217,20 @@ static double rise_time(const struct contact_start *now, double target)
 /* The expected event from the motion at its present end, once a step that ends there came near. */
 static void correct(struct yielding *yielding, size_t contact)
 {
+    struct yielding_event *event = &yielding->event[contact];
     const struct contact_start *now = &yielding->now[contact];
-    double target = yielding->target[contact];
-    double left = isfinite(target) ? rise_time(now, target) : -now->rate / now->curvature;
+    double left = event->kind == EVENT_PASSING ? rise_time(now, event->indentation)
+                                               : -now->rate / now->curvature;
     if (isfinite(left))
-        yielding->when[contact] = yielding->outcome->motion.time + left;
+        event->time = yielding->outcome->motion.time + left;
 }
 
 int yielding_level(const struct yielding *yielding, int level)
 {
     for (size_t c = 0; c < yielding->scene->contacts; c++) {
-        double left = yielding->when[c] + yielding->within[c] - yielding->outcome->motion.time;
-        while (level < STEP_LEVELS - 1 && step_length(level) > left)
+        const struct yielding_event *event = &yielding->event[c];
+        double left = event->time + event->within - yielding->outcome->motion.time;
+        while (event->kind != EVENT_NONE && level < STEP_LEVELS - 1 && step_length(level) > left)
             level++;
     }
     return level;
@@ -224,7 +238,9 @@ int yielding_level(const struct yielding *yielding, int level)
 
 static bool is_due(const struct yielding *yielding, size_t contact)
 {
-    return yielding->when[contact] - yielding->outcome->motion.time <= yielding->within[contact];
+    const struct yielding_event *event = &yielding->event[contact];
+    return event->kind != EVENT_NONE &&
+           event->time - yielding->outcome->motion.time <= event->within;
 }
 
 /* Makes an indentation of a contact the largest so far. */
@@ -240,38 +256,39 @@ static void yield(struct yielding *yielding, size_t contact, double indentation)
     yielding->now[contact].indentation -= deeper;
 }
 
-/* The largest indentation of a contact that is near its peak; NAN: it is not. The motion at this
- * instant tells, unless its deceleration changes on the way to the peak: then the step that has the
- * peak in it does (`seen`), or the dent would be lost. */
-static double peak_indentation(const struct yielding *yielding, size_t contact, bool seen)
+/* The largest indentation of a contact that is near its peak. The motion at this instant tells,
+ * unless its deceleration changes on the way to the peak: then the step that has the peak in it
+ * does (`seen`), or the dent would be lost. False: it is not near. */
+static bool find_peak(const struct yielding *yielding, size_t contact, bool seen, double *peak)
 {
     const struct contact_start *now = &yielding->now[contact];
+    const struct yielding_event *event = &yielding->event[contact];
     double left = -now->rate / now->curvature;
-    if (now->curvature < 0.0 && fabs(left) <= 2.0 * yielding->within[contact])
-        return now->indentation + 0.5 * now->rate * left;
-    return seen ? yielding->largest[contact] : NAN;
+    bool near = now->curvature < 0.0 && fabs(left) <= AROUND_PEAK * event->within;
+    *peak = near ? now->indentation + 0.5 * now->rate * left : event->indentation;
+    return near || seen;
 }
 
 /* The expected event is here. True: the law yielded; otherwise an indentation is passed, or the
  * largest one stayed below the limit after all. */
 static bool take(struct yielding *yielding, size_t contact, bool seen)
 {
-    yielding->when[contact] = INFINITY;
-    if (isfinite(yielding->target[contact]) || !yielding->closed[contact])
-        return false;
-    double peak = peak_indentation(yielding, contact, seen);
-    if (!exceeds(yielding, contact, peak))
-        return false;
-    yield(yielding, contact, peak);
-    return true;
+    struct yielding_event *event = &yielding->event[contact];
+    double peak;
+    bool yields = event->kind == EVENT_PEAK && yielding->closed[contact] &&
+                  find_peak(yielding, contact, seen, &peak) && exceeds(yielding, contact, peak);
+    event->kind = EVENT_NONE;
+    if (yields)
+        yield(yielding, contact, peak);
+    return yields;
 }
 
 /* Steps as long as before the approach. */
 static void resume(struct yielding *yielding, int *level)
 {
-    if (yielding->resume >= 0)
+    if (yielding->approaching)
         *level = yielding->resume;
-    yielding->resume = -1;
+    yielding->approaching = false;
 }
 
 bool yielding_passes(struct yielding *yielding, double h, int *level)
@@ -279,21 +296,26 @@ bool yielding_passes(struct yielding *yielding, double h, int *level)
     double end = yielding->outcome->motion.time + h;
     bool passes = false;
     bool yielded = false;
+    // the events on the step; one that is due already is taken where the step begins
     for (size_t c = 0; c < yielding->scene->contacts; c++) {
+        const struct yielding_event *event = &yielding->event[c];
         if (!yielding->scene->laws[c].operations->curve)
             continue;
         expect(yielding, c, h);
-        if (!(end > yielding->when[c] + yielding->within[c]))
+        if (event->kind == EVENT_NONE || !(end > event->time + event->within))
             continue;
         if (is_due(yielding, c))
             yielded = take(yielding, c, true) || yielded;
         else
             passes = true;
     }
+    // the next step: with the new law, or up to the first event
     if (yielded) {
         resume(yielding, level);
     } else if (passes) {
-        yielding->resume = yielding->resume < 0 ? *level : yielding->resume;
+        if (!yielding->approaching)
+            yielding->resume = *level;
+        yielding->approaching = true;
         *level = yielding_level(yielding, *level);
     }
     return passes || yielded;
@@ -303,12 +325,13 @@ bool yielding_meet(struct yielding *yielding, double h, int *level)
 {
     bool met = false;
     for (size_t c = 0; c < yielding->scene->contacts; c++) {
-        double left = yielding->when[c] - yielding->outcome->motion.time;
-        if (!isfinite(left))
+        const struct yielding_event *event = &yielding->event[c];
+        double left = event->time - yielding->outcome->motion.time;
+        if (event->kind == EVENT_NONE)
             continue;
-        /* what lies behind is of the step just made; ahead, maybe of one that was not made */
+        // what lies behind is of the step just made; ahead, maybe of one that was not made
         bool seen = left <= 0.0;
-        if (!is_due(yielding, c) && left <= 2.0 * h)
+        if (!is_due(yielding, c) && left <= FORESIGHT * h)
             correct(yielding, c);
         if (!is_due(yielding, c))
             continue;

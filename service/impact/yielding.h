@@ -15,6 +15,18 @@
 #include "impact/impact.h"
 #include "impact/impact_scale.h"
 
+/* What is expected of a contact: a step must end near it. */
+struct yielding_event {
+    enum {
+        EVENT_NONE,
+        EVENT_PASSING, /* an indentation at which the loading curve has a kink */
+        EVENT_PEAK     /* the largest indentation, from which on the contact unloads */
+    } kind;
+    double time;        /* s */
+    double within;      /* how near, s */
+    double indentation; /* that is passed; of the peak, on the step that has it; m */
+};
+
 /* What it looks at belongs to the contact phase. */
 struct yielding {
     const struct scene *scene; /* with the laws of the outcome */
@@ -26,11 +38,9 @@ struct yielding {
     double accuracy;
     bool any; /* a law can yield; false: nothing below is used */
 
-    double *when;    /* [contact]: instant of the expected event, s; INFINITY: none */
-    double *target;  /* [contact]: indentation that is passed then; INFINITY: the largest one */
-    double *within;  /* [contact]: how near to it a step must end, s */
-    double *largest; /* [contact]: that largest one, on the step that has it */
-    int resume;      /* level of the steps before an event was approached; -1: none is */
+    struct yielding_event *event; /* [contact], the first one */
+    bool approaching;             /* an event, by shorter steps ... */
+    int resume;                   /* ... than those of this level before */
 };
 
 /* The first members are set. False: out of memory. */
