@@ -47,11 +47,11 @@ static const struct contact_curves *make(struct table_maker *maker, const struct
                                          const struct material *b)
 {
     struct region_input input = table_input(a, b, covered_speed);
-    struct indentation_progress progress = {go_on, maker};
+    struct watch watch = {go_on, maker};
     struct indentation_table table;
     struct fault fault;
     double start = thread_seconds();
-    enum percuss_status status = indentation_table_make(&input, &progress, &table, &fault);
+    enum percuss_status status = indentation_table_make(&input, &watch, &table, &fault);
     activity_clear(&maker->shared->activity);
     if (!status) {
         status = table_cache_add(maker->cache, &table, thread_seconds() - start, &fault);

@@ -109,24 +109,9 @@ static double narrow(struct complete_bracket *bracket, double phase, double off)
     return bracket->phase[0] + share * (bracket->phase[1] - bracket->phase[0]);
 }
 
-/* One solution among all. */
-struct share {
-    const struct complete_problem *problem;
-    double done, part; /* of the whole work: before this solution, and its own */
-};
-
-static bool proceed(void *context, double fraction)
-{
-    const struct share *share = context;
-    const struct complete_problem *problem = share->problem;
-    return !problem->proceed ||
-           problem->proceed(problem->context, share->done + share->part * fraction);
-}
-
 /* All that is needed while meshes are added. */
 struct search {
     struct complete_convergence *convergence;
-    struct share share;
     struct complete_problem problem; /* as given, but for the progress, mesh and phase */
     struct complete_result latest[COMPLETE_PHASES]; /* of the finest mesh */
     struct complete_result aimed;
@@ -137,9 +122,9 @@ static enum percuss_status solve_one(struct search *search, double phase,
 {
     unsigned finer = COMPLETE_MESHES - search->convergence->meshes;
     search->problem.phase = phase;
-    search->share.part = pow(TWICE_AS_FINE, -(double)finer) / (2 * COMPLETE_PHASES);
+    search->problem.share = pow(TWICE_AS_FINE, -(double)finer) / (2 * COMPLETE_PHASES);
     enum percuss_status status = impact_complete_solve(&search->problem, result, fault);
-    search->share.done += search->share.part;
+    search->problem.done += search->problem.share;
     return status;
 }
 
@@ -213,9 +198,7 @@ enum percuss_status complete_converge(const struct complete_problem *problem, do
                                       struct complete_convergence *convergence, struct fault *fault)
 {
     struct search search = {.convergence = convergence, .problem = *problem};
-    search.share.problem = problem;
-    search.problem.context = &search.share;
-    search.problem.proceed = proceed;
+    search.problem.done = 0.0;
     search.problem.sample = NULL;
     *convergence = (struct complete_convergence){.error = INFINITY};
     if (problem->cells < 16 || problem->cells % 4)

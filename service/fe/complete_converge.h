@@ -58,7 +58,7 @@ double complete_swing_phase(const struct complete_swing *swing, double wanted,
 /* Solves on meshes of a quarter, half and all of problem->cells (at least 16), with more phases or
  * another mesh until the estimated error is within `tolerance`; 0: all. If need be some more, at
  * phases where e is near the limit, so that one whole solution has it. `phase` and `sample` of
- * `problem` are not used; its `proceed` is told the part done of all meshes. Status as
+ * `problem` are not used; its `pace` is told the part done of all meshes. Status as
  * impact_complete_solve. Same input, same bits. */
 enum percuss_status complete_converge(const struct complete_problem *problem, double tolerance,
                                       struct complete_convergence *convergence,

@@ -218,7 +218,7 @@ enum percuss_status complete_begin(const struct complete_problem *problem, doubl
                                           .mass = run->mass[b],
                                           .fine = nodes_within(&run->mesh[b], PAIR_REACH * side)};
     }
-    if (status == PERCUSS_OK && problem->proceed && !problem->proceed(problem->context, 0.0))
+    if (status == PERCUSS_OK && !pace_ask(problem->pace, problem->done))
         status = fault_set(fault, PERCUSS_TIMEOUT, "stopped before the impact");
     if (status == PERCUSS_OK)
         status = dynamics_create(parts, SAFETY, arena, &run->dynamics, fault);

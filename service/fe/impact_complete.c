@@ -12,6 +12,9 @@
  * meshes, falling with their square; more is a mistake. */
 static const double ENERGY_KEPT = 1e-2;
 
+/* Part told as done once twice the duration expected has passed: the end may come at any time. */
+static const double NEARLY_DONE = 0.99;
+
 /* Beyond what the setup holds: where a run stands. */
 struct progress {
     struct complete_run run;
@@ -215,8 +218,8 @@ static enum percuss_status march(struct progress *progress, struct fault *fault)
     while (!run->contact.outgrown) {
         advance(progress);
         double time = now(progress);
-        if (problem->proceed &&
-            !problem->proceed(problem->context, fmin(time / (2.0 * run->duration), 0.99)))
+        double part = fmin(time / (2.0 * run->duration), NEARLY_DONE);
+        if (!pace_ask(problem->pace, problem->done + problem->share * part))
             return fault_set(fault, PERCUSS_TIMEOUT, "stopped at %g s of the impact", time);
         /* stresses grow with the root of time at first, slowly later: no element can pass from
          * well below yield to beyond it between two looks */

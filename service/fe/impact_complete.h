@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/fault.h"
+#include "base/watch.h"
 #include "model/material.h"
 
 enum complete_shape { COMPLETE_SPHERE, COMPLETE_CYLINDER };
@@ -36,9 +36,10 @@ struct complete_problem {
     double phase;   /* 0 <= phase < 1: moves the nodes by this part of an element, less one from a
                      * half on, against the patch's rim: see complete_converge.h */
     double horizon; /* s, > 0: end of the search for further contacts */
-    void *context;  /* handed to the two below; each may be NULL */
-    void (*sample)(void *context, const struct complete_sample *sample);
-    bool (*proceed)(void *context, double fraction); /* false: stop */
+    struct pace *pace;  /* may stop it; NULL: nobody */
+    double done, share; /* of the whole work, which it is told: before this solution, and its own */
+    void (*sample)(void *context, const struct complete_sample *sample); /* NULL: nobody */
+    void *context;                                                       /* handed to it */
 };
 
 enum { COMPLETE_SUB_IMPACTS = 64 };
@@ -82,7 +83,7 @@ struct complete_result {
     double step; /* s, smallest */
 };
 
-/* Solves on one mesh. OK; BAD_REQUEST naming the field and what is allowed; TIMEOUT when `proceed`
+/* Solves on one mesh. OK; BAD_REQUEST naming the field and what is allowed; TIMEOUT when `pace`
  * stopped it; INTERNAL without memory or where the energy does not balance to 1e-2. Same input,
  * same bits. */
 enum percuss_status impact_complete_solve(const struct complete_problem *problem,

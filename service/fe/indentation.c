@@ -85,29 +85,29 @@ static void fill_branches(struct indentation_table *table, const struct runs *ru
             table->hertz * pow(d, 1.5) * (i ? extrapolated(&runs->fine_long, run, d) : 1.0);
         if (d <= coarse->largest[0])
             continue;
-        double residual = indentation_interpolate(coarse->branches, coarse->largest, coarse->residual, 1, d);
+        double residual =
+            indentation_interpolate(coarse->branches, coarse->largest, coarse->residual, 1, d);
         table->residual_error = fmax(table->residual_error, fabs(residual - run->residual[i]) / d);
         for (size_t j = 1; j < INDENTATION_SAMPLES - 1; j++) {
-            double recovery = indentation_interpolate(coarse->branches, coarse->largest, coarse->recovery + j,
-                                          INDENTATION_SAMPLES, d);
+            double recovery = indentation_interpolate(coarse->branches, coarse->largest,
+                                                      coarse->recovery + j, INDENTATION_SAMPLES, d);
             double other = run->recovery[i * INDENTATION_SAMPLES + j];
             table->recovery_error = fmax(table->recovery_error, fabs(recovery - other));
         }
     }
 }
 
-static enum percuss_status run_all(const struct region_input *input,
-                                   const struct indentation_progress *progress, struct runs *runs,
-                                   struct fault *fault)
+static enum percuss_status run_all(const struct region_input *input, const struct watch *watch,
+                                   struct runs *runs, struct fault *fault)
 {
     struct region_input coarser = *input;
     coarser.resolution = (2 * input->resolution + 1) / 3;
     /* shares of the time, measured */
     const struct indentation_plan plans[] = {
-        {coarser, STEPS / 2, 0, 0.0, 0.08, progress},
-        {coarser, STEPS, 1, 0.08, 0.17, progress},
-        {*input, STEPS / 2, 0, 0.25, 0.25, progress},
-        {*input, STEPS, BRANCH_EVERY, 0.5, 0.5, progress},
+        {coarser, STEPS / 2, 0, 0.0, 0.08, watch},
+        {coarser, STEPS, 1, 0.08, 0.17, watch},
+        {*input, STEPS / 2, 0, 0.25, 0.25, watch},
+        {*input, STEPS, BRANCH_EVERY, 0.5, 0.5, watch},
     };
     struct indentation_run *targets[] = {&runs->coarse_long, &runs->coarse_short, &runs->fine_long,
                                          &runs->fine_short};
@@ -118,7 +118,7 @@ static enum percuss_status run_all(const struct region_input *input,
 }
 
 enum percuss_status indentation_table_make(const struct region_input *input,
-                                           const struct indentation_progress *progress,
+                                           const struct watch *watch,
                                            struct indentation_table *table, struct fault *fault)
 {
     *table = (struct indentation_table){.input = *input, .version = INDENTATION_VERSION};
@@ -128,7 +128,7 @@ enum percuss_status indentation_table_make(const struct region_input *input,
     struct runs *runs = calloc(1, sizeof *runs);
     if (!runs)
         return fault_set(fault, PERCUSS_INTERNAL, "indentation table: no memory");
-    enum percuss_status status = run_all(input, progress, runs, fault);
+    enum percuss_status status = run_all(input, watch, runs, fault);
     if (status == PERCUSS_OK) {
         table->points = runs->fine_short.rings;
         table->branches = runs->fine_short.branches;

@@ -44,17 +44,12 @@ struct indentation_table {
     size_t nodes, newton_steps; /* of the fine solution */
 };
 
-/* Told the part done, 0 ... 1, at every Newton step; false stops the work. */
-struct indentation_progress {
-    bool (*tell)(void *context, double done);
-    void *context;
-};
-
-/* Computes a table; `progress` may be NULL. OK; BAD_REQUEST as region_create; INTERNAL where an
- * equilibrium was not found or memory ran out; TIMEOUT where progress said no. The table is empty
- * then; otherwise the caller frees it. Resolution 12 takes some seconds, see docs. */
+/* Computes a table; `watch` is told the part done at every Newton step and may be NULL. OK;
+ * BAD_REQUEST as region_create; INTERNAL where an equilibrium was not found or memory ran out;
+ * TIMEOUT where the watch stopped it. The table is empty then; otherwise the caller frees it.
+ * Resolution 12 takes some seconds, see docs. */
 enum percuss_status indentation_table_make(const struct region_input *input,
-                                           const struct indentation_progress *progress,
+                                           const struct watch *watch,
                                            struct indentation_table *table, struct fault *fault);
 void indentation_table_free(struct indentation_table *table);
 

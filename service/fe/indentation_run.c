@@ -199,12 +199,9 @@ static enum percuss_status pass(struct passage *passage)
 enum percuss_status indentation_run(const struct indentation_plan *plan,
                                     struct indentation_run *run, struct fault *fault)
 {
-    struct watch watch = {0};
-    if (plan->progress)
-        watch = (struct watch){plan->progress->tell, plan->progress->context};
     struct passage passage = {.plan = plan,
                               .run = run,
-                              .pace = {.watch = &watch},
+                              .pace = {.watch = plan->watch},
                               .hertz = indentation_hertz(&plan->input),
                               .factor = 1.0,
                               .fault = fault};

@@ -27,10 +27,10 @@ struct indentation_run {
 
 struct indentation_plan {
     struct region_input input;
-    size_t steps;        /* of a crossing */
-    size_t branch_every; /* crossings between unloadings; 0: none */
-    double done, share;  /* of the whole work: before this run, and its own */
-    const struct indentation_progress *progress;
+    size_t steps;              /* of a crossing */
+    size_t branch_every;       /* crossings between unloadings; 0: none */
+    double done, share;        /* of the whole work: before this run, and its own */
+    const struct watch *watch; /* NULL: nobody */
 };
 
 /* Statuses as indentation_table_make. */

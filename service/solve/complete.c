@@ -20,11 +20,6 @@ enum { FINEST = 16 };
  * the impulse is of second order. */
 static const double ALONG = 1e-3;
 
-static bool proceed(void *context, double fraction)
-{
-    return pace_ask(context, fraction);
-}
-
 static enum percuss_status check_options(const struct solve_request *request, struct fault *fault)
 {
     const struct solve_options *options = &request->options;
@@ -269,7 +264,7 @@ static void fill_end(const struct complete_result *from, double error, double to
 enum percuss_status complete_answer(const struct problem *problem, struct pace *pace,
                                     struct solve_result *result)
 {
-    struct complete_problem complete = {.cells = FINEST, .context = pace, .proceed = proceed};
+    struct complete_problem complete = {.cells = FINEST, .pace = pace};
     struct complete_convergence *convergence = arena_take(problem->arena, 1, sizeof *convergence);
     if (!convergence)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");

@@ -15,7 +15,7 @@ struct bar {
 };
 
 struct bar bar_begin(const char *label);
-/* `tell` of struct indentation_progress; always true. */
+/* `proceed` of struct watch; always true. */
 bool bar_show(void *bar, double done);
 void bar_clear(const struct bar *bar);
 

@@ -26,14 +26,14 @@ static enum percuss_status compute_point(void *context, const struct contact_fam
 {
     const double first = 0.35;
     struct work *work = context;
-    struct indentation_progress progress = {bar_show, &work->bar};
+    struct watch watch = {bar_show, &work->bar};
     struct region_input input = family_input(place, resolution);
-    struct indentation_plan plan = {input, FAMILY_LONG, 0, 0.0, first, &progress};
+    struct indentation_plan plan = {input, FAMILY_LONG, 0, 0.0, first, &watch};
     size_t all = family_passages() + family_fine_passages() * (FINE_COST - 1);
     work->bar.share = (resolution == FAMILY_FINE ? FINE_COST : 1) / (double)all;
     enum percuss_status status = indentation_run(&plan, &work->in_long, fault);
     plan = (struct indentation_plan){input, 2 * FAMILY_LONG, FAMILY_BRANCH_EVERY,
-                                     first, 1.0 - first,     &progress};
+                                     first, 1.0 - first,     &watch};
     if (!status)
         status = indentation_run(&plan, &work->in_short, fault);
     if (!status && !family_point_fill(&work->in_long, &work->in_short, &input, point))

@@ -47,10 +47,10 @@ static enum percuss_status make(const struct options *options, const struct tabl
         return PERCUSS_OK;
     }
     struct bar bar = bar_begin(label);
-    struct indentation_progress progress = {bar_show, &bar};
+    struct watch watch = {bar_show, &bar};
     struct indentation_table table;
     double start = processor_seconds();
-    enum percuss_status status = indentation_table_make(&input, &progress, &table, fault);
+    enum percuss_status status = indentation_table_make(&input, &watch, &table, fault);
     bar_clear(&bar);
     if (status)
         return status;

@@ -133,8 +133,9 @@ static void progress_rises_and_may_end_it(void **unused)
     struct complete_convergence found;
     struct fault fault = {""};
     struct complete_problem problem = sphere_on_rod(0.015, 0.01, 205e6, 0.0, 0.3);
-    problem.context = &last;
-    problem.proceed = count;
+    struct watch watch = {count, &last};
+    struct pace pace = {.watch = &watch};
+    problem.pace = &pace;
     assert_int_equal(complete_converge(&problem, 0.01, &found, &fault), PERCUSS_TIMEOUT);
     problem.cells = 18;
     assert_int_equal(complete_converge(&problem, 0.01, &found, &fault), PERCUSS_BAD_REQUEST);

@@ -262,8 +262,10 @@ static void foreign_input_is_refused(void **unused)
     struct fault fault = {""};
     struct complete_problem problem = sphere_on_rod(4);
     double fraction = 0.0;
-    problem.context = &fraction;
-    problem.proceed = stop;
+    struct watch watch = {stop, &fraction};
+    struct pace pace = {.watch = &watch};
+    problem.pace = &pace;
+    problem.share = 1.0;
     assert_true(impact_complete_solve(&problem, &result, &fault) == PERCUSS_TIMEOUT);
     assert_true(fraction >= 0.1 && fraction < 0.2);
     problem = sphere_on_rod(3);

@@ -135,15 +135,15 @@ static void tells_progress_and_stops(void **state)
     struct region_input input = rod_1;
     struct fault fault;
     struct told told = {.stop = 2.0};
-    struct indentation_progress progress = {tell, &told};
+    struct watch watch = {tell, &told};
     input.resolution = 6;
     input.indentation = 3e-6;
-    assert_int_equal(indentation_table_make(&input, &progress, &table, &fault), PERCUSS_OK);
+    assert_int_equal(indentation_table_make(&input, &watch, &table, &fault), PERCUSS_OK);
     /* asked within the solutions too: a node's crossing takes seconds on a fine mesh */
     assert_true(told.calls >= table.newton_steps && told.last == 1.0);
     indentation_table_free(&table);
     told = (struct told){.stop = 0.2};
-    assert_int_equal(indentation_table_make(&input, &progress, &table, &fault), PERCUSS_TIMEOUT);
+    assert_int_equal(indentation_table_make(&input, &watch, &table, &fault), PERCUSS_TIMEOUT);
     assert_true(told.last < 0.4);
     assert_null(table.force);
     input.resolution = 5;
