@@ -1,7 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Four-node Gauss collocation of the contact forces on a step, in the step's own time 0..1. */
+/* Four-node Gauss collocation of the contact forces on a step, in the step's own time s = 0..1: a
+ * force is sum_j F(node_j) L_j(s) with Lagrange's L_j(s) = prod_(i != j) (s - node_i)/(node_j -
+ * node_i). Integrals of it are exact to s^7, so that the step is of order eight. */
 #ifndef PERCUSS_IMPACT_COLLOCATION_H
 #define PERCUSS_IMPACT_COLLOCATION_H
 

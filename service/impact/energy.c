@@ -7,6 +7,9 @@
 
 #include "numeric/linear.h"
 
+/* Eigenvalues of W below this share of the largest are rounding of 0. */
+static const double NO_MOTION = 1e-12;
+
 /* x^T m y */
 static double form(size_t n, const double *m, const double *x, const double *y)
 {
@@ -30,7 +33,7 @@ static double *effective_mass(const struct scene *scene, struct arena *arena)
         return mass;
     }
     double *scratch = arena_take(arena, n * (n + 1), sizeof *scratch);
-    if (!scratch || isnan(linear_pseudo_inverse(n, scene->w, 1e-12, mass, scratch)))
+    if (!scratch || isnan(linear_pseudo_inverse(n, scene->w, NO_MOTION, mass, scratch)))
         return NULL;
     return mass;
 }

@@ -9,10 +9,12 @@
 #include "impact/flight_root.h"
 #include "impact/kernel.h"
 
-/* Modes with omega h below this are followed by their tangent, the others bounded by amplitude. */
-#define SLOW_ANGLE 1.5
-/* At this omega h of the fastest mode an interval is as short as it needs to be. */
-#define FLOOR_ANGLE 0.5
+/* Modes with omega h below this are followed by their tangent, the others bounded by their
+ * amplitude a: the departure from the tangent is (omega h)^2/2 a at most, 1.1 a here, and grows. */
+static const double SLOW_ANGLE = 1.5;
+/* At this omega h of the fastest mode an interval is as short as it needs to be: the approach has
+ * at most one peak in it, and flight_root.c has a power series for it. */
+static const double FLOOR_ANGLE = 0.5;
 
 enum { REFRESH = 32 /* intervals between two looks at the decayed amplitudes */ };
 
@@ -125,10 +127,11 @@ static bool stays_open(const struct flight *flight, const struct scene *scene, s
     double pull = -0.5 * scene->gap_acceleration[c] * h * h; /* what acceleration closes */
     double d = flight->approach[c];
     double rate = flight->rate[c];
-    /* a parabola that opens upward is largest at its ends */
+    // by the tangent of all modes; a parabola that opens upward is largest at its ends
     double rise = fmax(0.0, flight->all_modes[c * STEP_LEVELS + (size_t)level] + pull);
     if (d <= 0.0 && d + rate * h + rise < 0.0)
         return true;
+    // by that of the slow ones
     double margin = flight->slow_modes[c * STEP_LEVELS + (size_t)level];
     slow_approach(flight, scene, c, level, &d, &rate);
     return fmax(d, d + rate * h + fmax(0.0, pull)) + margin < 0.0;

@@ -7,6 +7,9 @@
 
 #include "impact/kernel.h"
 
+/* With x(t) = excess + rate t + acceleration t^2/2 and D = rate^2 - 2 acceleration excess, x has
+ * the roots (-rate +- sqrt D)/acceleration, or -2 excess/(rate +- sqrt D), which does not cancel.
+ */
 void flight_root_exceeds(double excess, double rate, double acceleration, double *first,
                          double *last)
 {
@@ -14,15 +17,16 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
     *last = INFINITY;
     if (acceleration >= 0.0) {
         double discriminant = rate * rate - 2.0 * acceleration * excess;
+        // opens, or turns before it falls below; otherwise at the later root
         if (excess >= 0.0 && (rate >= 0.0 || (acceleration > 0.0 && discriminant < 0.0)))
-            *first = 0.0; /* opens, or turns before it falls below */
+            *first = 0.0;
         else if (acceleration > 0.0)
             *first = (sqrt(fmax(0.0, discriminant)) - rate) / acceleration;
         else if (rate > 0.0)
             *first = -excess / rate;
         return;
     }
-    /* pressing: only on the way up, and only if the top of the way exceeds it */
+    // pressing: only on the way up, and only if the top of the way exceeds it
     double discriminant = rate * rate - 2.0 * acceleration * excess;
     if (rate <= 0.0 || discriminant < 0.0)
         return;
@@ -51,7 +55,8 @@ static bool is_slow(const struct scene *scene, double length)
     return true;
 }
 
-/* The path on [0, length] of the motion. */
+/* The path on [0, length] of the motion: d(t) = -sum_n (g^(n) + sum_k phi_k q_k^(n)) t^n/n!, where
+ * the term n holds the powers of `length`. Beyond SERIES_ANGLE mode by mode, see follow. */
 static struct path make_path(const struct motion *motion, const struct scene *scene, size_t contact,
                              double length)
 {
@@ -75,7 +80,7 @@ static struct path make_path(const struct motion *motion, const struct scene *sc
     return path;
 }
 
-/* The approach and its rate at an instant of the path. */
+/* The approach and its rate at an instant of the path, by Horner's rule. */
 static void follow(const struct path *path, double time, double *approach, double *rate)
 {
     if (!(path->length > 0.0)) {
@@ -93,14 +98,22 @@ static void follow(const struct path *path, double time, double *approach, doubl
     *rate = slope / path->length;
 }
 
-/* Where the cubic with the values and rates of both ends crosses zero, as a share of the interval.
- */
+/* Newton's method, kept safe by halving, needs less; halving alone 54 for all bits of a double. */
+enum { MAX_ROUNDS = 100, MAX_CUBIC_ROUNDS = 40, MAX_HALVINGS = 60 };
+/* A place on an interval that is a mere starting value. */
+static const double CUBIC_ROUNDING = 1e-12;
+/* Of an instant: half a bit, to which Newton's method comes, and what peaks are good for. */
+static const double ROUNDING = 1e-16;
+static const double PEAK_ROUNDING = 1e-15;
+
+/* Where the cubic with the values and rates of both ends crosses zero, as a share of the interval:
+ * Hermite's c3 s^3 + c2 s^2 + rate0 s + d0. */
 static double cubic_root(double d0, double rate0, double d1, double rate1)
 {
     double low = 0.0;
     double high = 1.0;
     double s = d0 / (d0 - d1);
-    for (int i = 0; i < 40; i++) {
+    for (int i = 0; i < MAX_CUBIC_ROUNDS; i++) {
         double c3 = rate0 + rate1 - 2.0 * (d1 - d0);
         double c2 = 3.0 * (d1 - d0) - 2.0 * rate0 - rate1;
         double value = ((c3 * s + c2) * s + rate0) * s + d0;
@@ -112,7 +125,7 @@ static double cubic_root(double d0, double rate0, double d1, double rate1)
         double next = s - value / slope;
         if (!(next > low && next < high))
             next = 0.5 * (low + high);
-        if (fabs(next - s) < 1e-12)
+        if (fabs(next - s) < CUBIC_ROUNDING)
             return next;
         s = next;
     }
@@ -131,7 +144,7 @@ static double rising_root(const struct path *path, double low, double high)
     follow(path, high, &d1, &rate1);
     double h = high - low;
     double t = low + h * cubic_root(d, h * rate, d1, h * rate1);
-    for (int i = 0; i < 100; i++) {
+    for (int i = 0; i < MAX_ROUNDS; i++) {
         follow(path, t, &d, &rate);
         if (d > 0.0)
             high = t;
@@ -140,7 +153,7 @@ static double rising_root(const struct path *path, double low, double high)
         double next = rate > 0.0 ? t - d / rate : low;
         if (!(next > low && next < high))
             next = 0.5 * (low + high);
-        if (fabs(next - t) <= 1e-16 * fabs(t) || high - low <= 1e-16 * fabs(high))
+        if (fabs(next - t) <= ROUNDING * fabs(t) || high - low <= ROUNDING * fabs(high))
             return next;
         t = next;
     }
@@ -150,7 +163,7 @@ static double rising_root(const struct path *path, double low, double high)
 /* Instant of the peak in [low, high]: the rate falls through zero. */
 static double peak(const struct path *path, double low, double high)
 {
-    for (int i = 0; i < 60 && high - low > 1e-15 * fabs(high); i++) {
+    for (int i = 0; i < MAX_HALVINGS && high - low > PEAK_ROUNDING * fabs(high); i++) {
         double t = 0.5 * (low + high);
         double d;
         double rate;
@@ -173,6 +186,7 @@ bool flight_root_touch(const struct motion *motion, const struct scene *scene, s
     double rate0;
     double d1;
     double rate1;
+    // touching already, or overlapping at the end, or a peak between
     follow(&path, from, &d0, &rate0);
     if (d0 >= 0.0 && rate0 > 0.0) {
         *time = from;

@@ -5,6 +5,21 @@
 
 #include <math.h>
 
+/* A power law is solved in one round, one with joints in some more, and a thousandth is enough for
+ * a scale. The first indentation may be anything. */
+enum { MAX_ROUNDS = 20 };
+static const double SCALE_ACCURACY = 1e-3;
+static const double FIRST_INDENTATION = 1e-6; /* m */
+
+/* Work of a force k d^(3/2) over its product with d. */
+static const double HERTZ_WORK = 0.4;
+
+/* A contact that opens without speed has scales too, with squares that are no 0; m/s. */
+static const double LEAST_SPEED = 1e-150;
+
+/* The felt mass depends on the duration and the other way round: so many rounds settle it. */
+enum { MASS_ROUNDS = 3 };
+
 /* Inverse mass that a contact feels within `duration`: rigid, and every mode that is slower than
  * it. On a long rod that is the wave impedance times the duration, far less than the rod's mass. */
 static double felt_inverse_mass(const struct scene *scene, size_t contact, double duration)
@@ -23,22 +38,22 @@ static double felt_inverse_mass(const struct scene *scene, size_t contact, doubl
  */
 static double stored_about(const struct contact_law *law, double d, double force)
 {
-    return law->operations->curve ? 0.4 * force * d : law->operations->stored(law, d);
+    return law->operations->curve ? HERTZ_WORK * force * d : law->operations->stored(law, d);
 }
 
 /* Indentation at which a law stores an energy: Newton's method for log(stored) against
  * log(indentation), which one step solves for a power law, from any start. */
 static double indentation_of_energy(const struct contact_law *law, double energy)
 {
-    double d = 1e-6;
-    for (int i = 0; i < 20; i++) {
+    double d = FIRST_INDENTATION;
+    for (int i = 0; i < MAX_ROUNDS; i++) {
         double stiffness;
         double force = contact_law_force(law, d, &stiffness);
         double stored = stored_about(law, d, force);
         double power = force * d / stored;
         double change = log(stored / energy) / power;
         d *= exp(-change);
-        if (fabs(change) < 1e-3)
+        if (fabs(change) < SCALE_ACCURACY)
             break;
     }
     return d;
@@ -47,10 +62,9 @@ static double indentation_of_energy(const struct contact_law *law, double energy
 struct impact_scale impact_scale_of(const struct scene *scene, size_t contact, double rate)
 {
     const struct contact_law *law = &scene->laws[contact];
-    double speed = fmax(fabs(rate), 1e-150);
+    double speed = fmax(fabs(rate), LEAST_SPEED);
     struct impact_scale scale = {.duration = INFINITY};
-    /* the felt mass depends on the duration and the other way round: three rounds settle it */
-    for (int round = 0; round < 3; round++) {
+    for (int round = 0; round < MASS_ROUNDS; round++) {
         double energy = 0.5 * speed * speed / felt_inverse_mass(scene, contact, scale.duration);
         scale.indentation = indentation_of_energy(law, energy);
         scale.duration = scale.indentation / speed;

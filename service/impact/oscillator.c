@@ -10,12 +10,25 @@ double complex oscillator_lambda(double omega, double damping)
     return omega * CMPLX(-damping, sqrt((1.0 - damping) * (1.0 + damping)));
 }
 
-/* Free motion: q(t) = Re(A e^(lambda t)) with A from q(0), v(0); written out in real numbers. */
+/* Damping run backward grows without bound: this keeps squares of it finite. */
+static const double LARGEST_EXPONENT = 300.0;
+
+/* |z c| from which on moments are found upward, see oscillator_moments; below it the series takes
+ * some twenty terms to the last bit. */
+static const double LARGE = 3.0;
+enum { MAX_TERMS = 40 };
+static const double SQUARED_ROUNDING = 1e-36;
+
+/* Free motion: q(t) = Re(A e^(lambda t)) with A from q(0), v(0); in real numbers, with
+ * lambda = -r + i w (r, w: `-decay`, `frequency`),
+ *
+ *   q(t) = e^(-r t) ((cos wt + (r/w) sin wt) q(0) + (1/w) sin wt v(0))
+ *   v(t) = e^(-r t) (-((r^2 + w^2)/w) sin wt q(0) + (cos wt - (r/w) sin wt) v(0)) */
 static void free_map(double complex lambda, double time, double to_q[2], double to_v[2])
 {
     double decay = creal(lambda);
     double frequency = cimag(lambda);
-    double scale = exp(fmin(decay * time, 300.0));
+    double scale = exp(fmin(decay * time, LARGEST_EXPONENT));
     double sine = scale * sin(frequency * time) / frequency;
     double cosine = scale * cos(frequency * time);
     to_q[0] = cosine - decay * sine;
@@ -34,11 +47,13 @@ void oscillator_advance(double omega, double damping, double time, double *q, do
     *q = moved;
 }
 
+/* The damper takes 2 zeta omega int v^2 dt; with v = Re(V e^(lambda t)),
+ * 2 v^2 = |V|^2 e^(2 Re(lambda) t) + Re(V^2 e^(2 lambda t)). */
 double oscillator_free_loss(double omega, double damping, double time, double q, double v)
 {
     if (damping == 0.0 || time == 0.0)
         return 0.0;
-    /* v(t) = Re(V e^(lambda t)); V from v(0) and v'(0) = -2 zeta omega v - omega^2 q */
+    // V from v(0) and v'(0) = -2 zeta omega v - omega^2 q
     double complex lambda = oscillator_lambda(omega, damping);
     double rate = -2.0 * damping * omega * v - omega * omega * q;
     double complex amplitude = CMPLX(v, (creal(lambda) * v - rate) / cimag(lambda));
@@ -55,15 +70,15 @@ static double square(double complex x)
     return creal(x) * creal(x) + cimag(x) * cimag(x);
 }
 
-/* For |z c| < 3. int exp(z(c-s)) s^m ds = c^(m+1) m! sum_k x^k / (m+1+k)!, without cancellation for
- * small x = z c, gives the highest moment; by parts, downward, the others, each with an error of at
- * most about |x|/m that of the one before. */
+/* For |z c| < LARGE. int exp(z(c-s)) s^m ds = c^(m+1) m! sum_k x^k / (m+1+k)!, without cancellation
+ * for small x = z c, gives the highest moment; by parts, downward, the others, each with an error
+ * of at most about |x|/m that of the one before. */
 static void small_moments(double complex z, double c, double complex moments[NODES])
 {
     double complex x = z * c;
     double complex term = 1.0 / NODES;
     double complex sum = term;
-    for (int k = 1; k < 40 && square(term) > 1e-36 * square(sum); k++) {
+    for (int k = 1; k < MAX_TERMS && square(term) > SQUARED_ROUNDING * square(sum); k++) {
         double share = 1.0 / (NODES + k);
         term *= CMPLX(creal(x) * share, cimag(x) * share);
         sum += term;
@@ -79,7 +94,7 @@ static void small_moments(double complex z, double c, double complex moments[NOD
 void oscillator_moments(double complex z, double c, double complex moments[NODES])
 {
     double complex x = z * c;
-    if (square(x) < 9.0) {
+    if (square(x) < LARGE * LARGE) {
         small_moments(z, c, moments);
         return;
     }
@@ -92,6 +107,9 @@ void oscillator_moments(double complex z, double c, double complex moments[NODES
     }
 }
 
+/* Duhamel: q(T) = free + Im int_0^T e^(lambda (T - t)) f(t) dt / Im(lambda), v with lambda times
+ * the kernel; f = sum_j f_j sum_m monomial[j][m] (t/h)^m, T = c h, so that the integrals are h
+ * sum_m monomial[j][m] moments[m] with z = lambda h. */
 void oscillator_map(double omega, double damping, double h, double c, double to_q[NODES + 2],
                     double to_v[NODES + 2])
 {
@@ -99,7 +117,6 @@ void oscillator_map(double omega, double damping, double h, double c, double to_
     double complex moments[NODES];
     free_map(lambda, c * h, to_q, to_v);
     oscillator_moments(lambda * h, c, moments);
-    /* Duhamel's integral with the kernel Im(e^(lambda t)) / Im(lambda) and its derivative */
     for (int j = 0; j < NODES; j++) {
         double complex sum = 0.0;
         for (int m = 0; m < NODES; m++)

@@ -8,6 +8,9 @@
 
 #include "impact/oscillator.h"
 
+/* omega h below which the loss is found by quadrature. */
+static const double SLOW_ANGLE = 2.0;
+
 /* Velocity on the step for one unit input: Re(wave e^(z s)) + sum_m slope[m] s^m, s = t/h. */
 struct velocity {
     double complex wave;
@@ -32,7 +35,12 @@ static void form_by_quadrature(double omega, double damping, double h,
     }
 }
 
-/* Splits the response to input r into the wave and the particular solution, a cubic in s. */
+/* Splits the response to input r into the wave and the particular solution, a cubic in s whose
+ * coefficients the equation gives from the highest down: with s = t/h
+ *
+ *   omega^2 q_m = f_m - (2 zeta omega/h) (m + 1) q_(m+1) - (1/h^2) (m + 2) (m + 1) q_(m+2)
+ *
+ * The wave has what then lacks of the initial values. */
 static struct velocity split(double omega, double damping, double h, int r)
 {
     double q[NODES + 2] = {0};
@@ -54,6 +62,9 @@ static struct velocity split(double omega, double damping, double h, int r)
     return velocity;
 }
 
+/* int_0^1 v_a v_b ds of two such velocities: 2 Re(A e^(zs)) Re(B e^(zs)) = Re(A B e^(2zs)) +
+ * Re(A conj(B)) e^(2 Re(z) s); `swinging`, `steady` and `moment` are the integrals of e^(2zs),
+ * e^(2 Re(z) s) and s^m e^(zs). */
 static double product_integral(const struct velocity *a, const struct velocity *b,
                                double complex swinging, double steady,
                                const double complex moment[NODES])
@@ -92,8 +103,8 @@ void oscillator_loss_form(double omega, double damping, double h,
                           double form[LOSS_INPUTS][LOSS_INPUTS])
 {
     memset(form, 0, sizeof(double[LOSS_INPUTS][LOSS_INPUTS]));
-    /* the particular solution cancels against the wave like (omega h)^-4 for slow oscillators */
-    if (omega * h < 2.0)
+    // the particular solution cancels against the wave like (omega h)^-4 for slow oscillators
+    if (omega * h < SLOW_ANGLE)
         form_by_quadrature(omega, damping, h, form);
     else
         form_closed(omega, damping, h, form);

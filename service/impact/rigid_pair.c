@@ -10,6 +10,13 @@
 #include "impact/impact.h"
 #include "impact/impact_scale.h"
 
+/* Newton's method from within a few times the solution takes some six rounds to the last bit. */
+enum { MAX_ROUNDS = 60 };
+static const double ROUNDING = 1e-16;
+
+/* Panels of four Gauss nodes: the integrands are smooth, and their error is that of rounding. */
+enum { PANELS = 24 };
+
 /* Whether the approach is too weak to make a law yield. */
 static bool stays_elastic(const struct scene *scene)
 {
@@ -30,12 +37,12 @@ bool impact_is_rigid_pair(const struct scene *scene)
 static double largest_indentation(const struct contact_law *law, double start, double energy)
 {
     double d = start;
-    for (int i = 0; i < 60; i++) {
+    for (int i = 0; i < MAX_ROUNDS; i++) {
         double stiffness;
         double force = contact_law_force(law, d, &stiffness);
         double change = (law->operations->stored(law, d) - energy) / force;
         d -= change;
-        if (!(fabs(change) > 1e-16 * d))
+        if (!(fabs(change) > ROUNDING * d))
             break;
     }
     return d;
@@ -47,7 +54,6 @@ static double largest_indentation(const struct contact_law *law, double start, d
 static double compression_time(const struct contact_law *law, double largest, double energy,
                                double speed, double *viscosity)
 {
-    enum { PANELS = 24 };
     double sum = 0.0;
     double squares = 0.0;
     for (int p = 0; p < PANELS; p++) {

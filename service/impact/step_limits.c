@@ -5,16 +5,28 @@
 
 #include <math.h>
 
-/* omega h up to which a step resolves a mode. */
+/* omega h up to which a step of four nodes resolves a mode. */
 static const double RESOLVED = 4.0;
+
+/* Factors of accuracy^(2/5), ^(2/5) and ^(1/5): with them the steps of a contact leave some
+ * 0.1 accuracy^0.8 in the restitution (docs/accuracy.md, error.restitution_time). */
+static const double ROUGHNESS = 0.6;
+static const double EVENT = 0.5;
+static const double COUPLING = 3.2;
+
+/* For any accuracy: a force is a cubic to 2 %, a contact has some twenty steps, and the audit
+ * closes (see the header). */
+static const double ROUGHEST = 0.02;
+static const double LONGEST_EVENT = 0.05;
+static const double CLOSEST = 0.25;
 
 struct step_limits step_limits_make(double accuracy)
 {
-    double power = pow(accuracy, 0.2);
+    double root = pow(accuracy, 0.2);
     return (struct step_limits){
-        .roughness = fmin(0.02, 0.6 * power * power),
-        .event_share = fmin(0.05, 0.5 * power * power),
-        .coupling = fmin(0.25, 3.2 * power),
+        .roughness = fmin(ROUGHEST, ROUGHNESS * root * root),
+        .event_share = fmin(LONGEST_EVENT, EVENT * root * root),
+        .coupling = fmin(CLOSEST, COUPLING * root),
     };
 }
 

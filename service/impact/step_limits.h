@@ -10,7 +10,7 @@
 struct step_limits {
     /* A force's cubic is accurate enough when its highest Legendre coefficient is this share of the
      * contact's force. The impulse converges with the eighth power of the step, the coefficient
-     * with the third, hence the exponent; the factor is measured (docs/accuracy.md). */
+     * with the third, hence about accuracy^(3/8). */
     double roughness;
     /* The step in which a contact opens or closes may be this part of the contact's duration: the
      * impulse within it is about its 5/2 power. */

@@ -17,6 +17,9 @@ enum { FINER = 3, DROPPED = 4 };
 static const double PHASE_SHARE = 1.0 / 16.0;
 enum { LEAST_FLIGHT = 32, MOST_FLIGHT = 1500 };
 
+/* An opening shorter than this share of the step after it is rounding of the time. */
+static const double NO_FLIGHT = 1e-3;
+
 struct tracer {
     const struct scene *scene;
     const struct trace_sides *sides;
@@ -241,8 +244,8 @@ static bool follow(struct tracer *tracer, const struct force_log *log, double en
     double phase = 0.0;
     for (size_t i = 0; i < log->count && log->steps[i].start < end; i++) {
         const struct force_step *logged = &log->steps[i];
-        /* what is shorter than a step is rounding, not a flight */
-        if (logged->start - tracer->now.time > 1e-3 * step_length(logged->level)) {
+        // what is shorter than a step is rounding, not a flight
+        if (logged->start - tracer->now.time > NO_FLIGHT * step_length(logged->level)) {
             if (!show_flight(tracer, logged->start, phase))
                 return false;
             phase_start = tracer->now.time;

@@ -29,6 +29,16 @@ void track_open(struct track *track, double time, double gap_rate)
 
 enum { POINTS = NODES + 2 }; /* start, nodes, end of a step */
 
+/* The peak of a polynomial of degree five: differences over so much of the step, from a start so
+ * far within it, and rounds of Newton's method, of which each squares the error. */
+static const double DIFFERENCE = 0.01;
+static const double WITHIN = 0.05;
+enum { PEAK_ROUNDS = 4 };
+
+/* A step whose largest value is below this share of the contact's is past the peak: the polynomial
+ * rises by less between the points. */
+static const double PAST_PEAK = 0.999;
+
 /* Polynomial through the step's six values at s in 0..1 (Lagrange). */
 static double through_points(const double place[POINTS], const double value[POINTS], double s)
 {
@@ -49,9 +59,9 @@ static double peak_around(const double place[POINTS], const double value[POINTS]
 {
     double low = place[i > 0 ? i - 1 : 0];
     double high = place[i + 1 < POINTS ? i + 1 : i];
-    double s = fmin(fmax(place[i], 0.05), 0.95);
-    for (int iteration = 0; iteration < 4; iteration++) {
-        const double e = 0.01;
+    double s = fmin(fmax(place[i], WITHIN), 1.0 - WITHIN);
+    for (int iteration = 0; iteration < PEAK_ROUNDS; iteration++) {
+        const double e = DIFFERENCE;
         double before = through_points(place, value, s - e);
         double here = through_points(place, value, s);
         double after = through_points(place, value, s + e);
@@ -78,13 +88,12 @@ void track_step(struct track *track, double time, double h, const struct track_v
     for (int i = 1; i < POINTS; i++)
         if (value[i] > value[largest])
             largest = i;
-    /* still rising: the end will do, the next step looks closer; past the peak by a thousandth
-     * there is no need to look */
+    // the largest indentation: where it still rises the end will do, as the next step looks closer
     if (largest == POINTS - 1 && value[largest] > open->max_indentation) {
         open->max_indentation = value[largest];
         open->compression_end = time + h;
         open->compression_impulse = open->impulse + h * collocation_integral(values->force, 1.0);
-    } else if (value[largest] > 0.999 * open->max_indentation) {
+    } else if (value[largest] > PAST_PEAK * open->max_indentation) {
         double s = peak_around(place, value, largest);
         double indentation = through_points(place, value, s);
         if (indentation > open->max_indentation) {
@@ -93,6 +102,7 @@ void track_step(struct track *track, double time, double h, const struct track_v
             open->compression_impulse = open->impulse + h * collocation_integral(values->force, s);
         }
     }
+    // the impulse, and int K' F' dt and int F'^2 dt by the derivatives of the nodes' polynomials
     for (int j = 0; j < NODES; j++)
         open->impulse += h * collocation.weight[j] * values->force[j];
     double inertia = 0.0;
