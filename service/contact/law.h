@@ -16,7 +16,7 @@ enum { CONTACT_LAW_PARAMETERS = 6 };
 struct contact_history {
     double max_indentation; /* m */
     double max_force;       /* N */
-    double residual;        /* depth of the dent that stays, m */
+    double dent;            /* depth that stays, m */
     double contact_radius;  /* at the largest force, m */
 };
 

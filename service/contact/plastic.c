@@ -11,7 +11,7 @@ static const double SAME_FORCE = 1e-9;
 /* What the unloading branch spans. */
 static double span_of(const struct contact_history *history)
 {
-    return history->max_indentation - history->residual;
+    return history->max_indentation - history->dent;
 }
 
 double plastic_force(const struct contact_law *law, double indentation, double *stiffness)
@@ -23,7 +23,7 @@ double plastic_force(const struct contact_law *law, double indentation, double *
     const struct contact_history *history = &law->history;
     double span = span_of(history);
     if (indentation >= span)
-        return law->operations->curve->force(law, indentation + history->residual, stiffness);
+        return law->operations->curve->force(law, indentation + history->dent, stiffness);
     double share = law->operations->curve->branch(law, indentation / span, stiffness);
     *stiffness *= history->max_force / span;
     return history->max_force * share;
@@ -46,7 +46,7 @@ double plastic_stored(const struct contact_law *law, double indentation)
     double span = span_of(history);
     if (indentation < span)
         return branch_energy(law, indentation / span);
-    double beyond = curve->work(law, indentation + history->residual);
+    double beyond = curve->work(law, indentation + history->dent);
     return span > 0.0
                ? branch_energy(law, 1.0) + (beyond - curve->work(law, history->max_indentation))
                : beyond;
@@ -72,7 +72,7 @@ double contact_law_limit(const struct contact_law *law)
     if (!law->operations->curve)
         return INFINITY;
     return fmax(law->operations->curve->yield(law), law->history.max_indentation) -
-           law->history.residual;
+           law->history.dent;
 }
 
 double contact_law_unloading(const struct contact_law *law)
@@ -92,7 +92,7 @@ static struct contact_history history_of(const struct contact_law *law, double d
     return (struct contact_history){
         .max_indentation = depth,
         .max_force = curve->force(law, depth, &slope),
-        .residual = curve->residual(law, depth),
+        .dent = curve->residual(law, depth),
         .contact_radius = curve->radius(law, depth),
     };
 }
@@ -100,7 +100,7 @@ static struct contact_history history_of(const struct contact_law *law, double d
 double contact_law_yield(struct contact_law *law, double indentation)
 {
     double before = plastic_stored(law, indentation);
-    law->history = history_of(law, indentation + law->history.residual);
+    law->history = history_of(law, indentation + law->history.dent);
     return before - branch_energy(law, 1.0);
 }
 

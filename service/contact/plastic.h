@@ -46,7 +46,7 @@ double contact_law_unloading(const struct contact_law *law);
 
 /* Makes an indentation beyond the limit the largest so far. Returns the energy that this dissipated
  * (J, the area of the loop), by the law's own integrals. The dent deepens: indentations count from
- * its new bottom, history.residual - its former value further down. */
+ * its new bottom, history.dent - its former value further down. */
 double contact_law_yield(struct contact_law *law, double indentation);
 
 /* Gives a law the memory of an earlier contact at the same place. Where the largest load was by

@@ -36,7 +36,7 @@ static void fill_patches(percuss_v1_Dent *patches, const struct body_state *stat
         patches[i].size = dents[i].size;
         patches[i].max_indentation = dents[i].history.max_indentation;
         patches[i].max_force = dents[i].history.max_force;
-        patches[i].residual_indentation = dents[i].history.residual;
+        patches[i].residual_indentation = dents[i].history.dent;
         patches[i].contact_radius = dents[i].history.contact_radius;
     }
 }

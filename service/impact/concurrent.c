@@ -256,7 +256,7 @@ static void end_march(void *state)
     struct impact_outcome *outcome = run->march.outcome;
     struct contact_history *history = &outcome->laws[0].history;
     struct region_ledger ledger;
-    history->residual = run->bottom;
+    history->dent = run->bottom;
     if (!(run->bottom > ROUNDING * history->max_indentation))
         *history = run->march.stated->laws[0].history;
     region_ledger(run->region, &ledger);

@@ -76,7 +76,7 @@ bool energy_audit(const struct scene *scene, const double *indentation, double d
         return false;
     for (size_t c = 0; c < n; c++)
         travel[c] = end->gap[c] - scene->gap[c] -
-                    (outcome->laws[c].history.residual - scene->laws[c].history.residual);
+                    (outcome->laws[c].history.dent - scene->laws[c].history.dent);
 
     struct impact_energy *energy = &outcome->energy;
     *energy = (struct impact_energy){.damping = damping, .plastic = outcome->plastic};

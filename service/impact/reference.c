@@ -83,9 +83,9 @@ static void yield(struct reference *run, size_t c)
     struct contact_law *law = &outcome->laws[c];
     if (!(run->system.indentation[c] > contact_law_limit(law)))
         return;
-    double before = law->history.residual;
+    double before = law->history.dent;
     outcome->plastic += contact_law_yield(law, run->system.indentation[c]);
-    double deeper = law->history.residual - before;
+    double deeper = law->history.dent - before;
     run->y[c] += deeper;
     run->system.indentation[c] -= deeper;
     outcome->tracks[c].deepened += deeper;

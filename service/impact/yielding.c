@@ -154,7 +154,7 @@ static double unloading_time(const struct yielding *yielding, size_t contact,
                              const struct path *path, double h)
 {
     const struct contact_law *law = &yielding->scene->laws[contact];
-    double depth = path->largest + law->history.residual;
+    double depth = path->largest + law->history.dent;
     double springs_back = depth - law->operations->curve->residual(law, depth);
     double bend = -bend_at(yielding->step->indentation[contact], path->peak) / (h * h);
     return bend > 0.0 ? sqrt(2.0 * springs_back / bend) : INFINITY;
@@ -178,7 +178,7 @@ static void expect(struct yielding *yielding, size_t contact, double h)
     double duration = duration_of(yielding, contact);
     double limit = contact_law_limit(law);
     double rise = fmax(0.0, path.rise);
-    double residual = law->history.residual;
+    double dent = law->history.dent;
     double place;
     if (yielding->event[contact].time < time + h)
         yielding->event[contact].kind = EVENT_NONE;
@@ -191,8 +191,8 @@ static void expect(struct yielding *yielding, size_t contact, double h)
 
     // the curve has a joint
     within = near_peak(yielding, duration);
-    double start = fmax(path.value[0] + rise * within + residual, law->history.max_indentation);
-    double joint = law->operations->curve->joint(law, start) - residual;
+    double start = fmax(path.value[0] + rise * within + dent, law->history.max_indentation);
+    double joint = law->operations->curve->joint(law, start) - dent;
     if (passes_on(&path, joint, &place))
         note(yielding, contact,
              (struct yielding_event){EVENT_PASSING, time + h * place, within, joint});
@@ -248,9 +248,9 @@ static void yield(struct yielding *yielding, size_t contact, double indentation)
 {
     struct impact_outcome *outcome = yielding->outcome;
     struct contact_law *law = &outcome->laws[contact];
-    double before = law->history.residual;
+    double before = law->history.dent;
     outcome->plastic += contact_law_yield(law, indentation);
-    double deeper = law->history.residual - before;
+    double deeper = law->history.dent - before;
     outcome->motion.gap[contact] += deeper;
     outcome->tracks[contact].deepened += deeper;
     yielding->now[contact].indentation -= deeper;

@@ -153,7 +153,7 @@ void concurrent_report(const struct concurrent_effort *effort, const struct prob
              "its core, %zu Newton steps, dent %.3g um, extrapolated restitution %.5f; %zu modes "
              "up to %.4g Hz, residual "
              "flexibility for the others%s",
-             effort->steps, effort->resolution, effort->newton_steps, 1e6 * history->residual,
+             effort->steps, effort->resolution, effort->newton_steps, 1e6 * history->dent,
              effort->extrapolated, solution->assembly->all_modes,
              solution->assembly->highest / (2.0 * M_PI),
              problem->hertz[0].axis_ratio < HERTZ_CIRCULAR_RATIO

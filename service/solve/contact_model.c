@@ -46,7 +46,7 @@ static void find_dents(struct problem *problem, size_t c)
         if (!state || i == state->dents)
             continue;
         const struct dent *dent = &body_state_dents(state)[i];
-        model->depth[c] += dent->history.residual;
+        model->depth[c] += dent->history.dent;
         if (which != choice->side)
             continue;
         choice->dented = true;
@@ -293,7 +293,7 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
                             : "a table of the contact region");
     if (history->max_indentation > 0.0)
         append(text, size, ": indented %.3g times as deep as where %s yields, dent %.3g um",
-               history->max_indentation / choice->yield, body->id, 1e6 * history->residual);
+               history->max_indentation / choice->yield, body->id, 1e6 * history->dent);
     else
         append(text, size, ", below yield");
     // what it starts from and where it ends

@@ -10,8 +10,8 @@
 #include "solve/complete.h"
 #include "solve/concurrent.h"
 #include "solve/formulation.h"
-#include "solve/history.h"
 #include "solve/report.h"
+#include "solve/tracing.h"
 
 struct solve_workspace {
     struct prepared_cache *cache;
@@ -124,7 +124,7 @@ static enum percuss_status answer(struct solve_workspace *workspace,
         status = result->status;
     }
     if (request->options.trace && (status == PERCUSS_OK || status == PERCUSS_TRUNCATED))
-        status = history_make(problem, solution, &pace, result);
+        status = tracing_make(problem, solution, &pace, result);
     return status;
 }
 

@@ -65,7 +65,7 @@ static struct dent *new_dent(struct dent *dents, size_t *count)
         return &dents[(*count)++];
     struct dent *shallowest = dents;
     for (size_t i = 1; i < *count; i++)
-        if (dents[i].history.residual < shallowest->history.residual)
+        if (dents[i].history.dent < shallowest->history.dent)
             shallowest = &dents[i];
     return shallowest;
 }

@@ -103,8 +103,8 @@ static void repeated_blows_saturate(void **state)
         const struct dent *dent = body_state_dents(result.bodies[1].state_after);
         assert_int_equal(dents->dents, 1);
         memcpy((struct dent *)body_state_dents(dents), dent, sizeof *dent);
-        assert_true(dent->history.residual >= depth);
-        depth = dent->history.residual;
+        assert_true(dent->history.dent >= depth);
+        depth = dent->history.dent;
         measured("place", dent->point[0], 0.5, 1e-12);
         measured("patch", dent->size, dent->history.contact_radius, 0.0);
     }
@@ -129,7 +129,7 @@ static void a_dent_is_where_it_is(void **state)
     memmove((struct dent *)body_state_dents(only), dent, sizeof *dent);
     request.bodies[1].state = only;
     lab_solve(lab, &request, &result);
-    measured_relative("touch", result.time_shift, dent->history.residual / 0.3, 1e-9);
+    measured_relative("touch", result.time_shift, dent->history.dent / 0.3, 1e-9);
 
     request.options.dents = PERCUSS_DENTS_IGNORE;
     lab_solve(lab, &request, &result);

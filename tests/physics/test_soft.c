@@ -282,7 +282,7 @@ static void blows_into_a_soft_dent_end(void **state)
             /* ten times the default tolerance, as the audit promises */
             measured("closure", result.energy.closure / result.energy.available, 0.0, 0.01);
             const struct body_state *after = result.bodies[1].state_after;
-            double now = body_state_dents(after)->history.residual;
+            double now = body_state_dents(after)->history.dent;
             assert_true(now >= depth * (1.0 - 1e-12));
             depth = now;
             struct body_state *copy = malloc(body_state_size(after));

@@ -39,7 +39,7 @@ static inline void sampled_table_make(struct sampled_table *sampled, const struc
         sampled->largest[b] = yield * pow(range, (b + 1.0) / SAMPLED_BRANCHES);
         contact_law_yield(&used, sampled->largest[b]);
         double span = contact_law_limit(&used);
-        sampled->residual[b] = used.history.residual;
+        sampled->residual[b] = used.history.dent;
         for (int i = 0; i < SAMPLED_SHARES; i++)
             sampled->share[b][i] =
                 contact_law_force(&used, span * i / (SAMPLED_SHARES - 1) * (1 - 1e-15), &slope) /

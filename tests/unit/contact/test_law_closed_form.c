@@ -114,15 +114,15 @@ static void a_loop_dissipates_its_area(void **state)
     struct contact_law law = law_on(&soft);
     static const double peaks[] = {2e-6, 5e-6, 2e-5, 2.5e-5, 1e-4, 2e-3};
     for (size_t i = 0; i < sizeof peaks / sizeof *peaks; i++) {
-        double residual = law.history.residual;
+        double residual = law.history.dent;
         double peak = peaks[i] - residual;
         assert_true(peak > contact_law_limit(&law));
         double loading = work(&law, 0.0, peak);
         double lost = contact_law_yield(&law, peak);
-        double deeper = law.history.residual - residual;
+        double deeper = law.history.dent - residual;
         near_relative(lost, loading - work(&law, 0.0, peak - deeper), 1e-6);
         near_relative(law.history.max_indentation, peaks[i], 1e-15);
-        assert_true(deeper > 0.0 && law.history.residual < peaks[i]);
+        assert_true(deeper > 0.0 && law.history.dent < peaks[i]);
         assert_true(law.history.contact_radius > sqrt(0.9 * 0.015 * peaks[i]));
     }
 }
@@ -134,13 +134,13 @@ static void reloading_follows_the_branch_then_the_virgin_curve(void **state)
     struct contact_law law = virgin;
     contact_law_yield(&law, 1e-5);
     double span = contact_law_limit(&law);
-    near_relative(span, 1e-5 - law.history.residual, 1e-14);
+    near_relative(span, 1e-5 - law.history.dent, 1e-14);
     near_relative(law.history.max_force, force_at(&virgin, 1e-5), 1e-15);
     near_relative(force_at(&law, span), law.history.max_force, 1e-14);
     for (double x = 0.1; x < 1.0; x += 0.1)
         near_relative(force_at(&law, x * span), law.history.max_force * x * sqrt(x), 1e-12);
     for (double d = 1.01e-5; d < 1e-3; d *= 2.0)
-        near_relative(force_at(&law, d - law.history.residual), force_at(&virgin, d), 1e-12);
+        near_relative(force_at(&law, d - law.history.dent), force_at(&virgin, d), 1e-12);
     /* within the elastic range nothing is remembered to be lost: the same force, the same energy */
     near_relative(law.operations->stored(&law, span), 0.4 * law.history.max_force * span, 1e-14);
 }
@@ -155,7 +155,7 @@ static void what_stays_grows_from_nothing(void **state)
     for (double w = 1.0 + 1e-9; w < 1e7; w *= 1.1) {
         struct contact_law law = law_on(&soft);
         contact_law_yield(&law, w * yield);
-        double residual = law.history.residual;
+        double residual = law.history.dent;
         double rest = w * yield - residual;
         assert_true(residual >= before && rest > 0.0);
         if (w < 1.01)

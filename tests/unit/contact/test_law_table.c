@@ -93,8 +93,8 @@ static void its_curves_fit_together(void **state)
             near_relative(of->indentation(&law, force), d, 1e-9);
         }
         /* the second one beyond the table */
-        contact_law_yield(&law, 2e-5 + 1e-4 * loads - law.history.residual);
-        assert_true(law.history.residual < law.history.max_indentation);
+        contact_law_yield(&law, 2e-5 + 1e-4 * loads - law.history.dent);
+        assert_true(law.history.dent < law.history.max_indentation);
     }
     contact_curves_free(pair.curves);
 }

@@ -124,8 +124,8 @@ static void a_dent_hardens(void **state)
             assert_true(second.energy.plastic == 0.0);
             measured("rebound, elastic", expected / speeds[i], 1.0, 1e-12);
         } else {
-            assert_true(second.laws[0].history.residual > first.laws[0].history.residual);
-            measured("depth", sub->max_indentation + first.laws[0].history.residual,
+            assert_true(second.laws[0].history.dent > first.laws[0].history.dent);
+            measured("depth", sub->max_indentation + first.laws[0].history.dent,
                      second.laws[0].history.max_indentation, 1e-14);
             measured("force", sub->peak_force, second.laws[0].history.max_force,
                      1e-9 * sub->peak_force);
@@ -157,8 +157,8 @@ static void both_methods_agree(void **state)
                  cvode.motion.gap_rate[0] / speeds[i % 4], 1e-7);
         measured("plastic", modal.energy.plastic / modal.energy.available,
                  cvode.energy.plastic / cvode.energy.available, 1e-7);
-        measured("dent", modal.laws[0].history.residual / 1e-6,
-                 cvode.laws[0].history.residual / 1e-6, 1e-6);
+        measured("dent", modal.laws[0].history.dent / 1e-6, cvode.laws[0].history.dent / 1e-6,
+                 1e-6);
         measured("closure", modal.energy.closure / modal.energy.available, 0.0, 1e-9);
         assert_int_equal(modal.tracks[0].count, cvode.tracks[0].count);
         measured("depth", modal.tracks[0].list[0].max_indentation / 1e-6,

@@ -37,7 +37,7 @@ static void the_law_is_the_computed_curve(void **state)
     for (size_t b = 1; b < small_table.branches; b++) {
         struct contact_law used = contact_law_table(curves);
         contact_law_yield(&used, small_table.largest[b]);
-        near_relative(used.history.residual, small_table.residual[b], 1e-9);
+        near_relative(used.history.dent, small_table.residual[b], 1e-9);
         double span = small_table.largest[b] - small_table.residual[b];
         /* a spline through 21 samples, read at 41 places, is read between those; the computation
          * itself states an error of 2.5e-3 of the way */
@@ -68,7 +68,7 @@ static void laws_scale_with_the_radius(void **state)
                       1e-12);
     }
     near_relative(contact_law_yield(&two, 1e-5), 8 * contact_law_yield(&one, 5e-6), 1e-11);
-    near_relative(two.history.residual, 2 * one.history.residual, 1e-12);
+    near_relative(two.history.dent, 2 * one.history.dent, 1e-12);
     near_relative(two.history.contact_radius, 2 * one.history.contact_radius, 1e-12);
     near_relative(two.history.max_force, 4 * one.history.max_force, 1e-12);
     for (double share = 0.1; share < 1.0; share += 0.1) {

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "solve/history.h"
+#include "solve/tracing.h"
 
 #include <math.h>
 
@@ -130,7 +130,7 @@ static void warn(const struct problem *problem, const struct solution *solution,
                     off);
 }
 
-enum percuss_status history_make(const struct problem *problem, const struct solution *solution,
+enum percuss_status tracing_make(const struct problem *problem, const struct solution *solution,
                                  struct pace *pace, struct solve_result *result)
 {
     struct arena *arena = problem->arena;
