@@ -44,6 +44,7 @@ static void print_json(const struct percuss_body_list *list)
         json_object_set_new(object, "radius", json_number(body->radius));
         json_object_set_new(object, "tip_radius", json_number(body->tip_radius));
         json_object_set_new(object, "supports", supports(body));
+        /* the others under the names that inputs have */
         for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; p++)
             if (p != PERCUSS_PARAMETER_RADIUS)
                 json_object_set_new(object, percuss_parameter_name(p),

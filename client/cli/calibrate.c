@@ -58,10 +58,12 @@ static void parse_fit(const char *text, struct calibrate *calibrate, struct argp
     const char *colon = strchr(text, ':'), *equals = strchr(text, '=');
     if (calibrate->count == FIT_PARAMETERS)
         argp_error(state, "--fit: up to %d parameters are allowed", FIT_PARAMETERS);
+    /* PARAMETER */
     struct calibrate_parameter *parameter = &calibrate->parameters[calibrate->count++];
     size_t length = colon ? (size_t)(colon - text) : strlen(text);
     *parameter = (struct calibrate_parameter){
         .parameter = parse_parameter(text, colon ? length : 0, text, state), .start = NAN};
+    /* :ID, and =START if it is given */
     size_t id = equals ? (size_t)(equals - colon) - 1 : strlen(colon + 1);
     if (id == 0 || id >= sizeof parameter->body)
         argp_error(state, "--fit: '%s': the id of a body is needed behind the colon", text);
@@ -186,12 +188,14 @@ static int find_starts(struct run *run)
         const struct percuss_body *body =
             percuss_body_find(&run->twins.bodies.list, parameter->body);
         const char *name = percuss_parameter_name(parameter->parameter);
+        /* not every kind of body has every parameter */
         if (body && isnan(body->parameters[parameter->parameter])) {
             complain("--fit: a %s like %s has no %s", body->shape, body->id, name);
             return EXIT_USAGE;
         }
         if (isnan(parameter->start) && body)
             parameter->start = body->parameters[parameter->parameter];
+        /* what is multiplied cannot start from 0; damping has a size of its own */
         bool damping = parameter->parameter == PERCUSS_PARAMETER_DAMPING;
         if (body && (!isfinite(parameter->start) || (!damping && parameter->start == 0.0))) {
             complain("--fit: the catalogue has no %s of %s to start from; give --fit %s:%s=START",
@@ -209,6 +213,7 @@ static int explain(const struct run *run, const struct calibration *calibration)
     size_t used = 0, known = 0;
     if (run->code != EXIT_ANSWERED)
         return run->code;
+    /* what the file holds, and what of it could be used */
     for (int q = 0; q < QUANTITIES; q++) {
         used += calibration->used[q];
         known += calibration->known[q];
@@ -238,6 +243,7 @@ static int run_calibration(struct run *run)
         .context = run,
         .noise = calibrate->noise,
     };
+    /* 1: where each of them starts */
     for (size_t i = 0; i < calibrate->count; i++)
         calibration.fit.x[i] = 1.0;
     if (!calibration_solve(&problem, &calibration))
@@ -249,6 +255,7 @@ static int run_calibration(struct run *run)
                  "warns of there is not known");
     struct calibrate_report report = {calibrate->parameters, calibrate->count, &calibration,
                                       run->set.count, &run->twins.warnings};
+    /* from multiples back to the parameters' units */
     for (size_t i = 0; i < calibrate->count; i++) {
         struct calibrate_parameter *parameter = &calibrate->parameters[i];
         parameter->value = value_at(parameter, calibration.fit.x[i]);

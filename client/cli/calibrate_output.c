@@ -30,6 +30,7 @@ void calibrate_print_table(const struct calibrate_report *report)
 {
     const struct calibration *calibration = report->calibration;
     char name[128];
+    /* the values, and how well they are determined */
     printf("%-36s %12s %12s   %-28s\n", "parameter", "start", "value", "95 % interval");
     for (size_t i = 0; i < report->count; i++) {
         const struct calibrate_parameter *parameter = &report->parameters[i];
@@ -43,6 +44,7 @@ void calibrate_print_table(const struct calibrate_report *report)
                    100.0 * parameter->half_width / fabs(parameter->value),
                    is_determined(parameter) ? "" : " not determined");
     }
+    /* the readings that they rest on */
     printf("\nfitted to %zu impacts:\n", report->impacts);
     for (int q = 0; q < QUANTITIES; q++)
         if (calibration->known[q] > 0)
@@ -68,6 +70,7 @@ void calibrate_print_json(const struct calibrate_report *report)
 {
     const struct fit *fit = &report->calibration->fit;
     json_t *root = json_object(), *array = json_array(), *correlation = json_array();
+    /* parameter by parameter, with its row of correlations */
     for (size_t i = 0; i < report->count; i++) {
         const struct calibrate_parameter *parameter = &report->parameters[i];
         json_t *object = json_object(), *row = json_array();
@@ -84,6 +87,7 @@ void calibrate_print_json(const struct calibrate_report *report)
             json_array_append_new(row, json_number(fit->correlation[i][j]));
         json_array_append_new(correlation, row);
     }
+    /* with the readings that they rest on */
     json_object_set_new(root, "parameters", array);
     json_object_set_new(root, "correlation", correlation);
     json_object_set_new(root, "quantities", quantities_to_json(report->calibration));
@@ -98,6 +102,7 @@ bool calibrate_warn(const struct calibrate_report *report)
     const struct calibration *calibration = report->calibration;
     char name[128], other[128];
     bool warned = false;
+    /* parameters that cannot be told, or not from each other */
     for (size_t i = 0; i < report->count; i++) {
         name_parameter(&report->parameters[i], name);
         if (!is_determined(&report->parameters[i])) {
@@ -113,6 +118,7 @@ bool calibrate_warn(const struct calibrate_report *report)
             warned = true;
         }
     }
+    /* quantities of which most readings were of no use */
     for (int q = 0; q < QUANTITIES; q++) {
         size_t left = calibration->known[q] - calibration->used[q];
         if ((double)left <= MANY * (double)calibration->known[q])

@@ -102,6 +102,7 @@ static bool evaluate(const struct compare *compare, struct comparison *compariso
     simulated = measured + n;
     residuals = measured + 2 * n;
     double squares = 0.0;
+    /* impact by impact */
     for (size_t i = 0; i < n; i++) {
         const struct measured_impact *impact = &comparison->set->impacts[i];
         const struct measured_impact *twin = &comparison->twins[i].impact;
@@ -112,6 +113,7 @@ static bool evaluate(const struct compare *compare, struct comparison *compariso
         comparison->counted += !isnan(impact->sub_impacts);
         comparison->counts_equal += impact->sub_impacts == twin->sub_impacts;
     }
+    /* moments; the interval of the residual's mean by Student's t */
     comparison->measured_mean = sample_mean(measured, n);
     comparison->measured_deviation = sample_deviation(measured, n);
     comparison->simulated_mean = sample_mean(simulated, n);
@@ -121,6 +123,7 @@ static bool evaluate(const struct compare *compare, struct comparison *compariso
                                                   sample_deviation(residuals, n) / sqrt((double)n)
                                             : NAN;
     comparison->residual_rms = sqrt(squares / (double)n);
+    /* whether both may be samples of one distribution */
     bool good = distance_kolmogorov(measured, n, simulated, n, &comparison->kolmogorov) &&
                 distance_energy(measured, n, simulated, n, compare->permutations, compare->seed,
                                 &comparison->energy);

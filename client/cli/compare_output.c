@@ -24,6 +24,7 @@ void compare_print_table(const struct comparison *comparison)
     printf("%6s %10s %12s %12s %10s %9s %9s\n", "impact", "speed m/s", "measured e", "simulated e",
            "residual", "measured", "simulated");
     printf("%54s %19s\n", "", "sub-impacts");
+    /* impact by impact */
     for (size_t i = 0; i < comparison->set->count; i++) {
         const struct measured_impact *measured = &comparison->set->impacts[i];
         const struct measured_impact *twin = &comparison->twins[i].impact;
@@ -34,6 +35,7 @@ void compare_print_table(const struct comparison *comparison)
                measured->restitution, twin->restitution, twin->restitution - measured->restitution,
                count, twin->sub_impacts);
     }
+    /* over all of them */
     printf("\n%s on %s, %zu impacts\n", comparison->scene->a, comparison->scene->b,
            comparison->set->count);
     printf("  %-20s mean %.4f, standard deviation %.4f\n", "measured e", comparison->measured_mean,
@@ -102,6 +104,7 @@ static json_t *distance_to_json(const struct distance *distance)
 void compare_print_json(const struct comparison *comparison)
 {
     json_t *root = json_object(), *array = json_array(), *residual = json_object();
+    /* impact by impact */
     for (size_t i = 0; i < comparison->set->count; i++) {
         const struct measured_impact *measured = &comparison->set->impacts[i];
         const struct twin *twin = &comparison->twins[i];
@@ -115,6 +118,7 @@ void compare_print_json(const struct comparison *comparison)
                             json_number(twin->impact.restitution - measured->restitution));
         json_array_append_new(array, object);
     }
+    /* over all of them */
     json_object_set_new(residual, "mean", json_number(comparison->residual_mean));
     json_object_set_new(residual, "half_width", json_number(comparison->residual_half_width));
     json_object_set_new(residual, "root_mean_square", json_number(comparison->residual_rms));
@@ -156,6 +160,7 @@ int compare_plot(const char *file, const struct comparison *comparison)
              comparison->scene->b, comparison->set->count);
     fputs("set multiplot layout 2,1 title ", plot.script);
     plot_text(&plot, title);
+    /* restitution over speed, joined to its twin; below, both distributions */
     fputs("\nset lmargin 10\nset xlabel 'speed / (m/s)'\nset ylabel 'restitution e'\n"
           "plot $impacts using 1:2:(0):($3-$2) with vectors nohead lc rgb '#b0b0b0' notitle, "
           "'' using 1:2 with points lt 2 title 'measured', "

@@ -104,6 +104,7 @@ static int print_list(const struct dents *dents, const struct percuss_specimen_l
     json_t *root = json_object(), *array = json_array();
     json_object_set_new(root, "specimens", array);
     int code = dents->specimen ? EXIT_REJECTED : EXIT_ANSWERED;
+    /* all of them, or the one that was asked for */
     for (size_t i = 0; i < list->count; i++) {
         const struct percuss_specimen *specimen = &list->specimens[i];
         if (dents->specimen && strcmp(specimen->name, dents->specimen) != 0)
@@ -118,6 +119,7 @@ static int print_list(const struct dents *dents, const struct percuss_specimen_l
         json_print(root);
     else
         json_decref(root);
+    /* nothing to list */
     if (code == EXIT_REJECTED)
         complain("'%s': the server keeps no specimen of that name", dents->specimen);
     else if (list->count == 0)

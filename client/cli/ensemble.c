@@ -76,12 +76,14 @@ static void add_input(struct ensemble *ensemble, const char *text, bool speed,
 {
     struct percuss_ensemble_request *request = ensemble->request;
     struct input_fault fault;
+    /* the speed is an input with an option of its own */
     if (speed && ensemble->has_speed)
         argp_error(state, "--speed: given twice");
     ensemble->has_speed = ensemble->has_speed || speed;
     if (request->input_count == PERCUSS_MAX_INPUTS)
         argp_error(state, "--input: more than %d inputs", PERCUSS_MAX_INPUTS);
     struct percuss_input *input = &request->inputs[request->input_count++];
+    /* DIST, or NAME@BODY=DIST */
     bool read;
     if (speed) {
         *input = (struct percuss_input){.name = "speed"};
@@ -273,6 +275,7 @@ static int ask(struct ensemble *ensemble, struct percuss_client *client,
         fputc('\n', stderr);
     if (result != PERCUSS_RESULT_OK)
         return complain_result(result);
+    /* files first, then the answer */
     int code = status_exit_code(reply.status);
     if (ensemble->csv && reply.statistic_count > 0 &&
         !ensemble_write_csv(ensemble->csv, request, &reply))
@@ -295,6 +298,7 @@ static int run(struct ensemble *ensemble)
     struct percuss_client *client;
     struct scene_bodies bodies = {0};
     double speed = 0.0;
+    /* the scene itself has the middle of the speeds */
     for (size_t i = 0; i < ensemble->request->input_count; i++)
         if (!strcmp(ensemble->request->inputs[i].name, "speed"))
             speed = input_text_middle(&ensemble->request->inputs[i]);

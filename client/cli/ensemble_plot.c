@@ -49,6 +49,7 @@ static bool take_samples(const struct percuss_ensemble_request *request,
         complain("--plot: out of memory");
         return false;
     }
+    /* from rows to columns */
     for (size_t i = 0; i < count; i++) {
         const double *row = reply->rows + i * reply->column_count;
         const double *results = row + request->input_count;
@@ -128,6 +129,7 @@ int ensemble_plot(const char *file, const struct percuss_ensemble_request *reque
     snprintf(title, sizeof title, "%.60s on %.60s, %llu samples",
              request->scene.bodies[contact->a].id, request->scene.bodies[contact->b].id,
              (unsigned long long)reply->samples);
+    /* a picture without the samples is better than none, but a failure */
     bool complete = take_samples(request, reply, &columns, &picture) &&
                     take_intervals(reply, &columns, &picture);
     take_sensitivities(reply, &columns, &picture);

@@ -113,6 +113,7 @@ static void print_intervals(const struct percuss_ensemble_reply *reply)
 static void print_chaos(const struct percuss_sensitivity *input)
 {
     size_t known = 0, chaotic = 0;
+    /* parts whose spread is known, and is chaos */
     for (size_t i = 0; i < input->part_count; i++) {
         known += !isnan(input->parts[i].local);
         chaotic += input->parts[i].chaotic;
@@ -123,6 +124,7 @@ static void print_chaos(const struct percuss_sensitivity *input)
            input->input);
     if (chaotic == 0)
         printf(" no part of its range");
+    /* neighbours as one range */
     for (size_t i = 0; i < input->part_count; i++) {
         if (!input->parts[i].chaotic)
             continue;
@@ -245,12 +247,14 @@ bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request 
     }
     write_head(stream, request);
     for (uint64_t i = 0; i < reply->samples; i++) {
+        /* inputs and results; two counts, and a status by its name */
         const double *row = reply->rows + i * columns;
         for (size_t c = 0; c + 3 < columns; c++)
             fprintf(stream, "%.17g,", row[c]);
         fprintf(stream, "%.0f,%.0f,%s\n", row[columns - 3], row[columns - 2],
                 percuss_status_name((unsigned)row[columns - 1]));
     }
+    /* a full disk may show only at the end */
     bool failed = ferror(stream) != 0;
     failed = fclose(stream) != 0 || failed;
     if (failed)

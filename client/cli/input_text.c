@@ -74,9 +74,11 @@ bool input_text_distribution(const char *text, struct percuss_input *input,
     };
     double numbers[MOST_NUMBERS];
     input->lower = input->upper = NAN;
+    /* values from a file */
     const char *rest = after(text, "list");
     if (rest)
         return read_list(rest, input, fault);
+    /* a kind and its numbers, or none that is known */
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         rest = after(text, kinds[i].name);
         if (!rest)
@@ -91,6 +93,7 @@ bool input_text_distribution(const char *text, struct percuss_input *input,
         input->upper = count == MOST_NUMBERS ? numbers[3] : NAN;
         return true;
     }
+    /* a number by itself does not vary */
     if (read_numbers(text, numbers) != 1)
         return refuse(fault,
                       "'%s' is no distribution: a number, uniform:, normal:, log-normal: or list: "
@@ -105,6 +108,7 @@ bool input_text_read(const char *text, struct percuss_input *input, struct input
 {
     const char *equals = strchr(text, '='), *at = strchr(text, '@');
     *input = (struct percuss_input){.distribution = PERCUSS_DISTRIBUTION_CONSTANT};
+    /* an @ behind the = is none of a body */
     if (!equals || equals == text || (at && at > equals))
         at = NULL;
     if (!equals)
@@ -112,6 +116,7 @@ bool input_text_read(const char *text, struct percuss_input *input, struct input
                       "'%s' is not NAME@BODY=DISTRIBUTION, for example "
                       "young@al-beam=normal:70e9:1e9",
                       text);
+    /* NAME, and @BODY if there is one */
     size_t name = (size_t)((at ? at : equals) - text);
     size_t body = at ? (size_t)(equals - at - 1) : 0;
     if (name >= sizeof input->name || body >= sizeof input->body)
@@ -202,12 +207,14 @@ static bool read_lines(struct table *table, double **values, size_t *count,
         table->line++;
         if (line[0] == '#' || !line[strspn(line, " \t\r\n")])
             continue;
+        /* a first line may name the columns */
         if (first && table->named)
             table->place = find_column(line, table->column);
         if (table->place == SIZE_MAX)
             return refuse(fault, "%s: no column '%s' in line %u", table->file, table->column,
                           table->line);
         const char *field = field_of(line, table->place);
+        /* and is skipped if it is no number */
         bool number = field && as_number(field, &value);
         if (!number && !first)
             return refuse(fault, "%s: line %u: '%s' is not a number", table->file, table->line,

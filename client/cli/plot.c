@@ -47,6 +47,7 @@ int plot_begin(struct plot *plot, const char *file, unsigned width, unsigned hei
         complain("--plot: a temporary file: %s", strerror(errno));
         return EXIT_FAILURE;
     }
+    /* PNG or SVG by the file's name */
     if (ends_in(file, ".png"))
         fprintf(plot->script, "set terminal pngcairo noenhanced size %u,%u font 'sans,12'\n", width,
                 height);
@@ -55,6 +56,7 @@ int plot_begin(struct plot *plot, const char *file, unsigned width, unsigned hei
                 "set terminal svg noenhanced size %u,%u dynamic font 'sans,12' "
                 "background 'white'\n",
                 width, height);
+    /* what all pictures have in common: grid, axes, colours */
     fputs("set encoding utf8\nset datafile missing 'nan'\nset grid lt 1 lw 0.5 lc rgb "
           "'#d0d0d0'\nset border 3\n"
           "set tics nomirror out\nset key top right\n"
@@ -102,12 +104,14 @@ static char *draw(struct plot *plot, size_t *size)
         complain("--plot: %s: gnuplot could not be started: %s", plot->file, strerror(errno));
         return NULL;
     }
+    /* gnuplot in a process of its own, whose picture comes through a pipe */
     pid_t child = fork();
     if (child == 0)
         become_gnuplot(plot->script, pipe_ends[1]);
     close(pipe_ends[1]);
     char *picture = child > 0 ? read_all(pipe_ends[0], size) : NULL;
     close(pipe_ends[0]);
+    /* no picture, and why */
     bool ended = child > 0 && waitpid(child, &status, 0) == child;
     if (!ended)
         complain("--plot: %s: gnuplot could not be started: %s", plot->file, strerror(errno));

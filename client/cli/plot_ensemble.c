@@ -19,6 +19,7 @@ static const char *const colours[COLOURS] = {"#7fa8d8", "#e0a060", "#70b878", "#
 static void write_histogram(const struct plot *plot, const struct ensemble_picture *picture)
 {
     fputs("$histogram << EOD\n", plot->script);
+    /* a density, whose area is 1 */
     double all = 0.0;
     for (size_t i = 0; i < picture->bins; i++)
         all += (double)picture->counts[i];
@@ -27,6 +28,7 @@ static void write_histogram(const struct plot *plot, const struct ensemble_pictu
         fprintf(plot->script, "%.9g %.9g %.9g\n", picture->edges[i] + 0.5 * width,
                 (double)picture->counts[i] / (all * width), width);
     }
+    /* bars, and a line at the mean */
     fputs("EOD\nset xlabel 'restitution e'\nset ylabel 'density'\nset yrange [0:*]\n"
           "set style fill solid 0.6 border\n",
           plot->script);
@@ -60,6 +62,7 @@ static void write_distribution(const struct plot *plot, const struct ensemble_pi
 static void write_bands(const struct plot *plot, const struct ensemble_picture *picture)
 {
     double low = INFINITY, high = -INFINITY;
+    /* the range of speeds */
     for (size_t i = 0; i < picture->sample_count; i++) {
         low = fmin(low, picture->speeds[i]);
         high = fmax(high, picture->speeds[i]);
@@ -67,6 +70,7 @@ static void write_bands(const struct plot *plot, const struct ensemble_picture *
     double width = (high - low) / SPEED_BINS;
     fputs("$bands << EOD\n", plot->script);
     for (int b = 0; b < SPEED_BINS && width > 0.0; b++) {
+        /* what lies within this interval */
         double count = 0.0, sum = 0.0, squares = 0.0;
         for (size_t i = 0; i < picture->sample_count; i++) {
             int at = (int)((picture->speeds[i] - low) / width);
@@ -77,6 +81,7 @@ static void write_bands(const struct plot *plot, const struct ensemble_picture *
             sum += e;
             squares += e * e;
         }
+        /* its middle, mean and deviation */
         if (count > 1.0)
             fprintf(plot->script, "%.9g %.9g %.9g\n", low + (b + 0.5) * width, sum / count,
                     sqrt(fmax(0.0, (squares - sum * sum / count) / (count - 1.0))));
@@ -140,11 +145,13 @@ static void write_samples(const struct plot *plot, const struct ensemble_picture
             "horizontal samplen 1.5 "
             "title '%s'\nplot ",
             picture->sub_impacts ? "sub-impacts" : "");
+    /* the samples, in colours by their number of sub-impacts if that is known */
     if (!picture->sub_impacts)
         fputs("$samples using 1:2 with points pt 7 ps 0.2 lc rgb '#808080' title 'samples', ",
               plot->script);
     for (int k = 1; picture->sub_impacts && k <= COLOURS; k++)
         write_colour(plot, picture, k);
+    /* behind them the intervals, and over them mean and deviation of each band */
     if (picture->interval_count > 0)
         fputs("NaN with boxes fillstyle solid 0.18 noborder lc rgb '#000000' "
               "title 'all ± kσ', ",
@@ -193,12 +200,14 @@ static void write_sensitivities(const struct plot *plot, const struct ensemble_p
 int plot_ensemble(const char *file, const struct ensemble_picture *picture)
 {
     struct plot plot;
+    /* a panel for each of what there is */
     size_t panels = (picture->bins > 0) + (picture->quantile_count > 0) +
                     (picture->sample_count > 0) + (picture->input_count > 0);
     unsigned rows = panels > 3 ? 2 : 1, columns = (unsigned)(panels + rows - 1) / rows;
     int code = plot_begin(&plot, file, columns > 2 ? 1440 : 600 * columns, 440 * rows);
     if (code != EXIT_ANSWERED)
         return code;
+    /* over all of them */
     char title[256];
     snprintf(title, sizeof title, "%.150s: e = %.4f, standard deviation %.4f", picture->title,
              picture->mean, picture->deviation);

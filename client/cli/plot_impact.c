@@ -61,6 +61,7 @@ int plot_impact(const char *file, const struct percuss_request *request,
     snprintf(title, sizeof title, "%s on %s: e = %.4f, %u sub-impact%s", a, b, contact->restitution,
              contact->sub_impact_count, contact->sub_impact_count == 1 ? "" : "s");
     write_data(&plot, &trace->contacts[c]);
+    /* displacements over velocities, with the force on the right of both */
     fputs("set y2tics\nset y2label 'contact force / N'\nset border 11\nset y2range [0:*]\n"
           "set lmargin 12\nset rmargin 11\n"
           "set multiplot layout 2,1 title ",
@@ -91,6 +92,7 @@ int write_trace_csv(const char *file, const struct percuss_trace *trace)
                     t->time[i], t->force[i], t->indentation[i], t->gap[i], t->gap_rate[i],
                     t->displacement_a[i], t->velocity_a[i], t->displacement_b[i], t->velocity_b[i]);
     }
+    /* a full disk may show only at the end */
     bool written = !ferror(out) && (out == stdout ? fflush(out) : fclose(out)) == 0;
     if (!written)
         complain("--trace: %s: writing failed", file);

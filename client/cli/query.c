@@ -157,12 +157,14 @@ static int ask(const struct query *query, const struct percuss_request *request,
     struct percuss_ensemble_reply spread = {0};
     struct percuss_trace trace = {0};
     double timeout = common_timeout(query->common);
+    /* histories only where something is made of them */
     bool traced = query->trace || query->plot;
     enum percuss_result result =
         traced ? percuss_solve_traced(client, request, timeout, &reply, &trace)
                : percuss_solve(client, request, timeout, &reply);
     if (result != PERCUSS_RESULT_OK)
         return complain_result(result);
+    /* what the spread of the speed does to the answer */
     bool spreads = query->speed_sigma > 0.0 && reply.contact_count > 0;
     if (spreads)
         result = spread_ask(client, request, query->speed, query->speed_sigma, timeout, &spread);
@@ -171,6 +173,7 @@ static int ask(const struct query *query, const struct percuss_request *request,
         explain_unknown(query, request, client);
     int code =
         result == PERCUSS_RESULT_OK ? status_exit_code(reply.status) : complain_result(result);
+    /* files of the histories */
     int written = EXIT_ANSWERED;
     if (query->trace && trace.contact_count > 0)
         written = write_trace_csv(query->trace, &trace);
@@ -192,6 +195,7 @@ static int ask_scene(const struct query *query)
     int code = open_client(query->common, NULL, &client);
     if (code != EXIT_ANSWERED)
         return code;
+    /* bodies of the catalogue, placed in contact */
     code = scene_find_bodies(&query->scene, query->common, client, &bodies);
     if (code == EXIT_ANSWERED)
         code = scene_request(&query->scene, &bodies, query->speed, &request);

@@ -35,6 +35,7 @@ enum { LONG_LIST = 40 };
 
 static void print_sub_impacts(const struct percuss_contact_result *contact)
 {
+    /* a long list goes without its negligible ones */
     unsigned hidden = contact->sub_impacts_listed > LONG_LIST
                           ? contact->sub_impacts_listed - reply_significant(contact)
                           : 0;
@@ -50,6 +51,7 @@ static void print_sub_impacts(const struct percuss_contact_result *contact)
                1e6 * (sub->end - sub->start), sub->impulse, 100.0 * sub->impulse / contact->impulse,
                sub->peak_force, 1e6 * sub->max_indentation, sub->negligible ? "  negligible" : "");
     }
+    /* what is not shown */
     if (hidden)
         printf("  ... and %u negligible ones (--json lists them)\n", hidden);
     if (contact->sub_impacts_listed < contact->sub_impact_count)

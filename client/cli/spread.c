@@ -20,6 +20,7 @@ enum percuss_result spread_ask(struct percuss_client *client, const struct percu
     *reply = (struct percuss_ensemble_reply){0};
     if (!ensemble)
         return PERCUSS_RESULT_NO_MEMORY;
+    /* the same scene at speeds that are distributed normally */
     percuss_ensemble_request_init(ensemble);
     ensemble->scene = *request;
     ensemble->samples = SAMPLES;

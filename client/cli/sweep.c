@@ -288,12 +288,14 @@ static int run_sweep(const struct sweep *sweep, struct percuss_client *client)
     struct run *runs = calloc(MOST_CURVES, sizeof *runs);
     if (!runs)
         return EXIT_FAILURE;
+    /* a curve for each body and contact model */
     size_t count = list_runs(sweep, client, runs);
     int code = EXIT_ANSWERED;
     for (size_t k = 0; code == EXIT_ANSWERED && k < count; k++)
         code = run_curve(&runs[k]);
     if (code == EXIT_ANSWERED) {
         code = print(sweep, runs, count);
+        /* the worst of all curves decides about the exit code */
         for (size_t k = 0; k < count; k++) {
             int judged = judge(&runs[k]);
             code = judged > code ? judged : code;

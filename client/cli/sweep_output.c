@@ -165,6 +165,7 @@ int sweep_plot(const char *file, const struct sweep_points *points)
              points->curve_count == 1 ? "" : " and others");
     fputs("set multiplot title ", plot.script);
     plot_text(&plot, title);
+    /* above, restitution with its error */
     fputs("\nset lmargin 10\nset key top right\nset bars 0.5\n"
           "set origin 0,0.32\nset size 1,0.64\nset ylabel 'restitution e'\nplot ",
           plot.script);
@@ -175,6 +176,7 @@ int sweep_plot(const char *file, const struct sweep_points *points)
                 k ? ", " : "", k, k + 1, k, k + 1);
         write_title(&plot, points, k);
     }
+    /* below, numbers of sub-impacts */
     fputs("\nset origin 0,0\nset size 1,0.33\nset key top left\nset ylabel 'sub-impacts'\n"
           "set xlabel 'speed / (m/s)'\nset yrange [0:*]\nset offsets 0,0,0.5,0\nset ytics 1\nplot ",
           plot.script);

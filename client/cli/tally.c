@@ -46,6 +46,7 @@ static bool add(struct tally *tally, const char *text, const char *place)
 {
     char kind[TEXT];
     size_t i = 0;
+    /* warnings that differ in their numbers alone are of one kind */
     find_kind(text, kind);
     while (i < tally->count && strcmp(tally->entries[i].kind, kind) != 0)
         i++;
@@ -57,6 +58,7 @@ static bool add(struct tally *tally, const char *text, const char *place)
         tally->entries = entries;
         tally->room = room;
     }
+    /* of a kind the first one is kept */
     struct tally_entry *entry = &tally->entries[i];
     if (i == tally->count) {
         *entry = (struct tally_entry){0};
@@ -65,6 +67,7 @@ static bool add(struct tally *tally, const char *text, const char *place)
         snprintf(entry->place, sizeof entry->place, "%s", place);
         tally->count++;
     }
+    /* counted once for each reply */
     entry->count += entry->last != tally->asked;
     entry->last = tally->asked;
     return true;

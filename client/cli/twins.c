@@ -57,11 +57,13 @@ static struct twin twin_of(const struct percuss_reply *reply, double speed)
     twin.a_is_rigid = reply->model.body_count > 0 && reply->model.bodies[0].rigid;
     if (reply->contact_count == 0)
         return twin;
+    /* the impact as a whole */
     const struct percuss_contact_result *contact = &reply->contacts[0];
     twin.inverse_mass = contact->inverse_effective_mass;
     twin.impact.restitution = contact->restitution;
     twin.impact.impulse = contact->impulse;
     twin.impact.sub_impacts = contact->sub_impact_count;
+    /* its first sub-impact, and when the next one begins that an instrument would see */
     const struct percuss_sub_impact *list = contact->sub_impacts;
     if (contact->sub_impacts_listed == 0)
         return twin;
@@ -123,6 +125,7 @@ int twins_ask(struct twins *twins, const struct measured_set *set,
     int code = requests ? EXIT_ANSWERED : EXIT_FAILURE;
     tally_clear(&twins->warnings);
     for (size_t first = 0; code == EXIT_ANSWERED && first < set->count; first += PORTION) {
+        /* as many as one batch holds */
         size_t count = set->count - first < PORTION ? set->count - first : PORTION;
         for (size_t i = 0; code == EXIT_ANSWERED && i < count; i++) {
             struct measured_impact impact = set->impacts[first + i];
@@ -131,6 +134,7 @@ int twins_ask(struct twins *twins, const struct measured_set *set,
         }
         if (code == EXIT_ANSWERED)
             code = solve(twins, requests, count, replies);
+        /* in order; what has come is freed after a failure, too */
         for (size_t i = 0; i < count; i++) {
             if (code == EXIT_ANSWERED)
                 code = judge(twins, &requests[i], &replies[i]);

@@ -36,18 +36,22 @@ static enum percuss_result convert_part(const percuss_v1_BatchReply *wire, struc
 enum percuss_result batch_add_part(struct batch *batch, const percuss_v1_BatchReply *wire)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
+    /* no such part */
     if (wire->part >= wire->parts || wire->parts > PERCUSS_MAX_BATCH)
         return PERCUSS_RESULT_PENDING;
+    /* whichever comes first says how many there are */
     if (batch->parts == 0)
         result = start(batch, wire);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* one that is there already, or of another answer than the first */
     if (wire->parts != batch->parts || batch->part[wire->part].arrived ||
         memcmp(batch->server, wire->server, sizeof batch->server) != 0)
         return PERCUSS_RESULT_PENDING;
     result = convert_part(wire, &batch->part[wire->part]);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* the first part's status stands unless another one failed */
     if (wire->status != PERCUSS_OK || batch->missing == batch->parts) {
         batch->status = wire->status;
         memcpy(batch->message, wire->message, sizeof batch->message);

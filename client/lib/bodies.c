@@ -40,6 +40,7 @@ static enum percuss_result look_at_bodies(struct percuss_client *client, dds_ent
     enum percuss_result result = announcements_read(client, reader, &all);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* of all that is announced what is this server's */
     list->count = 0;
     list->bodies = calloc((size_t)all.count + 1, sizeof *list->bodies);
     for (int i = 0; list->bodies && i < all.count; i++) {
@@ -50,6 +51,7 @@ static enum percuss_result look_at_bodies(struct percuss_client *client, dds_ent
     announcements_release(&all);
     if (!list->bodies)
         return error_set(PERCUSS_RESULT_NO_MEMORY, "a list of bodies");
+    /* more are on their way */
     if (list->count < server->bodies) {
         percuss_body_list_free(list);
         return PERCUSS_RESULT_PENDING;
@@ -73,6 +75,7 @@ enum percuss_result percuss_bodies(struct percuss_client *client, double timeout
         result = announcements_connected(client, timeout, &server);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* complete when as many are there as the server says it has */
     while ((result = look_at_bodies(client, client->body_reader, &server, list)) ==
            PERCUSS_RESULT_PENDING) {
         if (receive_now() >= deadline)

@@ -35,6 +35,7 @@ struct percuss_client_config percuss_client_config_default(void)
 
 static enum percuss_result check_config(const struct percuss_client_config *config)
 {
+    /* by default it is from the environment, where anything may stand */
     const char *domain = getenv("PERCUSS_DOMAIN");
     if (config->domain == NOT_A_DOMAIN && domain)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
@@ -43,11 +44,13 @@ static enum percuss_result check_config(const struct percuss_client_config *conf
     if (config->domain > HIGHEST_DOMAIN)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "domain: %u: 0..%d is allowed",
                          config->domain, HIGHEST_DOMAIN);
+    /* how many questions may be outstanding, and the number of the first */
     if (config->window < 1 || config->window > WIRE_WINDOW)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "window: %u: 1..%d is allowed",
                          config->window, WIRE_WINDOW);
     if (config->first_sequence == 0)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "first_sequence: 0 means a ping");
+    /* the beginning of a server's id */
     size_t length = strnlen(config->server, sizeof config->server);
     if (length == sizeof config->server || strspn(config->server, "0123456789abcdef") < length)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
@@ -164,6 +167,7 @@ static enum percuss_result create_entities(struct percuss_client *client)
         client->reply_reader, DDS_DATA_AVAILABLE_STATUS | DDS_SUBSCRIPTION_MATCHED_STATUS);
     if (code < 0)
         return error_dds("status of the reader of " WIRE_TOPIC_REPLY, code);
+    /* where requests go out, and whom they do not suit */
     client->request_writer =
         client_writer_create(client, &percuss_v1_Request_desc, WIRE_TOPIC_REQUEST);
     if (client->request_writer < 0)
@@ -199,6 +203,7 @@ enum percuss_result percuss_client_create(const struct percuss_client_config *co
     created->pending.window = chosen.window;
     memcpy(created->wanted, chosen.server, sizeof created->wanted);
 
+    /* who it is, and its endpoints */
     result = choose_id(chosen.id, created->id);
     if (result == PERCUSS_RESULT_OK)
         result = create_entities(created);

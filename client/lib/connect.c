@@ -34,10 +34,12 @@ enum percuss_result connect_match(struct percuss_client *client, dds_entity_t wr
     const double start = receive_now();
     dds_guid_t participant;
     char name[sizeof client->server_name];
+    /* the server that is ours now */
     pthread_mutex_lock(&client->lock);
     dds_instance_handle_t replies = client->server.writer;
     memcpy(name, client->server_name, sizeof name);
     pthread_mutex_unlock(&client->lock);
+    /* while it is there: both endpoints are to find its process */
     while (matched_participant(dds_get_matched_publication_data, client->reply_reader, replies,
                                &participant)) {
         if (matched_both(writer, reader, &participant))
@@ -108,6 +110,7 @@ static enum percuss_result explain(const struct search *search)
     const struct percuss_server_list *announced = &search->announced;
     char others[200] = "", name[SERVERS_NAME_SIZE];
     size_t length = 0;
+    /* the wanted one may be there and not answer; others are worth naming */
     for (size_t i = 0; i < announced->count; i++) {
         const struct percuss_server *server = &announced->servers[i];
         servers_describe(server->server, server, name);
@@ -117,9 +120,11 @@ static enum percuss_result explain(const struct search *search)
             length += (size_t)snprintf(others + length, sizeof others - length, "%s%s",
                                        i ? ", " : "; there is ", name);
     }
+    /* somebody may be there whose qualities of service rule us out */
     enum percuss_result result = check_compatible(client);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* nobody, as far as can be seen */
     if (client->wanted[0])
         return error_set(PERCUSS_RESULT_NO_SERVER,
                          "no percussd in DDS domain %u has an id that begins with %s%s",
@@ -192,14 +197,17 @@ static enum percuss_result choose(struct search *search)
     struct percuss_client *client = search->client;
     const struct client_server *server;
     const double now = receive_now();
+    /* no answer so far: patience before anybody is called incompatible */
     if (search->count == 0)
         return now - search->start < GRACE ? PERCUSS_RESULT_PENDING
                : check_compatible(client)  ? PERCUSS_RESULT_INCOMPATIBLE
                                            : PERCUSS_RESULT_PENDING;
+    /* others that answer within a moment have a chance as well */
     search->heard = fmin(search->heard, now);
     double settled = search->heard + (may_be_more(search) ? SERVERS_SETTLING : DISCOVERY_SPREAD);
     if (now < fmin(settled, search->deadline))
         return PERCUSS_RESULT_PENDING;
+    /* the best of them, or the one that is wanted */
     if (!client->wanted[0]) {
         settle_on(search, find_first(search));
         return PERCUSS_RESULT_OK;
@@ -250,10 +258,12 @@ enum percuss_result percuss_client_connect(struct percuss_client *client, double
         result = servers_open(client);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* answers from before do not count */
     pthread_mutex_lock(&client->lock);
     client->connected = false;
     client->answering_count = 0;
     pthread_mutex_unlock(&client->lock);
+    /* asks and looks around until one can be chosen; the last round begins after the deadline */
     do {
         percuss_server_list_free(&search.announced);
         bool late = receive_now() >= search.deadline;

@@ -40,12 +40,14 @@ enum percuss_result exchange_await(struct percuss_client *client, const struct p
 static enum percuss_result enter(struct percuss_client *client, uint64_t sequence, bool waited,
                                  struct pending **pending)
 {
+    /* repeated: outstanding already, for one thread to wait for */
     *pending = sequence ? pending_find(&client->pending, sequence) : NULL;
     if (*pending && ((*pending)->waited || (*pending)->batch || (*pending)->ensemble))
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "sequence: %llu: another thread waits for it",
                          (unsigned long long)sequence);
     enum percuss_result result = PERCUSS_RESULT_OK;
+    /* new: with a number of ours, or the program's, beyond which ours go on */
     if (!*pending) {
         if (sequence == 0)
             sequence = client_draw_sequences(client, 1);
@@ -72,11 +74,14 @@ static enum percuss_result send_request(struct percuss_client *client,
         result = enter(client, request->sequence, waited, pending);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* who asks whom */
     memcpy(wire.client, client->id, sizeof wire.client);
     memcpy(wire.server, client->server.id, sizeof wire.server);
     wire.sequence = (*pending)->sequence;
+    /* with histories if somebody gathers them */
     wire.options.trace = wire.options.trace || gather;
     (*pending)->gather = gather;
+    /* what was not sent is not waited for */
     dds_return_t code = dds_write(client->request_writer, &wire);
     if (code < 0) {
         pending_remove(&client->pending, *pending);
@@ -128,6 +133,7 @@ enum percuss_result exchange_solve(struct percuss_client *client,
                 error_set(result, "the histories of request %llu have not all come from %s",
                           (unsigned long long)pending->sequence, client->server_name);
         }
+        /* handed over, or given up: nothing stays behind */
         if (result == PERCUSS_RESULT_OK)
             result = collect(client, pending, reply);
         else

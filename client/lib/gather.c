@@ -53,12 +53,14 @@ void gather_add(struct gather *gather, const percuss_v1_Trace *wire)
     const dds_sequence_double *lists[COLUMNS];
     uint32_t c = wire->contact;
     list_columns(wire, lists);
+    /* the parts of a history come in order: none is skipped */
     if (c >= PERCUSS_MAX_CONTACTS || wire->part != gather->next[c] || wire->part >= wire->parts)
         return;
     if (wire->part == 0 && !make_room(gather, wire))
         return;
     struct percuss_contact_trace *contact = &gather->contacts[c];
     size_t length = wire->time._length;
+    /* no more than the first part has announced */
     if (wire->parts != gather->parts[c] || contact->count + length > gather->room[c])
         return;
     for (size_t i = 0; i < COLUMNS; i++) {

@@ -125,6 +125,7 @@ enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
                                          struct percuss_request *request)
 {
     struct site site_a, site_b;
+    /* where each of them is hit, in its own axes */
     enum percuss_result result = check_pair(pair);
     if (result == PERCUSS_RESULT_OK)
         result = find_site(pair->a, pair->at_a, &site_a);
@@ -142,6 +143,7 @@ enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
     memcpy(contact->point, site_b.point, sizeof contact->point);
     memcpy(contact->normal, site_b.normal, sizeof contact->normal);
 
+    /* A is turned to face B and approaches along the normal */
     double facing[3], arm[3];
     for (int i = 0; i < 3; i++)
         facing[i] = 0.0 - site_b.normal[i]; /* not -0 */

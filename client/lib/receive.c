@@ -260,6 +260,7 @@ static bool has_gone(const struct percuss_client *client, dds_instance_handle_t 
 /* Waits up to `seconds` for anything and files it. The lock is released meanwhile. */
 static enum percuss_result lead(struct percuss_client *client, double seconds)
 {
+    /* what is there now: other threads add readers while the lock is released */
     dds_entity_t batch_reader = client->batch_reader, trace_reader = client->trace_reader;
     dds_entity_t ensemble_reader = client->ensemble_reader;
     dds_instance_handle_t writer = client->server.writer;
@@ -288,6 +289,7 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
     }
 
     pthread_mutex_lock(&client->lock);
+    /* another server may have been chosen meanwhile */
     client->lost = client->lost || (gone && writer == client->server.writer);
     client->leading = false;
     pthread_cond_broadcast(&client->changed);

@@ -96,6 +96,7 @@ enum percuss_result servers_look(struct percuss_client *client, struct percuss_s
     enum percuss_result result = announcements_read(client, client->server_reader, &all);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* all that are announced, in the order in which they are preferred */
     struct sighting *sightings = calloc((size_t)all.count + 1, sizeof *sightings);
     list->servers = calloc((size_t)all.count + 1, sizeof *list->servers);
     if (sightings && list->servers) {
@@ -104,6 +105,7 @@ enum percuss_result servers_look(struct percuss_client *client, struct percuss_s
             list->servers[i] = sightings[i].server;
     }
     announcements_release(&all);
+    /* out of memory is said, and nothing kept */
     bool good = sightings && list->servers;
     free(sightings);
     if (good) {
@@ -144,11 +146,13 @@ enum percuss_result percuss_servers(struct percuss_client *client, double timeou
     enum percuss_result result = receive_deadline(timeout, &deadline);
     if (result == PERCUSS_RESULT_OK)
         result = servers_open(client);
+    /* our own server must be among them, if there is one; else any will do */
     const bool connected = announcements_server(client, server);
     while (result == PERCUSS_RESULT_OK) {
         result = servers_look(client, list);
         bool found = connected ? servers_find(list, server) != NULL : list->count > 0;
         double now = receive_now();
+        /* complete when everyone who reads requests has said who he is, or has had time to */
         bool all = list->count >= servers_reading(client) || now >= fmin(settled, deadline);
         if (result != PERCUSS_RESULT_OK || (found && all))
             return result;

@@ -34,12 +34,14 @@ static enum percuss_result ask(void *context, const struct percuss_request *ques
     if (receive_deadline(link->timeout, &deadline))
         return PERCUSS_RESULT_INVALID_ARGUMENT;
     for (;;) {
+        /* to whoever is there now */
         result = link->connected ? PERCUSS_RESULT_OK
                                  : percuss_client_connect(link->client, link->reconnect);
         link->connected = result == PERCUSS_RESULT_OK;
         if (!link->connected)
             return result;
         result = exchange(link->client, &request, deadline, reply);
+        /* once more while there is time, if it is busy or has gone */
         bool busy = result == PERCUSS_RESULT_OK && reply->status == PERCUSS_BUSY;
         link->connected = result == PERCUSS_RESULT_OK;
         if (receive_now() >= deadline || (!busy && result != PERCUSS_RESULT_NO_SERVER))

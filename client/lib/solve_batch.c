@@ -64,10 +64,12 @@ static enum percuss_result convert_batch(const struct percuss_request *requests,
 static enum percuss_result send_batch(struct percuss_client *client, struct batch_sample *sample,
                                       size_t count, struct pending **pending)
 {
+    /* one number for the batch and one for each question */
     uint64_t sequence = client_draw_sequences(client, count + 1);
     enum percuss_result result = pending_add(&client->pending, sequence, pending);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* who asks whom */
     percuss_v1_BatchRequest wire = {.sequence = sequence};
     memcpy(wire.client, client->id, sizeof wire.client);
     memcpy(wire.server, client->server.id, sizeof wire.server);
@@ -75,6 +77,7 @@ static enum percuss_result send_batch(struct percuss_client *client, struct batc
         memcpy(sample->requests[i].client, client->id, sizeof client->id);
         sample->requests[i].sequence = sequence + 1 + i;
     }
+    /* sent, or not waited for */
     wire.requests._buffer = sample->requests;
     wire.requests._length = wire.requests._maximum = (uint32_t)count;
     dds_return_t code = dds_write(client->batch_writer, &wire);
@@ -119,10 +122,12 @@ enum percuss_result percuss_solve_batch(struct percuss_client *client,
         result = connect_batch(client, deadline);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* the questions as one sample of DDS, which is too large for a stack */
     struct batch_sample *sample = malloc(sizeof *sample);
     if (!sample)
         return error_set(PERCUSS_RESULT_NO_MEMORY, "a batch of %zu requests", count);
 
+    /* sent once; the answer comes in parts */
     result = convert_batch(requests, count, sample);
     if (result == PERCUSS_RESULT_OK)
         result = exchange_batch(client, sample, count, deadline, &batch);

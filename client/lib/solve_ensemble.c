@@ -29,6 +29,7 @@ static enum percuss_result open_endpoints(struct percuss_client *client)
 {
     if (client->ensemble_reader)
         return PERCUSS_RESULT_OK;
+    /* the reply's reader last: that it is there says that all are */
     const struct {
         dds_entity_t *entity;
         const dds_topic_descriptor_t *type;
@@ -41,6 +42,7 @@ static enum percuss_result open_endpoints(struct percuss_client *client)
     if (!client->ensemble_writer)
         client->ensemble_writer = client_writer_create(client, &percuss_v1_EnsembleRequest_desc,
                                                        WIRE_TOPIC_ENSEMBLE_REQUEST);
+    /* what cannot be made now is tried again at the next ensemble */
     if (client->ensemble_writer < 0) {
         dds_entity_t code = client->ensemble_writer;
         client->ensemble_writer = 0;
@@ -78,6 +80,7 @@ static enum percuss_result send(struct percuss_client *client, percuss_v1_Ensemb
                                 struct pending **pending)
 {
     uint64_t sequence = wire->sequence;
+    /* a number of ours, or the program's unless it is outstanding */
     if (sequence == 0)
         sequence = client_draw_sequences(client, 1);
     else if (pending_find(&client->pending, sequence))
@@ -88,9 +91,11 @@ static enum percuss_result send(struct percuss_client *client, percuss_v1_Ensemb
     enum percuss_result result = pending_add(&client->pending, sequence, pending);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* who asks whom */
     memcpy(wire->client, client->id, sizeof wire->client);
     memcpy(wire->server, client->server.id, sizeof wire->server);
     wire->sequence = sequence;
+    /* sent, or not waited for */
     dds_return_t code = dds_write(client->ensemble_writer, wire);
     if (code >= 0)
         return PERCUSS_RESULT_OK;
@@ -131,6 +136,7 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
     bool cancelled = false;
     unsigned told = 0;
     while (!pending->ready) {
+        /* any sign of life begins the timeout again */
         struct news news = {pending, pending->ensemble->heard};
         double deadline = receive_now() + timeout;
         enum percuss_result result = receive_until(client, is_news, &news, deadline);
@@ -139,6 +145,7 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
                              (unsigned long long)pending->sequence, timeout);
         if (result != PERCUSS_RESULT_OK)
             return result;
+        /* only what is new is told, without the lock */
         if (!watcher->function || pending->ensemble->told == told)
             continue;
         told = pending->ensemble->told;
@@ -146,6 +153,7 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
         pthread_mutex_unlock(&client->lock);
         bool go_on = watcher->function(watcher->context, &progress);
         pthread_mutex_lock(&client->lock);
+        /* cancelled: the reply still comes, of what is solved by then */
         if (!go_on && !cancelled)
             send_cancel(client, pending->sequence);
         cancelled = cancelled || !go_on;
@@ -180,6 +188,7 @@ static enum percuss_result exchange_ensemble(struct percuss_client *client,
         pending->waited = true;
         pending->ensemble = exchange;
         result = await(client, pending, timeout, watcher);
+        /* samples have a topic of their own, and the last ones may be later than the reply */
         if (result == PERCUSS_RESULT_OK && wire->list_samples && exchange->reply.samples > 0)
             receive_until(client, samples_are_there, exchange, receive_now() + STRAGGLER_SECONDS);
         if (result == PERCUSS_RESULT_NO_MEMORY)
@@ -201,6 +210,7 @@ enum percuss_result percuss_solve_ensemble(struct percuss_client *client,
     struct ensemble_exchange exchange = {0};
     *reply = (struct percuss_ensemble_reply){0};
     enum percuss_result result = receive_deadline(timeout, &deadline);
+    /* the request as a sample of DDS */
     struct ensemble_storage *storage = malloc(sizeof *storage);
     if (result == PERCUSS_RESULT_OK && !storage)
         result = error_set(PERCUSS_RESULT_NO_MEMORY, "an ensemble");
@@ -208,10 +218,12 @@ enum percuss_result percuss_solve_ensemble(struct percuss_client *client,
         result = convert_ensemble_request(request, storage, &wire);
     if (result == PERCUSS_RESULT_OK)
         result = connect_ensemble(client, deadline);
+    /* asked, with all that arrives gathered in the exchange */
     if (result == PERCUSS_RESULT_OK) {
         wire.sequence = request->sequence;
         result = exchange_ensemble(client, &wire, timeout, &watcher, &exchange);
     }
+    /* to the caller, or to nobody */
     if (result == PERCUSS_RESULT_OK) {
         hand_over_samples(&exchange);
         *reply = exchange.reply;

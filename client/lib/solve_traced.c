@@ -44,12 +44,14 @@ enum percuss_result percuss_solve_traced(struct percuss_client *client,
         result = connect_traces(client, deadline);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* histories come in parts beside the reply */
     struct gather *gather = calloc(1, sizeof *gather);
     if (!gather)
         return error_set(PERCUSS_RESULT_NO_MEMORY, "a trace");
     result = exchange_solve(client, request, deadline, gather, reply);
     if (result == PERCUSS_RESULT_OK)
         result = gather_collect(gather, reply->contact_count, trace);
+    /* both or none */
     if (result != PERCUSS_RESULT_OK)
         percuss_reply_free(reply);
     gather_clear(gather);

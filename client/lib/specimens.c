@@ -136,6 +136,7 @@ enum percuss_result percuss_clear_specimen(struct percuss_client *client, const 
     enum percuss_result result = receive_deadline(timeout, &deadline);
     if (result == PERCUSS_RESULT_OK)
         result = find(client, name, timeout, &found);
+    /* only what is kept can be cleared */
     if (result == PERCUSS_RESULT_OK && !found)
         result = error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                            "specimen: %.63s: the server keeps none of that name", name);
@@ -143,11 +144,13 @@ enum percuss_result percuss_clear_specimen(struct percuss_client *client, const 
         result = open_writer(client, deadline);
     if (result != PERCUSS_RESULT_OK)
         return result;
+    /* told to the server that we stay with */
     announcements_server(client, wire.server);
     memcpy(wire.specimen, name, strlen(name) + 1); /* it fits: it was found */
     dds_return_t code = dds_write(client->dents_writer, &wire);
     if (code < 0)
         return error_dds("writing to " WIRE_TOPIC_DENTS, code);
+    /* done when it is not announced any more */
     while ((result = find(client, name, timeout, &found)) == PERCUSS_RESULT_OK && found) {
         if (receive_now() >= deadline)
             return error_set(PERCUSS_RESULT_TIMEOUT, "the server has not cleared %s", name);

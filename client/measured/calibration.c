@@ -184,9 +184,11 @@ static bool solve_rounds(struct round *round, double *room, struct calibration *
     for (int k = 0; k < MOST_ROUNDS && !settled; k++) {
         double before[FIT_PARAMETERS];
         memcpy(before, calibration->fit.x, sizeof before);
+        /* the model here, and where it is smooth */
         if (!problem->simulate(problem->context, calibration->fit.x, 1.0, round->twins) ||
             !find_smooth(round, calibration->fit.x))
             return false;
+        /* fitted to the readings that are smooth and not off */
         choose(round, allowed, calibration);
         find_groups(round);
         struct fit_problem fit = {problem->parameters, round->count,  evaluate,          round,
@@ -199,6 +201,7 @@ static bool solve_rounds(struct round *round, double *room, struct calibration *
                 round->noise[q] = calibration->noise[q] = scatter(round, q, room);
             allowed[q] = OUTLIER * round->noise[q];
         }
+        /* until no parameter moves by what would matter */
         settled = k + 1 >= LEAST_ROUNDS;
         for (size_t i = 0; i < problem->parameters; i++)
             settled = settled && fabs(calibration->fit.x[i] - before[i]) <=

@@ -148,6 +148,7 @@ static bool find_grouped_intervals(const struct fit_problem *problem, struct mem
             for (size_t r = 0; r < m; r++)
                 a[i][j] += memory->jacobian[map[i] * m + r] * memory->jacobian[map[j] * m + r];
     invert(a, count);
+    /* the sandwich, widened for few groups */
     double scale = (double)problem->groups / fit->freedom;
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < count; j++)
@@ -182,6 +183,7 @@ bool fit_solve(const struct fit_problem *problem, struct fit *fit)
               CLOSE_ENOUGH, 0.0, MOST_EVALUATIONS, problem->difference * problem->difference, scale,
               2, 1.0, 0, &evaluations, memory.jacobian, (int)m, memory.pivot, memory.qtf,
               memory.work[0], memory.work[1], memory.work[2], memory.work_long);
+    /* what is left, and what it says of the parameters */
     if (info > 0) {
         fit->evaluations = (unsigned)evaluations;
         fit->freedom = (double)(m - n);

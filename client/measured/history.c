@@ -61,12 +61,14 @@ static double *read_body(const struct table *table, char which, struct history *
 {
     char velocity[] = "velocity_?", displacement[] = "displacement_?";
     velocity[sizeof velocity - 2] = displacement[sizeof displacement - 2] = which;
+    /* its velocity, or else its displacement */
     int column = table_column(table, velocity);
     bool derived = column < 0;
     if (derived)
         column = table_column(table, displacement);
     *there = column >= 0;
     double *values = *there ? read_column(table, column, fault) : NULL;
+    /* differentiated in place */
     if (values && derived) {
         history->from_displacement = true;
         if (!differentiate(history->time, values, history->count)) {
@@ -104,12 +106,14 @@ bool history_read(const char *file, struct history *history, struct measured_fau
     if (!table_read(file, &table, fault))
         return false;
     bool good = read_time(&table, history, fault);
+    /* A's motion is needed */
     if (good) {
         history->velocity_a = read_body(&table, 'a', history, &there, fault);
         good = history->velocity_a != NULL;
         if (!there)
             measured_fail(fault, "%s: column 'velocity_a' or 'displacement_a': missing", file);
     }
+    /* B's only where it moves */
     if (good) {
         history->velocity_b = read_body(&table, 'b', history, &there, fault);
         good = history->velocity_b || !there;
@@ -208,6 +212,7 @@ static size_t find_ranges(const struct search *search, struct range *ranges, siz
 static size_t keep_significant(const struct search *search, struct range *ranges, size_t count)
 {
     for (size_t k = 0; k < count;) {
+        /* from flight to flight, which must be long enough to have a mean */
         size_t before = k ? ranges[k - 1].end : 0;
         size_t after = k + 1 < count ? ranges[k + 1].first : search->count;
         double n1 = (double)(ranges[k].first - before), n2 = (double)(after - ranges[k].end);
@@ -215,6 +220,7 @@ static size_t keep_significant(const struct search *search, struct range *ranges
         double jump = flights ? mean_between(search, ranges[k].end, after) -
                                     mean_between(search, before, ranges[k].first)
                               : INFINITY;
+        /* deviation of a difference of two means */
         double allowed = SIGNIFICANT * search->noise * sqrt(1.0 / n1 + 1.0 / n2);
         if (fabs(jump) > fmax(allowed, LEAST_SHARE * largest_step(search, search->window))) {
             ++k;
@@ -240,6 +246,7 @@ static double crossing(const struct search *search, struct range range, double l
         if ((mean_between(search, i - m, i + m + 1) - low) / (high - low) >= 0.5)
             break;
     previous = (mean_between(search, i - m, i + m + 1) - low) / (high - low);
+    /* outwards from there, between two readings in proportion */
     while (i > m + 1 && i + m + 2 < search->count) {
         size_t next = way < 0 ? i - 1 : i + 1;
         double share = (mean_between(search, next - m, next + m + 1) - low) / (high - low);
@@ -290,6 +297,7 @@ static bool measure(const struct search *search, const struct range *ranges, siz
     double sign = total < 0.0 ? -1.0 : 1.0;
     for (size_t k = 0; k < count; ++k)
         impacts->list[k].jump *= sign;
+    /* the approach, relative to B */
     if (search->history->velocity_b)
         before -= sample_mean(search->history->velocity_b, ranges[0].first);
     impacts->before = sign * before;
@@ -308,10 +316,12 @@ static bool find(struct search *search, struct history_impacts *impacts,
     if (!find_noise(search))
         return measured_fail(fault, "out of memory");
     choose_window(search);
+    /* where the velocity changes, if what comes before is a flight */
     size_t count = find_ranges(search, ranges, HISTORY_SUB_IMPACTS);
     if (count > 0 && ranges[0].first < search->window + LEAST_FLIGHT)
         return measured_fail(fault, "time: begins %zu readings before the impact: more are needed",
                              ranges[0].first);
+    /* of these, jumps */
     count = keep_significant(search, ranges, count);
     if (count == 0)
         return measured_fail(fault,

@@ -86,6 +86,7 @@ static bool add_history(const struct table *table, const char *name, struct meas
     char path[1024];
     struct history history;
     struct history_impacts found;
+    /* beside the file that names it */
     if (!path_beside(table->file, name, path, sizeof path))
         return measured_fail(fault, "%s: history '%s': the path is too long", table->file, name);
     if (!history_read(path, &history, fault))
@@ -117,10 +118,12 @@ static bool read_row(const struct table *table, size_t row, struct measured_impa
             return measured_fail(fault, "%s:%zu: %s: %g: must be %s", table->file,
                                  table->lines[row], columns[i].name, *value, columns[i].allowed);
     }
+    /* what its history adds */
     int history = table_column(table, "history");
     bool has_history = history >= 0 && *table_cell(table, row, history);
     if (has_history && !add_history(table, table_cell(table, row, history), impact, fault))
         return false;
+    /* the least that an impact must tell */
     if (isnan(impact->speed))
         return measured_fail(fault, "%s:%zu: speed: unknown: must be given, here or by a history",
                              table->file, table->lines[row]);
@@ -138,6 +141,7 @@ bool measured_read(const char *file, struct measured_set *set, struct measured_f
     *set = (struct measured_set){0};
     if (!table_read(file, &table, fault))
         return false;
+    /* an impact a row */
     bool good = check_names(&table, fault);
     for (size_t row = 0; good && row < table.rows; ++row) {
         struct measured_impact impact;

@@ -28,6 +28,7 @@ static char *load(const char *file, struct measured_fault *fault)
     FILE *in = fopen(file, "rb");
     char *text = NULL;
     long size = -1;
+    /* as much as it says that it holds */
     if (in && fseek(in, 0, SEEK_END) == 0)
         size = ftell(in);
     if (size >= 0 && size <= MOST_BYTES && fseek(in, 0, SEEK_SET) == 0)
@@ -113,12 +114,14 @@ bool table_read(const char *file, struct table *table, struct measured_fault *fa
     *table = (struct table){.file = file, .text = load(file, fault)};
     if (!table->text)
         return false;
+    /* names stand in the first line with something in it */
     size_t number = 0, lines = count_char(table->text, '\n') + 1;
     char *rest = table->text, *head = next_line(&rest, &number);
     if (!head) {
         table_free(table);
         return measured_fail(fault, "%s: empty: a line of column names is needed", file);
     }
+    /* room for as many rows as there are lines */
     table->columns = count_char(head, ',') + 1;
     table->names = calloc(table->columns, sizeof *table->names);
     table->cells = calloc(lines * table->columns, sizeof *table->cells);

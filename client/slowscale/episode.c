@@ -41,6 +41,7 @@ void episodes_free(struct percuss_slow *slow)
 static struct episode *episode_create(const struct group *group)
 {
     size_t n = group->count;
+    /* an entry for each sub-impact, and one for what a contact's list leaves out */
     size_t most = n;
     for (size_t i = 0; group->reply && i < n; i++)
         most += group->reply->contacts[i].sub_impacts_listed;
@@ -51,6 +52,7 @@ static struct episode *episode_create(const struct group *group)
         free(delassus);
         return NULL;
     }
+    /* the matrix is its own, as it outlives the group */
     memcpy(delassus, group->delassus, n * n * sizeof *delassus);
     episode->request.delassus = delassus;
     episode->request.contact_count = n;
@@ -91,14 +93,17 @@ enum percuss_result episode_begin(struct percuss_slow *slow, const struct group 
         return slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for an answer");
     const struct percuss_reply *reply = group->reply;
     bool total = slow->config.application == PERCUSS_SLOW_TOTAL;
+    /* what is applied in one go has happened, and cannot be revoked */
     episode->time = group->start;
     episode->window = reply ? reply->window : 0.0;
     episode->revocable = reply && !total;
+    /* the question is kept, for that of the vibration at another time */
     if (reply) {
         const double *own = episode->request.delassus;
         episode->request = *request;
         episode->request.delassus = own;
     }
+    /* impulses at their times, until when the pairs have no other impact */
     list_make(episode, reply, group->impulse, total);
     for (size_t i = 0; i < group->count; i++)
         latch(slow, group, episode, i, group->start);
@@ -195,12 +200,14 @@ static enum percuss_result take_vibration(struct percuss_slow *slow, struct epis
         tokens_restore(slow, episode->contacts, &episode->request, episode->time);
         return PERCUSS_RESULT_OK;
     }
+    /* the same question, but for its end */
     struct percuss_request *request = &episode->request;
     double horizon = request->options.horizon;
     request->options.horizon = time;
     slow->counts.preempted++;
     enum percuss_result result = question_put(slow, group, request, &reply);
     request->options.horizon = horizon;
+    /* unknown, the bodies go on without vibration if the user prefers that to a failure */
     if (!result) {
         tokens_keep(slow, episode->contacts, request, &reply, episode->time + time);
     } else if (result == PERCUSS_RESULT_INVALID_ARGUMENT || slow->config.fall_back) {

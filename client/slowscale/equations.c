@@ -58,12 +58,14 @@ bool percuss_slow_poisson(size_t n, const double *W, const double *gap_rate,
         return false;
     double *compression = scratch, *middle = scratch + n;
     double *expansion = scratch + 2 * n, *after = scratch + 3 * n;
+    /* compression stops all approach */
     bool good = percuss_slow_compression(n, W, gap_rate, compression);
     percuss_slow_gap_rate_after(n, W, gap_rate, compression, middle);
     for (size_t i = 0; i < n; i++) { /* complementary: what pressed has stopped */
         middle[i] = compression[i] > 0.0 ? 0.0 : fmax(0.0, middle[i]);
         expansion[i] = restitution[i] * compression[i];
     }
+    /* expansion gives back at least e of it, and lets nothing approach */
     good = good && expand(n, W, middle, expansion, after);
     for (size_t i = 0; good && i < n; i++) {
         outcome->impulse[i] = compression[i] + expansion[i];

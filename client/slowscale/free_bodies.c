@@ -40,6 +40,7 @@ static void unit_response(const struct percuss_body_motion *body,
                           double turning[3])
 {
     double arm[3], moment[3], r[9];
+    /* n / m */
     for (int i = 0; i < 3; i++) {
         arm[i] = contact->point[i] - body->position[i];
         velocity[i] = contact->normal[i] / inertia->mass;
@@ -47,6 +48,7 @@ static void unit_response(const struct percuss_body_motion *body,
     }
     if (isinf(inertia->mass))
         return;
+    /* I^-1 (arm x n), by the principal axes: the columns of r */
     cross(arm, contact->normal, moment);
     rotation(body->orientation, r);
     for (int axis = 0; axis < 3; axis++) {

@@ -33,6 +33,7 @@ enum percuss_result group_probe(const struct percuss_slow *slow, struct group *g
     size_t n = group->count;
     if (n == 0)
         return PERCUSS_RESULT_OK;
+    /* names that the engine need not fill in */
     if (everything)
         for (size_t i = 0; i < slow->config.body_count; i++) {
             struct percuss_body_motion *body = &group->bodies[i];

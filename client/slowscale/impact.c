@@ -67,11 +67,18 @@ static size_t mark_members(const struct percuss_slow *slow, const struct group *
 }
 
 /* Revokes what members are playing, back to an instant at which no sub-impact was under way: that
- * is what is asked about then. Rates are not what they were before. */
+ * is what is asked about then. Rates are not what they were before.
+ *
+ *     list 1   ...[====]....[====]........   [ ] a sub-impact
+ *     list 2   .......[===].....[=====]...   1 now, in one of list 2
+ *                          3   2    1        2 before it, in one of list 1
+ *                                            3 before that, in none: the start
+ */
 static enum percuss_result preempt(struct percuss_slow *slow, struct group *group, double now)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
     group->start = now;
+    /* a pause of one list may be the midst of a sub-impact of another */
     for (bool moved = true; moved;) {
         moved = false;
         for (size_t i = 0; i < group->count; i++) {
@@ -81,6 +88,7 @@ static enum percuss_result preempt(struct percuss_slow *slow, struct group *grou
             group->start = fmin(group->start, start);
         }
     }
+    /* all go back to the same instant */
     for (size_t i = 0; !result && i < group->count; i++) {
         struct episode *episode = episode_of(slow, &group->contacts[i], now);
         if (episode)
@@ -115,6 +123,7 @@ static bool use_declared(const struct percuss_slow *slow, struct group *group)
 
 static enum percuss_result report(const struct percuss_slow *slow, struct group *group)
 {
+    /* the coefficients that the impulses amount to, Eq. (6) */
     if (!percuss_slow_restitution(group->count, group->delassus, group->gap_rate, group->impulse,
                                   group->restitution))
         for (size_t i = 0; i < group->count; i++)
@@ -159,12 +168,14 @@ static enum percuss_result ask(struct percuss_slow *slow, struct group *group,
 {
     if (!slow->config.service.solve)
         return PERCUSS_RESULT_OK;
+    /* one question about all of them */
     enum percuss_result result = PERCUSS_RESULT_INVALID_ARGUMENT;
     if (question_make(slow, group, group->start, request))
         result = question_ask(slow, group, request, &group->answer);
     else
         snprintf(group->why, sizeof group->why, "%zu contacts are more than one question holds",
                  group->count);
+    /* the service's impulses */
     if (!result) {
         group->reply = &group->answer;
         compare_catalogue(slow, group);
@@ -172,6 +183,7 @@ static enum percuss_result ask(struct percuss_slow *slow, struct group *group,
             group->impulse[i] = group->answer.contacts[i].impulse;
         return PERCUSS_RESULT_OK;
     }
+    /* the declared restitution, with the user's leave */
     slow->config.service.release(&group->answer);
     if (!slow->config.fall_back)
         return question_fail(slow, group, result);
@@ -184,9 +196,11 @@ static enum percuss_result begin(struct percuss_slow *slow, struct group *group,
                                  const struct percuss_request *request, double now)
 {
     size_t applied = 0;
+    /* takes the place of what was revoked for it */
     slow->counts.impacts++;
     slow->counts.declared += !group->reply;
     episodes_drop_revoked(slow);
+    /* the bodies ring as the answer says, or nobody knows how */
     if (group->reply) {
         keep_catalogue(slow, group->reply);
         tokens_keep(slow, group->contacts, request, group->reply,
@@ -194,6 +208,7 @@ static enum percuss_result begin(struct percuss_slow *slow, struct group *group,
     } else {
         tokens_forget(slow, group->count, group->contacts);
     }
+    /* plays up to now: the start may lie before */
     enum percuss_result result = episode_begin(slow, group, request);
     if (!result)
         result = report(slow, group);
@@ -249,6 +264,7 @@ static enum percuss_result check_places(const struct percuss_slow *slow, struct 
     for (size_t i = 0; group->reply && !slow->config.move && i < group->count; i++) {
         const struct percuss_contact_result *contact = &group->reply->contacts[i];
         double a = acceleration(slow, &group->contacts[i]);
+        /* all at the start: what the gap's acceleration does meanwhile must not matter */
         if (slow->config.application == PERCUSS_SLOW_TOTAL &&
             fabs(a) * contact->end_time > NEGLIGIBLE * fabs(group->gap_rate[i]))
             return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT,
@@ -257,6 +273,7 @@ static enum percuss_result check_places(const struct percuss_slow *slow, struct 
                              "config.move, or use the list",
                              slow->ids[group->contacts[i].a], slow->ids[group->contacts[i].b], a,
                              contact->end_time);
+        /* of a list, what is due before now comes late */
         for (uint32_t j = 0; j < contact->sub_impacts_listed; j++)
             latest = fmax(latest,
                           now - group->start - percuss_slow_force_centre(&contact->sub_impacts[j]));
@@ -271,10 +288,12 @@ static enum percuss_result prepare(struct percuss_slow *slow, struct group *grou
                                    struct percuss_request *request, double now)
 {
     size_t size = slow->config.body_count * sizeof *slow->tokens;
+    /* vibration as it was, should anything fail */
     struct token *tokens = malloc(size);
     if (!tokens)
         return slow_no_memory();
     memcpy(tokens, slow->tokens, size);
+    /* what is asked is the state of the start, which may lie before now */
     enum percuss_result result = preempt(slow, group, now);
     if (!result)
         result = group_probe(slow, group, true);
@@ -284,6 +303,7 @@ static enum percuss_result prepare(struct percuss_slow *slow, struct group *grou
     }
     if (!result)
         result = check_places(slow, group, now);
+    /* back to where all was */
     if (result) {
         if (group->reply)
             slow->config.service.release(&group->answer);
@@ -298,6 +318,7 @@ static enum percuss_result prepare(struct percuss_slow *slow, struct group *grou
 enum percuss_result impact_solve(struct percuss_slow *slow, const struct group *seen, size_t first,
                                  double now)
 {
+    /* everything near as it is now, bodies and matrix included */
     struct group *all = group_create(slow, seen->count), *group = NULL;
     struct percuss_request *request = malloc(sizeof *request);
     enum percuss_result result = all && request ? PERCUSS_RESULT_OK : slow_no_memory();
@@ -306,6 +327,7 @@ enum percuss_result impact_solve(struct percuss_slow *slow, const struct group *
         result = group_probe(slow, all, true);
     }
     if (!result) {
+        /* of these what belongs together with the first one */
         group = gather(slow, all, first, now);
         result = group ? prepare(slow, group, request, now) : slow_no_memory();
     }

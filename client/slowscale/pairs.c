@@ -45,6 +45,7 @@ bool pairs_take(struct percuss_slow *slow, size_t count,
 {
     for (size_t i = 0; i < slow->pair_count; i++)
         slow->pairs[i].seen = false;
+    /* what the engine reports, known or new */
     for (size_t i = 0; i < count; i++) {
         struct pair *pair = pairs_find(slow, &contacts[i]);
         if (!pair)
@@ -54,6 +55,7 @@ bool pairs_take(struct percuss_slow *slow, size_t count,
         pair->contact = contacts[i];
         pair->seen = true;
     }
+    /* what it does not report any more */
     size_t kept = 0;
     for (size_t i = 0; i < slow->pair_count; i++) {
         if (!slow->pairs[i].seen && slow->pairs[i].latch != LATCH_PLAYING)

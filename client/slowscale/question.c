@@ -23,6 +23,7 @@ static const char *status_name(enum percuss_status status)
 static bool enter_body(const struct percuss_slow *slow, const struct group *group, uint32_t body,
                        double now, struct percuss_request *request, uint32_t *map, uint32_t *index)
 {
+    /* there already with another contact */
     uint32_t i = 0;
     while (i < request->body_count && map[i] != body)
         i++;
@@ -31,6 +32,7 @@ static bool enter_body(const struct percuss_slow *slow, const struct group *grou
         return true;
     if (i >= PERCUSS_MAX_BODIES)
         return false;
+    /* as the engine has it, with the vibration that it was left in */
     const struct token *token = &slow->tokens[body];
     struct percuss_body_motion *motion = &request->bodies[i];
     map[i] = body;
@@ -118,16 +120,19 @@ static enum percuss_result ask_longer(struct percuss_slow *slow, struct group *g
                                       struct percuss_request *request, struct percuss_reply *reply)
 {
     for (int i = 0; i < MOST_LONGER && !reply->complete; i++) {
+        /* ended by nothing but the length of the window */
         bool cut =
             reply->end_reason == PERCUSS_END_HORIZON || reply->end_reason == PERCUSS_END_IN_CONTACT;
         double horizon = fmin(4.0 * reply->window, LONGEST_HORIZON);
         if (!cut || !(horizon > reply->window))
             break;
+        /* the same, longer */
         struct percuss_reply longer;
         double before = request->options.horizon;
         request->options.horizon = horizon;
         slow->counts.repeated++;
         enum percuss_result result = question_put(slow, group, request, &longer);
+        /* refused, or not answered */
         if (result) {
             slow->config.service.release(&longer);
             request->options.horizon = before;
