@@ -6,7 +6,8 @@ import ctypes
 from collections.abc import Sequence
 from types import TracebackType
 
-from . import _abi, reply, request, server
+from . import _abi, request, server
+from ._convert import read
 from .errors import CallError, check
 from .reply import Reply
 from .request import Request
@@ -162,7 +163,7 @@ class Client:
         check(_library.percuss_solve_batch(self._open, asked, count, timeout, answers))
         del kept
         try:
-            return [reply.read(answer) for answer in answers]
+            return [read(answer, Reply) for answer in answers]
         finally:
             for answer in answers:
                 _library.percuss_reply_free(ctypes.byref(answer))
@@ -179,7 +180,7 @@ class Client:
         found = _abi.ServerList()
         check(_library.percuss_servers(self._open, timeout, ctypes.byref(found)))
         try:
-            return [server.read_server(one) for one in found.servers[: found.count]]
+            return [read(one, Server) for one in found.servers[: found.count]]
         finally:
             _library.percuss_server_list_free(ctypes.byref(found))
 
@@ -198,7 +199,7 @@ class Client:
         found = _abi.SpecimenList()
         check(_library.percuss_specimens(self._open, timeout, ctypes.byref(found)))
         try:
-            specimens = [server.read_specimen(one) for one in found.specimens[: found.count]]
+            specimens = [read(one, Specimen) for one in found.specimens[: found.count]]
         finally:
             _library.percuss_specimen_list_free(ctypes.byref(found))
         return {specimen.name: specimen for specimen in specimens}
@@ -212,7 +213,7 @@ class Client:
 def _take(answer: _abi.Reply) -> Reply:
     """Copies a C reply and frees it."""
     try:
-        return reply.read(answer)
+        return read(answer, Reply)
     finally:
         _library.percuss_reply_free(ctypes.byref(answer))
 

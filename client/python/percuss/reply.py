@@ -5,9 +5,8 @@
 SI units; undefined numbers are nan.
 """
 
-import ctypes
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,21 +16,7 @@ from .errors import Refused
 from .request import FloatArray
 from .vocabulary import Compliance, ContactModel, DelassusSource, EndReason, Method, Status
 
-SUB_IMPACT = np.dtype(
-    [
-        ("start", np.float64),
-        ("compression_end", np.float64),
-        ("end", np.float64),
-        ("impulse", np.float64),
-        ("compression_impulse", np.float64),
-        ("peak_force", np.float64),
-        ("max_indentation", np.float64),
-        ("gap_rate_before", np.float64),
-        ("gap_rate_after", np.float64),
-        ("negligible", np.bool_),
-    ],
-    align=True,
-)
+SUB_IMPACT: "np.dtype[np.void]" = np.dtype(cast(Any, _abi.SubImpact))
 """A sub-impact: an interval in which the bodies are pressed together.
 
 start, compression_end, end: s from the stated instant. impulse, compression_impulse (up to the largest
@@ -205,92 +190,3 @@ class Reply:
         if self.status not in (Status.OK, Status.TRUNCATED):
             raise Refused(self.status, self.message)
         return self
-
-
-def text(octets: bytes) -> str:
-    """A string of the library; bytes that are not UTF-8 are shown as such rather than fatal."""
-    return octets.decode(errors="backslashreplace")
-
-
-def _read_contact(source: Any) -> ContactResult:
-    listed: int = source.sub_impacts_listed
-    octets = ctypes.string_at(source.sub_impacts, listed * SUB_IMPACT.itemsize)
-    return ContactResult(
-        source.impulse,
-        np.array(source.impulse_vector),
-        source.impulse_compression,
-        source.restitution,
-        source.inverse_effective_mass,
-        source.end_time,
-        source.sub_impact_count,
-        np.frombuffer(octets, dtype=SUB_IMPACT),
-    )
-
-
-def _read_energy(source: _abi.Energy) -> Energy:
-    return Energy(
-        source.available,
-        source.rigid_after,
-        tuple(
-            BodyEnergy(text(body.id), body.energy)
-            for body in source.vibration[: source.vibration_count]
-        ),
-        source.damping,
-        source.plastic,
-        source.stored,
-        source.closure,
-    )
-
-
-def _read_model(source: _abi.Model) -> Model:
-    return Model(
-        tuple(
-            BodyModel(text(body.id), body.modes, body.rigid, text(body.theory), body.shear_factor)
-            for body in source.bodies[: source.body_count]
-        ),
-        ContactModel(source.contact_model),
-        Compliance(source.compliance),
-        Method(source.method),
-        text(source.reason),
-        source.omitted_error,
-    )
-
-
-def read(source: _abi.Reply) -> Reply:
-    """Copies a C reply; nothing of it is kept."""
-    error = source.error
-    return Reply(
-        bytes(source.client),
-        source.sequence,
-        bytes(source.server),
-        text(source.catalogue_revision),
-        text(source.version),
-        Status(source.status),
-        text(source.message),
-        source.complete,
-        EndReason(source.end_reason),
-        source.window,
-        tuple(_read_contact(contact) for contact in source.contacts[: source.contact_count]),
-        DelassusSource(source.delassus_source),
-        tuple(
-            BodyVelocity(text(body.id), np.array(body.velocity), np.array(body.angular_velocity))
-            for body in source.velocity_after[: source.velocity_after_count]
-        ),
-        tuple(
-            BodyState(text(body.id), text(body.state))
-            for body in source.states_after[: source.states_after_count]
-        ),
-        _read_energy(source.energy),
-        ErrorEstimate(
-            error.restitution_time,
-            error.restitution_modes,
-            error.impulse_time,
-            error.impulse_modes,
-            error.restitution_by_speed,
-            error.tolerance_met,
-        ),
-        _read_model(source.model),
-        source.time_shift,
-        tuple(text(warning) for warning in source.warnings[: source.warning_count]),
-        Timing(source.timing.queue, source.timing.solve),
-    )

@@ -14,8 +14,8 @@ from typing import Any, TypeAlias, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _abi
-from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS, Compliance, ContactModel, Dents, Method, Parameter
+from . import _abi, _convert
+from .vocabulary import MAX_BODIES, MAX_CONTACTS, Compliance, ContactModel, Dents, Method, Parameter
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
@@ -121,51 +121,25 @@ class Request:
     """0: the client counts. Set it to repeat a request after a time-out."""
 
 
-def _text(field_name: str, text: str) -> bytes:
-    octets = text.encode()
-    if len(octets) >= ID_SIZE or b"\0" in octets:
-        raise ValueError(f"{field_name}: {text!r}: up to {ID_SIZE - 1} bytes without zeros are allowed")
-    return octets
-
-
-def _vector(values: FloatArray) -> tuple[float, ...]:
-    return tuple(values.tolist())
-
-
 def _fill_bodies(bodies: Sequence[BodyMotion], target: Any) -> None:
     for i, body in enumerate(bodies):
-        target[i] = _abi.BodyMotion(
-            _text(f"bodies[{i}].id", body.id),
-            _vector(body.position),
-            _vector(body.orientation),
-            _vector(body.velocity),
-            _vector(body.angular_velocity),
-            _text(f"bodies[{i}].state", body.state),
-            body.elapsed,
-            _text(f"bodies[{i}].specimen", body.specimen),
-            len(body.overrides),
-        )
+        _convert.fill(body, target[i], f"bodies[{i}]")
+        target[i].override_count = len(body.overrides)
         for k, (parameter, value) in enumerate(body.overrides.items()):
             target[i].overrides[k] = _abi.Override(parameter, value)
 
 
-def _index(field_name: str, index: int) -> int:
+def _index(field_name: str, index: int) -> None:
     # ctypes would take it modulo 2^32
     if not 0 <= index < MAX_BODIES:
         raise ValueError(f"{field_name}: {index}: 0..{MAX_BODIES - 1} is allowed")
-    return index
 
 
 def _fill_contacts(contacts: Sequence[Contact], target: Any) -> None:
     for i, contact in enumerate(contacts):
-        target[i] = _abi.Contact(
-            _index(f"contacts[{i}].a", contact.a),
-            _index(f"contacts[{i}].b", contact.b),
-            _vector(contact.point),
-            _vector(contact.normal),
-            contact.gap,
-            contact.gap_acceleration,
-        )
+        _index(f"contacts[{i}].a", contact.a)
+        _index(f"contacts[{i}].b", contact.b)
+        _convert.fill(contact, target[i], f"contacts[{i}]")
 
 
 def _check_count(field_name: str, count: int, most: int) -> None:
@@ -197,44 +171,18 @@ def fill(request: Request, target: _abi.Request) -> object:
     _fill_contacts(request.contacts, target.contacts)
     if matrix is not None:
         target.delassus = matrix.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
-    chosen = request.options
-    target.options = _abi.Options(
-        chosen.tolerance,
-        chosen.horizon,
-        chosen.contact_model,
-        chosen.method,
-        chosen.compliance,
-        chosen.dents,
-        chosen.conditioning,
-        chosen.trace,
-        chosen.deadline,
-    )
+    _convert.fill(request.options, target.options, "options")
     return matrix
 
 
 def _read_body(body: Any) -> BodyMotion:
-    return BodyMotion(
-        body.id.decode(),
-        body.position,
-        body.orientation,
-        body.velocity,
-        body.angular_velocity,
-        body.state.decode(),
-        body.elapsed,
-        body.specimen.decode(),
-        {Parameter(one.parameter): one.value for one in body.overrides[: body.override_count]},
-    )
-
-
-def _read_contact(contact: Any) -> Contact:
-    return Contact(
-        contact.a, contact.b, contact.point, contact.normal, contact.gap, contact.gap_acceleration
-    )
+    overrides = {Parameter(one.parameter): one.value for one in body.overrides[: body.override_count]}
+    return _convert.read(body, BodyMotion, overrides=overrides)
 
 
 def read_scene(source: _abi.Request) -> Request:
     """The bodies and contacts of a C struct, with default options."""
     return Request(
         [_read_body(body) for body in source.bodies[: source.body_count]],
-        [_read_contact(contact) for contact in source.contacts[: source.contact_count]],
+        [_convert.read(contact, Contact) for contact in source.contacts[: source.contact_count]],
     )

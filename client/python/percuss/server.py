@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from . import _abi
+from ._convert import read
 from .errors import check
-from .reply import text
 from .request import FloatArray, Request, read_scene
 from .vocabulary import Parameter, Support
 
@@ -98,57 +98,8 @@ class Specimen:
 def read_body(source: Any) -> Body:
     """Copies a C body."""
     first, second = source.supports
-    return Body(
-        text(source.id),
-        text(source.shape),
-        text(source.material),
-        source.mass,
-        text(source.description),
-        np.array(source.half_extents),
-        source.radius,
-        source.tip_radius,
-        (Support(first), Support(second)),
-        {one: source.parameters[one] for one in Parameter if not np.isnan(source.parameters[one])},
-    )
-
-
-def read_server(source: Any) -> Server:
-    """Copies a C server."""
-    return Server(
-        bytes(source.server),
-        text(source.version),
-        text(source.catalogue_revision),
-        text(source.catalogue),
-        text(source.host),
-        source.process,
-        text(source.state),
-        source.workers,
-        source.bodies,
-        source.queue_length,
-        source.queue_capacity,
-        source.answered,
-        source.refused,
-        source.uptime,
-        text(source.activity),
-        source.progress,
-        source.specimens,
-    )
-
-
-def read_specimen(source: Any) -> Specimen:
-    """Copies a C specimen."""
-    dents = (
-        Dent(
-            np.array(dent.point),
-            dent.size,
-            dent.max_indentation,
-            dent.max_force,
-            dent.residual_indentation,
-            dent.contact_radius,
-        )
-        for dent in source.dents[: source.dent_count]
-    )
-    return Specimen(text(source.name), text(source.body), source.impacts, tuple(dents))
+    parameters = {one: source.parameters[one] for one in Parameter if not np.isnan(source.parameters[one])}
+    return read(source, Body, supports=(Support(first), Support(second)), parameters=parameters)
 
 
 def _write_body(body: Body) -> _abi.Body:
