@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tables of the members of public structs, made of the lists of percuss/fields.h, by which JSON is
- * read and written.
+ * read, written and described.
  *
  *     JSON_TABLE(contact, PERCUSS_CONTACT_FIELDS)
  *
@@ -11,6 +11,7 @@
 #ifndef PERCUSS_CLI_JSON_FIELDS_H
 #define PERCUSS_CLI_JSON_FIELDS_H
 
+#include <math.h>
 #include <percuss/fields.h>
 #include <percuss/percuss.h>
 #include <stddef.h>
@@ -27,7 +28,10 @@ enum json_kind {
     JSON_KIND_OVERRIDES,  /* struct percuss_override[], an object with members by parameter */
     JSON_KIND_OBJECT,     /* a struct */
     JSON_KIND_LIST,       /* a pointer to structs of `size` bytes */
-    JSON_KIND_TEXTS       /* a pointer to texts */
+    JSON_KIND_TEXTS,      /* a pointer to texts */
+    JSON_KIND_NUMBERS,    /* a pointer to doubles */
+    JSON_KIND_EDGES,      /* the same, one more than are counted, but none for none */
+    JSON_KIND_COUNTS      /* a pointer to uint64_t */
 };
 
 struct json_member {
@@ -38,6 +42,9 @@ struct json_member {
     const char *(*name_of)(unsigned number);
     const struct json_member *(*members)(void); /* of an object, or of a list's elements */
     size_t count_offset, count_size;            /* of the number of elements */
+    double low, high; /* of numbers: finite: a range; infinite: may be undefined; both 0: any */
+    bool defaulted;   /* or 0 for the default */
+    const char *what; /* it is, beginning with the unit */
 };
 
 #define JSON_TABLE(element, fields)                                                                \
@@ -50,34 +57,43 @@ struct json_member {
 
 #define JSON_MEMBER(kind, name, ...) JSON_MEMBER_##kind(name, __VA_ARGS__)
 
-#define JSON_MEMBER_NUMBER(name, ...)      JSON_ROW(name, NUMBER, 1)
-#define JSON_MEMBER_DEFAULTED(name, ...)   JSON_ROW(name, NUMBER, 1)
-#define JSON_MEMBER_VALUE(name, ...)       JSON_ROW(name, NUMBER, 1)
-#define JSON_MEMBER_VECTOR(name, ...)      JSON_ROW(name, VECTOR, 3)
-#define JSON_MEMBER_UNIT(name, count, ...) JSON_ROW(name, VECTOR, count)
-#define JSON_MEMBER_ID(name, ...)          JSON_ROW(name, TEXT, sizeof JSON_AT(name))
-#define JSON_MEMBER_TEXT(name, ...)        JSON_ROW(name, TEXT, sizeof JSON_AT(name))
-#define JSON_MEMBER_OCTETS(name, ...)      JSON_ROW(name, OCTETS, 16)
-#define JSON_MEMBER_INDEX(name, ...)       JSON_ROW(name, COUNT, 1)
-#define JSON_MEMBER_COUNT(name, ...)       JSON_ROW(name, COUNT, 1)
-#define JSON_MEMBER_LONG_COUNT(name, ...)  JSON_ROW(name, LONG_COUNT, 1)
-#define JSON_MEMBER_FLAG(name, ...)        JSON_ROW(name, FLAG, 1)
-#define JSON_MEMBER_CHOICE(name, choice, count, ...)                                               \
-    JSON_ROW(name, CHOICE, count, .name_of = percuss_##choice##_name)
-#define JSON_MEMBER_OBJECT(name, element, ...)                                                     \
-    JSON_ROW(name, OBJECT, 1, .members = element##_members)
-#define JSON_MEMBER_LIST(name, count, element, ...)                                                \
-    JSON_ROW(name, LIST, sizeof *JSON_AT(name), .members = element##_members, JSON_COUNT(count))
-#define JSON_MEMBER_TEXTS(name, count, ...) JSON_ROW(name, TEXTS, 1, JSON_COUNT(count))
-#define JSON_MEMBER_OVERRIDES(name, count, ...)                                                    \
-    JSON_ROW(name, OVERRIDES, PERCUSS_PARAMETER_COUNT, .name_of = percuss_parameter_name,          \
+#define JSON_MEMBER_NUMBER(name, least, most, what)                                                \
+    JSON_ROW(name, NUMBER, 1, what, .low = least, .high = most)
+#define JSON_MEMBER_DEFAULTED(name, least, most, what)                                             \
+    JSON_ROW(name, NUMBER, 1, what, .low = least, .high = most, .defaulted = true)
+#define JSON_MEMBER_VALUE(name, what) JSON_MEMBER_NUMBER(name, -INFINITY, INFINITY, what)
+#define JSON_MEMBER_VECTOR(name, most, what)                                                       \
+    JSON_ROW(name, VECTOR, 3, what, .low = -(most), .high = most)
+#define JSON_MEMBER_UNIT(name, count, what) JSON_ROW(name, VECTOR, count, what)
+#define JSON_MEMBER_ID(name, what)          JSON_MEMBER_TEXT(name, what)
+#define JSON_MEMBER_TEXT(name, what)        JSON_ROW(name, TEXT, sizeof JSON_AT(name), what)
+#define JSON_MEMBER_OCTETS(name, what)      JSON_ROW(name, OCTETS, 16, what)
+#define JSON_MEMBER_INDEX(name, what)       JSON_ROW(name, COUNT, 1, what)
+#define JSON_MEMBER_COUNT(name, what)       JSON_ROW(name, COUNT, 1, what)
+#define JSON_MEMBER_LONG_COUNT(name, what)  JSON_ROW(name, LONG_COUNT, 1, what)
+#define JSON_MEMBER_FLAG(name, what)        JSON_ROW(name, FLAG, 1, what)
+#define JSON_MEMBER_CHOICE(name, choice, count, what)                                              \
+    JSON_ROW(name, CHOICE, count, what, .name_of = percuss_##choice##_name)
+#define JSON_MEMBER_OBJECT(name, element, what)                                                    \
+    JSON_ROW(name, OBJECT, 1, what, .members = element##_members)
+#define JSON_MEMBER_OPTIONAL(name, element, what) JSON_MEMBER_OBJECT(name, element, what)
+#define JSON_MEMBER_LIST(name, count, element, what)                                               \
+    JSON_ROW(name, LIST, sizeof *JSON_AT(name), what, .members = element##_members,                \
+             JSON_COUNT(count))
+#define JSON_MEMBER_TEXTS(name, count, what)   JSON_ROW(name, TEXTS, 1, what, JSON_COUNT(count))
+#define JSON_MEMBER_NUMBERS(name, count, what) JSON_ROW(name, NUMBERS, 1, what, JSON_COUNT(count))
+#define JSON_MEMBER_EDGES(name, count, what)   JSON_ROW(name, EDGES, 1, what, JSON_COUNT(count))
+#define JSON_MEMBER_COUNTS(name, count, what)  JSON_ROW(name, COUNTS, 1, what, JSON_COUNT(count))
+#define JSON_MEMBER_OVERRIDES(name, count, what)                                                   \
+    JSON_ROW(name, OVERRIDES, PERCUSS_PARAMETER_COUNT, what, .name_of = percuss_parameter_name,    \
              JSON_COUNT(count))
 
-#define JSON_ROW(member, json_kind, number, ...)                                                   \
+#define JSON_ROW(member, json_kind, number, text, ...)                                             \
     {.name = #member,                                                                              \
      .kind = JSON_KIND_##json_kind,                                                                \
      .offset = offsetof(json_struct, member),                                                      \
      .size = number,                                                                               \
+     .what = text,                                                                                 \
      __VA_ARGS__},
 #define JSON_AT(member) ((json_struct *)NULL)->member
 #define JSON_COUNT(member)                                                                         \

@@ -36,6 +36,14 @@ static json_t *numbers(const double *numbers, size_t count)
     return array;
 }
 
+static json_t *counts(const uint64_t *counts, size_t count)
+{
+    json_t *array = json_array();
+    for (size_t i = 0; i < count; ++i)
+        json_array_append_new(array, json_integer((json_int_t)counts[i]));
+    return array;
+}
+
 static json_t *texts(char *const *texts, size_t count)
 {
     json_t *array = json_array();
@@ -103,6 +111,13 @@ static json_t *value(const struct json_member *member, const void *source)
         return objects(member, *(const char *const *)at, count_of(member, source));
     case JSON_KIND_TEXTS:
         return texts(*(char *const *const *)at, count_of(member, source));
+    case JSON_KIND_NUMBERS:
+        return numbers(*(const double *const *)at, count_of(member, source));
+    case JSON_KIND_EDGES:
+        return numbers(*(const double *const *)at,
+                       count_of(member, source) + (count_of(member, source) > 0));
+    case JSON_KIND_COUNTS:
+        return counts(*(const uint64_t *const *)at, count_of(member, source));
     }
     return NULL;
 }

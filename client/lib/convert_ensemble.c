@@ -5,28 +5,28 @@
 
 #include "convert.h"
 #include "error.h"
+#include "percuss/fields.h"
 
-static enum percuss_result convert_input(const struct percuss_input *input, size_t index,
-                                         percuss_v1_EnsembleInput *wire)
+static enum percuss_result convert_input(const struct percuss_input *from, size_t index,
+                                         percuss_v1_EnsembleInput *to)
 {
-    if (strnlen(input->name, sizeof input->name) == sizeof input->name ||
-        strnlen(input->body, sizeof input->body) == sizeof input->body)
+    if (!memchr(from->name, '\0', sizeof from->name) ||
+        !memchr(from->body, '\0', sizeof from->body))
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "inputs[%zu]: name or body is not terminated; up to %d bytes are allowed",
                          index, PERCUSS_ID_SIZE - 1);
-    *wire = (percuss_v1_EnsembleInput){
-        .distribution = input->distribution,
-        .first = input->first,
-        .second = input->second,
-        .lower = input->lower,
-        .upper = input->upper,
-    };
-    strcpy(wire->name, input->name);
-    strcpy(wire->body, input->body);
+    *to = (percuss_v1_EnsembleInput){0};
+    PERCUSS_INPUT_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
     // writing only reads it
-    wire->values._buffer = (double *)input->values;
-    wire->values._length = wire->values._maximum = (uint32_t)input->value_count;
+    to->values._buffer = (double *)from->values;
+    to->values._length = to->values._maximum = (uint32_t)from->value_count;
     return PERCUSS_RESULT_OK;
+}
+
+static void convert_correlation(const struct percuss_correlation *from,
+                                percuss_v1_EnsembleCorrelation *to)
+{
+    PERCUSS_CORRELATION_FIELDS(PERCUSS_COPY)
 }
 
 static enum percuss_result check_counts(const struct percuss_ensemble_request *request)
@@ -47,38 +47,26 @@ static enum percuss_result check_counts(const struct percuss_ensemble_request *r
     return PERCUSS_RESULT_OK;
 }
 
-enum percuss_result convert_ensemble_request(const struct percuss_ensemble_request *request,
+enum percuss_result convert_ensemble_request(const struct percuss_ensemble_request *from,
                                              struct ensemble_storage *storage,
-                                             percuss_v1_EnsembleRequest *wire)
+                                             percuss_v1_EnsembleRequest *to)
 {
-    *wire = (percuss_v1_EnsembleRequest){
-        .sampling = request->sampling,
-        .samples = request->samples,
-        .seed = request->seed,
-        .half_width = request->half_width,
-        .quantile_half_width = request->quantile_half_width,
-        .bins = request->bins,
-        .contact = request->contact,
-        .list_samples = request->list_samples,
-    };
-    enum percuss_result result = check_counts(request);
+    *to = (percuss_v1_EnsembleRequest){0};
+    PERCUSS_ENSEMBLE_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
+    enum percuss_result result = check_counts(from);
     if (result == PERCUSS_RESULT_OK)
-        result = convert_request(&request->scene, &storage->scene, &wire->scene);
-    for (size_t i = 0; result == PERCUSS_RESULT_OK && i < request->input_count; ++i)
-        result = convert_input(&request->inputs[i], i, &storage->inputs[i]);
+        result = convert_request(&from->scene, &storage->scene, &to->scene);
+    for (size_t i = 0; result == PERCUSS_RESULT_OK && i < from->input_count; ++i)
+        result = convert_input(&from->inputs[i], i, &storage->inputs[i]);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    for (size_t i = 0; i < request->correlation_count; ++i)
-        storage->correlations[i] = (percuss_v1_EnsembleCorrelation){
-            .first = request->correlations[i].first,
-            .second = request->correlations[i].second,
-            .coefficient = request->correlations[i].coefficient,
-        };
-    wire->inputs._buffer = storage->inputs;
-    wire->inputs._length = wire->inputs._maximum = (uint32_t)request->input_count;
-    wire->correlations._buffer = storage->correlations;
-    wire->correlations._length = wire->correlations._maximum = (uint32_t)request->correlation_count;
-    wire->quantiles._buffer = (double *)request->quantiles;
-    wire->quantiles._length = wire->quantiles._maximum = (uint32_t)request->quantile_count;
+    for (size_t i = 0; i < from->correlation_count; ++i)
+        convert_correlation(&from->correlations[i], &storage->correlations[i]);
+    to->inputs._buffer = storage->inputs;
+    to->inputs._length = to->inputs._maximum = (uint32_t)from->input_count;
+    to->correlations._buffer = storage->correlations;
+    to->correlations._length = to->correlations._maximum = (uint32_t)from->correlation_count;
+    to->quantiles._buffer = (double *)from->quantiles;
+    to->quantiles._length = to->quantiles._maximum = (uint32_t)from->quantile_count;
     return PERCUSS_RESULT_OK;
 }

@@ -6,7 +6,8 @@
  *     CONVERTER(sub_impact, SubImpact, PERCUSS_SUB_IMPACT_FIELDS)
  *
  * defines convert_sub_impact(from, storage, to); those of the elements of its lists must have been
- * defined before. Arrays are put into the storage; where memory runs out they stay empty. */
+ * defined before. Arrays are put into the storage; where memory runs out they stay empty. How many
+ * NUMBERS, COUNTS and EDGES there are is the caller's to say: several lists may share it. */
 #ifndef PERCUSS_LIB_CONVERT_MEMBERS_H
 #define PERCUSS_LIB_CONVERT_MEMBERS_H
 
@@ -39,5 +40,13 @@
     for (size_t i = 0; i < to->count; ++i)                                                         \
         to->name[i] =                                                                              \
             storage_copy(storage, from->name._buffer[i], strlen(from->name._buffer[i]) + 1, 1);
+#define CONVERT_OPTIONAL(name, element, ...)                                                       \
+    undefine_##element(&to->name);                                                                 \
+    if (from->name._length > 0)                                                                    \
+        convert_##element(&from->name._buffer[0], storage, &to->name);
+#define CONVERT_NUMBERS(name, ...)                                                                 \
+    to->name = storage_copy(storage, from->name._buffer, from->name._length, sizeof *to->name);
+#define CONVERT_COUNTS(name, ...) CONVERT_NUMBERS(name)
+#define CONVERT_EDGES(name, ...)  CONVERT_NUMBERS(name)
 
 #endif

@@ -23,7 +23,11 @@
  * and L(KIND, name, ...), often PERCUSS_NONE, for those that have members of their own:
  *   OBJECT, name, element, what             a struct percuss_<element>
  *   LIST, name, count, element, what        `count` of them, a sequence on the wire
+ *   OPTIONAL, name, element, what           an object; on the wire a sequence of one, or of none
  *   TEXTS, name, count, what                `count` texts
+ *   NUMBERS, name, count, what              `count` doubles
+ *   COUNTS, name, count, what               `count` of uint64_t
+ *   EDGES, name, count, what                one double more than `count`, none for none
  *   OVERRIDES, name, count, what            parameters and their values
  * where `what` begins with the unit. In a request that leaves out a member it is zero, or the
  * quaternion of no rotation. */
@@ -47,7 +51,7 @@
     F(INDEX, b, "into bodies")                                                                     \
     F(VECTOR, point, 1e6, "m; world")                                                              \
     F(UNIT, normal, 3, "world, from b to a")                                                       \
-    F(NUMBER, gap, -1e6, 1e6, "m; negative: the bodies overlap already")                           \
+    F(NUMBER, gap, -1e3, 1e3, "m; negative: the bodies overlap already")                           \
     F(NUMBER, gap_acceleration, -1e9, 1e9, "m/s^2; n.(a_A - a_B), negative presses")
 
 /* Of double precision nothing finer than the least tolerance is left. */
@@ -158,6 +162,134 @@
     L(OBJECT, error, error_estimate, "estimates")                                                  \
     L(OBJECT, model, model, "of the impact")                                                       \
     F(VALUE, time_shift, "s; of the touch of a ringing body, from the stated instant")             \
+    L(TEXTS, warnings, warning_count, "where the models end")                                      \
+    L(OBJECT, timing, timing, "where the server's time went")
+
+#define PERCUSS_INPUT_FIELDS(F, L)                                                                 \
+    F(TEXT, name, "speed, direction; site, young, poisson, density, radius, yield, damping")       \
+    F(TEXT, body, "its id; empty: the contact's")                                                  \
+    F(CHOICE, distribution, distribution, PERCUSS_DISTRIBUTION_COUNT, "of the values")             \
+    F(VALUE, first, "the value, the lowest one or the mean")                                       \
+    F(VALUE, second, "the highest one or the standard deviation")                                  \
+    F(VALUE, lower, "truncation; undefined: none")                                                 \
+    F(VALUE, upper, "truncation; undefined: none")                                                 \
+    L(NUMBERS, values, value_count, "of a list")
+
+#define PERCUSS_CORRELATION_FIELDS(F, ...)                                                         \
+    F(COUNT, first, "into inputs")                                                                 \
+    F(COUNT, second, "into inputs")                                                                \
+    F(VALUE, coefficient, "of a Gaussian copula")
+
+/* All that an ensemble asks for beside its impact. */
+#define PERCUSS_ENSEMBLE_FIELDS(F, L)                                                              \
+    L(LIST, inputs, input_count, input, "what is uncertain")                                       \
+    L(LIST, correlations, correlation_count, correlation, "of inputs")                             \
+    F(CHOICE, sampling, sampling, PERCUSS_SAMPLING_COUNT, "how inputs are drawn")                  \
+    F(LONG_COUNT, samples, "at most; 0: the values of the lists side by side, each once")          \
+    F(LONG_COUNT, seed, "of the random numbers")                                                   \
+    F(VALUE, half_width, "stop when the mean's 95 % interval is within; 0: never")                 \
+    F(VALUE, quantile_half_width, "and those of all quantiles; 0: whatever they are")              \
+    L(NUMBERS, quantiles, quantile_count, "probabilities; none: a default set")                    \
+    F(COUNT, bins, "of the histogram; 0: a default number")                                        \
+    F(COUNT, contact, "index of the one that is looked at")                                        \
+    F(FLAG, list_samples, "also hand over every sample")
+
+#define PERCUSS_STATISTIC_FIELDS(F, L)                                                             \
+    F(TEXT, quantity, "restitution, impulse, end_time, peak_force")                                \
+    F(LONG_COUNT, count, "samples that have it")                                                   \
+    F(VALUE, mean, "")                                                                             \
+    F(VALUE, mean_low, "95 % interval")                                                            \
+    F(VALUE, mean_high, "95 % interval")                                                           \
+    F(VALUE, standard_deviation, "")                                                               \
+    F(VALUE, standard_deviation_low, "95 % interval")                                              \
+    F(VALUE, standard_deviation_high, "95 % interval")                                             \
+    F(VALUE, skewness, "")                                                                         \
+    F(VALUE, lowest, "")                                                                           \
+    F(VALUE, highest, "")                                                                          \
+    L(NUMBERS, probabilities, quantile_count, "of the quantiles")                                  \
+    L(NUMBERS, quantiles, quantile_count, "")                                                      \
+    L(NUMBERS, quantiles_low, quantile_count, "95 % interval")                                     \
+    L(NUMBERS, quantiles_high, quantile_count, "95 % interval")                                    \
+    L(EDGES, bin_edges, bin_count, "of the histogram; none: nothing varies")                       \
+    L(COUNTS, bin_counts, bin_count, "of the histogram")                                           \
+    L(NUMBERS, curve_values, curve_count, "of the distribution function")                          \
+    L(NUMBERS, curve_shares, curve_count, "of the samples that are no larger")
+
+#define PERCUSS_INPUT_PART_FIELDS(F, ...)                                                          \
+    F(VALUE, low, "of the input")                                                                  \
+    F(VALUE, high, "of the input")                                                                 \
+    F(LONG_COUNT, count, "of samples")                                                             \
+    F(VALUE, mean, "of the restitution")                                                           \
+    F(VALUE, standard_deviation, "of the restitution")                                             \
+    F(VALUE, local, "deviation that is left when the input is known to `resolution`")              \
+    F(FLAG, chaotic, "that is more than half of the deviation of all samples")
+
+#define PERCUSS_SENSITIVITY_FIELDS(F, L)                                                           \
+    F(TEXT, input, "its name")                                                                     \
+    F(TEXT, body, "whose it is; empty: the contact's")                                             \
+    F(VALUE, first_order, "share of the variance that the input explains by itself")               \
+    F(VALUE, first_order_low, "95 % interval")                                                     \
+    F(VALUE, first_order_high, "95 % interval")                                                    \
+    F(VALUE, noise, "one without influence shows less in 95 % of all cases")                       \
+    F(VALUE, total, "share that is left when all others are known")                                \
+    F(VALUE, total_low, "95 % interval")                                                           \
+    F(VALUE, total_high, "95 % interval")                                                          \
+    F(VALUE, mean, "of the input")                                                                 \
+    F(VALUE, standard_deviation, "of the input")                                                   \
+    F(VALUE, lowest, "of the input")                                                               \
+    F(VALUE, highest, "of the input")                                                              \
+    F(VALUE, resolution, "a hundredth of the input's range")                                       \
+    L(LIST, parts, part_count, input_part, "the restitution along the input")
+
+#define PERCUSS_SIGMA_INTERVAL_FIELDS(F, ...)                                                      \
+    F(VALUE, sigmas, "standard deviations from the mean")                                          \
+    F(VALUE, low, "")                                                                              \
+    F(VALUE, high, "")                                                                             \
+    F(VALUE, covered, "share of the samples inside")                                               \
+    F(VALUE, unphysical, "share of its length where no restitution can be")                        \
+    F(VALUE, quantile_low, "encloses as much as a normal distribution would have")                 \
+    F(VALUE, quantile_high, "encloses as much as a normal distribution would have")
+
+#define PERCUSS_BETA_FIT_FIELDS(F, ...)                                                            \
+    F(VALUE, low, "range of the distribution")                                                     \
+    F(VALUE, high, "range of the distribution")                                                    \
+    F(VALUE, alpha, "undefined: none fits")                                                        \
+    F(VALUE, beta, "undefined: none fits")                                                         \
+    F(VALUE, distance, "Kolmogorov-Smirnov")                                                       \
+    F(VALUE, p_value, "small: refused")
+
+#define PERCUSS_ENSEMBLE_CHECK_FIELDS(F, ...)                                                      \
+    F(LONG_COUNT, count, "of samples that were solved again by the full accuracy search")          \
+    F(VALUE, within, "share that agrees within the tolerance")                                     \
+    F(VALUE, largest, "difference")                                                                \
+    F(VALUE, mean_shift, "ensemble - search")                                                      \
+    F(VALUE, mean_shift_half_width, "95 % interval")                                               \
+    F(VALUE, standard_deviation_shift, "ensemble - search")                                        \
+    F(VALUE, quantile_shift, "largest of the quantiles")                                           \
+    F(VALUE, within_low, "95 % interval: of all samples")                                          \
+    F(VALUE, within_high, "95 % interval: of all samples")                                         \
+    F(LONG_COUNT, unmet, "searches that do not reach the tolerance, by their own estimate")
+
+/* What follows the head. */
+#define PERCUSS_ENSEMBLE_REPLY_FIELDS(F, L)                                                        \
+    F(FLAG, complete, "false: cancelled, or a deadline cut it short")                              \
+    F(LONG_COUNT, samples, "solved")                                                               \
+    F(LONG_COUNT, requested, "samples at most")                                                    \
+    F(LONG_COUNT, refused, "left out")                                                             \
+    F(LONG_COUNT, truncated, "ended early")                                                        \
+    L(LIST, statistics, statistic_count, statistic, "of each quantity")                            \
+    L(COUNTS, sub_impact_counts, count_length, "[k]: samples with k sub-impacts")                  \
+    L(COUNTS, significant_counts, count_length, "without negligible ones")                         \
+    F(VALUE, possible_low, "range that the restitution can have")                                  \
+    F(VALUE, possible_high, "range that the restitution can have")                                 \
+    L(LIST, intervals, interval_count, sigma_interval, "of the restitution")                       \
+    L(OPTIONAL, beta, beta_fit, "a Beta distribution of the restitution")                          \
+    L(LIST, sensitivities, sensitivity_count, sensitivity, "to each uncertain input")              \
+    L(OPTIONAL, check, ensemble_check, "of the one model for all samples")                         \
+    F(VALUE, cut, "Hz; modes up to this frequency")                                                \
+    F(VALUE, step_accuracy, "of the time steps")                                                   \
+    F(COUNT, pilots, "samples the model was chosen by")                                            \
+    F(COUNT, agreeing, "of these, within the tolerance")                                           \
     L(TEXTS, warnings, warning_count, "where the models end")                                      \
     L(OBJECT, timing, timing, "where the server's time went")
 

@@ -4,10 +4,10 @@
 #include "endpoint/encode_ensemble.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-#define COPY_TEXT(array, text) snprintf(array, sizeof(array), "%s", text)
+#include "endpoint/text.h"
+#include "percuss/fields.h"
 
 /* Copies `count` elements into the answer and makes them the sequence. */
 #define COPY_LIST(answer, sequence, from, count)                                                   \
@@ -110,34 +110,26 @@ static void fill_sensitivity(struct answer *answer, const struct ensemble_spec *
     }
 }
 
+static void fill_interval(const struct sigma_interval *from, percuss_v1_SigmaInterval *to)
+{
+    PERCUSS_SIGMA_INTERVAL_FIELDS(PERCUSS_COPY)
+}
+
+static void fill_beta(const struct beta_fit *from, percuss_v1_BetaFit *to)
+{
+    PERCUSS_BETA_FIT_FIELDS(PERCUSS_COPY)
+}
+
 static void fill_shape(struct answer *answer, const struct ensemble_report *report)
 {
     percuss_v1_EnsembleReply *reply = answer->report;
-    const struct beta_fit *beta = &report->beta;
     reply->possible_low = report->range.low;
     reply->possible_high = report->range.high;
     TAKE_LIST(answer, reply->intervals, REPORT_INTERVALS);
-    for (int i = 0; i < REPORT_INTERVALS; i++) {
-        const struct sigma_interval *from = &report->intervals[i];
-        reply->intervals._buffer[i] = (percuss_v1_SigmaInterval){
-            .sigmas = from->sigmas,
-            .low = from->low,
-            .high = from->high,
-            .covered = from->covered,
-            .unphysical = from->unphysical,
-            .quantile_low = from->quantile_low,
-            .quantile_high = from->quantile_high,
-        };
-    }
+    for (int i = 0; i < REPORT_INTERVALS; i++)
+        fill_interval(&report->intervals[i], &reply->intervals._buffer[i]);
     TAKE_LIST(answer, reply->beta, 1);
-    reply->beta._buffer[0] = (percuss_v1_BetaFit){
-        .low = beta->low,
-        .high = beta->high,
-        .alpha = beta->alpha,
-        .beta = beta->beta,
-        .distance = beta->distance,
-        .p_value = beta->p_value,
-    };
+    fill_beta(&report->beta, reply->beta._buffer);
 }
 
 static void fill_model(struct answer *answer, const struct ensemble *ensemble,

@@ -12,15 +12,18 @@
 /* Adds a member of *from. Where it stands in the lists matters: stored questions are compared. */
 #define HASH(kind, name, ...) HASH_##kind(name)
 
-#define HASH_NUMBER(name)    hash_bytes(hasher, &from->name, sizeof from->name);
-#define HASH_DEFAULTED(name) HASH_NUMBER(name)
-#define HASH_VECTOR(name)    HASH_NUMBER(name)
-#define HASH_UNIT(name)      HASH_NUMBER(name)
-#define HASH_INDEX(name)     hash_number(hasher, from->name);
-#define HASH_CHOICE(name)    HASH_INDEX(name)
-#define HASH_FLAG(name)      HASH_INDEX(name)
-#define HASH_TEXT(name)      hash_text(hasher, from->name);
-#define HASH_ID(name)        HASH_TEXT(name)
+#define HASH_NUMBER(name)     hash_bytes(hasher, &from->name, sizeof from->name);
+#define HASH_DEFAULTED(name)  HASH_NUMBER(name)
+#define HASH_VALUE(name)      HASH_NUMBER(name)
+#define HASH_VECTOR(name)     HASH_NUMBER(name)
+#define HASH_UNIT(name)       HASH_NUMBER(name)
+#define HASH_INDEX(name)      hash_number(hasher, from->name);
+#define HASH_COUNT(name)      HASH_INDEX(name)
+#define HASH_LONG_COUNT(name) HASH_INDEX(name)
+#define HASH_CHOICE(name)     HASH_INDEX(name)
+#define HASH_FLAG(name)       HASH_INDEX(name)
+#define HASH_TEXT(name)       hash_text(hasher, from->name);
+#define HASH_ID(name)         HASH_TEXT(name)
 
 static void hash_body(struct hasher *hasher, const percuss_v1_BodyMotion *from)
 {
@@ -71,39 +74,34 @@ struct digest question_digest_batch(const percuss_v1_BatchRequest *batch)
     return hash_digest(&hasher);
 }
 
-static void hash_input(struct hasher *hasher, const percuss_v1_EnsembleInput *input)
+static void hash_input(struct hasher *hasher, const percuss_v1_EnsembleInput *from)
 {
-    hash_text(hasher, input->name);
-    hash_text(hasher, input->body);
-    hash_number(hasher, input->distribution);
-    const double numbers[] = {input->first, input->second, input->lower, input->upper};
-    hash_bytes(hasher, numbers, sizeof numbers);
-    hash_bytes(hasher, input->values._buffer, input->values._length * sizeof(double));
+    PERCUSS_INPUT_FIELDS(HASH, PERCUSS_NONE)
+    hash_bytes(hasher, from->values._buffer, from->values._length * sizeof(double));
+}
+
+static void hash_correlation(struct hasher *hasher, const percuss_v1_EnsembleCorrelation *from)
+{
+    PERCUSS_CORRELATION_FIELDS(HASH)
+}
+
+static void hash_ensemble(struct hasher *hasher, const percuss_v1_EnsembleRequest *from)
+{
+    hash_request(hasher, &from->scene);
+    PERCUSS_ENSEMBLE_FIELDS(HASH, PERCUSS_NONE)
+    hash_number(hasher, from->inputs._length);
+    for (uint32_t i = 0; i < from->inputs._length; i++)
+        hash_input(hasher, &from->inputs._buffer[i]);
+    hash_number(hasher, from->correlations._length);
+    for (uint32_t i = 0; i < from->correlations._length; i++)
+        hash_correlation(hasher, &from->correlations._buffer[i]);
+    hash_bytes(hasher, from->quantiles._buffer, from->quantiles._length * sizeof(double));
 }
 
 struct digest question_digest_ensemble(const percuss_v1_EnsembleRequest *request)
 {
     struct hasher hasher = {0};
-    hash_request(&hasher, &request->scene);
-    hash_number(&hasher, request->inputs._length);
-    for (uint32_t i = 0; i < request->inputs._length; i++)
-        hash_input(&hasher, &request->inputs._buffer[i]);
-    hash_number(&hasher, request->correlations._length);
-    for (uint32_t i = 0; i < request->correlations._length; i++) {
-        const percuss_v1_EnsembleCorrelation *pair = &request->correlations._buffer[i];
-        hash_number(&hasher, pair->first);
-        hash_number(&hasher, pair->second);
-        hash_bytes(&hasher, &pair->coefficient, sizeof pair->coefficient);
-    }
-    hash_number(&hasher, request->sampling);
-    hash_number(&hasher, request->samples);
-    hash_number(&hasher, request->seed);
-    const double widths[] = {request->half_width, request->quantile_half_width};
-    hash_bytes(&hasher, widths, sizeof widths);
-    hash_bytes(&hasher, request->quantiles._buffer, request->quantiles._length * sizeof(double));
-    hash_number(&hasher, request->bins);
-    hash_number(&hasher, request->contact);
-    hash_number(&hasher, request->list_samples);
+    hash_ensemble(&hasher, request);
     return hash_digest(&hasher);
 }
 

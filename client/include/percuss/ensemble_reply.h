@@ -53,6 +53,20 @@ struct percuss_sigma_interval {
     double quantile_low, quantile_high; /* enclose as much as a normal distribution would have */
 };
 
+struct percuss_beta_fit {
+    double low, high, alpha, beta; /* alpha NAN: none fits */
+    double distance, p_value;      /* Kolmogorov-Smirnov; small: refused */
+};
+
+/* Some samples solved again by the full accuracy search: ensemble - search. */
+struct percuss_ensemble_check {
+    uint64_t count;
+    double within, largest, mean_shift, mean_shift_half_width, standard_deviation_shift,
+        quantile_shift;
+    double within_low, within_high; /* 95 %: the share of all samples that agree */
+    uint64_t unmet; /* searches that do not reach the tolerance, by their own estimate */
+};
+
 struct percuss_ensemble_reply {
     uint8_t client[16];
     uint64_t sequence;
@@ -69,19 +83,10 @@ struct percuss_ensemble_reply {
     double possible_low, possible_high; /* of the restitution */
     size_t interval_count;
     struct percuss_sigma_interval *intervals;
-    struct {
-        double low, high, alpha, beta; /* alpha NAN: none fits */
-        double distance, p_value;      /* Kolmogorov-Smirnov; small: refused */
-    } beta;
+    struct percuss_beta_fit beta;
     size_t sensitivity_count;
     struct percuss_sensitivity *sensitivities;
-    struct { /* some samples solved again by the full accuracy search: ensemble - search */
-        uint64_t count;
-        double within, largest, mean_shift, mean_shift_half_width, standard_deviation_shift,
-            quantile_shift;
-        double within_low, within_high; /* 95 %: the share of all samples that agree */
-        uint64_t unmet; /* searches that do not reach the tolerance, by their own estimate */
-    } check;
+    struct percuss_ensemble_check check;
     double cut, step_accuracy; /* the model of all samples: modes up to this frequency, Hz */
     uint32_t pilots, agreeing;
     size_t warning_count;

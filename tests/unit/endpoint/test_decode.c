@@ -179,7 +179,7 @@ static void refuses_bad_contacts(void **state)
             "contacts[0].normal: (0, 0, 0): must be a unit vector (norm within 0.0001 of 1)");
     REFUSED(contacts[1].normal[0], NAN,
             "contacts[1].normal: (nan, 0, 1): must be a unit vector (norm within 0.0001 of 1)");
-    REFUSED(contacts[0].gap, NAN, "contacts[0].gap: nan: must be in [-1e+06, 1e+06]");
+    REFUSED(contacts[0].gap, NAN, "contacts[0].gap: nan: must be in [-1000, 1000]");
     REFUSED(contacts[0].gap_acceleration, INFINITY,
             "contacts[0].gap_acceleration: inf: must be in [-1e+09, 1e+09]");
 }
