@@ -42,7 +42,7 @@ extern const struct argp common_argp;
  * Returns an exit code. */
 typedef int command_function(int argc, char **argv, struct common *common);
 command_function command_query, command_sweep, command_ensemble, command_bodies, command_status,
-    command_ping, command_compare, command_calibrate, command_dents;
+    command_ping, command_compare, command_calibrate, command_dents, command_schema;
 
 /* Parses a command line that has no options of its own. */
 void parse_only_common(int argc, char **argv, const char *doc, struct common *common);

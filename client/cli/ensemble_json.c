@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "ensemble_output.h"
+#include "json_schema.h"
 #include "json_writer.h"
 
 JSON_TABLE(statistic, PERCUSS_STATISTIC_FIELDS)
@@ -20,4 +21,9 @@ json_t *ensemble_to_json(const struct percuss_ensemble_reply *reply)
     json_t *root = json_object();
     json_write(root, ensemble_reply_members(), reply);
     return root;
+}
+
+json_t *ensemble_schema(void)
+{
+    return json_schema(ensemble_reply_members(), false);
 }

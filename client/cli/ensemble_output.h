@@ -14,6 +14,9 @@ void ensemble_print_table(const struct percuss_ensemble_request *request,
 /* The reply with the wire's names and nesting; the caller releases it. */
 json_t *ensemble_to_json(const struct percuss_ensemble_reply *reply);
 
+/* Its JSON Schema; the caller releases it. */
+json_t *ensemble_schema(void);
+
 /* Writes the listed samples, one a line. False: the file could not be written, or there are none;
  * complains. */
 bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request *request,

@@ -19,6 +19,7 @@ static const struct {
     {"query", command_query},     {"sweep", command_sweep},         {"ensemble", command_ensemble},
     {"bodies", command_bodies},   {"status", command_status},       {"ping", command_ping},
     {"compare", command_compare}, {"calibrate", command_calibrate}, {"dents", command_dents},
+    {"schema", command_schema},
 };
 
 struct invocation {
@@ -62,6 +63,7 @@ static const struct argp main_argp = {
         "  ping      round-trip time to the server\n"
         "  compare   measured impacts beside their simulated twins\n"
         "  calibrate parameters of the bodies from measured impacts\n"
+        "  schema    the JSON Schema of requests, replies and ensembles\n"
         "  ensemble  many impacts with uncertain inputs: the restitution as a distribution\n\n"
         "percuss COMMAND --help explains a command. Try: "
         "percuss query --a steel-sphere --b al-beam --speed 0.3\n\n"

@@ -3,6 +3,8 @@
 
 #include "reply_json.h"
 
+#include "json_schema.h"
+
 JSON_TABLE(sub_impact, PERCUSS_SUB_IMPACT_FIELDS)
 JSON_TABLE(contact_result, PERCUSS_CONTACT_RESULT_FIELDS)
 JSON_TABLE(body_velocity, PERCUSS_BODY_VELOCITY_FIELDS)
@@ -22,4 +24,9 @@ json_t *reply_to_json(const struct percuss_reply *reply)
     json_t *root = json_object();
     json_write(root, reply_members(), reply);
     return root;
+}
+
+json_t *reply_schema(void)
+{
+    return json_schema(reply_members(), false);
 }

@@ -12,4 +12,7 @@
  * numbers as null. The caller releases it. */
 json_t *reply_to_json(const struct percuss_reply *reply);
 
+/* Its JSON Schema; the caller releases it. */
+json_t *reply_schema(void);
+
 #endif

@@ -3,6 +3,8 @@
 
 #include "request_json.h"
 
+#include "json_schema.h"
+
 #include <percuss/percuss.h>
 #include <stdio.h>
 #include <string.h>
@@ -159,4 +161,23 @@ bool request_json_load(const char *file, struct json_request *request, struct js
     bool read = request_json_read(root, request, fault);
     json_decref(root);
     return read;
+}
+
+static json_t *list_schema(const struct json_member *members, int most)
+{
+    return json_pack("{sssiso}", "type", "array", "maxItems", most, "items",
+                     json_schema(members, true));
+}
+
+json_t *request_schema(void)
+{
+    json_t *matrix = json_pack("{sss{s[ss]}}", "type", "array", "items", "type", "number", "array");
+    json_t *client = json_pack("{ssss}", "type", "string", "pattern", "^[0-9a-fA-F]{32}$");
+    json_t *properties = json_pack(
+        "{sosososososo}", "bodies", list_schema(body_motion_members(), PERCUSS_MAX_BODIES),
+        "contacts", list_schema(contact_members(), PERCUSS_MAX_CONTACTS), "delassus", matrix,
+        "options", json_schema(options_members(), true), "client", client, "sequence",
+        json_pack("{sssi}", "type", "integer", "minimum", 1));
+    return json_pack("{sssosb}", "type", "object", "properties", properties, "additionalProperties",
+                     false);
 }
