@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "cli.h"
-#include "reply_json.h"
+#include "json_writer.h"
 
 enum { KEY_SPECIMEN = OPTION_OWN, KEY_CLEAR };
 
@@ -56,19 +56,7 @@ static const struct argp dents_argp = {
     .children = children,
 };
 
-static json_t *dent_json(const struct percuss_dent *dent)
-{
-    json_t *object = json_object(), *point = json_array();
-    for (int i = 0; i < 3; i++)
-        json_array_append_new(point, json_number(dent->point[i]));
-    json_object_set_new(object, "point", point);
-    json_object_set_new(object, "size", json_number(dent->size));
-    json_object_set_new(object, "max_indentation", json_number(dent->max_indentation));
-    json_object_set_new(object, "max_force", json_number(dent->max_force));
-    json_object_set_new(object, "residual_indentation", json_number(dent->residual_indentation));
-    json_object_set_new(object, "contact_radius", json_number(dent->contact_radius));
-    return object;
-}
+JSON_TABLE(dent, PERCUSS_DENT_FIELDS)
 
 static json_t *specimen_json(const struct percuss_specimen *specimen)
 {
@@ -77,7 +65,7 @@ static json_t *specimen_json(const struct percuss_specimen *specimen)
     json_object_set_new(object, "body", json_string(specimen->body));
     json_object_set_new(object, "impacts", json_integer((json_int_t)specimen->impacts));
     for (size_t i = 0; i < specimen->dent_count; i++)
-        json_array_append_new(patches, dent_json(&specimen->dents[i]));
+        json_array_append_new(patches, json_object_of(dent_members(), &specimen->dents[i]));
     json_object_set_new(object, "patches", patches);
     return object;
 }

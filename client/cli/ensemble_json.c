@@ -18,9 +18,7 @@ JSON_TABLE(ensemble_reply, ALL_FIELDS)
 
 json_t *ensemble_to_json(const struct percuss_ensemble_reply *reply)
 {
-    json_t *root = json_object();
-    json_write(root, ensemble_reply_members(), reply);
-    return root;
+    return json_object_of(ensemble_reply_members(), reply);
 }
 
 json_t *ensemble_schema(void)

@@ -69,7 +69,7 @@ bool json_read_numbers(const json_t *array, const struct json_path *path, size_t
     if (json_array_size(array) != count)
         return json_fail(fault, path, "%zu numbers are needed, not %zu", count,
                          json_array_size(array));
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; i++) {
         const json_t *value = json_array_get(array, i);
         if (!json_is_number(value))
             return json_fail(fault, &(struct json_path){path, NULL, i},
@@ -107,7 +107,7 @@ static bool read_choice(const json_t *value, const struct json_path *path,
 {
     const char *given = json_is_string(value) ? json_string_value(value) : NULL;
     char allowed[256] = "";
-    for (unsigned i = 0; i < member->size; ++i) {
+    for (unsigned i = 0; i < member->size; i++) {
         if (given && !strcmp(given, member->name_of(i))) {
             *choice = i;
             return true;
@@ -133,14 +133,14 @@ static bool read_overrides(const json_t *object, const struct json_path *path,
         struct json_path here = {path, name, 0};
         char allowed[256] = "";
         unsigned i = 0;
-        for (; i < member->size && strcmp(name, member->name_of(i)); ++i)
+        for (; i < member->size && strcmp(name, member->name_of(i)); i++)
             append(allowed, sizeof allowed, "%s%s", i ? ", " : "", member->name_of(i));
         if (i == member->size)
             return json_fail(fault, &here, "unknown member; allowed are: %s", allowed);
         if (!json_is_number(value))
             return json_fail(fault, &here, "a number is needed, not %s", json_kind_of(value));
     }
-    for (unsigned i = 0; i < member->size; ++i)
+    for (unsigned i = 0; i < member->size; i++)
         if ((value = json_object_get(object, member->name_of(i))))
             body->overrides[body->override_count++] =
                 (struct percuss_override){i, json_number_value(value)};
@@ -172,7 +172,7 @@ static bool read_member(const json_t *value, const struct json_path *path,
         return read_overrides(value, path, member, structure, fault);
     case JSON_KIND_CHOICE:
         return read_choice(value, path, member, target, fault);
-    default: /* only in replies */
+    default: // only in replies
         return json_fail(fault, path, "is not read");
     }
 }
@@ -181,7 +181,7 @@ static bool unknown_member(const struct json_path *path, const struct json_membe
                            struct json_fault *fault)
 {
     char allowed[384] = "";
-    for (size_t i = 0; members[i].name; ++i)
+    for (size_t i = 0; members[i].name; i++)
         append(allowed, sizeof allowed, "%s%s", i ? ", " : "", members[i].name);
     return json_fail(fault, path, "unknown member; allowed are: %s", allowed);
 }

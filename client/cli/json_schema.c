@@ -31,7 +31,7 @@ static json_t *array_of(json_t *items)
 static json_t *choice(const struct json_member *member)
 {
     json_t *names = json_array();
-    for (unsigned i = 0; i < member->size; ++i)
+    for (unsigned i = 0; i < member->size; i++)
         json_array_append_new(names, json_string(member->name_of(i)));
     return json_pack("{ssso}", "type", "string", "enum", names);
 }
@@ -39,7 +39,7 @@ static json_t *choice(const struct json_member *member)
 static json_t *overrides(const struct json_member *member)
 {
     json_t *properties = json_object();
-    for (unsigned i = 0; i < member->size; ++i)
+    for (unsigned i = 0; i < member->size; i++)
         json_object_set_new(properties, member->name_of(i), json_pack("{ss}", "type", "number"));
     return json_pack("{sssosb}", "type", "object", "properties", properties, "additionalProperties",
                      false);
@@ -84,7 +84,7 @@ static json_t *schema_of(const struct json_member *member, bool read)
 json_t *json_schema(const struct json_member *members, bool read)
 {
     json_t *properties = json_object(), *required = json_array();
-    for (; members->name; ++members) {
+    for (; members->name; members++) {
         json_t *schema = schema_of(members, read);
         if (members->what[0])
             json_object_set_new(schema, "description", json_string(members->what));

@@ -31,7 +31,7 @@ static json_t *octets(const uint8_t octets[16])
 static json_t *numbers(const double *numbers, size_t count)
 {
     json_t *array = json_array();
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         json_array_append_new(array, json_number(numbers[i]));
     return array;
 }
@@ -39,7 +39,7 @@ static json_t *numbers(const double *numbers, size_t count)
 static json_t *counts(const uint64_t *counts, size_t count)
 {
     json_t *array = json_array();
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         json_array_append_new(array, json_integer((json_int_t)counts[i]));
     return array;
 }
@@ -47,23 +47,17 @@ static json_t *counts(const uint64_t *counts, size_t count)
 static json_t *texts(char *const *texts, size_t count)
 {
     json_t *array = json_array();
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         json_array_append_new(array, json_string(texts[i]));
     return array;
-}
-
-static json_t *object(const struct json_member *members, const void *source)
-{
-    json_t *value = json_object();
-    json_write(value, members, source);
-    return value;
 }
 
 static json_t *objects(const struct json_member *member, const char *elements, size_t count)
 {
     json_t *array = json_array();
-    for (size_t i = 0; i < count; ++i)
-        json_array_append_new(array, object(member->members(), elements + i * member->size));
+    for (size_t i = 0; i < count; i++)
+        json_array_append_new(array,
+                              json_object_of(member->members(), elements + i * member->size));
     return array;
 }
 
@@ -71,7 +65,7 @@ static json_t *overrides(const struct json_member *member, const struct percuss_
                          size_t count)
 {
     json_t *value = json_object();
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; i++)
         json_object_set_new(value, member->name_of(overrides[i].parameter),
                             json_number(overrides[i].value));
     return value;
@@ -106,7 +100,7 @@ static json_t *value(const struct json_member *member, const void *source)
     case JSON_KIND_OVERRIDES:
         return overrides(member, at, count_of(member, source));
     case JSON_KIND_OBJECT:
-        return object(member->members(), at);
+        return json_object_of(member->members(), at);
     case JSON_KIND_LIST:
         return objects(member, *(const char *const *)at, count_of(member, source));
     case JSON_KIND_TEXTS:
@@ -122,10 +116,12 @@ static json_t *value(const struct json_member *member, const void *source)
     return NULL;
 }
 
-void json_write(json_t *object, const struct json_member *members, const void *source)
+json_t *json_object_of(const struct json_member *members, const void *source)
 {
-    for (; members->name; ++members)
+    json_t *object = json_object();
+    for (; members->name; members++)
         json_object_set_new(object, members->name, value(members, source));
+    return object;
 }
 
 void json_print(json_t *value)

@@ -9,9 +9,9 @@
 
 #include "json_fields.h"
 
-/* Adds the struct's members to the object: choices as their names, undefined and infinite numbers
- * as null, and so is a text that is not UTF-8. */
-void json_write(json_t *object, const struct json_member *members, const void *source);
+/* The struct as an object: choices as their names, undefined and infinite numbers as null, and so
+ * is a text that is not UTF-8. The caller releases it. */
+json_t *json_object_of(const struct json_member *members, const void *source);
 
 /* A number, or null where it is undefined or infinite. */
 json_t *json_number(double number);

@@ -21,9 +21,7 @@ JSON_TABLE(reply, ALL_FIELDS)
 
 json_t *reply_to_json(const struct percuss_reply *reply)
 {
-    json_t *root = json_object();
-    json_write(root, reply_members(), reply);
-    return root;
+    return json_object_of(reply_members(), reply);
 }
 
 json_t *reply_schema(void)

@@ -30,7 +30,7 @@ static bool read_bodies(const json_t *array, const struct json_path *path,
 {
     if (!check_array(array, path, PERCUSS_MAX_BODIES, fault))
         return false;
-    for (size_t i = 0; i < json_array_size(array); ++i) {
+    for (size_t i = 0; i < json_array_size(array); i++) {
         struct percuss_body_motion *body = percuss_request_add_body(&request->request, "");
         if (!json_read_object(json_array_get(array, i), &(struct json_path){path, NULL, i},
                               body_motion_members(), body, fault))
@@ -44,7 +44,7 @@ static bool read_contacts(const json_t *array, const struct json_path *path,
 {
     if (!check_array(array, path, PERCUSS_MAX_CONTACTS, fault))
         return false;
-    for (size_t i = 0; i < json_array_size(array); ++i) {
+    for (size_t i = 0; i < json_array_size(array); i++) {
         struct percuss_contact *contact = percuss_request_add_contact(&request->request, 0, 0);
         if (!json_read_object(json_array_get(array, i), &(struct json_path){path, NULL, i},
                               contact_members(), contact, fault))
@@ -66,7 +66,7 @@ static bool read_delassus(const json_t *array, const struct json_path *path,
     if (json_array_size(array) != contacts)
         return json_fail(fault, path, "%zu rows are needed, one a contact, not %zu", contacts,
                          json_array_size(array));
-    for (size_t i = 0; i < contacts; ++i)
+    for (size_t i = 0; i < contacts; i++)
         if (!json_read_numbers(json_array_get(array, i), &(struct json_path){path, NULL, i},
                                contacts, request->delassus + i * contacts, fault))
             return false;
@@ -79,7 +79,7 @@ static bool read_client(const json_t *value, const struct json_path *path,
     const char *text = json_is_string(value) ? json_string_value(value) : "";
     if (strlen(text) != 32 || strspn(text, "0123456789abcdefABCDEF") != 32)
         return json_fail(fault, path, "32 hexadecimal digits are needed");
-    for (int i = 0; i < 16; ++i)
+    for (int i = 0; i < 16; i++)
         sscanf(text + 2 * i, "%2hhx", &request->client[i]);
     request->has_client = true;
     return true;
@@ -136,7 +136,7 @@ bool request_json_read(const json_t *root, struct json_request *request, struct 
         return json_fail(fault, NULL, "a request is an object, not %s", json_kind_of(root));
     if (!check_members(root, fault))
         return false;
-    for (size_t i = 0; i < REQUEST_MEMBERS; ++i) {
+    for (size_t i = 0; i < REQUEST_MEMBERS; i++) {
         const json_t *value = json_object_get(root, request_members[i].name);
         struct json_path path = {NULL, request_members[i].name, 0};
         if (value && !request_members[i].read(value, &path, request, fault))

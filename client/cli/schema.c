@@ -31,7 +31,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[0] = choice->common;
         return 0;
     case ARGP_KEY_ARG:
-        for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; ++i)
+        for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
             if (!choice->kind && !strcmp(kinds[i].name, text))
                 choice->kind = &kinds[i];
         if (!choice->kind || state->arg_num > 0)

@@ -7,39 +7,16 @@
 #include <stdio.h>
 
 #include "cli.h"
-#include "reply_json.h"
+#include "json_writer.h"
 
-static json_t *server_to_json(const struct percuss_server *server)
-{
-    char id[33];
-    format_hex(server->server, id);
-    json_t *object = json_object();
-    json_object_set_new(object, "server", json_string(id));
-    json_object_set_new(object, "version", json_string(server->version));
-    json_object_set_new(object, "catalogue_revision", json_string(server->catalogue_revision));
-    json_object_set_new(object, "catalogue", json_string(server->catalogue));
-    json_object_set_new(object, "host", json_string(server->host));
-    json_object_set_new(object, "process", json_integer(server->process));
-    json_object_set_new(object, "state", json_string(server->state));
-    json_object_set_new(object, "workers", json_integer(server->workers));
-    json_object_set_new(object, "bodies", json_integer(server->bodies));
-    json_object_set_new(object, "queue_length", json_integer(server->queue_length));
-    json_object_set_new(object, "queue_capacity", json_integer(server->queue_capacity));
-    json_object_set_new(object, "answered", json_integer((json_int_t)server->answered));
-    json_object_set_new(object, "refused", json_integer((json_int_t)server->refused));
-    json_object_set_new(object, "specimens", json_integer(server->specimens));
-    json_object_set_new(object, "uptime", json_number(server->uptime));
-    json_object_set_new(object, "activity", json_string(server->activity));
-    json_object_set_new(object, "progress", json_number(server->progress));
-    return object;
-}
+JSON_TABLE(server, PERCUSS_SERVER_FIELDS)
 
 static void print_json(const struct percuss_server_list *list)
 {
     json_t *root = json_object(), *array = json_array();
     json_object_set_new(root, "servers", array);
     for (size_t i = 0; i < list->count; i++)
-        json_array_append_new(array, server_to_json(&list->servers[i]));
+        json_array_append_new(array, json_object_of(server_members(), &list->servers[i]));
     json_print(root);
 }
 

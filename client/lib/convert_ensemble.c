@@ -39,7 +39,7 @@ static enum percuss_result check_counts(const struct percuss_ensemble_request *r
         {"correlations", request->correlation_count, PERCUSS_MAX_CORRELATIONS},
         {"quantiles", request->quantile_count, PERCUSS_MAX_QUANTILES},
     };
-    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; ++i)
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++)
         if (counts[i].count > counts[i].most)
             return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                              "%s: %zu are too many; up to %zu are allowed", counts[i].field,
@@ -56,11 +56,11 @@ enum percuss_result convert_ensemble_request(const struct percuss_ensemble_reque
     enum percuss_result result = check_counts(from);
     if (result == PERCUSS_RESULT_OK)
         result = convert_request(&from->scene, &storage->scene, &to->scene);
-    for (size_t i = 0; result == PERCUSS_RESULT_OK && i < from->input_count; ++i)
+    for (size_t i = 0; result == PERCUSS_RESULT_OK && i < from->input_count; i++)
         result = convert_input(&from->inputs[i], i, &storage->inputs[i]);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    for (size_t i = 0; i < from->correlation_count; ++i)
+    for (size_t i = 0; i < from->correlation_count; i++)
         convert_correlation(&from->correlations[i], &storage->correlations[i]);
     to->inputs._buffer = storage->inputs;
     to->inputs._length = to->inputs._maximum = (uint32_t)from->input_count;

@@ -32,12 +32,12 @@
 #define CONVERT_LIST(name, count, element, ...)                                                    \
     to->name = storage_take(storage, from->name._length, sizeof *to->name);                        \
     to->count = to->name ? from->name._length : 0;                                                 \
-    for (size_t i = 0; i < to->count; ++i)                                                         \
+    for (size_t i = 0; i < to->count; i++)                                                         \
         convert_##element(&from->name._buffer[i], storage, &to->name[i]);
 #define CONVERT_TEXTS(name, count, ...)                                                            \
     to->name = storage_take(storage, from->name._length, sizeof *to->name);                        \
     to->count = to->name ? from->name._length : 0;                                                 \
-    for (size_t i = 0; i < to->count; ++i)                                                         \
+    for (size_t i = 0; i < to->count; i++)                                                         \
         to->name[i] =                                                                              \
             storage_copy(storage, from->name._buffer[i], strlen(from->name._buffer[i]) + 1, 1);
 #define CONVERT_OPTIONAL(name, element, ...)                                                       \

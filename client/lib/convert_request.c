@@ -31,7 +31,7 @@ static enum percuss_result convert_body(const struct percuss_body_motion *from, 
                          "bodies[%zu].override_count: %u are too many; up to %d are allowed", index,
                          from->override_count, PERCUSS_PARAMETER_COUNT);
     PERCUSS_BODY_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
-    for (uint32_t i = 0; i < from->override_count; ++i)
+    for (uint32_t i = 0; i < from->override_count; i++)
         storage->overrides[index][i] =
             (percuss_v1_Override){from->overrides[i].parameter, from->overrides[i].value};
     to->overrides._buffer = storage->overrides[index];
@@ -64,11 +64,11 @@ enum percuss_result convert_request(const struct percuss_request *request,
     enum percuss_result result = check_count("bodies", request->body_count, PERCUSS_MAX_BODIES);
     if (result == PERCUSS_RESULT_OK)
         result = check_count("contacts", request->contact_count, PERCUSS_MAX_CONTACTS);
-    for (size_t i = 0; result == PERCUSS_RESULT_OK && i < request->body_count; ++i)
+    for (size_t i = 0; result == PERCUSS_RESULT_OK && i < request->body_count; i++)
         result = convert_body(&request->bodies[i], i, storage);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    for (size_t i = 0; i < request->contact_count; ++i)
+    for (size_t i = 0; i < request->contact_count; i++)
         convert_contact(&request->contacts[i], &storage->contacts[i]);
 
     uint32_t contacts = (uint32_t)request->contact_count;

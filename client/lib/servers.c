@@ -9,30 +9,13 @@
 #include "announcements.h"
 #include "error.h"
 #include "exchange.h"
+#include "percuss/fields.h"
 #include "receive.h"
 #include "servers.h"
 
-static void convert_server(const percuss_v1_ServerStatus *wire, struct percuss_server *server)
+static void convert_server(const percuss_v1_ServerStatus *from, struct percuss_server *to)
 {
-    *server = (struct percuss_server){
-        .process = wire->process,
-        .workers = wire->workers,
-        .bodies = wire->bodies,
-        .queue_length = wire->queue_length,
-        .queue_capacity = wire->queue_capacity,
-        .answered = wire->answered,
-        .refused = wire->refused,
-        .uptime = wire->uptime,
-        .progress = wire->progress,
-        .specimens = wire->specimens,
-    };
-    memcpy(server->server, wire->server, sizeof server->server);
-    memcpy(server->version, wire->version, sizeof server->version);
-    memcpy(server->catalogue_revision, wire->catalogue_revision, sizeof server->catalogue_revision);
-    memcpy(server->catalogue, wire->catalogue, sizeof server->catalogue);
-    memcpy(server->host, wire->host, sizeof server->host);
-    memcpy(server->state, wire->state, sizeof server->state);
-    memcpy(server->activity, wire->activity, sizeof server->activity);
+    PERCUSS_SERVER_FIELDS(PERCUSS_COPY)
 }
 
 /* A server with what decides its place in the list. */

@@ -8,7 +8,13 @@
 #include "announcements.h"
 #include "connect.h"
 #include "error.h"
+#include "percuss/fields.h"
 #include "receive.h"
+
+static void convert_dent(const percuss_v1_Dent *from, struct percuss_dent *to)
+{
+    PERCUSS_DENT_FIELDS(PERCUSS_COPY)
+}
 
 /* False: no memory. */
 static bool convert_specimen(const percuss_v1_Dents *wire, struct percuss_specimen *specimen)
@@ -20,16 +26,8 @@ static bool convert_specimen(const percuss_v1_Dents *wire, struct percuss_specim
     memcpy(specimen->name, wire->specimen, sizeof specimen->name);
     memcpy(specimen->body, wire->body, sizeof specimen->body);
     specimen->dents = calloc(specimen->dent_count + 1, sizeof *specimen->dents);
-    for (size_t i = 0; specimen->dents && i < specimen->dent_count; i++) {
-        const percuss_v1_Dent *from = &wire->patches._buffer[i];
-        struct percuss_dent *to = &specimen->dents[i];
-        memcpy(to->point, from->point, sizeof to->point);
-        to->size = from->size;
-        to->max_indentation = from->max_indentation;
-        to->max_force = from->max_force;
-        to->residual_indentation = from->residual_indentation;
-        to->contact_radius = from->contact_radius;
-    }
+    for (size_t i = 0; specimen->dents && i < specimen->dent_count; i++)
+        convert_dent(&wire->patches._buffer[i], &specimen->dents[i]);
     return specimen->dents;
 }
 

@@ -7,18 +7,7 @@
 #include <string.h>
 
 #include "endpoint/encode_trace.h"
-#include "endpoint/text.h"
 #include "percuss/fields.h"
-
-/* The fields that every kind of reply begins with. */
-#define FILL_ENVELOPE(wire, envelope)                                                              \
-    do {                                                                                           \
-        memcpy((wire)->client, (envelope)->client, sizeof(wire)->client);                          \
-        memcpy((wire)->server, (envelope)->server, sizeof(wire)->server);                          \
-        (wire)->sequence = (envelope)->sequence;                                                   \
-        COPY_TEXT((wire)->catalogue_revision, (envelope)->revision);                               \
-        COPY_TEXT((wire)->version, (envelope)->version);                                           \
-    } while (0)
 
 /* Gives a sequence its elements; they live and die with the answer, not with the sample. */
 #define FILL_SEQUENCE(sequence, buffer, count)                                                     \
@@ -66,14 +55,15 @@ static void undefine_reply(percuss_v1_Reply *to)
     undefine_model(&to->model);
 }
 
-static struct answer *create_blank(const struct envelope *envelope, size_t room)
+static struct answer *create_blank(const struct envelope *envelope, enum percuss_status status,
+                                   const char *message, size_t room)
 {
     struct answer *answer =
         answer_create(EXCHANGE_SINGLE, room + answer_room(1, sizeof *answer->reply));
     if (!answer)
         return NULL;
     answer->reply = answer_take(answer, 1, sizeof *answer->reply);
-    FILL_ENVELOPE(answer->reply, envelope);
+    ENCODE_HEAD(answer->reply, envelope, status, message);
     undefine_reply(answer->reply);
     return answer;
 }
@@ -81,23 +71,18 @@ static struct answer *create_blank(const struct envelope *envelope, size_t room)
 struct answer *encode_refusal(const struct envelope *envelope, enum percuss_status status,
                               const char *message)
 {
-    struct answer *answer = create_blank(envelope, 0);
-    if (answer) {
-        answer->reply->status = status;
+    struct answer *answer = create_blank(envelope, status, message, 0);
+    if (answer)
         answer->passing = encode_status_is_passing(status);
-        COPY_TEXT(answer->reply->message, message);
-    }
     return answer;
 }
 
 void encode_batch_head(percuss_v1_BatchReply *part, const struct envelope *envelope,
                        enum percuss_status status, const char *message)
 {
-    FILL_ENVELOPE(part, envelope);
+    ENCODE_HEAD(part, envelope, status, message);
     part->part = 0;
     part->parts = 1;
-    part->status = status;
-    COPY_TEXT(part->message, message);
 }
 
 struct answer *encode_batch_refusal(const struct envelope *envelope, enum percuss_status status,
@@ -121,12 +106,10 @@ struct answer *encode_ensemble_refusal(const struct envelope *envelope, enum per
     if (!answer)
         return NULL;
     answer->report = answer_take(answer, 1, sizeof *answer->report);
-    FILL_ENVELOPE(answer->report, envelope);
-    answer->report->status = status;
     answer->passing = encode_status_is_passing(status);
-    COPY_TEXT(answer->report->message, message);
-    percuss_v1_EnsembleReply *report = answer->report;
-    report->possible_low = report->possible_high = report->cut = report->step_accuracy = NAN;
+    percuss_v1_EnsembleReply *to = answer->report;
+    ENCODE_HEAD(to, envelope, status, message);
+    PERCUSS_ENSEMBLE_REPLY_FIELDS(PERCUSS_UNDEFINED, PERCUSS_NONE)
     return answer;
 }
 
@@ -247,11 +230,10 @@ struct answer *encode_result(const struct envelope *envelope, const struct solve
     if (!encode_status_has_result(result->status))
         return encode_refusal(envelope, result->status, result->fault.text);
     struct answer *answer =
-        create_blank(envelope, lists_room(result, listed) + encode_trace_room(result->trace));
+        create_blank(envelope, result->status, result->fault.text,
+                     lists_room(result, listed) + encode_trace_room(result->trace));
     if (!answer)
         return NULL;
-    answer->reply->status = result->status;
-    COPY_TEXT(answer->reply->message, result->fault.text);
     fill_reply(result, answer->reply);
     fill_contacts(answer, result, listed);
     if (result->velocities_known)

@@ -6,7 +6,20 @@
 #define PERCUSS_ENDPOINT_ENCODE_H
 
 #include "endpoint/answer.h"
+#include "endpoint/text.h"
 #include "solve/result.h"
+
+/* What all kinds of replies begin with. */
+#define ENCODE_HEAD(wire, envelope, state, text)                                                   \
+    do {                                                                                           \
+        memcpy((wire)->client, (envelope)->client, sizeof(wire)->client);                          \
+        memcpy((wire)->server, (envelope)->server, sizeof(wire)->server);                          \
+        (wire)->sequence = (envelope)->sequence;                                                   \
+        COPY_TEXT((wire)->catalogue_revision, (envelope)->revision);                               \
+        COPY_TEXT((wire)->version, (envelope)->version);                                           \
+        (wire)->status = (state);                                                                  \
+        COPY_TEXT((wire)->message, text);                                                          \
+    } while (0)
 
 /* A reply listing at most `listed` sub-impacts a contact (their count is exact all the same).
  * `tokens` names the state of every body afterwards, "" for none. Numbers the result does not

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "endpoint/text.h"
+#include "endpoint/encode.h"
 #include "percuss/fields.h"
 
 /* Copies `count` elements into the answer and makes them the sequence. */
@@ -155,19 +155,6 @@ static void fill_model(struct answer *answer, const struct ensemble *ensemble,
     reply->agreeing = ensemble->model.agreeing;
 }
 
-static void fill_head(percuss_v1_EnsembleReply *reply, const struct envelope *envelope,
-                      const struct ensemble_ending *ending)
-{
-    memcpy(reply->client, envelope->client, sizeof reply->client);
-    memcpy(reply->server, envelope->server, sizeof reply->server);
-    reply->sequence = envelope->sequence;
-    COPY_TEXT(reply->catalogue_revision, envelope->revision);
-    COPY_TEXT(reply->version, envelope->version);
-    reply->status = ending->status;
-    COPY_TEXT(reply->message, ending->message);
-    reply->complete = ending->status == PERCUSS_OK;
-}
-
 static void fill_lists(struct answer *answer, const struct ensemble *ensemble,
                        const struct ensemble_report *report)
 {
@@ -197,7 +184,8 @@ struct answer *encode_ensemble(const struct envelope *envelope, const struct ens
         return NULL;
     answer->report = answer_take(answer, 1, sizeof *answer->report);
     percuss_v1_EnsembleReply *reply = answer->report;
-    fill_head(reply, envelope, ending);
+    ENCODE_HEAD(reply, envelope, ending->status, ending->message);
+    reply->complete = ending->status == PERCUSS_OK;
     reply->samples = report->done;
     reply->requested = ensemble->count;
     reply->refused = report->refused;

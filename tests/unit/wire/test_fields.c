@@ -85,6 +85,13 @@ static void replies(void **state)
     expect("Reply", LIST(REPLY));
 }
 
+static void announcements(void **state)
+{
+    (void)state;
+    expect("ServerStatus", LIST(PERCUSS_SERVER_FIELDS));
+    expect("Dent", LIST(PERCUSS_DENT_FIELDS));
+}
+
 static void reports(void **state)
 {
     (void)state;
@@ -103,6 +110,7 @@ int main(void)
         cmocka_unit_test(requests),
         cmocka_unit_test(replies),
         cmocka_unit_test(reports),
+        cmocka_unit_test(announcements),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
