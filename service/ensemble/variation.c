@@ -26,23 +26,11 @@ static bool copy_bodies(struct variation *variation)
     return set->bodies != NULL;
 }
 
-static void velocity_at(const struct solve_body *body, const double point[3], double velocity[3])
-{
-    double arm[3], turning[3];
-    sub3(point, body->position, arm);
-    cross3(body->angular_velocity, arm, turning);
-    for (int i = 0; i < 3; i++)
-        velocity[i] = body->velocity[i] + turning[i];
-}
-
 static double gap_rate_of(const struct solve_request *request, size_t contact)
 {
-    const struct solve_contact *c = &request->contacts[contact];
-    double a[3], b[3], relative[3];
-    velocity_at(&request->bodies[c->a], c->point, a);
-    velocity_at(&request->bodies[c->b], c->point, b);
-    sub3(a, b, relative);
-    return dot3(c->normal, relative);
+    double relative[3];
+    solve_contact_velocity(request, contact, relative);
+    return dot3(request->contacts[contact].normal, relative);
 }
 
 /* Whether the (only) contact is on the side of this body, not on its end: x is along its axis. */

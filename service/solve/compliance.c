@@ -25,9 +25,7 @@ static double patch_radius(const struct problem *problem, size_t c)
 {
     const struct hertz_contact *hertz = &problem->hertz[c];
     size_t n = problem->contact_count;
-    double speed = 0.0;
-    for (size_t i = 0; i < n; i++)
-        speed = fmax(speed, -problem->gap_rate[i]);
+    double speed = problem_approach(problem);
     double energy = 0.5 * speed * speed / problem->w[c * (n + 1)];
     double force = hertz->stiffness * pow(energy / (HERTZ_WORK * hertz->stiffness), 0.6);
     double axes[2];

@@ -64,16 +64,6 @@ static enum percuss_status find_bodies(struct problem *problem, const struct bod
     return PERCUSS_OK;
 }
 
-static void point_velocity(const struct solve_body *body, const double point[3], double velocity[3])
-{
-    double arm[3];
-    double turning[3];
-    sub3(point, body->position, arm);
-    cross3(body->angular_velocity, arm, turning);
-    for (int i = 0; i < 3; i++)
-        velocity[i] = body->velocity[i] + turning[i];
-}
-
 static enum percuss_status place_side(struct problem *problem, const struct solve_contact *contact,
                                       size_t index, int which, double allowed, struct fault *fault)
 {
@@ -134,15 +124,11 @@ static enum percuss_status place_contact(struct problem *problem, size_t index, 
 
 static void find_rates(struct problem *problem, size_t index)
 {
-    const struct solve_contact *contact = &problem->request->contacts[index];
-    double a[3];
-    double b[3];
-    point_velocity(&problem->request->bodies[contact->a], contact->point, a);
-    point_velocity(&problem->request->bodies[contact->b], contact->point, b);
-    sub3(a, b, a);
-    problem->gap_rate[index] = dot3(contact->normal, a);
-    add_scaled3(-problem->gap_rate[index], contact->normal, a);
-    memcpy(problem->sliding[index], a, sizeof a);
+    const double *normal = problem->request->contacts[index].normal;
+    double *sliding = problem->sliding[index];
+    solve_contact_velocity(problem->request, index, sliding);
+    problem->gap_rate[index] = dot3(normal, sliding);
+    add_scaled3(-problem->gap_rate[index], normal, sliding);
 }
 
 /* w_i^T M^-1 w_j from the bodies that both contacts share. */

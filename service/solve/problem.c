@@ -3,6 +3,8 @@
 
 #include "solve/problem.h"
 
+#include <math.h>
+
 struct problem *problem_create(const struct solve_request *request, struct prepared_cache *cache,
                                struct arena *arena)
 {
@@ -16,6 +18,22 @@ struct problem *problem_create(const struct solve_request *request, struct prepa
     problem->body_count = request->body_count;
     problem->contact_count = request->contact_count;
     return problem;
+}
+
+double problem_approach(const struct problem *problem)
+{
+    double speed = 0.0;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        speed = fmax(speed, -problem->gap_rate[c]);
+    return speed;
+}
+
+double problem_largest_compression(const struct problem *problem)
+{
+    double largest = 0.0;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        largest = fmax(largest, problem->impulse_compression[c]);
+    return largest;
 }
 
 const struct family_load *problem_load(const struct problem *problem, size_t contact, size_t body,

@@ -77,6 +77,12 @@ static inline const struct body *problem_body(const struct problem *problem, siz
     return problem->bodies[problem->sides[contact][side].body];
 }
 
+/* Speed of the contact that closes fastest, m/s; 0: none does. */
+double problem_approach(const struct problem *problem);
+
+/* Of the contacts' compression impulses, N s. */
+double problem_largest_compression(const struct problem *problem);
+
 /* The load of contact `contact` on a body (an index) if it acts on the family, or NULL. */
 const struct family_load *problem_load(const struct problem *problem, size_t contact, size_t body,
                                        size_t family);

@@ -121,10 +121,8 @@ static struct radiator find_radiator(const struct problem *problem, const struct
                                      size_t body)
 {
     struct radiator radiator = {.body = body, .duration = INFINITY};
-    double rate = 0.0;
+    double rate = problem_approach(problem);
     radiator.waves = half_space_waves_of(&problem->bodies[body]->material);
-    for (size_t c = 0; c < scene->contacts; c++)
-        rate = fmax(rate, -scene->gap_rate[c]);
     for (size_t c = 0; c < scene->contacts; c++)
         if (problem->sides[c][0].body == body || problem->sides[c][1].body == body)
             look_at(problem, scene, c, pressed_rate(scene, c, rate), &radiator);

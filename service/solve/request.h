@@ -55,6 +55,10 @@ static const double SOLVE_HORIZON = 0.020;
 /* Tolerance of who states none: what a measured restitution scatters by. */
 static const double SOLVE_TOLERANCE = 1e-3;
 
+/* Velocity of a's point of a contact against b's, world, m/s. */
+void solve_contact_velocity(const struct solve_request *request, size_t contact,
+                            double velocity[3]);
+
 /* On the restitution: as stated, or the default. */
 static inline double solve_tolerance(const struct solve_options *options)
 {

@@ -43,14 +43,6 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
     return PERCUSS_OK;
 }
 
-static double largest_compression(const struct problem *problem)
-{
-    double largest = 0.0;
-    for (size_t c = 0; c < problem->contact_count; c++)
-        largest = fmax(largest, problem->impulse_compression[c]);
-    return largest;
-}
-
 /* The width of what a restitution can be, from no impulse (-1) to a full rebound, or what it is. */
 static double possible_range(const struct attempt_context *context, const struct attempt *best)
 {
@@ -72,7 +64,8 @@ static void widen(const struct attempt_context *context, const struct attempt *b
     error = fmax(error, unknown ? context->problem->tolerance : 0.0) - solution->steps.restitution;
     if (error > modes->restitution) {
         modes->restitution = error;
-        modes->impulse = fmax(modes->impulse, error * largest_compression(context->problem));
+        modes->impulse =
+            fmax(modes->impulse, error * problem_largest_compression(context->problem));
     }
 }
 
@@ -105,7 +98,7 @@ static void conclude(const struct attempt_context *context, const struct attempt
         widen(context, best, unknown, solution);
     /* what sequences amplify beyond all bounds */
     double range = possible_range(context, best);
-    double compression = largest_compression(context->problem);
+    double compression = problem_largest_compression(context->problem);
     bound(range, compression, &solution->steps.restitution, &solution->steps.impulse);
     bound(range, compression, &solution->modes.restitution, &solution->modes.impulse);
 }

@@ -67,11 +67,10 @@ static double error_of_steps(const struct attempt_context *context, const struct
 static struct step_error estimate_alone(const struct attempt_context *context,
                                         const struct attempt *best)
 {
-    double largest = 0.0;
-    for (size_t c = 0; c < context->problem->contact_count; c++)
-        largest = fmax(largest, context->problem->impulse_compression[c]);
     double restitution = error_of_steps(context, best);
-    return (struct step_error){.restitution = restitution, .impulse = restitution * largest};
+    return (struct step_error){.restitution = restitution,
+                               .impulse =
+                                   restitution * problem_largest_compression(context->problem)};
 }
 
 /* Adds what a solution with longer steps says, `known` where there is one already. What was cut off

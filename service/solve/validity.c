@@ -206,13 +206,11 @@ void validity_find(const struct problem *problem, const struct impact_outcome *o
     bool touches =
         outcome->end_reason == PERCUSS_END_LIMIT || outcome->end_reason == PERCUSS_END_IN_CONTACT;
     // what closes, and whether it touched
-    double approach = 0.0;
+    double approach = problem_approach(problem);
     warnings->count = 0;
     warnings->kinds = 0;
-    for (size_t c = 0; c < problem->contact_count; c++) {
-        approach = fmax(approach, -problem->gap_rate[c]);
+    for (size_t c = 0; c < problem->contact_count; c++)
         touches = touches || outcome->tracks[c].count > 0;
-    }
     if (!touches && outcome->end_reason != PERCUSS_END_LIMIT)
         warnings_add(warnings, WARNING_NO_TOUCH,
                      "contacts: the bodies do not touch: gap and acceleration keep them apart");
