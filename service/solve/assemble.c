@@ -83,6 +83,7 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
     struct assembly *assembly = add->assembly;
     size_t n = add->problem->contact_count;
     struct scene_group *group = &assembly->groups[assembly->scene.groups];
+    // as many modes of it as take part
     *group = (struct scene_group){.set = source->set, .body = add->body};
     while (group->count < source->set->count && source->mode[group->count] < add->count)
         group->count++;
@@ -90,6 +91,7 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
     group->participation = arena_take(add->problem->arena, n, sizeof *group->participation);
     if (!group->participation)
         return false;
+    // a row for every contact that excites one of them
     double scale = participation_scale(add->problem->bodies[add->body]);
     *added = false;
     for (size_t c = 0; c < n && group->count; c++) {
@@ -149,6 +151,7 @@ static bool add_family(const struct addition *add, double *residual)
     const struct body *body = problem->bodies[add->body];
     size_t n = problem->contact_count;
     size_t first_group = assembly->scene.groups;
+    // all of its static compliance
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++) {
             const struct family_load *a = problem_load(problem, i, add->body, add->family);
@@ -157,6 +160,7 @@ static bool add_family(const struct addition *add, double *residual)
                 residual[i * n + j] += modal_compliance(body, add->family, a, b);
         }
     }
+    // less what its modes hold
     for (size_t g = 0; g < add->prepared->group_count; g++) {
         bool added;
         if (!add_group(add, &add->prepared->groups[g], &added))
@@ -236,10 +240,12 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
     double *residual = arena_take(problem->arena, n * n, sizeof *residual);
     if (!residual || !create(assembly, problem) || !fill_scene(assembly, problem))
         return false;
+    // what is in series with the laws
     for (size_t c = 0; problem->compliance.series && c < n; c++)
         residual[c * n + c] = problem->compliance.series[c];
     assembly->scene.residual = residual;
     const struct scene rigid = assembly->scene;
+    // every loaded family of every body that vibrates
     for (size_t b = 0; b < problem->body_count; b++) {
         const struct body *body = problem->bodies[b];
         for (size_t f = 0; f < body->kind->family_count; f++) {
@@ -283,9 +289,11 @@ bool assemble_remainder(const struct assembly *assembly, const struct problem *p
     double *residual = arena_take(problem->arena, n * n, sizeof *residual);
     if (!scene->group || !residual)
         return false;
+    // the scene as it is
     memcpy(scene->group, assembly->groups, scene->groups * sizeof *scene->group);
     memcpy(residual, assembly->scene.residual, n * n * sizeof *residual);
     scene->residual = residual;
+    // one oscillator more for each part, in the place of its compliance
     for (size_t p = 0; p < assembly->part_count; p++) {
         const struct omitted_part *part = &assembly->parts[p];
         struct scene_group *group = &scene->group[scene->groups++];

@@ -73,6 +73,7 @@ static void find_matched(struct problem *problem, bool asked)
 {
     struct compliance *compliance = &problem->compliance;
     compliance->used = PERCUSS_COMPLIANCE_MATCHED;
+    // of every contact, or of none
     for (size_t c = 0; c < problem->contact_count; c++) {
         if (!asked && !any_flexible(problem, c)) {
             use_half_space(problem, "");

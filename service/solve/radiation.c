@@ -178,11 +178,13 @@ static bool add_group(struct arena *arena, const struct radiator *radiator, stru
     size_t n = assembly->scene.contacts;
     double omega = set->omega[0];
     double scale = omega * sqrt(radiator->waves.lag * omega * M_SQRT1_2);
+    // one oscillator for all contacts
     struct scene_group *group = &assembly->groups[assembly->scene.groups];
     *group = (struct scene_group){.set = set, .body = radiator->body, .count = 1, .stride = LANES};
     group->participation = arena_take(arena, n, sizeof *group->participation);
     if (!group->participation)
         return false;
+    // excited by those that the column holds
     for (size_t i = column; i < radiator->count; i++) {
         double part = factor[i * radiator->count + column];
         if (part == 0.0)
@@ -193,6 +195,7 @@ static bool add_group(struct arena *arena, const struct radiator *radiator, stru
         row[0] = scale * part;
         group->participation[radiator->contact[i]] = row;
     }
+    // and taken from the residual flexibility
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             if (group->participation[i] && group->participation[j])
