@@ -27,26 +27,14 @@ static const char *const distribution_names[] = {"constant", "uniform", "normal"
 
 static const struct limit *limit_of(enum input_quantity quantity)
 {
-    switch (quantity) {
-    case INPUT_SPEED:
-        return &limit_speed;
-    case INPUT_DIRECTION:
-        return &limit_direction;
-    case INPUT_SITE:
-        return &limit_site;
-    case INPUT_YOUNG:
-        return &limit_young;
-    case INPUT_POISSON:
-        return &limit_poisson;
-    case INPUT_DENSITY:
-        return &limit_density;
-    case INPUT_RADIUS:
-        return &limit_length;
-    case INPUT_YIELD:
-        return &limit_yield;
-    default:
-        return &limit_damping;
-    }
+    static const struct limit *const limits[INPUT_QUANTITY_COUNT] = {
+        [INPUT_SPEED] = &limit_speed,     [INPUT_DIRECTION] = &limit_direction,
+        [INPUT_SITE] = &limit_site,       [INPUT_YOUNG] = &limit_young,
+        [INPUT_POISSON] = &limit_poisson, [INPUT_DENSITY] = &limit_density,
+        [INPUT_RADIUS] = &limit_length,   [INPUT_YIELD] = &limit_yield,
+        [INPUT_DAMPING] = &limit_damping,
+    };
+    return limits[quantity];
 }
 
 const char *input_quantity_name(unsigned quantity)
@@ -213,6 +201,7 @@ enum percuss_status input_check(const struct ensemble_input *input, size_t index
                                 struct fault *fault)
 {
     const struct limit *limit = limit_of(input->quantity);
+    // what the distribution needs
     switch (input->distribution) {
     case DISTRIBUTION_IS_LIST:
         return check_list(input, index, fault);
@@ -234,6 +223,7 @@ enum percuss_status input_check(const struct ensemble_input *input, size_t index
     default:
         break;
     }
+    // and a place within what is possible
     if (!limit_holds(limit, input->first))
         return refuse(input, index, "first", input->first, limit->text, fault);
     return PERCUSS_OK;

@@ -159,6 +159,7 @@ enum percuss_status solution_find(struct solution *solution, struct problem *pro
                                   struct pace *pace, struct fault *fault)
 {
     for (bool revised = false;; revised = true) {
+        // each time with all of the effort
         struct attempt_context context = {
             .problem = problem,
             .arena = arena,
@@ -174,6 +175,7 @@ enum percuss_status solution_find(struct solution *solution, struct problem *pro
         if (solution->outcome.always_overlapped)
             return outcome_refuse_overlap(problem, &solution->outcome,
                                           attempt_horizon(problem, solution->scene), fault);
+        // again where the solution contradicts what was chosen
         if (!formulation_revise(problem, solution->scene, &solution->outcome))
             return PERCUSS_OK;
         solution->scene = NULL;
