@@ -41,14 +41,18 @@ static bool is_central(const struct body *body, const double point[3])
 }
 
 /* The correction of one side of a contact, m/N. False: none is known. */
-static bool side_compliance(const struct problem *problem, size_t c, int which, double *compliance)
+static bool side_compliance(struct problem *problem, size_t c, int which, double *compliance)
 {
     const struct contact_side *side = &problem->sides[c][which];
     const struct body *body = problem->bodies[side->body];
     enum solid_form form = body_solid(body).form;
     if (form == SOLID_CYLINDER && !is_central(body, side->site.point))
         return false;
-    double patch = form == SOLID_BALL ? patch_radius(problem, c) : 0.0;
+    double patch = 0.0;
+    if (form == SOLID_BALL) {
+        patch = patch_radius(problem, c);
+        problem->compliance.by_speed = true;
+    }
     return prepared_matched_get(problem->cache, body, patch, compliance);
 }
 
@@ -56,6 +60,7 @@ static void use_half_space(struct problem *problem, const char *why)
 {
     struct compliance *compliance = &problem->compliance;
     compliance->used = PERCUSS_COMPLIANCE_HALF_SPACE;
+    compliance->by_speed = false;
     memset(compliance->series, 0, problem->contact_count * sizeof *compliance->series);
     memset(compliance->sides, 0, problem->contact_count * sizeof *compliance->sides);
     snprintf(compliance->reason, sizeof compliance->reason, "%s", why);

@@ -38,6 +38,7 @@ struct compliance {
     enum percuss_compliance used; /* HALF_SPACE or MATCHED, of all contacts */
     double *series;               /* [contact], m/N; 0: half-space; NULL: the same, none chosen */
     double (*sides)[2];           /* [contact]: the parts of either body in it */
+    bool by_speed;                /* a part depends on the speed of approach: a sphere's */
     bool still;                   /* no waves leave through half-spaces, see radiation.h: a contact
                                      is too stiff for them, or too many share them */
     char reason[128];             /* why half-space although matched was asked for, or empty */

@@ -86,10 +86,10 @@ static enum percuss_status judge(struct repeat *repeat, size_t contact,
 }
 
 /* Whether another blow on the same bodies is the same problem but for its rates: it chooses the
- * laws of bodies that yield, and the waves of half-spaces. */
+ * laws of bodies that yield, the waves of half-spaces and a sphere's matched compliance. */
 static bool lasts(const struct problem *problem)
 {
-    bool lasts = !radiation_is_possible(problem);
+    bool lasts = !radiation_is_possible(problem) && !problem->compliance.by_speed;
     for (size_t c = 0; c < problem->contact_count; c++)
         lasts = lasts && problem->contact_model.choices[c].side < 0;
     return lasts;

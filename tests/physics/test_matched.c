@@ -4,6 +4,7 @@
 /* Matched local compliance in an answer: what it changes on a rod, where it is not known, and when
  * it is left aside. */
 #include "physics/support.h"
+#include "solve/repeat.h"
 
 static struct lab *matched_lab(void)
 {
@@ -151,6 +152,31 @@ static void the_slowest_touch(void **state)
     lab_free(lab);
 }
 
+/* A sphere's part depends on the speed: a sample of an ensemble has the bits that it has alone,
+ * whatever its worker solved before. */
+static void a_sample_has_its_own_compliance(void **state)
+{
+    (void)state;
+    struct lab *lab = matched_lab();
+    struct repeat *alone = repeat_create(), *busy = repeat_create();
+    struct solution_model model;
+    struct repeat_outcome first, other, again;
+    struct fault fault;
+    struct solve_request slow = strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), 0.2);
+    struct solve_request fast = strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), 0.4);
+    assert_int_equal(repeat_search(alone, &lab->means, &slow, 0, &model, &first, &fault),
+                     PERCUSS_OK);
+    repeat_solve(alone, &lab->means, &slow, 0, &model, false, &first, &fault);
+    repeat_solve(busy, &lab->means, &fast, 0, &model, false, &other, &fault);
+    repeat_solve(busy, &lab->means, &slow, 0, &model, true, &again, &fault);
+    assert_int_equal(again.status, PERCUSS_OK);
+    assert_true(other.restitution != first.restitution);
+    assert_true(again.restitution == first.restitution && again.impulse == first.impulse);
+    repeat_free(alone);
+    repeat_free(busy);
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -160,6 +186,7 @@ int main(void)
         cmocka_unit_test(only_central_hits),
         cmocka_unit_test(too_stiff_contacts_do_without),
         cmocka_unit_test(the_slowest_touch),
+        cmocka_unit_test(a_sample_has_its_own_compliance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
