@@ -19,7 +19,7 @@ double percuss_slow_force_centre(const struct percuss_sub_impact *sub)
 bool percuss_slow_compression(size_t n, const double *W, const double *gap_rate, double *impulse)
 {
     if (n != 1)
-        return lcp_solve(n, W, gap_rate, impulse);
+        return lcp_solve(n, W, gap_rate, impulse) == LCP_SOLVED;
     impulse[0] = gap_rate[0] < 0.0 ? -gap_rate[0] / W[0] : 0.0;
     return W[0] > 0.0 && isfinite(impulse[0]);
 }
@@ -42,7 +42,7 @@ static bool expand(size_t n, const double *W, const double *middle, double *expa
     if (n == 1) /* one contact cannot approach again by itself */
         return true;
     double *excess = calloc(n, sizeof *excess);
-    bool good = excess && lcp_solve(n, W, after, excess);
+    bool good = excess && lcp_solve(n, W, after, excess) == LCP_SOLVED;
     for (size_t i = 0; good && i < n; i++)
         expansion[i] += excess[i];
     percuss_slow_gap_rate_after(n, W, middle, expansion, after);

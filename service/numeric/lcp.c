@@ -4,6 +4,7 @@
 #include "numeric/lcp.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +16,9 @@ struct tableau {
     size_t n, width;
     double *cell;
     size_t *basis; /* variable of each row: 0..n-1 w, n..2n-1 z, 2n z0 */
+    /* room for the final basis: its z, their matrix, the right-hand side */
+    size_t *list;
+    double *a, *b;
 };
 
 static double *row_of(const struct tableau *t, size_t i)
@@ -26,10 +30,13 @@ static bool tableau_create(struct tableau *t, size_t n, const double *m, const d
 {
     t->n = n;
     t->width = 2 * n + 2;
-    t->cell = calloc(n * t->width, sizeof *t->cell);
-    t->basis = calloc(n, sizeof *t->basis);
+    t->cell = calloc(n * (t->width + n + 1), sizeof *t->cell);
+    t->basis = calloc(2 * n, sizeof *t->basis);
     if (!t->cell || !t->basis)
         return false;
+    t->list = t->basis + n;
+    t->a = t->cell + n * t->width;
+    t->b = t->a + n * n;
     for (size_t i = 0; i < n; i++) {
         double *row = row_of(t, i);
         row[i] = 1.0;
@@ -119,16 +126,16 @@ static bool lemke(struct tableau *t)
 
 /* The final basis solved afresh, without the tableau's rounding: m_BB z_B = -q_B with the raised
  * diagonal, and refinement that takes the raise out again (from near-singular groups, whose large
- * impulses it would falsify). False: singular after all (the tableau's values stay). */
-static bool polish(const struct tableau *t, const double *m, const double *q, double *z)
+ * impulses it would falsify). Where it is singular after all the tableau's values stay. */
+static void polish(const struct tableau *t, const double *m, const double *q, double *z)
 {
     size_t n = t->n;
-    size_t *list = calloc(n, sizeof *list);
-    double *a = calloc(n * n, sizeof *a);
-    double *b = calloc(n, sizeof *b);
+    size_t *list = t->list;
+    double *a = t->a;
+    double *b = t->b;
     size_t count = 0;
-    bool done = list && a && b;
-    for (size_t j = 0; done && j < n; j++)
+    bool done = true;
+    for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < n; i++)
             if (t->basis[i] == n + j)
                 list[count++] = j;
@@ -147,10 +154,6 @@ static bool polish(const struct tableau *t, const double *m, const double *q, do
     }
     for (size_t i = 0; done && i < count; i++)
         z[list[i]] = fmax(0.0, z[list[i]]);
-    free(list);
-    free(a);
-    free(b);
-    return done;
 }
 
 /* The independent judge: complementarity of the answer itself. */
@@ -170,10 +173,11 @@ static bool solves(size_t n, const double *m, const double *q, const double *z)
     return true;
 }
 
-bool lcp_solve(size_t n, const double *m, const double *q, double *z)
+enum lcp_outcome lcp_solve(size_t n, const double *m, const double *q, double *z)
 {
     struct tableau t = {0};
-    bool solved = tableau_create(&t, n, m, q) && lemke(&t);
+    bool created = tableau_create(&t, n, m, q);
+    bool solved = created && lemke(&t);
     memset(z, 0, n * sizeof *z);
     for (size_t i = 0; solved && i < n; i++)
         if (t.basis[i] >= n && t.basis[i] < 2 * n)
@@ -182,5 +186,7 @@ bool lcp_solve(size_t n, const double *m, const double *q, double *z)
         polish(&t, m, q, z);
     free(t.cell);
     free(t.basis);
-    return solved && solves(n, m, q, z);
+    if (!created)
+        return LCP_NO_MEMORY;
+    return solved && solves(n, m, q, z) ? LCP_SOLVED : LCP_UNSOLVED;
 }

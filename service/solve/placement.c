@@ -209,7 +209,11 @@ static enum percuss_status find_compression(struct problem *problem, struct faul
         problem->impulse_compression[0] = fmax(0.0, -problem->gap_rate[0] / problem->w[0]);
         return PERCUSS_OK;
     }
-    if (!lcp_solve(n, problem->w, problem->gap_rate, problem->impulse_compression))
+    enum lcp_outcome outcome =
+        lcp_solve(n, problem->w, problem->gap_rate, problem->impulse_compression);
+    if (outcome == LCP_NO_MEMORY)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    if (outcome == LCP_UNSOLVED)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "delassus: no impulses satisfy 0 <= W P + gap rate with P >= 0: check the "
                          "matrix");
