@@ -240,8 +240,12 @@ static enum percuss_status check_grade(const struct mesh_grade *grade, double ro
     return PERCUSS_OK;
 }
 
-static enum percuss_status misfit(struct fault *fault, const struct mesh_grade *grade, double end)
+/* Why there are no rings or rows: without a list there was no memory for it. */
+static enum percuss_status misfit(struct fault *fault, const struct mesh_grade *grade, double end,
+                                  const double *list)
 {
+    if (!list)
+        return fault_set(fault, PERCUSS_INTERNAL, "mesh: no memory");
     return fault_set(fault, PERCUSS_BAD_REQUEST,
                      "mesh size %g m, growth %g, matched %g m: do not fit into %g m with at most "
                      "%d rings",
@@ -275,8 +279,8 @@ enum percuss_status mesh_sphere(double radius, const struct mesh_grade *grade, s
     struct outline equator = {OUTLINE_EQUATOR, radius, radius, 0.0};
     double *positions;
     size_t rings = mesh_rings(grade, radius, 0.5 * M_PI * radius, &positions);
-    status =
-        rings ? mesh_room(mesh, grade->core, rings, 0, true, fault) : misfit(fault, grade, radius);
+    status = rings ? mesh_room(mesh, grade->core, rings, 0, true, fault)
+                   : misfit(fault, grade, radius, positions);
     if (status == PERCUSS_OK) {
         /* circles about the pole as far as half the radius, then towards the equator: straight to
          * the equator, the elements at the core's corner would be thin */
@@ -316,7 +320,7 @@ enum percuss_status mesh_cylinder(double radius, double length, const struct mes
     }
     status = rings && (rows || !(rest > 0.0))
                  ? mesh_room(mesh, grade->core, rings, rows, false, fault)
-                 : misfit(fault, grade, length);
+                 : misfit(fault, grade, length, rings ? heights : positions);
     if (status == PERCUSS_OK) {
         grow_core(&growing, INFINITY);
         grow_rings(&growing, INFINITY, &rectangle, positions, rings);
@@ -338,8 +342,8 @@ enum percuss_status mesh_half_space(double extent, const struct mesh_grade *grad
     struct outline circle = {OUTLINE_CIRCLE, extent, extent, 0.5 * M_PI};
     double *positions;
     size_t rings = mesh_rings(grade, INFINITY, extent, &positions);
-    status =
-        rings ? mesh_room(mesh, grade->core, rings, 0, false, fault) : misfit(fault, grade, extent);
+    status = rings ? mesh_room(mesh, grade->core, rings, 0, false, fault)
+                   : misfit(fault, grade, extent, positions);
     if (status == PERCUSS_OK) {
         grow_core(&growing, INFINITY);
         grow_rings(&growing, INFINITY, &circle, positions, rings);
