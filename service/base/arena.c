@@ -47,12 +47,13 @@ static struct arena_block *block_with_room(struct arena *arena, size_t bytes)
 
 void *arena_reserve(struct arena *arena, size_t count, size_t size)
 {
-    if (size && count > (SIZE_MAX - 2 * ALIGNMENT) / size)
-        return NULL;
+    bool possible = !size || count <= (SIZE_MAX - 2 * ALIGNMENT) / size;
     size_t bytes = (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    struct arena_block *block = block_with_room(arena, bytes);
-    if (!block)
+    struct arena_block *block = possible ? block_with_room(arena, bytes) : NULL;
+    if (!block) {
+        arena->lacks = true;
         return NULL;
+    }
     void *memory = block->bytes + block->used;
     block->used += bytes;
     return memory;
@@ -66,6 +67,7 @@ void *arena_take(struct arena *arena, size_t count, size_t size)
 
 void arena_reset(struct arena *arena)
 {
+    arena->lacks = false;
     arena->current = arena->first;
     if (arena->current)
         arena->current->used = 0;

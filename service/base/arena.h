@@ -5,6 +5,7 @@
 #ifndef PERCUSS_BASE_ARENA_H
 #define PERCUSS_BASE_ARENA_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 struct arena_block;
@@ -12,9 +13,11 @@ struct arena_block;
 struct arena {
     struct arena_block *first; /* all blocks, kept for reuse */
     struct arena_block *current;
+    bool lacks; /* since the last reset memory was out: what was made of it is not whole */
 };
 
-/* 32-byte aligned, zeroed memory for `count` items of `size` bytes; NULL: out of memory. */
+/* 32-byte aligned, zeroed memory for `count` items of `size` bytes; NULL: out of memory, which
+ * arena->lacks remembers for who cannot say so at once. */
 void *arena_take(struct arena *arena, size_t count, size_t size);
 
 /* The same, not zeroed. */

@@ -145,5 +145,8 @@ enum percuss_status solve(struct solve_workspace *workspace, const struct solve_
         result->status = check_finite(request, &result->fault);
     if (!result->status)
         result->status = answer(workspace, means, request, result);
+    // an answer that lacks something for want of memory is none, whatever it says
+    if (workspace->arena.lacks)
+        result->status = fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
     return result->status;
 }

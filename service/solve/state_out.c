@@ -25,10 +25,11 @@ static size_t family_size(const struct assembly *assembly, const struct body_sta
 
 /* Frequencies of modes that took no part are asked of the body anew. */
 static void move_freely(const struct body *body, size_t family, const struct body_state *before,
-                        double time, double *pairs)
+                        double time, struct arena *arena, double *pairs)
 {
     size_t count = before->count[family];
     struct modal_family *modes = modal_family_create(body, family, count);
+    arena->lacks = arena->lacks || !modes;
     memcpy(pairs, body_state_family(before, family), 2 * count * sizeof *pairs);
     for (size_t k = 0; modes && k < count; k++)
         oscillator_advance(modes->omega[k], body->damping, time, &pairs[2 * k], &pairs[2 * k + 1]);
@@ -44,7 +45,7 @@ static void fill_modes(const struct assembly *assembly, const struct impact_outc
     for (size_t f = 0; f < body->kind->family_count; f++) {
         double *family = (double *)body_state_family(state, f);
         if (before && before->count[f])
-            move_freely(body, f, before, elapsed + outcome->window, family);
+            move_freely(body, f, before, elapsed + outcome->window, problem->arena, family);
         for (size_t g = 0; g < assembly->scene.groups; g++) {
             const struct scene_group *group = &assembly->groups[g];
             if (group->body != index || assembly->families[g] != f)
