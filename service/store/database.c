@@ -27,6 +27,8 @@ enum percuss_status database_fault(struct database *database, const char *what, 
 static enum percuss_status refuse_file(struct database *database, struct fault *fault)
 {
     char problem[320];
+    if (!database->connection || sqlite3_errcode(database->connection) == SQLITE_NOMEM)
+        return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", database->path);
     if (sqlite3_errcode(database->connection) == SQLITE_BUSY)
         return refuse(database, "is in use by another process", fault);
     snprintf(problem, sizeof problem, "cannot be used as a store of specimens: %s",

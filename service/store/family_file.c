@@ -202,19 +202,15 @@ static struct contact_family *family_of(const json_t *root, struct fault *fault)
 struct contact_family *family_file_load(const char *path, struct fault *fault)
 {
     size_t size = 0;
-    json_error_t error;
     struct fault reason = {""};
-    char *text = table_file_read(path, &size, fault);
-    if (!text)
+    char *text;
+    if (table_file_read(path, &text, &size, fault))
         return NULL;
     struct contact_family *family = NULL;
-    json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
-    free(text);
-    if (root)
+    json_t *root;
+    if (!json_numbers_parse(text, size, &root, &reason))
         family = family_of(root, &reason);
-    else
-        fault_set(&reason, PERCUSS_BAD_REQUEST, "line %d: must be JSON: %s", error.line,
-                  error.text);
+    free(text);
     json_decref(root);
     if (!family)
         fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: %.300s", path, reason.text);

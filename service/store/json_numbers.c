@@ -13,9 +13,27 @@ enum { MOST_VALUES = 1000000 };
 json_t *json_numbers(size_t count, const double *values)
 {
     json_t *array = json_array();
-    for (size_t i = 0; i < count; i++)
-        json_array_append_new(array, json_real(values[i]));
+    for (size_t i = 0; i < count; i++) {
+        if (json_array_append_new(array, json_real(values[i])) != 0) {
+            json_decref(array);
+            return NULL;
+        }
+    }
     return array;
+}
+
+enum percuss_status json_numbers_parse(const char *text, size_t size, json_t **root,
+                                       struct fault *fault)
+{
+    json_error_t error;
+    *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
+    if (*root)
+        return PERCUSS_OK;
+    // jansson's reader says nothing else, or names the place, where memory runs out
+    if (error.line < 0 || json_error_code(&error) == json_error_out_of_memory)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    return fault_set(fault, PERCUSS_BAD_REQUEST, "line %d: must be JSON: %s", error.line,
+                     error.text);
 }
 
 enum percuss_status json_numbers_take(const json_t *value, const char *name, double *number,

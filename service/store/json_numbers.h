@@ -11,7 +11,11 @@
 
 #include "base/fault.h"
 
-/* An array of them; the caller's reference. */
+/* The text as JSON; the caller's reference. */
+enum percuss_status json_numbers_parse(const char *text, size_t size, json_t **root,
+                                       struct fault *fault);
+
+/* An array of them; the caller's reference. NULL: out of memory. */
 json_t *json_numbers(size_t count, const double *values);
 
 /* A finite number. */

@@ -75,24 +75,26 @@ enum percuss_status table_file_save(const char *folder, const struct indentation
     return status;
 }
 
-char *table_file_read(const char *path, size_t *size, struct fault *fault)
+enum percuss_status table_file_read(const char *path, char **text, size_t *size,
+                                    struct fault *fault)
 {
     FILE *file = fopen(path, "rbe");
     struct stat about;
-    char *text = NULL;
+    enum percuss_status status = PERCUSS_OK;
+    *text = NULL;
     if (!file || fstat(fileno(file), &about) != 0) {
-        refuse(fault, path, "cannot be read");
+        status = refuse(fault, path, "cannot be read");
     } else if (!S_ISREG(about.st_mode) || about.st_size > TABLE_FILE_MAX_BYTES) {
-        fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: must be a file of at most %d bytes", path,
-                  TABLE_FILE_MAX_BYTES);
-    } else if (!(text = malloc((size_t)about.st_size + 1))) {
-        fault_set(fault, PERCUSS_INTERNAL, "%.300s: out of memory", path);
+        status = fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: must be a file of at most %d bytes",
+                           path, TABLE_FILE_MAX_BYTES);
+    } else if (!(*text = malloc((size_t)about.st_size + 1))) {
+        status = fault_set(fault, PERCUSS_INTERNAL, "%.300s: out of memory", path);
     } else {
-        *size = fread(text, 1, (size_t)about.st_size, file);
+        *size = fread(*text, 1, (size_t)about.st_size, file);
     }
     if (file)
         fclose(file);
-    return text;
+    return status;
 }
 
 enum percuss_status table_file_load(const char *path, struct indentation_table *table,
@@ -101,10 +103,11 @@ enum percuss_status table_file_load(const char *path, struct indentation_table *
     size_t size = 0;
     *table = (struct indentation_table){0};
     struct fault reason = {""};
-    char *text = table_file_read(path, &size, fault);
-    if (!text)
-        return PERCUSS_BAD_REQUEST;
-    enum percuss_status status = table_json_read(text, size, table, &reason);
+    char *text;
+    enum percuss_status status = table_file_read(path, &text, &size, fault);
+    if (status)
+        return status;
+    status = table_json_read(text, size, table, &reason);
     free(text);
     if (status)
         fault_set(fault, status, "%.300s: %.300s", path, reason.text);

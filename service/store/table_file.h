@@ -31,9 +31,10 @@ enum percuss_status table_file_load(const char *path, struct indentation_table *
                                     struct fault *fault);
 
 /* What they are made of: text into a file PATH in FOLDER as above, and a whole file as text for
- * free() (NULL: the fault says why). */
+ * free(); BAD_REQUEST: it cannot be read, INTERNAL without memory. */
 enum percuss_status table_file_write(const char *folder, const char *text, const char *path,
                                      struct fault *fault);
-char *table_file_read(const char *path, size_t *size, struct fault *fault);
+enum percuss_status table_file_read(const char *path, char **text, size_t *size,
+                                    struct fault *fault);
 
 #endif

@@ -197,13 +197,12 @@ static enum percuss_status read_table(const json_t *root, struct indentation_tab
 enum percuss_status table_json_read(const char *text, size_t size, struct indentation_table *table,
                                     struct fault *fault)
 {
-    json_error_t error;
+    json_t *root;
     *table = (struct indentation_table){0};
-    json_t *root = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
-    if (!root)
-        return fault_set(fault, PERCUSS_BAD_REQUEST, "line %d: must be JSON: %s", error.line,
-                         error.text);
-    enum percuss_status status = read_table(root, table, fault);
+    enum percuss_status status = json_numbers_parse(text, size, &root, fault);
+    if (status)
+        return status;
+    status = read_table(root, table, fault);
     json_decref(root);
     if (status)
         indentation_table_free(table);

@@ -95,8 +95,8 @@ static void damage(const char *from, const char *to)
     size_t size;
     struct fault fault;
     save();
-    char *text = table_file_read(path, &size, &fault);
-    assert_non_null(text);
+    char *text;
+    assert_int_equal(table_file_read(path, &text, &size, &fault), PERCUSS_OK);
     text[size] = '\0';
     char *at = strstr(text, from);
     assert_non_null(at);
