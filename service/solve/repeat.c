@@ -137,6 +137,11 @@ static enum percuss_status find(struct repeat *repeat, const struct solve_means 
                                &pace, fault);
     /* what this blow decided is not for the next one */
     repeat->lasting = repeat->lasting && !repeat->solution.revised;
+    // a solution that lacks something for want of memory is none, whatever it says
+    if (repeat->problem_memory.lacks || repeat->run_memory.lacks) {
+        repeat->problem = NULL;
+        status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    }
     return status;
 }
 
