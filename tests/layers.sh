@@ -62,13 +62,6 @@ done
 tangled=$(while read -r folder modules; do
     for module in $modules; do echo "$folder/$module"; done
 done <<END
-client/measured history impact table
-client/slowscale episode group impact list pairs question slow
-service/catalogue catalogue content names
-service/contact family family_parts
-service/fe complete_setup impact_complete indentation indentation_run mesh mesh_rings region
-service/fe region_parts solid solid_parts
-service/store table_file table_json
 END
 )
 

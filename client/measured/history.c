@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "distance.h"
-#include "table.h"
 
 enum { LEAST_READINGS = 32, LEAST_FLIGHT = 3 };
 /* A jump counts from so many standard deviations on, and from this share of the largest. */
@@ -343,21 +342,4 @@ bool history_find(const struct history *history, struct history_impacts *impacts
     bool good = find(&search, impacts, fault);
     free(search.sum);
     return good;
-}
-
-struct measured_impact history_impact(const struct history_impacts *impacts)
-{
-    struct measured_impact impact = measured_impact_unknown();
-    const struct history_sub_impact *list = impacts->list;
-    impact.speed = -impacts->before;
-    impact.sub_impacts = (double)impacts->count;
-    impact.momentum = 0.0;
-    for (size_t k = 0; k < impacts->count; ++k)
-        impact.momentum += list[k].jump;
-    impact.first_momentum = list[0].jump;
-    impact.first_duration = list[0].end - list[0].start;
-    for (size_t k = 1; k < impacts->count && isnan(impact.second_start); ++k)
-        if (list[k].jump >= 0.01 * impact.momentum)
-            impact.second_start = list[k].start - list[0].start;
-    return impact;
 }

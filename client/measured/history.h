@@ -6,7 +6,7 @@
 #ifndef PERCUSS_MEASURED_HISTORY_H
 #define PERCUSS_MEASURED_HISTORY_H
 
-#include "impact.h"
+#include "table.h"
 
 /* Arrays of `count`. */
 struct history {
@@ -43,8 +43,5 @@ struct history_impacts {
  * reason: too few readings, no jump, no readings before the first. */
 bool history_find(const struct history *history, struct history_impacts *impacts,
                   struct measured_fault *fault);
-
-/* The impact as far as the history tells it. */
-struct measured_impact history_impact(const struct history_impacts *impacts);
 
 #endif

@@ -8,9 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "history.h"
-#include "table.h"
-
 /* The columns that are numbers, and where they go. */
 static const struct {
     const char *name;
@@ -33,6 +30,23 @@ enum { COLUMNS = sizeof columns / sizeof columns[0] };
 struct measured_impact measured_impact_unknown(void)
 {
     return (struct measured_impact){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+}
+
+struct measured_impact measured_impact_from(const struct history_impacts *history)
+{
+    struct measured_impact impact = measured_impact_unknown();
+    const struct history_sub_impact *list = history->list;
+    impact.speed = -history->before;
+    impact.sub_impacts = (double)history->count;
+    impact.momentum = 0.0;
+    for (size_t k = 0; k < history->count; ++k)
+        impact.momentum += list[k].jump;
+    impact.first_momentum = list[0].jump;
+    impact.first_duration = list[0].end - list[0].start;
+    for (size_t k = 1; k < history->count && isnan(impact.second_start); ++k)
+        if (list[k].jump >= 0.01 * impact.momentum)
+            impact.second_start = list[k].start - list[0].start;
+    return impact;
 }
 
 void measured_set_free(struct measured_set *set)
@@ -97,7 +111,7 @@ static bool add_history(const struct table *table, const char *name, struct meas
         struct measured_fault reason = *fault;
         return measured_fail(fault, "%s: %.400s", path, reason.text);
     }
-    struct measured_impact told = history_impact(&found);
+    struct measured_impact told = measured_impact_from(&found);
     double *to = (double *)impact;
     const double *from = (const double *)&told;
     for (size_t i = 0; i < sizeof told / sizeof(double); ++i)

@@ -5,8 +5,7 @@
 #ifndef PERCUSS_MEASURED_IMPACT_H
 #define PERCUSS_MEASURED_IMPACT_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "history.h"
 
 struct measured_impact {
     double speed; /* of approach */
@@ -32,10 +31,6 @@ struct measured_set {
 
 void measured_set_free(struct measured_set *set);
 
-struct measured_fault {
-    char text[512];
-};
-
 /* Reads comma-separated values with a line of column names: any of speed, restitution, impulse,
  * sub_impacts, first_impulse, first_duration, second_start, at, and history, the name of a file of
  * time histories (relative to this one). Empty fields and nan are unknown; # begins a comment.
@@ -45,6 +40,9 @@ bool measured_read(const char *file, struct measured_set *set, struct measured_f
 
 /* Appends an impact. False: out of memory. */
 bool measured_append(struct measured_set *set, const struct measured_impact *impact);
+
+/* An impact as far as its history tells it. */
+struct measured_impact measured_impact_from(const struct history_impacts *history);
 
 /* Fills what follows once the mass of A and the inverse effective mass w (1/kg) are known:
  * impulses from momenta, e = impulse w / speed - 1 (Eq. (6)) and the other way round, and the first

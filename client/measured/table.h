@@ -5,7 +5,12 @@
 #ifndef PERCUSS_MEASURED_TABLE_H
 #define PERCUSS_MEASURED_TABLE_H
 
-#include "impact.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+struct measured_fault {
+    char text[512];
+};
 
 struct table {
     const char *file; /* borrowed */

@@ -11,8 +11,8 @@
 #include "base/fault.h"
 #include "model/body.h"
 
-/* Largest accepted text and number of bodies; as many materials. */
-enum { CATALOGUE_MAX_BYTES = 16 * 1024 * 1024, CATALOGUE_MAX_BODIES = 100000 };
+/* Largest accepted text. */
+enum { CATALOGUE_MAX_BYTES = 16 * 1024 * 1024 };
 
 /* Reads a file. PERCUSS_OK and a set for body_set_free; otherwise *set is NULL and the fault reads
  * "FILE:LINE: bodies.al-rod.radius: -0.01: must be ...": PERCUSS_BAD_REQUEST for a file that cannot

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "catalogue/catalogue.h"
-
 /* C0, DEL, and C1 in UTF-8 (libyaml has checked the encoding). */
 static bool has_control(const unsigned char *text, size_t length)
 {
@@ -56,9 +54,8 @@ enum percuss_status names_read(struct reader *reader, const yaml_node_t *mapping
 {
     size_t count = reader_count(mapping);
     *names = (struct names){0};
-    if (count == 0 || count > CATALOGUE_MAX_BODIES)
-        return reader_refuse(reader, mapping, "%zu entries: must be 1 to %d", count,
-                             CATALOGUE_MAX_BODIES);
+    if (count == 0 || count > NAMES_MOST)
+        return reader_refuse(reader, mapping, "%zu entries: must be 1 to %d", count, NAMES_MOST);
     names->sorted = malloc(count * sizeof *names->sorted);
     if (!names->sorted)
         return fault_set(reader->fault, PERCUSS_INTERNAL, "%s: out of memory",

@@ -7,6 +7,9 @@
 
 #include "catalogue/reader.h"
 
+/* Most bodies, and most materials. */
+enum { NAMES_MOST = 100000 };
+
 struct name {
     const char *text; /* in the document */
     size_t position;  /* of its entry in the mapping */

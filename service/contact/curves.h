@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* What a tabulated law interpolates: every curve in F^(2/3), which is a straight line for Hertz and
- * nearly one beyond yield, by monotone splines. Shared by what makes curves (curves.c, family.c)
- * and what follows them (law_table.c). */
+ * nearly one beyond yield, by monotone splines. Shared by what makes curves (curves.c,
+ * family_make.c) and what follows them (law_table.c). */
 #ifndef PERCUSS_CONTACT_CURVES_H
 #define PERCUSS_CONTACT_CURVES_H
 

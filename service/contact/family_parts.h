@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What family.c (making) and family_curves.c (a place in it) share. */
+/* What family_make.c and family_curves.c (a place in it) share. */
 #ifndef PERCUSS_CONTACT_FAMILY_PARTS_H
 #define PERCUSS_CONTACT_FAMILY_PARTS_H
 

@@ -1,13 +1,36 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Meshes and start of a complete finite-element impact. */
+/* The problem, meshes and start of a complete finite-element impact. */
 #ifndef PERCUSS_FE_COMPLETE_SETUP_H
 #define PERCUSS_FE_COMPLETE_SETUP_H
 
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "base/watch.h"
+#include "fe/complete_body.h"
 #include "fe/dynamics.h"
-#include "fe/impact_complete.h"
 #include "fe/node_contact.h"
+
+struct complete_sample {
+    double time, force; /* s; N, mean since the sample before */
+    double indentation; /* m */
+    double radius;      /* outermost closed pair, m */
+};
+
+struct complete_problem {
+    struct complete_body a, b; /* one of them a sphere */
+    double speed;              /* of A towards B, m/s, > 0 */
+    unsigned cells;            /* elements across the expected contact radius, 4 ... 96 */
+    double phase;   /* 0 <= phase < 1: moves the nodes by this part of an element, less one from a
+                     * half on, against the patch's rim: see complete_converge.h */
+    double horizon; /* s, > 0: end of the search for further contacts */
+    struct pace *pace;  /* may stop it; NULL: nobody */
+    double done, share; /* of the whole work, which it is told: before this solution, and its own */
+    void (*sample)(void *context, const struct complete_sample *sample); /* NULL: nobody */
+    void *context;                                                       /* handed to it */
+};
 
 struct complete_run {
     const struct complete_problem *problem;

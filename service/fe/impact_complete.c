@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "fe/complete_setup.h"
-
 /* Part of the available energy that the balance may miss. Steps leave up to 1.5e-3 on coarse
  * meshes, falling with their square; more is a mistake. */
 static const double ENERGY_KEPT = 1e-2;

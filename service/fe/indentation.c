@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fe/indentation_run.h"
-
 enum { STEPS = 8, BRANCH_EVERY = 3 };
 
 /* Runs on the wanted mesh and on one 1.5 times coarser, each with long and short steps. */

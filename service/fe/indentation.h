@@ -7,14 +7,10 @@
 #ifndef PERCUSS_FE_INDENTATION_H
 #define PERCUSS_FE_INDENTATION_H
 
-#include <stdbool.h>
-
-#include "fe/region.h"
+#include "fe/indentation_run.h"
 
 /* Changes whenever the same input would give another table. */
 #define INDENTATION_VERSION 1
-
-enum { INDENTATION_SAMPLES = 21 };
 
 struct indentation_table {
     struct region_input input; /* all there is: the table's key, with the version */
@@ -52,8 +48,5 @@ enum percuss_status indentation_table_make(const struct region_input *input,
                                            const struct watch *watch,
                                            struct indentation_table *table, struct fault *fault);
 void indentation_table_free(struct indentation_table *table);
-
-/* (j / (INDENTATION_SAMPLES - 1))^3 */
-double indentation_fraction(size_t sample);
 
 #endif

@@ -6,9 +6,10 @@
 #ifndef PERCUSS_FE_INDENTATION_RUN_H
 #define PERCUSS_FE_INDENTATION_RUN_H
 
-#include "fe/indentation.h"
+#include "base/watch.h"
+#include "fe/region.h"
 
-enum { INDENTATION_RINGS_MAX = 1000 };
+enum { INDENTATION_RINGS_MAX = 1000, INDENTATION_SAMPLES = 21 };
 
 /* As the contact edge crosses an element the force ripples about the smooth curve by a part of the
  * element's size (flow cannot be undone, so this is of first order); the mean over one crossing is
@@ -36,6 +37,9 @@ struct indentation_plan {
 /* Statuses as indentation_table_make. */
 enum percuss_status indentation_run(const struct indentation_plan *plan,
                                     struct indentation_run *run, struct fault *fault);
+
+/* Where sample j of a branch lies, of its largest force: (j / (INDENTATION_SAMPLES - 1))^3. */
+double indentation_fraction(size_t sample);
 
 /* k of F = k d^1.5, N/m^1.5. */
 double indentation_hertz(const struct region_input *input);

@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fe/mesh_rings.h"
-
 /* A mesh grows by chains of nodes from the axis to the surface, each joined to the one before:
  * shell k of a core has 2k + 1 nodes (k elements below, k beside it), a ring 2 core + 1. */
 struct growing {

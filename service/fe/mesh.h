@@ -16,14 +16,7 @@
 #include <stdint.h>
 
 #include "base/fault.h"
-
-struct mesh_grade {
-    double size;    /* m, elements of the core */
-    size_t core;    /* elements along a side of the core, 2 ... 200 */
-    double growth;  /* of the rings' widths, 1 ... 2 */
-    double matched; /* m, contact nodes up to here are the same in every body of this grade */
-    double coarse;  /* m, longest element wanted beyond a rod's end region; 0: as in the region */
-};
+#include "fe/mesh_rings.h"
 
 struct mesh_nodes {
     uint32_t *index;

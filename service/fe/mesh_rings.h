@@ -5,7 +5,15 @@
 #ifndef PERCUSS_FE_MESH_RINGS_H
 #define PERCUSS_FE_MESH_RINGS_H
 
-#include "fe/mesh.h"
+#include <stddef.h>
+
+struct mesh_grade {
+    double size;    /* m, elements of the core */
+    size_t core;    /* elements along a side of the core, 2 ... 200 */
+    double growth;  /* of the rings' widths, 1 ... 2 */
+    double matched; /* m, contact nodes up to here are the same in every body of this grade */
+    double coarse;  /* m, longest element wanted beyond a rod's end region; 0: as in the region */
+};
 
 enum { MESH_RINGS_MAX = 20000 };
 

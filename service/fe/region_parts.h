@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What region_make.c (making) and region.c (equilibria) share. */
+/* What region_make.c and region_solve.c (equilibria) share. */
 #ifndef PERCUSS_FE_REGION_PARTS_H
 #define PERCUSS_FE_REGION_PARTS_H
 

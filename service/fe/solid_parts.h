@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What solid.c (making) and solid_step.c (Newton steps) share. */
+/* What solid_make.c, solid_step.c (Newton steps) and solid_energy.c share. */
 #ifndef PERCUSS_FE_SOLID_PARTS_H
 #define PERCUSS_FE_SOLID_PARTS_H
 

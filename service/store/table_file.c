@@ -10,7 +10,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "store/table_json.h"
 #include "store/table_key.h"
 
 static enum percuss_status refuse(struct fault *fault, const char *path, const char *what)

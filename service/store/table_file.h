@@ -8,15 +8,9 @@
 
 #include <stddef.h>
 
-#include "fe/indentation.h"
+#include "store/table_json.h"
 
 enum { TABLE_FILE_MAX_BYTES = 16 * 1024 * 1024, TABLE_PATH_SIZE = 4096 };
-
-/* How a table came about, beyond its inputs. */
-struct table_origin {
-    const char *program; /* name and version */
-    double seconds;      /* processor time it took */
-};
 
 /* Writes FOLDER/KEY.json, aside first and then in its place, so that readers see all of it or
  * nothing; makes the folder (not its parents) where it is missing. `path` is filled. BAD_REQUEST

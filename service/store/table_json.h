@@ -8,7 +8,12 @@
 #include <stddef.h>
 
 #include "fe/indentation.h"
-#include "store/table_file.h"
+
+/* How a table came about, beyond its inputs. */
+struct table_origin {
+    const char *program; /* name and version */
+    double seconds;      /* processor time it took */
+};
 
 /* Text for free(); NULL: out of memory. An infinite yield is null, as JSON has no infinity. */
 char *table_json_write(const struct indentation_table *table, const struct table_origin *origin);

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "catalogue/names.h"
 #include "parse.h"
 
 #define SHIPPED PERCUSS_SOURCE_DIR "/config/catalogue.yaml"
@@ -221,15 +222,15 @@ static void says_why_a_file_cannot_be_read(void **state)
 static void loads_many_bodies(void **state)
 {
     (void)state;
-    size_t size = 100 * (size_t)CATALOGUE_MAX_BODIES, length = 0;
+    size_t size = 100 * (size_t)NAMES_MOST, length = 0;
     char *text = malloc(size);
     assert_non_null(text);
     length += (size_t)snprintf(text, size, BASE_MATERIAL "bodies:\n");
-    for (int i = 0; i < CATALOGUE_MAX_BODIES; i++)
+    for (int i = 0; i < NAMES_MOST; i++)
         length += (size_t)snprintf(text + length, size - length,
                                    "  s%d: {shape: sphere, material: m, radius: 0.01}\n", i);
     struct body_set *set = parse_good(text);
-    assert_int_equal(set->count, CATALOGUE_MAX_BODIES);
+    assert_int_equal(set->count, NAMES_MOST);
     body_set_free(set);
     snprintf(text + length, size - length, "  more: {shape: half-space, material: m}\n");
     parse_bad(text, 3, "bodies: 100001 entries: must be 1 to 100000");

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/region.c, solid.c and active_set.c: Hertz, yield onset, Jackson-Green, the
- * dent that stays, energy, stepping. */
+/* Mirrors service/fe/region_solve.c, solid_step.c and active_set.c: Hertz, yield onset,
+ * Jackson-Green, the dent that stays, energy, stepping. */
 #include <string.h>
 
 #include "check.h"

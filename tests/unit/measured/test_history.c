@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "check.h"
-#include "history.h"
+#include "impact.h"
 #include "random.h"
 
 enum { MOST = 20000 };
@@ -83,7 +83,7 @@ static void finds_sub_impacts(void **state)
                 measured("end", found.list[k].end, pulses[k].start + pulses[k].length,
                          slack + 1.0 / rates[r]);
             }
-            struct measured_impact impact = history_impact(&found);
+            struct measured_impact impact = measured_impact_from(&found);
             measured("second", impact.second_start, 3.99e-3, 20e-6);
             measured("momentum", impact.momentum, 0.44, 1e-5 + noises[n]);
             measured_complete(&impact, 0.11, 10.0);

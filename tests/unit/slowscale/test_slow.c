@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors client/slowscale/slow.c, pairs.c and group.c: one question an impact whatever the bodies
- * do meanwhile and in whichever order they are named, lists and totals, latches, groups. */
+/* Mirrors client/slowscale/slowscale.c, pairs.c and group.c: one question an impact whatever the
+ * bodies do meanwhile and in whichever order they are named, lists and totals, latches, groups. */
 #include "unit/slowscale/toy.h"
 
 static void asks_once_while_bodies_overlap(void **state)

@@ -1,8 +1,6 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "fe/region.h"
-
 #include <math.h>
 #include <string.h>
 

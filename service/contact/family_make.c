@@ -1,8 +1,6 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "contact/family.h"
-
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
