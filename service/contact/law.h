@@ -1,10 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Force laws of a contact. A new law is one new .c file with its operations and its constructor. */
+/* Force laws of a contact. A new law is one new .c file with its operations and its constructor,
+ * and a line in PERCUSS_CONTACT_MODEL_LIST, which gives it its number and its name on the wire. */
 #ifndef PERCUSS_CONTACT_LAW_H
 #define PERCUSS_CONTACT_LAW_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "percuss/vocabulary.h"
@@ -21,12 +23,48 @@ struct contact_history {
 };
 
 struct contact_law;
+struct hertz_contact;
+struct material;
 struct plastic_curve;
 
-/* Indentations count from the bottom of the dent that the law's history holds. Between updates of
- * its history every law is elastic. */
+/* What an impact takes, and so who may solve it: any thread, even the one that reads requests; a
+ * worker; the thread of what takes seconds. */
+enum contact_effort { CONTACT_EFFORT_LEAST, CONTACT_EFFORT_SHORT, CONTACT_EFFORT_LONG };
+
+/* What finds the motion: the march of impact/ with the law's force, the same with a contact region
+ * solved in every step (impact/concurrent.h), or meshes of both bodies (fe/impact_complete.h). */
+enum contact_solution { CONTACT_BY_LAW, CONTACT_CONCURRENT, CONTACT_COMPLETE };
+
+/* Tables of computed contacts: not used, used where there are some, insisted on. */
+enum contact_tables { CONTACT_TABLES_NONE, CONTACT_TABLES_IF_ANY, CONTACT_TABLES_ONLY };
+
+/* All that depends on which law it is: the first members of what may be asked for, the rest of what
+ * a contact can follow (not of AUTO and of finite elements, which have a law to begin with).
+ *
+ * Indentations count from the bottom of the dent that the law's history holds. Between updates of
+ * its history every law is elastic.
+ *
+ * A law that depends on the rate (Hunt and Crossley 1975, viscoelastic) has as one more operation,
+ * NULL for all others, a force of (law, indentation, rate), with both slopes, that is never
+ * negative; what it remembers is its history, updated like a dent's between steps. Its `force` is
+ * the elastic part. The march would have to give it the rates at the nodes, the derivative of the
+ * cubic through the indentations there (rate_at in impact/yielding.c: a fixed matrix over the
+ * step's length); to add to each Newton matrix the slope by the rate times that matrix, where now
+ * only the diagonal of the stiffness stands (node_solver.c, in a copy of solve_one for such laws);
+ * and to count the work of the force less `force` as dissipated, as contact_law_yield's is. */
 struct contact_law_operations {
     enum percuss_contact_model model;
+    enum contact_effort effort;
+    enum contact_solution solution;
+    enum contact_tables tables;
+    bool yields_if_needed; /* Hertz's law where no contact exceeds its yield */
+    /* The law of a contact of two materials, where no table is used; Hertz's where it is one that
+     * yields and neither of them does. */
+    struct contact_law (*make)(const struct hertz_contact *hertz, const struct material *a,
+                               const struct material *b);
+
+    const char *title; /* for people */
+    bool elliptic;     /* takes elliptic contacts as they are; else by the sphere as stiff */
     /* Force (N) at an indentation (m), 0 where indentation <= 0; *stiffness becomes its slope. */
     double (*force)(const struct contact_law *law, double indentation, double *stiffness);
     /* Recoverable energy (J) stored at an indentation. */
@@ -48,6 +86,14 @@ struct contact_law contact_law_hertz(double stiffness);
 
 /* F = stiffness d, N/m: for verification against wave solutions. */
 struct contact_law contact_law_linear(double stiffness);
+
+/* One of each model that may be asked for, with its name in capitals at the end. */
+#define CONTACT_LAW_DECLARATION(name, text)                                                        \
+    extern const struct contact_law_operations contact_law_##name;
+PERCUSS_CONTACT_MODEL_LIST(CONTACT_LAW_DECLARATION)
+
+/* What may be asked for by its number; one that is none: AUTO's. */
+const struct contact_law_operations *contact_law_asked(unsigned model);
 
 static inline double contact_law_force(const struct contact_law *law, double indentation,
                                        double *stiffness)

@@ -211,8 +211,11 @@ static const struct plastic_curve curve = {
     .branch_work = branch_work,
 };
 
-static const struct contact_law_operations operations = {
+const struct contact_law_operations contact_law_CLOSED_FORM = {
     .model = PERCUSS_CONTACT_CLOSED_FORM,
+    .effort = CONTACT_EFFORT_LEAST,
+    .make = contact_law_closed_form,
+    .title = "the closed form of Jackson and Green",
     .force = plastic_force,
     .stored = plastic_stored,
     .indentation = plastic_indentation,
@@ -222,9 +225,12 @@ static const struct contact_law_operations operations = {
 struct contact_law contact_law_closed_form(const struct hertz_contact *hertz,
                                            const struct material *a, const struct material *b)
 {
-    const struct material *softer = closed_form_softer(a, b) == 1 ? b : a;
+    int side = closed_form_softer(a, b);
+    const struct material *softer = side == 1 ? b : a;
+    if (side < 0)
+        return contact_law_hertz(hertz->stiffness);
     return (struct contact_law){
-        .operations = &operations,
+        .operations = &contact_law_CLOSED_FORM,
         .parameters = {[STIFFNESS] = hertz->stiffness,
                        [YIELD_DEPTH] = closed_form_yield(hertz, a, b),
                        [RADIUS] = closed_form_radius(hertz),

@@ -22,8 +22,8 @@ double closed_form_yield_ratio(const struct material *a, const struct material *
 double closed_form_yield(const struct hertz_contact *hertz, const struct material *a,
                          const struct material *b);
 
-/* The law of a contact of which at least one body can yield. Hertz exactly up to 1.9 times the
- * indentation of yield, see law_closed_form.c. */
+/* The law of a contact. Hertz exactly up to 1.9 times the indentation of yield, see
+ * law_closed_form.c, and for ever where neither body can yield. */
 struct contact_law contact_law_closed_form(const struct hertz_contact *hertz,
                                            const struct material *a, const struct material *b);
 

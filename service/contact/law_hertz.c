@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "contact/hertz.h"
 #include "contact/law.h"
 
 static double hertz_force(const struct contact_law *law, double indentation, double *stiffness)
@@ -29,8 +30,19 @@ static double hertz_indentation(const struct contact_law *law, double force)
     return root * root;
 }
 
-static const struct contact_law_operations operations = {
+static struct contact_law make(const struct hertz_contact *hertz, const struct material *a,
+                               const struct material *b)
+{
+    (void)a, (void)b;
+    return contact_law_hertz(hertz->stiffness);
+}
+
+const struct contact_law_operations contact_law_HERTZ = {
     .model = PERCUSS_CONTACT_HERTZ,
+    .effort = CONTACT_EFFORT_LEAST,
+    .make = make,
+    .title = "elastic Hertz contact",
+    .elliptic = true,
     .force = hertz_force,
     .stored = hertz_stored,
     .indentation = hertz_indentation,
@@ -38,5 +50,5 @@ static const struct contact_law_operations operations = {
 
 struct contact_law contact_law_hertz(double stiffness)
 {
-    return (struct contact_law){.operations = &operations, .parameters = {stiffness}};
+    return (struct contact_law){.operations = &contact_law_HERTZ, .parameters = {stiffness}};
 }

@@ -18,6 +18,7 @@
 #include <math.h>
 
 #include "contact/curves.h"
+#include "contact/law_closed_form.h"
 #include "contact/plastic.h"
 
 enum { LENGTH, FORCE, RADIUS }; /* units of the table in SI */
@@ -172,8 +173,12 @@ static const struct plastic_curve curve = {
     .branch_work = branch_work,
 };
 
-static const struct contact_law_operations operations = {
+const struct contact_law_operations contact_law_TABLE = {
     .model = PERCUSS_CONTACT_TABLE,
+    .effort = CONTACT_EFFORT_SHORT,
+    .tables = CONTACT_TABLES_ONLY,
+    .make = contact_law_closed_form,
+    .title = "a table of the contact region",
     .force = plastic_force,
     .stored = plastic_stored,
     .indentation = plastic_indentation,
@@ -184,7 +189,7 @@ struct contact_law contact_law_table_in(const struct contact_curves *curves, dou
                                         double force, double radius)
 {
     return (struct contact_law){
-        .operations = &operations,
+        .operations = &contact_law_TABLE,
         .parameters = {[LENGTH] = length, [FORCE] = force, [RADIUS] = radius},
         .table = curves,
     };

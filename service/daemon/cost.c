@@ -3,10 +3,15 @@
 
 #include "daemon/cost.h"
 
-#include "percuss/vocabulary.h"
+#include "contact/law.h"
 
 /* Finer solutions than these take tens of milliseconds; or seconds. */
 static const double cheap_tolerance = 1e-4, short_tolerance = 1e-9;
+
+static bool takes(const percuss_v1_Options *options, enum contact_effort effort)
+{
+    return contact_law_asked(options->contact_model)->effort == effort;
+}
 
 static bool is_at_least(const percuss_v1_Options *options, double tolerance)
 {
@@ -17,12 +22,12 @@ bool cost_is_cheap(const percuss_v1_Request *request)
 {
     const percuss_v1_Options *options = &request->options;
     return request->contacts._length <= 1 && options->method == PERCUSS_METHOD_MODAL &&
-           options->contact_model <= PERCUSS_CONTACT_CLOSED_FORM && !options->conditioning &&
-           !options->trace && is_at_least(options, cheap_tolerance);
+           takes(options, CONTACT_EFFORT_LEAST) && !options->conditioning && !options->trace &&
+           is_at_least(options, cheap_tolerance);
 }
 
 bool cost_is_long(const percuss_v1_Options *options)
 {
-    return options->method != PERCUSS_METHOD_MODAL ||
-           options->contact_model > PERCUSS_CONTACT_TABLE || !is_at_least(options, short_tolerance);
+    return options->method != PERCUSS_METHOD_MODAL || takes(options, CONTACT_EFFORT_LONG) ||
+           !is_at_least(options, short_tolerance);
 }

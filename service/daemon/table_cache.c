@@ -49,7 +49,7 @@ bool table_cache_lacks(const struct table_cache *cache, const struct body_set *s
                        const percuss_v1_Request *request)
 {
     size_t bodies = request->bodies._length;
-    if (request->options.contact_model != PERCUSS_CONTACT_TABLE)
+    if (contact_law_asked(request->options.contact_model)->tables != CONTACT_TABLES_ONLY)
         return false;
     for (size_t i = 0; i < request->contacts._length; i++) {
         const percuss_v1_Contact *contact = &request->contacts._buffer[i];

@@ -120,7 +120,7 @@ const struct contact_table_source *table_maker_begin(struct table_maker *maker,
     maker->cancelled = NULL;
     maker->status = PERCUSS_OK;
     maker->source.find = overrides_material(request) ? find_only : find_or_make;
-    return request->options.contact_model == PERCUSS_CONTACT_TABLE
+    return contact_law_asked(request->options.contact_model)->tables == CONTACT_TABLES_ONLY
                ? &maker->source
                : table_store_source(cache->loaded);
 }

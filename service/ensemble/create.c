@@ -3,23 +3,44 @@
 
 #include "ensemble/create.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "contact/law.h"
 #include "ensemble/choice.h"
 #include "solve/solve.h"
+
+/* Of seconds each there would be too many. */
+static enum percuss_status refuse_long(unsigned asked, struct fault *fault)
+{
+    char names[128] = "";
+    unsigned left = 0;
+    for (unsigned m = 0; m < PERCUSS_CONTACT_COUNT; m++)
+        left += contact_law_asked(m)->effort != CONTACT_EFFORT_LONG;
+    for (unsigned m = 0; m < PERCUSS_CONTACT_COUNT; m++) {
+        if (contact_law_asked(m)->effort == CONTACT_EFFORT_LONG)
+            continue;
+        size_t used = strlen(names);
+        left--;
+        snprintf(names + used, sizeof names - used, "%s%s", contact_model_name(m),
+                 left > 1    ? ", "
+                 : left == 1 ? " or "
+                             : "");
+    }
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "options.contact_model: %s: takes seconds an impact: an ensemble takes %s",
+                     contact_model_name(asked), names);
+}
 
 /* The impact as it is stated must be one that solve() answers. */
 static enum percuss_status try_request(struct ensemble *ensemble, const struct watch *watch,
                                        struct fault *fault)
 {
     const struct ensemble_spec *spec = &ensemble->spec;
-    enum percuss_contact_model asked = spec->request->options.contact_model;
-    if (asked > PERCUSS_CONTACT_TABLE)
-        return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "options.contact_model: %s: takes seconds an impact: an ensemble takes "
-                         "auto, hertz, closed-form or table",
-                         contact_model_name(asked));
+    unsigned asked = spec->request->options.contact_model;
+    if (contact_law_asked(asked)->effort == CONTACT_EFFORT_LONG)
+        return refuse_long(asked, fault);
     // a solve of its own
     struct solve_workspace *workspace = solve_workspace_create();
     struct solve_result *result = calloc(1, sizeof *result);

@@ -104,17 +104,23 @@ static bool warn_samples(struct ensemble_report *report, struct witness *witness
     return good;
 }
 
+static bool is_of_table(unsigned model)
+{
+    return contact_law_asked(model)->tables == CONTACT_TABLES_ONLY;
+}
+
 /* A table and the closed form differ by some 0.01: not to be taken for a spread of the inputs. */
 static void warn_models(struct ensemble_report *report, const struct ensemble *ensemble,
                         const struct ensemble_sample *samples)
 {
     uint64_t closed = 0;
-    bool tables = ensemble->stated_model == PERCUSS_CONTACT_TABLE;
+    bool tables = is_of_table(ensemble->stated_model);
     for (uint64_t i = 0; i < report->done; i++) {
-        closed += ensemble_sample_has_result(&samples[i]) &&
-                  samples[i].contact_model == PERCUSS_CONTACT_CLOSED_FORM;
-        tables = tables || (ensemble_sample_has_result(&samples[i]) &&
-                            samples[i].contact_model == PERCUSS_CONTACT_TABLE);
+        if (!ensemble_sample_has_result(&samples[i]))
+            continue;
+        bool tabulated = is_of_table(samples[i].contact_model);
+        tables = tables || tabulated;
+        closed += contact_law_asked(samples[i].contact_model)->curve && !tabulated;
     }
     if (tables && closed)
         warn(report,

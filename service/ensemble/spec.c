@@ -201,7 +201,9 @@ static bool yields(const struct ensemble_spec *spec, const char *id)
 
 enum percuss_status spec_check_tables(const struct ensemble_spec *spec, struct fault *fault)
 {
-    bool insists = spec->request->options.contact_model == PERCUSS_CONTACT_TABLE;
+    const struct contact_law_operations *law =
+        contact_law_asked(spec->request->options.contact_model);
+    bool insists = law->tables == CONTACT_TABLES_ONLY;
     for (size_t i = 0; insists && i < spec->input_count; i++) {
         enum input_quantity quantity = spec->inputs[i].quantity;
         bool material = quantity == INPUT_YOUNG || quantity == INPUT_POISSON;

@@ -1,9 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/contact/law_hertz.c and law_linear.c: force, slope, stored energy and inverse of
- * one law fit together. The pattern for the test of a new law. */
+/* Mirrors service/contact/laws.c, law_hertz.c and law_linear.c: what may be asked for is known by
+ * its number; force, slope, stored energy and inverse of one law fit together. The pattern for the
+ * test of a new law. */
 #include "check.h"
+#include "contact/hertz.h"
 #include "contact/law.h"
 
 /* What every elastic law owes its callers. */
@@ -57,11 +59,33 @@ static void linear_fits_together(void **state)
     near_relative(law.operations->stored(&law, 1e-4), 0.015, 1e-15);
 }
 
+/* And makes a law of contacts that yield and of those that do not. */
+static void every_model_is_found_by_its_number(void **state)
+{
+    (void)state;
+    const struct material steel = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0};
+    const struct material soft = {"al-205", 70e9, 0.33, 2700.0, 205e6, 0.0};
+    const struct hertz_contact hertz =
+        hertz_contact_make(hertz_effective_modulus(&steel, &soft), 30.0, 30.0);
+    for (unsigned m = 0; m < PERCUSS_CONTACT_COUNT; m++) {
+        const struct contact_law_operations *of = contact_law_asked(m);
+        double slope;
+        assert_int_equal(of->model, m);
+        struct contact_law law = of->make(&hertz, &steel, &soft);
+        assert_true(contact_law_force(&law, 1e-7, &slope) > 0.0 && slope > 0.0);
+        law = of->make(&hertz, &steel, &steel);
+        assert_null(law.operations->curve);
+        assert_non_null(law.operations->title);
+    }
+    assert_ptr_equal(contact_law_asked(PERCUSS_CONTACT_COUNT), &contact_law_AUTO);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hertz_fits_together),
         cmocka_unit_test(linear_fits_together),
+        cmocka_unit_test(every_model_is_found_by_its_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

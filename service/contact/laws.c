@@ -1,0 +1,35 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "contact/law_closed_form.h"
+
+/* What may be asked for and is no law: it decides between laws, or computes what they stand for. */
+const struct contact_law_operations contact_law_AUTO = {
+    .model = PERCUSS_CONTACT_AUTO,
+    .effort = CONTACT_EFFORT_LEAST,
+    .tables = CONTACT_TABLES_IF_ANY,
+    .yields_if_needed = true,
+    .make = contact_law_closed_form,
+};
+
+const struct contact_law_operations contact_law_CONCURRENT_FE = {
+    .model = PERCUSS_CONTACT_CONCURRENT_FE,
+    .effort = CONTACT_EFFORT_LONG,
+    .solution = CONTACT_CONCURRENT,
+    .make = contact_law_closed_form,
+};
+
+const struct contact_law_operations contact_law_COMPLETE_FE = {
+    .model = PERCUSS_CONTACT_COMPLETE_FE,
+    .effort = CONTACT_EFFORT_LONG,
+    .solution = CONTACT_COMPLETE,
+    .make = contact_law_closed_form,
+};
+
+#define ENTRY(name, text) &contact_law_##name,
+
+const struct contact_law_operations *contact_law_asked(unsigned model)
+{
+    static const struct contact_law_operations *const all[] = {PERCUSS_CONTACT_MODEL_LIST(ENTRY)};
+    return all[model < PERCUSS_CONTACT_COUNT ? model : PERCUSS_CONTACT_AUTO];
+}
