@@ -63,6 +63,7 @@ enum percuss_status catalogue_parse(const char *text, size_t size, const char *n
     if (!plain)
         return out_of_memory(name, fault);
     locale_t caller = uselocale(plain);
+    /* the caller gets a whole set or none */
     struct body_set *fresh = calloc(1, sizeof *fresh);
     if (!fresh) {
         out_of_memory(name, fault);

@@ -109,6 +109,7 @@ enum percuss_status keys_read_value(struct reader *reader, const yaml_node_t *va
 {
     char *field = (char *)object + key->offset;
     bool good = true;
+    /* by type: where the value is not one, what is allowed is said below */
     switch (key->type) {
     case KEY_NUMBER:
         good = read_number(value, key, field);

@@ -54,12 +54,14 @@ enum percuss_status names_read(struct reader *reader, const yaml_node_t *mapping
 {
     size_t count = reader_count(mapping);
     *names = (struct names){0};
+    /* as many as allowed */
     if (count == 0 || count > NAMES_MOST)
         return reader_refuse(reader, mapping, "%zu entries: must be 1 to %d", count, NAMES_MOST);
     names->sorted = malloc(count * sizeof *names->sorted);
     if (!names->sorted)
         return fault_set(reader->fault, PERCUSS_INTERNAL, "%s: out of memory",
                          reader_short_name(reader->name));
+    /* every key is an id */
     enum percuss_status status = PERCUSS_OK;
     for (size_t i = 0; !status && i < count; i++) {
         const yaml_node_t *key = reader_entry(reader, mapping, i).key;
@@ -68,6 +70,7 @@ enum percuss_status names_read(struct reader *reader, const yaml_node_t *mapping
             names->sorted[names->count++] =
                 (struct name){(const char *)key->data.scalar.value, i, key->start_mark.line + 1};
     }
+    /* sorted for look-up, which brings equal ones together */
     if (!status) {
         qsort(names->sorted, count, sizeof *names->sorted, by_text);
         status = check_unique(reader, mapping, names);

@@ -39,12 +39,14 @@ static bool rises(size_t count, const double *values)
 
 static enum percuss_status check_table(const struct contact_table *table, struct fault *fault)
 {
+    /* the loading curve */
     if (table->points < 3 || !rises(table->points, table->indentation) ||
         !rises(table->points, table->force) || !rises(table->points, table->contact_radius) ||
         table->indentation[0] != 0.0 || table->force[0] != 0.0 || table->contact_radius[0] != 0.0)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "table: %zu points of loading: must be 3 or more that rise from 0",
                          table->points);
+    /* the grid of the branches */
     if (table->branches &&
         (table->samples < 3 || !(table->yield > 0.0) || !(table->largest[0] > table->yield) ||
          !rises(table->branches, table->largest)))
@@ -52,6 +54,7 @@ static enum percuss_status check_table(const struct contact_table *table, struct
                          "table: %zu branches of %zu samples, yield at %g m: must be 3 or more "
                          "samples each, from rising indentations beyond the yield",
                          table->branches, table->samples, table->yield);
+    /* each branch */
     for (size_t b = 0; b < table->branches; b++) {
         const double *share = table->share + b * table->samples;
         if (!(table->residual[b] >= 0.0 && table->residual[b] < table->largest[b]) ||
@@ -107,6 +110,7 @@ static void find_joints(struct contact_curves *curves)
     for (int i = 0; i <= CURVES_JOINTS; i++)
         curves->joints[i] = INFINITY;
     for (int found = 0; found < CURVES_JOINTS; found++) {
+        /* the roughest point below the last one found */
         double roughest = 0.0;
         double place = INFINITY;
         for (size_t i = 1; i + 1 < loading->count; i++) {
@@ -117,6 +121,7 @@ static void find_joints(struct contact_curves *curves)
             place = loading->place[i];
         }
         bound = roughest;
+        /* into its place among the others, ascending */
         int at = found;
         for (; at > 0 && curves->joints[at - 1] > place; at--)
             curves->joints[at] = curves->joints[at - 1];
@@ -157,6 +162,7 @@ struct contact_curves *contact_curves_create(const struct contact_table *table, 
 {
     if (check_table(table, fault))
         return NULL;
+    /* one block for all numbers, scratch for the longest spline */
     size_t points = table->points;
     size_t branches = table->branches;
     size_t samples = branches ? table->samples : 0;
@@ -173,6 +179,7 @@ struct contact_curves *contact_curves_create(const struct contact_table *table, 
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         return NULL;
     }
+    /* splines over their parts of it */
     double *block = curves->memory;
     curves->loading = take_spline(&block, points);
     curves->radius = take_spline(&block, points);
@@ -181,11 +188,13 @@ struct contact_curves *contact_curves_create(const struct contact_table *table, 
     for (size_t b = 0; b < branches; b++)
         branch[b] = take_spline(&block, samples);
     curves->work = block;
+    /* what the table states */
     curves->yield = table->yield;
     curves->error = table->error;
     curves->surface_radius = table->surface_radius;
     curves->branches = branches;
     curves->range = table->range > 0.0 ? table->range : table->indentation[points - 1];
+    /* values, slopes, work */
     fill_loading(curves, table, scratch);
     curves_finish(curves);
     if (branches)

@@ -132,6 +132,7 @@ static struct contact_curves *take_curves(const struct contact_family *family, s
                                           double **numbers, double **shapes)
 {
     size_t n = family->points;
+    /* room for values and slopes, which the caller mixes */
     struct contact_curves *curves = arena_take(arena, 1, sizeof *curves);
     struct spline *branch = arena_take(arena, family->branches, sizeof *branch);
     double *block = arena_reserve(
@@ -140,10 +141,12 @@ static struct contact_curves *take_curves(const struct contact_family *family, s
         return NULL;
     *numbers = block;
     *shapes = block + family_curve_numbers(family);
+    /* splines over it, at the places that all tables share */
     curves->loading = (struct spline){n, family->depth, block, block + n};
     curves->radius = (struct spline){n, family->depth, block + 2 * n, block + 3 * n};
     curves->spring = (struct spline){family->springs, family->log, block + 4 * n,
                                      block + 4 * n + family->springs};
+    /* branches */
     for (size_t b = 0; b < family->branches; b++) {
         double *values = *shapes + 2 * b * family->samples;
         branch[b] =
@@ -152,6 +155,7 @@ static struct contact_curves *take_curves(const struct contact_family *family, s
     curves->branch = branch;
     curves->branches = family->branches;
     curves->work = *shapes + family_shape_numbers(family);
+    /* in reduced units yield is at 1 */
     curves->yield = 1.0;
     curves->error = family->error;
     curves->range = family->computed;

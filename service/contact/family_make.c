@@ -22,12 +22,14 @@ static bool is_rising(size_t count, const double *values)
 static enum percuss_status check_axes(const struct contact_family_samples *samples,
                                       struct fault *fault)
 {
+    /* axes */
     for (size_t a = 0; a < CONTACT_FAMILY_AXES; a++)
         if (samples->count[a] < 2 || samples->count[a] > CONTACT_FAMILY_MOST ||
             !is_rising(samples->count[a], samples->axis[a]) || !(samples->axis[a][0] >= 0.0))
             return fault_set(fault, PERCUSS_BAD_REQUEST,
                              "family: axis %zu of %zu places: must be 2 to %d that rise from 0 on",
                              a, samples->count[a], CONTACT_FAMILY_MOST);
+    /* grids of the curves */
     if (samples->depths < 3 || samples->springs < 3 || samples->branches < 1 ||
         samples->branches > samples->springs || samples->samples < 3 ||
         !is_rising(samples->depths, samples->depth) || !(samples->depth[0] > 1.0) ||
@@ -37,6 +39,7 @@ static enum percuss_status check_axes(const struct contact_family_samples *sampl
                          "3 or more that rise from first yield, and no more branches than "
                          "unloadings",
                          samples->depths, samples->springs, samples->branches, samples->samples);
+    /* what is said of them */
     if (!(samples->computed > 1.0) || !(samples->error >= 0.0))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "family: computed up to %g with an error of %g: must be beyond first "
@@ -50,6 +53,7 @@ static bool is_sound(const struct contact_family_samples *samples, size_t table)
 {
     double force = 1.0;
     double area = 1.0;
+    /* force and area rise with the depth from their values at yield */
     for (size_t i = 0; i < samples->depths; i++) {
         double d = samples->depth[i];
         double next = samples->force[table * samples->depths + i] * d * sqrt(d);
@@ -59,11 +63,13 @@ static bool is_sound(const struct contact_family_samples *samples, size_t table)
         force = next;
         area = size;
     }
+    /* what springs back is a part of the depth */
     for (size_t i = 0; i < samples->springs; i++) {
         double back = samples->back[table * samples->springs + i];
         if (!(back > 0.0 && back <= 1.0))
             return false;
     }
+    /* branches rise from 0 to 1 */
     for (size_t b = 0; b < samples->branches; b++) {
         const double *share = samples->share + (table * samples->branches + b) * samples->samples;
         if (!is_rising(samples->samples, share) || share[0] != 0.0 ||
@@ -88,6 +94,7 @@ static void fill_curves(const struct contact_family *family,
     struct spline radius = {n, family->depth, block + 2 * n, block + 3 * n};
     struct spline spring = {family->springs, family->log, block + 4 * n,
                             block + 4 * n + family->springs};
+    /* Hertz's curve up to yield, then what was sampled */
     for (size_t i = 0; i <= FAMILY_ELASTIC; i++)
         loading.value[i] = radius.value[i] = family->depth[i];
     for (size_t i = 0; i < samples->depths; i++) {
@@ -96,12 +103,14 @@ static void fill_curves(const struct contact_family *family,
         loading.value[to] = samples->depth[i] * curves_two_thirds(samples->force[from]);
         radius.value[to] = samples->depth[i] * samples->area[from];
     }
+    /* from all springs back at yield by the square of the way to the samples */
     const double *back = samples->back + table * samples->springs;
     spring.value[0] = 1.0;
     for (size_t i = 0; i < FAMILY_ONSET; i++)
         spring.value[i + 1] = 1.0 - (1.0 - back[0]) * onset(i) * onset(i);
     for (size_t i = 0; i < samples->springs; i++)
         spring.value[FAMILY_ONSET + 1 + i] = back[i];
+    /* slopes */
     spline_set_slopes(&loading, scratch);
     spline_set_slopes(&radius, scratch);
     spline_set_slopes(&spring, scratch);
@@ -147,6 +156,7 @@ static void fill_places(struct contact_family *family, const struct contact_fami
 
 static struct contact_family *make_room(const struct contact_family_samples *samples)
 {
+    /* counts, with the points that are put in before the samples */
     struct contact_family shape = {
         .tables = samples->count[0] * samples->count[1] * samples->count[2],
         .points = samples->depths + FAMILY_ELASTIC + 1,
@@ -156,6 +166,7 @@ static struct contact_family *make_room(const struct contact_family_samples *sam
         .computed = samples->computed,
         .error = samples->error,
     };
+    /* places, then the numbers of all tables, behind the struct */
     size_t places = shape.points + shape.springs + shape.samples;
     size_t numbers = shape.tables * (family_curve_numbers(&shape) + family_shape_numbers(&shape));
     struct contact_family *family = calloc(1, sizeof *family + (places + numbers) * sizeof(double));
@@ -175,6 +186,7 @@ struct contact_family *contact_family_create(const struct contact_family_samples
 {
     if (check_axes(samples, fault))
         return NULL;
+    /* room, for itself and for setting slopes */
     struct contact_family *family = make_room(samples);
     double *scratch =
         family ? calloc(2 * (family->points + family->springs + family->samples), sizeof *scratch)
@@ -184,6 +196,7 @@ struct contact_family *contact_family_create(const struct contact_family_samples
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         return NULL;
     }
+    /* one table after the other */
     fill_places(family, samples);
     for (size_t table = 0; table < family->tables; table++) {
         if (!is_sound(samples, table)) {

@@ -26,15 +26,18 @@ static double axis_ratio_squared(double ratio)
 {
     if (ratio <= 1.0)
         return 1.0;
+    /* log q lies between these, the ratio exceeding 1/q^(1/4) at least */
     double target = log(ratio);
     double low = -4.0 * target - 1.0;
     double high = 0.0;
     double f_low = log(curvature_ratio(exp(low))) - target;
     double f_high = -target;
     for (int i = 0; i < 200 && high - low > 1e-15 * fmax(1e-8, -low); i++) {
+        /* the secant's root, or the middle now and then */
         double x = low - f_low * (high - low) / (f_high - f_low);
         if (i % 3 == 2 || !(x > low && x < high))
             x = 0.5 * (low + high);
+        /* the half that holds it */
         double f = log(curvature_ratio(exp(x))) - target;
         if (f == 0.0)
             return exp(x);

@@ -35,11 +35,13 @@ static bool solve_active(struct active_set *set, size_t active, double *constant
 /* forces, indentation or total from the present set */
 static bool evaluate(struct active_set *set)
 {
+    /* open nodes bear nothing */
     size_t active = 0;
     for (size_t i = 0; i < set->count; i++) {
         set->force[i] = 0.0;
         active += set->active[i];
     }
+    /* forces of the active ones, as a constant and a slope by the indentation */
     double *constant = set->scratch + set->count * set->count;
     double *slope = constant + set->count;
     set->stiffness = 0.0;
@@ -49,6 +51,7 @@ static bool evaluate(struct active_set *set)
         return set->kind == ACTIVE_SET_BY_INDENTATION;
     if (!solve_active(set, active, constant, slope))
         return false;
+    /* the total as a line over the indentation; where on it, by what is given */
     double at_zero = 0.0;
     for (size_t k = 0; k < active; k++) {
         at_zero += constant[k];
@@ -60,6 +63,7 @@ static bool evaluate(struct active_set *set)
         set->indentation = -constant[active - 1] / slope[active - 1];
     if (set->kind != ACTIVE_SET_BY_TOTAL)
         set->total = at_zero + set->stiffness * set->indentation;
+    /* each node's force there */
     size_t k = 0;
     for (size_t i = 0; i < set->count; i++)
         if (set->active[i]) {
@@ -97,6 +101,7 @@ static size_t turn(struct active_set *set, bool cautiously)
         if (!cautiously)
             set->active[i] = !set->active[i];
     }
+    /* the worst alone */
     if (cautiously && turned)
         set->active[worst] = !set->active[worst];
     return turned;

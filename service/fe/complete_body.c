@@ -9,6 +9,7 @@ enum percuss_status complete_body_make(const struct body *body, struct complete_
                                        struct fault *fault)
 {
     struct solid solid = body_solid(body);
+    /* a cylinder of its measures, unless its form says otherwise */
     *complete = (struct complete_body){
         .shape = solid.form == SOLID_BALL ? COMPLETE_SPHERE : COMPLETE_CYLINDER,
         .radius = solid.radius,
@@ -24,6 +25,7 @@ enum percuss_status complete_body_make(const struct body *body, struct complete_
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "%s: tip_radius: %g: complete finite elements have rods with flat ends",
                          body->id, solid.tip_radius);
+    /* what meshes leave out */
     if (body->supports[0] != SUPPORT_FREE || body->supports[1] != SUPPORT_FREE)
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "%s: supports: complete finite elements have free bodies only", body->id);

@@ -204,6 +204,7 @@ enum percuss_status complete_converge(const struct complete_problem *problem, do
     if (problem->cells < 16 || problem->cells % 4)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "cells: %u: must be 16, 20, ...",
                          problem->cells);
+    /* finer meshes until the error fits */
     tolerance /= 1.0 + OFF_LIMIT;
     enum percuss_status status = PERCUSS_OK;
     while (status == PERCUSS_OK && convergence->meshes < COMPLETE_MESHES &&

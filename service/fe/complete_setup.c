@@ -23,6 +23,7 @@ static enum percuss_status check_body(const struct complete_body *body, const ch
                                       struct fault *fault)
 {
     const struct material *m = &body->material;
+    /* every field with what is allowed */
     const struct {
         const char *field;
         double value;
@@ -38,6 +39,7 @@ static enum percuss_status check_body(const struct complete_body *body, const ch
         {"yield", m->yield, m->yield > 0.0, "> 0"},
         {"tangent", m->tangent, m->tangent >= 0.0 && m->tangent < m->young, ">= 0 and < young"},
     };
+    /* the first that does not fit */
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         if (!checks[i].fits)
             return fault_set(fault, PERCUSS_BAD_REQUEST, "%s.%s: %g: must be %s", name,
@@ -193,6 +195,7 @@ enum percuss_status complete_begin(const struct complete_problem *problem, doubl
 {
     const struct complete_body *bodies[DYNAMICS_BODIES] = {&problem->a, &problem->b};
     struct dynamics_body parts[DYNAMICS_BODIES];
+    /* elements around the patch, alike in both bodies */
     size_t core = (size_t)ceil(CORE_REACH * problem->cells);
     double side = CORE_REACH * patch;
     struct mesh_grade grade = {.size = side / (double)core,
@@ -201,6 +204,7 @@ enum percuss_status complete_begin(const struct complete_problem *problem, doubl
                                .matched = MATCHED_REACH * side};
     *run = (struct complete_run){.problem = problem, .patch = patch};
     run->duration = hertz_duration(problem);
+    /* a mesh of each body, no smaller than the patch allows */
     enum percuss_status status = PERCUSS_OK;
     for (size_t b = 0; b < DYNAMICS_BODIES && status == PERCUSS_OK; b++) {
         double size = smallest_size(bodies[b]);
@@ -218,6 +222,7 @@ enum percuss_status complete_begin(const struct complete_problem *problem, doubl
                                           .mass = run->mass[b],
                                           .fine = nodes_within(&run->mesh[b], PAIR_REACH * side)};
     }
+    /* equations of motion and pairs of nodes */
     if (status == PERCUSS_OK && !pace_ask(problem->pace, problem->done))
         status = fault_set(fault, PERCUSS_TIMEOUT, "stopped before the impact");
     if (status == PERCUSS_OK)
@@ -226,6 +231,7 @@ enum percuss_status complete_begin(const struct complete_problem *problem, doubl
         status = node_contact_create(&run->dynamics, arena, &run->contact, fault);
     if (status != PERCUSS_OK)
         return status;
+    /* a flies, b rests */
     run->v_before = arena_take(arena, 2 * run->dynamics.nodes, sizeof(double));
     if (!run->v_before || !find_reference(run, 0, arena) || !find_reference(run, 1, arena))
         return fault_set(fault, PERCUSS_INTERNAL, "no memory for %zu nodes", run->dynamics.nodes);

@@ -99,10 +99,12 @@ static size_t mark_level(struct dynamics *dynamics, struct dynamics_level *level
         const struct elastic_block *block = &level->elastic[i];
         double energy[FE_LANES];
         elastic_block_energy(block, dynamics->y, energy);
+        /* four elements at once, by the energy of their strains */
         for (int lane = 0; lane < FE_LANES; lane++) {
             uint32_t e = block->element[lane];
             if (e == UINT32_MAX || energy[lane] <= NEAR_YIELD * NEAR_YIELD * block->limit[lane])
                 continue;
+            /* those that this does not exclude, one by one */
             struct quad quad;
             double u[QUAD_FREEDOMS];
             const struct material *material =
@@ -112,6 +114,7 @@ static size_t mark_level(struct dynamics *dynamics, struct dynamics_level *level
                 uint32_t node = dynamics->quads[e][d / 2];
                 u[d] = dynamics->y[2 * node + d % 2] / dynamics->root_mass[node];
             }
+            /* near yield: they get a history */
             if (quad_mises(&quad, material, u) < NEAR_YIELD * material->yield)
                 continue;
             dynamics->plastic[e] = true;

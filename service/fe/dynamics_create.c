@@ -98,12 +98,14 @@ enum percuss_status dynamics_create(const struct dynamics_body body[DYNAMICS_BOD
                                     struct fault *fault)
 {
     *dynamics = (struct dynamics){.arena = arena};
+    /* both bodies' nodes and elements in one list */
     for (size_t b = 0; b < DYNAMICS_BODIES; b++) {
         dynamics->body[b] = body[b];
         dynamics->nodes += body[b].mesh->nodes;
         dynamics->elements += body[b].mesh->elements;
         dynamics->first_element[b + 1] = dynamics->elements;
     }
+    /* room */
     bool ok = allocate(dynamics);
     double *longest = take(dynamics, dynamics->elements, sizeof *longest, &ok);
     uint8_t *node_level = take(dynamics, dynamics->nodes, 1, &ok);
@@ -111,14 +113,17 @@ enum percuss_status dynamics_create(const struct dynamics_body body[DYNAMICS_BOD
     uint32_t *order = take(dynamics, dynamics->nodes, sizeof *order, &ok);
     if (!ok)
         return fault_set(fault, PERCUSS_INTERNAL, "no memory for %zu nodes", dynamics->nodes);
+    /* each element's longest step, and the level of steps that goes with it */
     copy_meshes(dynamics, NULL);
     enum percuss_status status = measure(dynamics, safety, longest, fault);
     if (status != PERCUSS_OK)
         return status;
     dynamics_levels_assign(dynamics, longest, node_level, scratch);
+    /* nodes in the order of their levels, so that each level's lie together */
     dynamics_levels_sort(dynamics, node_level, order);
     copy_meshes(dynamics, order);
     weigh(dynamics);
+    /* elements four by four */
     for (unsigned k = 0; k < dynamics->levels; k++)
         if (!dynamics_blocks_make(dynamics, k))
             return fault_set(fault, PERCUSS_INTERNAL, "no memory for %zu elements",

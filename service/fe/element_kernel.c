@@ -59,7 +59,9 @@ VECTOR_CLONES void elastic_blocks_kick(const struct elastic_block *blocks, size_
     for (const struct elastic_block *block = blocks; block < blocks + count; block++) {
         lanes u[QUAD_FREEDOMS];
         lanes f[QUAD_FREEDOMS] = {{0.0}};
+        /* displacements of four elements */
         gather(block->node, y, u);
+        /* f = K u, of which the lower triangle is kept */
 #pragma GCC unroll 8
         for (int i = 0; i < QUAD_FREEDOMS; i++) {
             const double(*row)[FE_LANES] = block->stiffness + i * (i + 1) / 2;
@@ -71,6 +73,7 @@ VECTOR_CLONES void elastic_blocks_kick(const struct elastic_block *blocks, size_
             }
             f[i] += AT(row[i]) * u[i];
         }
+        /* onto their nodes' velocities */
         scatter(block->node, f, step, v);
     }
 }
@@ -124,13 +127,16 @@ VECTOR_CLONES void plastic_blocks_kick(struct plastic_block *blocks, size_t coun
     for (struct plastic_block *block = blocks; block < blocks + count; block++) {
         lanes u[QUAD_FREEDOMS];
         lanes f[QUAD_FREEDOMS];
+        /* displacements of four elements */
         gather(block->node, y, u);
+        /* the pressure, of the mean change of volume */
         lanes dilatation = {0.0};
         for (int i = 0; i < QUAD_FREEDOMS; i++)
             dilatation += AT(block->mean[i]) * u[i];
         lanes pressure = AT(block->bulk_volume) * dilatation;
         for (int i = 0; i < QUAD_FREEDOMS; i++)
             f[i] = pressure * AT(block->mean[i]);
+        /* the deviator at each point, after flow, onto the nodes */
         for (int p = 0; p < QUAD_POINTS; p++) {
             lanes s[4];
             trial(block, p, u, s);
@@ -144,6 +150,7 @@ VECTOR_CLONES void plastic_blocks_kick(struct plastic_block *blocks, size_t coun
                 f[2 * a + 1] += dz * s[1] + dr * s[3];
             }
         }
+        /* onto their nodes' velocities */
         scatter(block->node, f, step, v);
     }
 }

@@ -96,14 +96,17 @@ static void look(struct progress *progress)
     const struct complete_problem *problem = progress->run.problem;
     double time = now(progress);
     double span = time - progress->window_start;
+    /* open for long enough: the sub-impact is over */
     if (progress->open && time - progress->last_touch > progress->quiet)
         close_sub_impact(progress);
+    /* means since the last look */
     struct complete_sample sample = {.time = time,
                                      .force = progress->window_impulse / span,
                                      .indentation = complete_indentation(&progress->run),
                                      .radius = touching_radius(&progress->run)};
     progress->window_start = time;
     progress->window_impulse = 0.0;
+    /* the largest of each, of all and of the sub-impact under way */
     result->peak_force = fmax(result->peak_force, sample.force);
     if (sample.force > 0.0) {
         struct complete_sub_impact *here = current(progress);
@@ -116,6 +119,7 @@ static void look(struct progress *progress)
         result->contact_radius = fmax(result->contact_radius, sample.radius);
         result->max_indentation = fmax(result->max_indentation, sample.indentation);
     }
+    /* for who follows it */
     if (problem->sample)
         problem->sample(problem->context, &sample);
 }
@@ -152,22 +156,26 @@ static void audit(struct progress *progress)
     struct complete_run *run = &progress->run;
     struct dynamics *dynamics = &run->dynamics;
     struct complete_energy *total = &progress->result->energy;
+    /* one more kick, so that velocities on both sides of this instant are known */
     memcpy(run->v_before, dynamics->v, 2 * dynamics->nodes * sizeof(double));
     double rate = parting(run);
     dynamics_kick(dynamics, progress->n);
     node_contact_close(&run->contact, dynamics);
     struct dynamics_energy energy = dynamics_energy(dynamics, run->v_before);
+    /* of the relative motion, by the mean of both rates */
     double reduced = 1.0 / (1.0 / run->mass[0] + 1.0 / run->mass[1]);
     double speed = run->problem->speed;
     rate = 0.5 * (rate + parting(run));
     total->available = 0.5 * reduced * speed * speed;
     total->rebound = 0.5 * reduced * rate * rate;
     total->contact = run->contact.loss;
+    /* what either body holds */
     for (size_t b = 0; b < DYNAMICS_BODIES; b++) {
         total->vibration_of[b] = energy.vibration[b] + energy.strain[b];
         total->vibration += total->vibration_of[b];
         total->plastic += energy.plastic[b];
     }
+    /* and what is missing */
     total->closure =
         total->available - total->rebound - total->vibration - total->plastic - total->contact;
 }
@@ -179,6 +187,7 @@ static enum percuss_status summarize(struct progress *progress, struct fault *fa
     const struct dynamics *dynamics = &run->dynamics;
     struct complete_result *result = progress->result;
     close_sub_impact(progress);
+    /* impulse, restitution by it, and what the bodies' momenta say of it */
     result->impulse = run->contact.impulse;
     result->restitution =
         result->impulse * (1.0 / run->mass[0] + 1.0 / run->mass[1]) / run->problem->speed - 1.0;
@@ -189,10 +198,12 @@ static enum percuss_status summarize(struct progress *progress, struct fault *fa
         result->momentum_error =
             fmax(result->momentum_error, fabs(change + result->impulse) / result->impulse);
     }
+    /* time in contact, of the listed sub-impacts */
     size_t listed =
         result->sub_impacts < COMPLETE_SUB_IMPACTS ? result->sub_impacts : COMPLETE_SUB_IMPACTS;
     for (size_t i = 0; i < listed; i++)
         result->contact_time += result->sub_impact[i].end - result->sub_impact[i].start;
+    /* what it took */
     result->end_time = now(progress);
     result->elements = dynamics->elements;
     result->levels = dynamics->levels;
@@ -200,6 +211,7 @@ static enum percuss_status summarize(struct progress *progress, struct fault *fa
     result->steps = progress->n;
     for (size_t e = 0; e < dynamics->elements; e++)
         result->plastic_elements += dynamics->plastic[e];
+    /* the balance */
     audit(progress);
     double lost = result->energy.closure / result->energy.available;
     if (!(fabs(lost) <= ENERGY_KEPT))
@@ -224,8 +236,10 @@ static enum percuss_status march(struct progress *progress, struct fault *fault)
         if (time - progress->window_start < fmin(progress->quiet, 0.1 * time) &&
             time < problem->horizon)
             continue;
+        /* elements that come near yield, and the contact */
         dynamics_watch_yield(&run->dynamics);
         look(progress);
+        /* the end, if this is one */
         if (is_over(progress)) {
             progress->result->end = PERCUSS_END_SEPARATED;
             return PERCUSS_OK;

@@ -74,6 +74,7 @@ static void fill_branches(struct indentation_table *table, const struct runs *ru
 {
     const struct indentation_run *run = &runs->fine_short;
     const struct indentation_run *coarse = &runs->coarse_short;
+    /* branches as the finest run has them, with forces on the loading curve */
     memcpy(table->largest, run->largest, table->branches * sizeof(double));
     memcpy(table->residual, run->residual, table->branches * sizeof(double));
     memcpy(table->recovery, run->recovery, table->branches * INDENTATION_SAMPLES * sizeof(double));
@@ -83,6 +84,7 @@ static void fill_branches(struct indentation_table *table, const struct runs *ru
             table->hertz * pow(d, 1.5) * (i ? extrapolated(&runs->fine_long, run, d) : 1.0);
         if (d <= coarse->largest[0])
             continue;
+        /* how far the coarser mesh is from them */
         double residual =
             indentation_interpolate(coarse->branches, coarse->largest, coarse->residual, 1, d);
         table->residual_error = fmax(table->residual_error, fabs(residual - run->residual[i]) / d);
@@ -123,10 +125,12 @@ enum percuss_status indentation_table_make(const struct region_input *input,
     if (input->resolution < 6)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "resolution: %zu: must be 6 ... 60 for a table", input->resolution);
+    /* on two meshes with two lengths of steps each */
     struct runs *runs = calloc(1, sizeof *runs);
     if (!runs)
         return fault_set(fault, PERCUSS_INTERNAL, "indentation table: no memory");
     enum percuss_status status = run_all(input, watch, runs, fault);
+    /* the finest, with errors from the others */
     if (status == PERCUSS_OK) {
         table->points = runs->fine_short.rings;
         table->branches = runs->fine_short.branches;
@@ -140,6 +144,7 @@ enum percuss_status indentation_table_make(const struct region_input *input,
             status = fault_set(fault, PERCUSS_INTERNAL, "indentation table: no memory");
         }
     }
+    /* nothing on failure */
     free(runs);
     if (status != PERCUSS_OK)
         indentation_table_free(table);

@@ -165,18 +165,22 @@ static enum percuss_status pass(struct passage *passage)
         if (run->rings == INDENTATION_RINGS_MAX - 2)
             return fault_set(passage->fault, PERCUSS_INTERNAL, "indentation: over %d rings",
                              INDENTATION_RINGS_MAX);
+        /* one crossing of an element by the contact's edge */
         enum percuss_status status = cross(passage, node);
         if (status != PERCUSS_OK)
             return status;
         if (run->rings == 0)
             continue;
+        /* still elastic: only the last such ring is kept */
         if (!flowed && !flows(passage->region)) {
             restart(run, &mesh_error);
             continue;
         }
+        /* the first with flow: from here on the curve is a table's */
         if (!flowed)
             add_elastic_branch(run);
         flowed = true;
+        /* its force without the mesh's elastic error, and now and then a branch */
         double force = run->ratio[run->rings] * passage->hertz * pow(passage->edge, 1.5);
         run->ratio[run->rings - 1] /= mesh_error;
         if (plan->branch_every && run->rings % plan->branch_every == 0)
@@ -187,6 +191,7 @@ static enum percuss_status pass(struct passage *passage)
             return fault_set(passage->fault, PERCUSS_TIMEOUT, "indentation: stopped at %g m",
                              passage->edge);
     }
+    /* nothing flowed up to the end */
     if (run->branches == 0)
         add_elastic_branch(run);
     /* the last branch must not lie below the last ring */

@@ -61,6 +61,7 @@ bool matched_compliance(const struct body *body, double patch, double *complianc
     double scale = 1.0 / (body->material.young * solid.radius);
     double slenderness = solid.length / solid.radius;
     double held = body_is_flexible(body) ? slenderness / (3.0 * M_PI) : 0.0;
+    /* in units of 1/(E R), by form; none for what has no answer */
     switch (solid.form) {
     case SOLID_HALF_SPACE:
         *compliance = 0.0;

@@ -192,6 +192,7 @@ static void add_element(struct cylinder *cylinder, size_t er, size_t ez)
             cylinder->load[freedom(cylinder, er, ez, a % SIDE, a / SIDE) + 1] +=
                 place.volume * per_volume * place.value[a];
     }
+    /* the lower triangle, rows of fixed freedoms without their neighbours */
     for (size_t a = 0; a < LOCAL; a++)
         for (size_t b = 0; b < LOCAL && b / 2 <= a / 2; b++) {
             size_t i = freedom(cylinder, er, ez, a / 2 % SIDE, a / 2 / SIDE) + a % 2;

@@ -142,10 +142,12 @@ static void grow_rings(struct growing *growing, double sphere, const struct outl
         size_t start = mesh->nodes;
         double eta = (positions[k] - positions[0]) / span;
         double rim_r, rim_z, bend_r, bend_z;
+        /* how far the surface lies off the straight line there */
         outline_point(outline, 2 * core, core, &rim_r, &rim_z);
         surface_point(sphere, positions[k], &bend_r, &bend_z);
         bend_r -= (1.0 - eta) * mesh->r[first + 2 * core] + eta * rim_r;
         bend_z -= (1.0 - eta) * mesh->z[first + 2 * core] + eta * rim_z;
+        /* nodes of the ring, all of the bend at its end, none at the axis */
         for (size_t i = 0; i <= 2 * core; i++) {
             double part = (double)i / (2.0 * (double)core);
             double r, z;
@@ -153,6 +155,7 @@ static void grow_rings(struct growing *growing, double sphere, const struct outl
             node_add(growing, (1.0 - eta) * mesh->r[first + i] + eta * r + part * bend_r,
                      (1.0 - eta) * mesh->z[first + i] + eta * z + part * bend_z);
         }
+        /* elements between it and the one inside */
         list_add(&mesh->contact, mesh->nodes - 1);
         join_strip(mesh, growing->last, start, 2 * core);
         growing->last = start;
@@ -169,11 +172,13 @@ static void grow_southern_half(struct growing *growing, double radius)
     for (size_t step = 1; step <= 2 * core; step++) {
         /* rings down to shell core of the southern core, then its shells */
         size_t k = step <= core ? core : 2 * core - step;
+        /* as grow_rings does it, towards the core's rim */
         double eta = step < core ? (double)step / (double)core : 1.0;
         double angle = 0.5 * M_PI + eta * (rim - 0.5 * M_PI);
         double bend_r = radius * (sin(angle) - (1.0 + eta * (0.4 - 1.0)));
         double bend_z = radius * ((1.0 - cos(angle)) - (1.0 - eta) - eta * (1.0 - cos(rim)));
         size_t start = mesh->nodes;
+        /* nodes of the ring or shell */
         for (size_t i = 0; i <= 2 * k; i++) {
             double part = (double)i / (2.0 * (double)core);
             double x, depth;
@@ -186,6 +191,7 @@ static void grow_southern_half(struct growing *growing, double radius)
             }
             node_add(growing, x, depth - 2.0 * radius);
         }
+        /* elements between it and the one outside */
         if (step <= core)
             join_strip(mesh, growing->last, start, 2 * core);
         else
@@ -273,6 +279,7 @@ enum percuss_status mesh_sphere(double radius, const struct mesh_grade *grade, s
     enum percuss_status status = check_grade(grade, radius, fault);
     if (status != PERCUSS_OK)
         return status;
+    /* rings along the meridian to the equator */
     struct growing growing = {.mesh = mesh, .grade = grade};
     struct outline equator = {OUTLINE_EQUATOR, radius, radius, 0.0};
     double *positions;
@@ -292,6 +299,7 @@ enum percuss_status mesh_sphere(double radius, const struct mesh_grade *grade, s
         grow_rings(&growing, radius, &equator, positions + round, rings - round);
         grow_southern_half(&growing, radius);
     }
+    /* grown or not */
     free(positions);
     return status;
 }
@@ -308,6 +316,7 @@ enum percuss_status mesh_cylinder(double radius, double length, const struct mes
     double rest = length - region;
     struct growing growing = {.mesh = mesh, .grade = grade};
     struct outline rectangle = {OUTLINE_RECTANGLE, radius, region, 0.0};
+    /* rings of the end region, rows of the rest */
     double *positions;
     double *heights = NULL;
     size_t rows = 0;
@@ -316,6 +325,7 @@ enum percuss_status mesh_cylinder(double radius, double length, const struct mes
         double last = (positions[rings] - positions[rings - 1]) * region / radius;
         rows = mesh_rows(rest, last, grade, &heights);
     }
+    /* all fits: grow */
     status = rings && (rows || !(rest > 0.0))
                  ? mesh_room(mesh, grade->core, rings, rows, false, fault)
                  : misfit(fault, grade, length, rings ? heights : positions);

@@ -50,6 +50,7 @@ size_t mesh_rings(const struct mesh_grade *grade, double sphere, double end, dou
     *positions = list;
     if (!list)
         return 0;
+    /* exact geometric steps, alike in all bodies of the grade */
     double radius = (double)grade->core * grade->size;
     double width = grade->size;
     size_t rings = 0;
@@ -61,6 +62,7 @@ size_t mesh_rings(const struct mesh_grade *grade, double sphere, double end, dou
             return 0;
         list[++rings] = arc_of(radius, sphere);
     }
+    /* the rest by a ratio that ends where the surface does */
     double reached = list[rings];
     double rest = end - reached;
     size_t more = fitting_count(rest, width, grade->growth);

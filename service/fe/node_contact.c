@@ -26,6 +26,7 @@ enum percuss_status node_contact_create(const struct dynamics *dynamics, struct 
     if (!allocate(contact, arena))
         return fault_set(fault, PERCUSS_INTERNAL, "no memory for %zu contact pairs",
                          contact->pairs);
+    /* each pair's places, gap, and mass against an impulse */
     for (size_t i = 0; i < contact->pairs; i++) {
         double compliance = 0.0;
         double radius[DYNAMICS_BODIES];
@@ -38,6 +39,7 @@ enum percuss_status node_contact_create(const struct dynamics *dynamics, struct 
             radius[b] = dynamics->at[node][0];
         }
         contact->mass[i] = 1.0 / compliance;
+        /* pairs face each other */
         if (fabs(radius[0] - radius[1]) > 1e-9 * radius[1])
             return fault_set(fault, PERCUSS_BAD_REQUEST,
                              "contact node %zu: radii %g and %g m: must be the same", i, radius[0],
@@ -57,13 +59,16 @@ double node_contact_close(struct node_contact *contact, struct dynamics *dynamic
         size_t b = contact->at[1][i];
         double scale_a = contact->scale[0][i];
         double scale_b = contact->scale[1][i];
+        /* where the pair is, and the impulse that closes its gap by the end of the step */
         double gap = contact->gap[i] - y[a] * scale_a - y[b] * scale_b;
         double closing = v[a] * scale_a + v[b] * scale_b;
         double impulse = (closing - gap / step) * contact->mass[i];
         double before = contact->closing[i];
+        /* an open one bears nothing */
         contact->closing[i] = closing;
         if (!(impulse > 0.0))
             continue;
+        /* a closed one takes it, equal and opposite */
         contact->closing[i] = gap / step;
         v[a] -= impulse * scale_a;
         v[b] -= impulse * scale_b;

@@ -39,6 +39,7 @@ bool quad_make(const double r[4], const double z[4], struct quad *quad)
     double mean[QUAD_FREEDOMS] = {0.0};
     double whole = 0.0;
     for (int p = 0; p < QUAD_POINTS; p++) {
+        /* shape functions at a point, radius and volume there */
         double at[2] = {corner[p][0] / sqrt(3.0), corner[p][1] / sqrt(3.0)};
         double value[4], slope[4][2];
         double jacobian = shapes(r, z, at, value, slope);
@@ -49,6 +50,7 @@ bool quad_make(const double r[4], const double z[4], struct quad *quad)
             return false;
         quad->volume[p] = 2.0 * M_PI * radius * jacobian;
         whole += quad->volume[p];
+        /* strains by nodal displacements: rr, zz, hoop, rz */
         for (int i = 0; i < 4; i++) {
             quad->strain[p][0][2 * i] = slope[i][0];
             quad->strain[p][1][2 * i + 1] = slope[i][1];
@@ -56,6 +58,7 @@ bool quad_make(const double r[4], const double z[4], struct quad *quad)
             quad->strain[p][3][2 * i] = slope[i][1];
             quad->strain[p][3][2 * i + 1] = slope[i][0];
         }
+        /* the mean change of volume */
         for (int k = 0; k < QUAD_FREEDOMS; k++)
             mean[k] += quad->volume[p] *
                        (quad->strain[p][0][k] + quad->strain[p][1][k] + quad->strain[p][2][k]);

@@ -38,6 +38,7 @@ static enum percuss_status check_input(const struct region_input *input, struct 
     if (input->resolution < 4 || input->resolution > 60)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "resolution: %zu: must be 4 ... 60",
                          input->resolution);
+    /* elastic constants, and a yield with hardening below the modulus */
     for (int i = 0; i < 2; i++) {
         const struct material *m = &input->materials[i];
         if (!(m->young > 0.0 && m->poisson > -1.0 && m->poisson < 0.5 && m->yield > 0.0 &&
@@ -55,6 +56,7 @@ static enum percuss_status check_input(const struct region_input *input, struct 
 static enum percuss_status make_mesh(struct region *region, const struct region_input *input,
                                      struct fault *fault)
 {
+    /* contact radii at the largest load and at first yield */
     double top = sqrt(2.0 * input->radius * input->indentation);
     double low = fmax(fmin(first_yield_radius(input), 0.4 * top), 1e-3 * top);
     double core = (double)input->resolution;
@@ -63,11 +65,13 @@ static enum percuss_status make_mesh(struct region *region, const struct region_
     enum percuss_status status = mesh_half_space(EXTENT * top, &grade, &region->mesh, fault);
     if (status != PERCUSS_OK)
         return status;
+    /* nodes that may come to touch */
     const struct mesh_nodes *contact = &region->mesh.contact;
     while (region->candidates < contact->count &&
            region->mesh.r[contact->index[region->candidates]] < 1.5 * top)
         region->candidates++;
     region->candidates += 4; /* beyond the last that is to carry force */
+    /* elements */
     region->quads = malloc(region->mesh.elements * sizeof *region->quads);
     if (!region->quads)
         return fault_set(fault, PERCUSS_INTERNAL, "contact region: no memory");
@@ -100,6 +104,7 @@ static void state_free(struct contact_state *state)
 static bool make_work(struct region *region, const struct region_input *input)
 {
     size_t n = region->candidates;
+    /* arrays */
     region->gaps = calloc(n, sizeof(double));
     region->offsets = calloc(n, sizeof(double));
     region->initial = calloc(n, sizeof(double));
@@ -110,10 +115,12 @@ static bool make_work(struct region *region, const struct region_input *input)
         !region->more || !region->scratch || !state_make(&region->committed, n) ||
         !state_make(&region->start, n) || !state_make(&region->present, n))
         return false;
+    /* gap of the virgin surfaces: a parabola */
     for (size_t i = 0; i < n; i++) {
         double r = region->mesh.r[region->mesh.contact.index[i]];
         region->gaps[i] = 0.5 * r * r / input->radius;
     }
+    /* both half-spaces */
     for (int i = 0; i < 2; i++) {
         region->solids[i] = solid_create(&region->mesh, region->quads, &input->materials[i], n);
         if (!region->solids[i])

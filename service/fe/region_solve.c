@@ -45,6 +45,7 @@ static bool linearise(struct region *region, bool loading)
 static bool solve_contact(struct region *region, const struct target *target, bool loading)
 {
     struct contact_state *state = &region->present;
+    /* surfaces apart: nothing to be found but their places */
     if (target->kind == WITHOUT_CONTACT) {
         memset(state->forces, 0, region->candidates * sizeof *state->forces);
         memset(state->active, 0, region->candidates * sizeof *state->active);
@@ -52,6 +53,7 @@ static bool solve_contact(struct region *region, const struct target *target, bo
         return linearise(region, false);
     }
     for (;;) {
+        /* which nodes touch, and their forces */
         static const enum active_set_kind kinds[] = {ACTIVE_SET_BY_INDENTATION, ACTIVE_SET_BY_TOTAL,
                                                      ACTIVE_SET_BY_EDGE};
         struct active_set set = {.kind = kinds[target->kind],
@@ -66,6 +68,7 @@ static bool solve_contact(struct region *region, const struct target *target, bo
                                  .scratch = region->scratch};
         if (!linearise(region, loading) || !active_set_solve(&set))
             return false;
+        /* done where two more nodes beyond the rim stay open */
         state->indentation = set.indentation;
         state->force = set.total;
         region->stiffness = set.stiffness;
@@ -74,6 +77,7 @@ static bool solve_contact(struct region *region, const struct target *target, bo
             last--;
         if (last + 2 <= region->count)
             return true;
+        /* then on more of them */
         if (region->count == region->candidates)
             return false;
         region->count += 4 + region->count / 8;
@@ -85,22 +89,26 @@ static bool solve_contact(struct region *region, const struct target *target, bo
 /* Newton's method from the present state; the histories' step starts at `start`. */
 static bool equilibrate(struct region *region, const struct target *target)
 {
+    /* a few nodes to begin with */
     if (region->count == 0)
         region->count = region->candidates < 6 ? region->candidates : 6;
     if (target->kind == BY_EDGE && region->count < target->node + 3)
         region->count = target->node + 3;
     for (int i = 0; i < NEWTON_MAX && pace_ask(region->pace, region->done); i++) {
+        /* out of balance */
         double worst = 0.0;
         for (int k = 0; k < 2; k++)
             worst = fmax(worst,
                          solid_balance(region->solids[k], region->count, region->present.forces));
         double scale = fmax(region->peak, region->present.force);
+        /* in balance, and nothing flows that was taken for elastic: an equilibrium */
         if (i > 0 && worst <= BALANCED * scale) {
             bool grew = solid_zone_grew(region->solids[0]);
             grew |= solid_zone_grew(region->solids[1]);
             if (!grew)
                 return true;
         }
+        /* a Newton step: contact forces of the linearised bodies, then displacements */
         if (!isfinite(worst) || !solve_contact(region, target, target->loading && i == 0))
             return false;
         region->effort.newton_steps++;
@@ -161,11 +169,13 @@ static enum percuss_status reach(struct region *region, const struct target *tar
         target->kind == BY_FORCE ? region->committed.force : region->committed.indentation;
     double part = 1.0;
     for (double done = 0.0; done < 1.0;) {
+        /* as far as this part of the way goes */
         struct target next = *target;
         next.loading = is_loading(region, target);
         double until = fmin(done + part, 1.0);
         if (target->kind == BY_INDENTATION || target->kind == BY_FORCE)
             next.value = until < 1.0 ? from + until * (target->value - from) : target->value;
+        /* there: on from here */
         if (equilibrate(region, &next)) {
             done = until;
             region->peak = fmax(region->peak, region->present.force);
@@ -173,6 +183,7 @@ static enum percuss_status reach(struct region *region, const struct target *tar
                 advance(region);
             continue;
         }
+        /* not there: half as far, from where it was */
         retreat(region);
         if (pace_status(region->pace))
             return fault_set(fault, PERCUSS_TIMEOUT, "contact region: stopped");
@@ -182,6 +193,7 @@ static enum percuss_status reach(struct region *region, const struct target *tar
                              target->kind == BY_FORCE ? "the force" : "the indentation",
                              next.value);
     }
+    /* far from the boundary of the mesh still */
     for (int k = 0; k < 2; k++)
         if (!solid_fits(region->solids[k]))
             return fault_set(fault, PERCUSS_INTERNAL,

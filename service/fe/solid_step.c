@@ -53,6 +53,7 @@ double solid_balance(struct solid *solid, size_t count, const double *forces)
     size_t n = freedoms(solid);
     solid->yielding = false;
     memset(solid->balance, 0, n * sizeof *solid->balance);
+    /* internal forces: elements of the zone may flow, the others are elastic */
     for (size_t e = 0; e < solid->mesh->elements; e++) {
         double local[QUAD_FREEDOMS];
         if (e >= solid->zone)
@@ -61,6 +62,7 @@ double solid_balance(struct solid *solid, size_t count, const double *forces)
             solid->yielding = true;
         solid_scatter(solid, e, local, solid->balance);
     }
+    /* the largest sum with the contact's forces, which are not kept in it */
     double worst = 0.0;
     for (size_t i = 0; i < count; i++)
         solid->balance[contact_freedom(solid, i)] += forces[i];
@@ -76,6 +78,7 @@ bool solid_zone_grew(struct solid *solid)
     size_t flowing = 0;
     if (isinf(solid->law.yield))
         return false;
+    /* the outermost element beyond the zone that would flow */
     for (size_t e = solid->zone; e < solid->mesh->elements; e++) {
         double local[QUAD_FREEDOMS];
         solid_gather(solid, e, local);
@@ -88,6 +91,7 @@ bool solid_zone_grew(struct solid *solid)
                 flowing = e + 1;
         }
     }
+    /* takes the zone with it */
     if (flowing)
         widen(solid, flowing + margin(solid));
     return flowing > 0;
@@ -131,9 +135,11 @@ static bool factor_tangent(struct solid *solid, size_t outermost, bool loading)
     struct plastic_law law = solid->law;
     if (loading)
         law.yield *= 1.0 - 1e-8;
+    /* only what lies within `outermost` is softer than what is factored */
     size_t n = freedoms(solid);
     memset(band_entry(&solid->tangent, solid->first, solid->first), 0,
            (n - solid->first) * (solid->tangent.width + 1) * sizeof(double));
+    /* elements of the zone by their tangent moduli, the rest elastic */
     for (size_t e = 0; e < solid->mesh->elements; e++) {
         double stiffness[QUAD_FREEDOMS * QUAD_FREEDOMS];
         if (e < solid->zone)
@@ -166,16 +172,30 @@ static double dot(const double *a, const double *b, size_t from, size_t to)
     return sum;
 }
 
+/* Internal forces r on the free freedoms, contact forces f_j inward at e_j, their sum F, which
+ * moves the far nodes and so pulls by p per newton: equilibrium about the present state, of the
+ * force F0, is
+ *
+ *   r + K du + (F - F0) p + sum_j f_j e_j = 0,    K = L L^T,
+ *   du = -L^-T (L^-1 r + (F - F0) L^-1 p + sum_j f_j L^-1 e_j).
+ *
+ * `residual`, `boundary` and `loads` are L^-1 r, L^-1 p and L^-1 e_j. The surface at contact node i
+ * then lies at u_i + e_i . du = offset_i - sum_j c_ij f_j with
+ *
+ *   offset_i = u_i - loads_i . residual + F0 loads_i . boundary,
+ *   c_ij = loads_i . loads_j + loads_i . boundary. */
 bool solid_linearise(struct solid *solid, size_t count, bool loading, double *offset,
                      double *compliance)
 {
     size_t n = freedoms(solid);
     size_t outermost = outermost_node(solid, count);
+    /* K from the zone inward; outside, its factor stands */
     solid->first = outermost < solid->free_nodes ? freedom(solid, outermost) : 0;
     if (loading && solid->zone > 0)
         solid->yielding = true;
     if (solid->yielding && !factor_tangent(solid, outermost, loading))
         return false;
+    /* L^-1 r and L^-1 p */
     memcpy(solid->residual, solid->balance, n * sizeof *solid->residual);
     band_forward(&solid->elastic, 0, solid->first, solid->residual);
     forward(solid, solid->residual);
@@ -220,12 +240,14 @@ void solid_move(struct solid *solid, size_t count, const double *forces)
             for (size_t i = contact_freedom(solid, j); i < n; i++)
                 step[i] += forces[j] * load[i];
     }
+    /* du = -L^-T (...), the outer freedoms by the elastic factor */
     double change = force - solid->present.force;
     for (size_t i = 0; i < n; i++)
         step[i] = -(step[i] + change * solid->boundary[i]);
     band_backward(inner_factor(solid), solid->first, n, step);
     band_carry_backward(&solid->elastic, solid->first, step, step);
     band_backward(&solid->elastic, 0, solid->first, step);
+    /* displacements of free nodes, then of the far ones */
     for (size_t node = 0; node < solid->free_nodes; node++)
         for (size_t c = 0; c < 2; c++)
             solid->present.displacement[2 * node + c] += step[freedom(solid, node) + c];

@@ -39,6 +39,7 @@ double elliptic_rd0(double y, double z)
         z = 0.25 * (z + lambda);
         mean = (x + y + 3.0 * z) / 5.0;
     }
+    /* elementary symmetric functions of what is left between them */
     double dx = (mean - x) / mean;
     double dy = (mean - y) / mean;
     double dz = -(dx + dy) / 3.0;

@@ -103,12 +103,14 @@ static size_t leaving_row(const struct tableau *t, size_t column)
 static bool lemke(struct tableau *t)
 {
     size_t n = t->n;
+    /* z0 enters where q is most negative; nothing to do where none is */
     size_t first = 0;
     for (size_t i = 1; i < n; i++)
         if (row_of(t, i)[t->width - 1] < row_of(t, first)[t->width - 1])
             first = i;
     if (row_of(t, first)[t->width - 1] >= 0.0)
         return true;
+    /* the complement of what left enters, until z0 leaves */
     size_t left = t->basis[first];
     pivot(t, first, 2 * n);
     for (size_t i = 0; i < 50 * n + 100; i++) {
@@ -135,10 +137,12 @@ static void polish(const struct tableau *t, const double *m, const double *q, do
     double *b = t->b;
     size_t count = 0;
     bool done = true;
+    /* which z are basic */
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < n; i++)
             if (t->basis[i] == n + j)
                 list[count++] = j;
+    /* solve, then correct by what is left of the true equations */
     for (int round = 0; done && round < 4; round++) {
         for (size_t i = 0; i < count; i++) {
             b[i] = -q[list[i]];

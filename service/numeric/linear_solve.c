@@ -31,11 +31,13 @@ static void swap_rows(size_t n, double *a, double *b, size_t i, size_t j)
 bool linear_solve(size_t n, double *a, double *b)
 {
     for (size_t c = 0; c < n; c++) {
+        /* the largest entry left in the column to the diagonal */
         size_t pivot = pivot_row(n, a, c);
         if (!(fabs(a[pivot * n + c]) > 0.0))
             return false;
         if (pivot != c)
             swap_rows(n, a, b, pivot, c);
+        /* off the rows below */
         double inverse = 1.0 / a[c * n + c];
         for (size_t i = c + 1; i < n; i++) {
             double factor = a[i * n + c] * inverse;
@@ -46,6 +48,7 @@ bool linear_solve(size_t n, double *a, double *b)
             b[i] -= factor * b[c];
         }
     }
+    /* back substitution */
     for (size_t i = n; i-- > 0;) {
         for (size_t k = i + 1; k < n; k++)
             b[i] -= a[i * n + k] * b[k];

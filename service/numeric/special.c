@@ -58,12 +58,14 @@ double special_normal_quantile(double p)
 static double beta_fraction(double a, double b, double x)
 {
     const double tiny = 1e-300;
+    /* Lentz's method, c and d kept from zero */
     double c = 1.0;
     double d = 1.0 - (a + b) * x / (a + 1.0);
     d = 1.0 / (fabs(d) < tiny ? tiny : d);
     double f = d;
     for (int m = 1; m < 20000; m++) {
         double change = 1.0;
+        /* even and odd coefficients in turn (DLMF 8.17.23) */
         for (int odd = 0; odd < 2; odd++) {
             double s = a + 2.0 * m;
             double term = odd ? -(a + m) * (a + b + m) * x / (s * (s + 1.0))

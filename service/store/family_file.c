@@ -56,6 +56,7 @@ static json_t *object_of(const struct contact_family_samples *samples,
                          const struct family_origin *origin)
 {
     size_t tables = samples->count[0] * samples->count[1] * samples->count[2];
+    /* lists in the order of `names` */
     const size_t counts[LISTS] = {samples->count[0],
                                   samples->count[1],
                                   samples->count[2],
@@ -68,6 +69,7 @@ static json_t *object_of(const struct contact_family_samples *samples,
     const double *values[LISTS] = {samples->axis[0], samples->axis[1], samples->axis[2],
                                    samples->depth,   samples->force,   samples->area,
                                    samples->largest, samples->back,    samples->share};
+    /* what it is and how it came about, then the lists */
     json_t *object = json_pack(
         "{s:s, s:s, s:I, s:{s:I, s:I, s:f}, s:f, s:f, s:I, s:I}", "format", format_name, "made_by",
         origin->program, "indentation_version", (json_int_t)INDENTATION_VERSION, "effort", "coarse",
@@ -83,6 +85,7 @@ static enum percuss_status read_head(const json_t *root, struct lists *lists, st
 {
     const char *format = json_string_value(json_object_get(root, "format"));
     size_t version;
+    /* a file of this kind and version */
     if (!format || strcmp(format, format_name) != 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "format: %.60s: must be %s",
                          format ? format : "missing", format_name);

@@ -114,6 +114,7 @@ size_t specimen_store_count(const struct specimen_store *store)
 static enum percuss_status read_dents(struct specimen_store *store, int64_t id,
                                       struct body_state **state, struct fault *fault)
 {
+    /* how many there are */
     sqlite3_stmt *counting = database_statement(&store->database, STATEMENT_DENT_COUNT);
     *state = NULL;
     sqlite3_bind_int64(counting, 1, id);
@@ -126,10 +127,12 @@ static enum percuss_status read_dents(struct specimen_store *store, int64_t id,
     if (sizes.dents > BODY_STATE_MAX_DENTS)
         return fault_set(fault, PERCUSS_INTERNAL, "%zu dents of one specimen: must be at most %d",
                          sizes.dents, BODY_STATE_MAX_DENTS);
+    /* a state of that size */
     struct body_state *read = malloc(body_state_size(&sizes));
     if (!read)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     *read = sizes;
+    /* their numbers, in the order of the struct */
     sqlite3_stmt *statement = database_statement(&store->database, STATEMENT_DENTS);
     sqlite3_bind_int64(statement, 1, id);
     double *numbers = (double *)body_state_dents(read);
@@ -175,9 +178,11 @@ enum percuss_status specimen_store_load(struct specimen_store *store, const char
 {
     sqlite3_stmt *statement = database_statement(&store->database, STATEMENT_SPECIMEN);
     *state = NULL;
+    /* its row */
     sqlite3_bind_text(statement, 1, name, -1, SQLITE_STATIC);
     int found = sqlite3_step(statement);
     enum percuss_status status = PERCUSS_OK;
+    /* known: of the same body, with its dents */
     if (found == SQLITE_ROW) {
         int64_t id = sqlite3_column_int64(statement, 0);
         status = check_body(statement, name, body, fault);
@@ -213,6 +218,7 @@ static bool write_change(struct specimen_store *store, const struct specimen_cha
 {
     char nature[NATURE_SIZE];
     nature_describe(change->body, nature);
+    /* one impact more of the name, which is new maybe */
     sqlite3_stmt *hit = database_statement(&store->database, STATEMENT_HIT);
     sqlite3_bind_text(hit, 1, change->name, -1, SQLITE_STATIC);
     sqlite3_bind_text(hit, 2, change->body->id, -1, SQLITE_STATIC);
@@ -225,6 +231,7 @@ static bool write_change(struct specimen_store *store, const struct specimen_cha
     if (sqlite3_step(hit) != SQLITE_DONE)
         return false;
     sqlite3_reset(hit);
+    /* its dents are those after the impact */
     sqlite3_stmt *smooth = database_statement(&store->database, STATEMENT_SMOOTH);
     sqlite3_bind_int64(smooth, 1, id);
     bool good = database_run(smooth);
@@ -370,6 +377,7 @@ enum percuss_status specimen_store_find(struct specimen_store *store, struct sto
     sqlite3_stmt *statement = database_statement(&store->database, STATEMENT_REPLY);
     reply->bytes = NULL;
     reply->damaged = false;
+    /* the reply, where it is kept */
     sqlite3_bind_blob(statement, 1, reply->client, sizeof reply->client, SQLITE_STATIC);
     sqlite3_bind_int64(statement, 2, (int64_t)reply->sequence);
     int found = sqlite3_step(statement);
@@ -378,6 +386,7 @@ enum percuss_status specimen_store_find(struct specimen_store *store, struct sto
         sqlite3_reset(statement);
         return status;
     }
+    /* below the client's mark it was once */
     if (found != SQLITE_DONE || !read_mark(store, reply->client, &mark))
         return database_fault(&store->database, "stored replies", fault);
     sqlite3_reset(statement);
@@ -398,6 +407,7 @@ enum percuss_status specimen_store_visit(struct specimen_store *store, const cha
     int found = SQLITE_DONE;
     sqlite3_bind_text(statement, 1, name, -1, SQLITE_STATIC);
     while (!status && (found = sqlite3_step(statement)) == SQLITE_ROW) {
+        /* each with its dents, lent to the visitor */
         struct body_state *state;
         struct specimen specimen = {
             .name = (const char *)sqlite3_column_text(statement, 1),
@@ -411,6 +421,7 @@ enum percuss_status specimen_store_visit(struct specimen_store *store, const cha
         visitor(context, &specimen);
         free(state);
     }
+    /* stopped by an error of the database */
     if (!status && found != SQLITE_DONE)
         status = database_fault(&store->database, "specimens", fault);
     sqlite3_reset(statement);

@@ -123,10 +123,12 @@ static void go_on(const struct contact_law *law, struct samples *samples)
     size_t last = samples->points - 1;
     size_t end = samples->branches - 1;
     double slope;
+    /* factors that join the law's curves to the last values */
     double from = samples->indentation[last], deepest = samples->largest[end];
     double force = samples->force[last] / curve->force(law, from, &slope);
     double radius = samples->radius[last] / curve->radius(law, from);
     double back = (deepest - samples->residual[end]) / (deepest - curve->residual(law, deepest));
+    /* loading curve and branches, at equal ratios of the depth */
     for (size_t i = 1; i <= BEYOND; i++) {
         double d = from * pow(BEYOND_STEP, (double)i);
         size_t to = last + i, branch = end + i;
@@ -167,6 +169,7 @@ struct contact_curves *table_curves_make(const struct indentation_table *table,
 {
     if (check(table, fault))
         return NULL;
+    /* room for what is put in before the samples and after them */
     size_t branches = table->branches > 1 ? table->branches - 1 + ONSET : 0;
     struct samples samples = {.branches = branches};
     struct contact_curves *curves = NULL;
@@ -174,6 +177,7 @@ struct contact_curves *table_curves_make(const struct indentation_table *table,
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         return NULL;
     }
+    /* the samples in the form of a contact table */
     samples.points = fill_loading(table, samples.indentation, samples.force, samples.radius);
     fill_branches(table, &samples);
     if (family && branches && !go_on_by_family(table, family, &samples))

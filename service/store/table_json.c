@@ -27,9 +27,11 @@ static json_t *material_of(const struct material *material)
 static json_t *object_of(const struct indentation_table *table, const struct table_origin *origin)
 {
     const struct region_input *input = &table->input;
+    /* hashes of inputs and of all numbers */
     char key[TABLE_KEY_SIZE], content[TABLE_KEY_SIZE];
     table_key(input, key);
     table_content_key(table, content);
+    /* inputs, errors, effort */
     json_t *inputs =
         json_pack("{s:[o, o], s:f, s:f, s:I}", "materials", material_of(&input->materials[0]),
                   material_of(&input->materials[1]), "radius", input->radius, "indentation",
@@ -38,6 +40,7 @@ static json_t *object_of(const struct indentation_table *table, const struct tab
                                table->residual_error, "recovery", table->recovery_error);
     json_t *effort = json_pack("{s:I, s:I, s:f}", "nodes", (json_int_t)table->nodes, "newton_steps",
                                (json_int_t)table->newton_steps, "seconds", origin->seconds);
+    /* curves */
     json_t *loading =
         json_pack("{s:o, s:o, s:o}", "indentation", json_numbers(table->points, table->indentation),
                   "force", json_numbers(table->points, table->force), "radius",
@@ -115,6 +118,7 @@ static enum percuss_status read_arrays(const json_t *root, struct indentation_ta
 {
     size_t samples = 0;
     enum percuss_status status;
+    /* those of a curve have one count */
     const struct {
         const char *section, *name;
         size_t *count;
@@ -169,6 +173,7 @@ static enum percuss_status read_table(const json_t *root, struct indentation_tab
     const char *format = json_string_value(json_object_get(root, "format"));
     size_t version;
     char key[TABLE_KEY_SIZE];
+    /* a file of this kind and version */
     if (!format || strcmp(format, format_name) != 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "format: %.60s: must be %s",
                          format ? format : "missing", format_name);
@@ -181,6 +186,7 @@ static enum percuss_status read_table(const json_t *root, struct indentation_tab
                          "indentation_version: %zu: must be %d: compute the table anew", version,
                          INDENTATION_VERSION);
     table->version = INDENTATION_VERSION;
+    /* what it holds */
     status = read_input(root, &table->input, fault);
     if (!status)
         status = read_arrays(root, table, fault);
@@ -188,6 +194,7 @@ static enum percuss_status read_table(const json_t *root, struct indentation_tab
         status = read_numbers(root, table, fault);
     if (status)
         return status;
+    /* hashes tell a file that was changed */
     table_key(&table->input, key);
     status = json_numbers_check_hash(root, "key", key, fault);
     table_content_key(table, key);
