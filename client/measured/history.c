@@ -27,7 +27,7 @@ static bool differentiate(const double *time, double *values, size_t count)
     double *slope = calloc(count, sizeof *slope);
     if (!slope)
         return false;
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; i++) {
         size_t before = i > 0 ? i - 1 : 0, after = i + 1 < count ? i + 1 : i;
         slope[i] = (values[after] - values[before]) / (time[after] - time[before]);
     }
@@ -40,7 +40,7 @@ static double *read_column(const struct table *table, int column, struct measure
 {
     double *values = calloc(table->rows + 1, sizeof *values);
     bool good = values || measured_fail(fault, "%s: out of memory", table->file);
-    for (size_t row = 0; good && row < table->rows; ++row) {
+    for (size_t row = 0; good && row < table->rows; row++) {
         good = table_number(table, row, column, &values[row], fault);
         if (good && isnan(values[row]))
             good = measured_fail(fault, "%s:%zu: %s: empty: every reading is needed", table->file,
@@ -90,7 +90,7 @@ static bool read_time(const struct table *table, struct history *history,
                              table->rows, LEAST_READINGS);
     history->count = table->rows;
     history->time = read_column(table, column, fault);
-    for (size_t i = 1; history->time && i < history->count; ++i)
+    for (size_t i = 1; history->time && i < history->count; i++)
         if (!(history->time[i] > history->time[i - 1]))
             return measured_fail(fault, "%s:%zu: time: %g: must be later than the line before",
                                  table->file, table->lines[i], history->time[i]);
@@ -144,7 +144,7 @@ static bool find_noise(struct search *search)
     double *bend = calloc(search->count, sizeof *bend);
     if (!bend)
         return false;
-    for (size_t i = 1; i + 1 < search->count; ++i)
+    for (size_t i = 1; i + 1 < search->count; i++)
         bend[i - 1] = fabs(search->v[i + 1] - 2.0 * search->v[i] + search->v[i - 1]);
     search->noise = 1.4826 * sample_median(bend, search->count - 2) / sqrt(6.0);
     free(bend);
@@ -164,7 +164,7 @@ static double step_at(const struct search *search, size_t i, size_t window)
 static double largest_step(const struct search *search, size_t window)
 {
     double largest = 0.0;
-    for (size_t i = window; i + window < search->count; ++i)
+    for (size_t i = window; i + window < search->count; i++)
         largest = fmax(largest, fabs(step_at(search, i, window)));
     return largest;
 }
@@ -192,7 +192,7 @@ static size_t find_ranges(const struct search *search, struct range *ranges, siz
     size_t w = search->window, count = 0, last = 0;
     double floor_noise = SIGNIFICANT * search->noise * sqrt(2.0 / (double)w);
     double threshold = fmax(floor_noise, LEAST_SHARE * largest_step(search, w));
-    for (size_t i = w; i + w < search->count; ++i) {
+    for (size_t i = w; i + w < search->count; i++) {
         if (fabs(step_at(search, i, w)) <= threshold)
             continue;
         if (count > 0 && i <= last + w)
@@ -222,7 +222,7 @@ static size_t keep_significant(const struct search *search, struct range *ranges
         /* deviation of a difference of two means */
         double allowed = SIGNIFICANT * search->noise * sqrt(1.0 / n1 + 1.0 / n2);
         if (fabs(jump) > fmax(allowed, LEAST_SHARE * largest_step(search, search->window))) {
-            ++k;
+            k++;
             continue;
         }
         memmove(&ranges[k], &ranges[k + 1], (count - k - 1) * sizeof *ranges);
@@ -241,7 +241,7 @@ static double crossing(const struct search *search, struct range range, double l
     size_t i = range.first;
     double previous = 0.0;
     /* where half of the jump is made */
-    for (i = range.first; i + 1 < range.end; ++i)
+    for (i = range.first; i + 1 < range.end; i++)
         if ((mean_between(search, i - m, i + m + 1) - low) / (high - low) >= 0.5)
             break;
     previous = (mean_between(search, i - m, i + m + 1) - low) / (high - low);
@@ -281,7 +281,7 @@ static bool measure(const struct search *search, const struct range *ranges, siz
     double total = 0.0, before = mean_between(search, 0, ranges[0].first), low = before;
     impacts->count = count;
     impacts->noise = search->noise;
-    for (size_t k = 0; k < count; ++k) {
+    for (size_t k = 0; k < count; k++) {
         size_t after = k + 1 < count ? ranges[k + 1].first : search->count;
         double high = mean_between(search, ranges[k].end, after);
         impacts->list[k] = (struct history_sub_impact){
@@ -294,7 +294,7 @@ static bool measure(const struct search *search, const struct range *ranges, siz
     }
     /* whichever way the instrument counts: the contact pushes A back */
     double sign = total < 0.0 ? -1.0 : 1.0;
-    for (size_t k = 0; k < count; ++k)
+    for (size_t k = 0; k < count; k++)
         impacts->list[k].jump *= sign;
     /* the approach, relative to B */
     if (search->history->velocity_b)
@@ -310,7 +310,7 @@ static bool find(struct search *search, struct history_impacts *impacts,
                  struct measured_fault *fault)
 {
     struct range ranges[HISTORY_SUB_IMPACTS];
-    for (size_t i = 0; i < search->count; ++i)
+    for (size_t i = 0; i < search->count; i++)
         search->sum[i + 1] = search->sum[i] + search->v[i];
     if (!find_noise(search))
         return measured_fail(fault, "out of memory");

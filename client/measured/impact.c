@@ -39,11 +39,11 @@ struct measured_impact measured_impact_from(const struct history_impacts *histor
     impact.speed = -history->before;
     impact.sub_impacts = (double)history->count;
     impact.momentum = 0.0;
-    for (size_t k = 0; k < history->count; ++k)
+    for (size_t k = 0; k < history->count; k++)
         impact.momentum += list[k].jump;
     impact.first_momentum = list[0].jump;
     impact.first_duration = list[0].end - list[0].start;
-    for (size_t k = 1; k < history->count && isnan(impact.second_start); ++k)
+    for (size_t k = 1; k < history->count && isnan(impact.second_start); k++)
         if (list[k].jump >= 0.01 * impact.momentum)
             impact.second_start = list[k].start - list[0].start;
     return impact;
@@ -71,10 +71,10 @@ bool measured_append(struct measured_set *set, const struct measured_impact *imp
 
 static bool check_names(const struct table *table, struct measured_fault *fault)
 {
-    for (size_t k = 0; k < table->columns; ++k) {
+    for (size_t k = 0; k < table->columns; k++) {
         size_t i = 0;
         while (i < COLUMNS && strcmp(table->names[k], columns[i].name))
-            ++i;
+            i++;
         if (i == COLUMNS && strcmp(table->names[k], "history"))
             return measured_fail(fault,
                                  "%s: column '%s': unknown; allowed are speed, restitution, "
@@ -114,7 +114,7 @@ static bool add_history(const struct table *table, const char *name, struct meas
     struct measured_impact told = measured_impact_from(&found);
     double *to = (double *)impact;
     const double *from = (const double *)&told;
-    for (size_t i = 0; i < sizeof told / sizeof(double); ++i)
+    for (size_t i = 0; i < sizeof told / sizeof(double); i++)
         if (isnan(to[i]))
             to[i] = from[i];
     return true;
@@ -124,7 +124,7 @@ static bool read_row(const struct table *table, size_t row, struct measured_impa
                      struct measured_fault *fault)
 {
     *impact = measured_impact_unknown();
-    for (size_t i = 0; i < COLUMNS; ++i) {
+    for (size_t i = 0; i < COLUMNS; i++) {
         double *value = (double *)((char *)impact + columns[i].offset);
         if (!table_number(table, row, table_column(table, columns[i].name), value, fault))
             return false;
@@ -157,7 +157,7 @@ bool measured_read(const char *file, struct measured_set *set, struct measured_f
         return false;
     /* an impact a row */
     bool good = check_names(&table, fault);
-    for (size_t row = 0; good && row < table.rows; ++row) {
+    for (size_t row = 0; good && row < table.rows; row++) {
         struct measured_impact impact;
         good = read_row(&table, row, &impact, fault);
         if (good && !measured_append(set, &impact))

@@ -9,7 +9,7 @@
 #include "contact/family_parts.h"
 #include "contact/law_closed_form.h"
 
-static const double just_beyond = 1e-6; /* of the depth of yield */
+static const double JUST_BEYOND = 1e-6; /* of the depth of yield */
 
 static bool is_rising(size_t count, const double *values)
 {
@@ -147,7 +147,7 @@ static void fill_places(struct contact_family *family, const struct contact_fami
         family->depth[FAMILY_ELASTIC + 1 + i] = samples->depth[i];
     double first = log(samples->largest[0]);
     for (size_t i = 0; i < FAMILY_ONSET; i++)
-        family->log[i + 1] = fmax(just_beyond, onset(i) * first);
+        family->log[i + 1] = fmax(JUST_BEYOND, onset(i) * first);
     for (size_t i = 0; i < samples->springs; i++)
         family->log[FAMILY_ONSET + 1 + i] = log(samples->largest[i]);
     for (size_t i = 0; i < samples->samples; i++)

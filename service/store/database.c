@@ -9,7 +9,7 @@
 /* "prcs" marks a file as a store of percuss. */
 enum { APPLICATION = 0x70726373 };
 
-static const int busy_milliseconds = 2000; /* a killed daemon's lock goes with its process */
+static const int BUSY_MILLISECONDS = 2000; /* a killed daemon's lock goes with its process */
 
 static enum percuss_status refuse(struct database *database, const char *problem,
                                   struct fault *fault)
@@ -134,7 +134,7 @@ enum percuss_status database_open(struct database *database, const char *path,
     int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
     if (sqlite3_open_v2(path, &database->connection, flags, NULL) != SQLITE_OK)
         return refuse_file(database, fault);
-    sqlite3_busy_timeout(database->connection, busy_milliseconds);
+    sqlite3_busy_timeout(database->connection, BUSY_MILLISECONDS);
     enum percuss_status status = set_up(database, design, fault);
     for (int i = 0; !status && i < STATEMENT_COUNT; i++) {
         if (sqlite3_prepare_v3(database->connection, design->texts[i], -1,

@@ -25,7 +25,7 @@ enum { ELASTIC_POINTS = 8 };
  * elastic and lies at yield but for rounding. In between laws mix branches linearly, so that what
  * grows with the square is off by up to 1/(4 ONSET^2) of the computed branch's. */
 enum { ONSET = 8 };
-static const double just_beyond = 1.0 + 1e-6;
+static const double JUST_BEYOND = 1.0 + 1e-6;
 
 /* Points and branches beyond the computed ones, ten to a decade: as deep as the radius. */
 enum { BEYOND = 25 };
@@ -113,7 +113,7 @@ static void fill_branches(const struct indentation_table *table, struct samples 
                            &samples->share[b * SHARES], samples->scratch);
     }
     if (samples->branches)
-        samples->largest[0] *= just_beyond;
+        samples->largest[0] *= JUST_BEYOND;
 }
 
 /* The last values times what the law makes of theirs from there on. */

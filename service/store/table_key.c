@@ -14,7 +14,7 @@
 /* FNV-1a, 128 bits (RFC 9923): xor an octet, multiply by 2^88 + 0x13b. */
 __extension__ typedef unsigned __int128 wide;
 
-static const double margin = 1.25, deepest_share = 0.02;
+static const double MARGIN = 1.25, DEEPEST_SHARE = 0.02;
 
 static wide hash_start(void)
 {
@@ -118,7 +118,7 @@ static double depth_for(const struct contact_law *law, double energy, double lim
 struct region_input table_input(const struct material *a, const struct material *b, double speed)
 {
     const double radius = TABLE_RADIUS;
-    double limit = deepest_share * radius;
+    double limit = DEEPEST_SHARE * radius;
     double modulus = hertz_effective_modulus(a, b);
     struct hertz_contact hertz = hertz_contact_make(modulus, 0.5 / radius, 0.5 / radius);
     double mass = 4.0 / 3.0 * M_PI * radius * radius * radius * fmax(a->density, b->density);
@@ -128,5 +128,5 @@ struct region_input table_input(const struct material *a, const struct material 
         struct contact_law law = contact_law_closed_form(&hertz, a, b);
         depth = depth_for(&law, energy, limit);
     }
-    return (struct region_input){{*a, *b}, radius, fmin(margin * depth, limit), TABLE_RESOLUTION};
+    return (struct region_input){{*a, *b}, radius, fmin(MARGIN * depth, limit), TABLE_RESOLUTION};
 }
