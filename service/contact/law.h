@@ -33,7 +33,7 @@ enum contact_effort { CONTACT_EFFORT_LEAST, CONTACT_EFFORT_SHORT, CONTACT_EFFORT
 
 /* What finds the motion: the march of impact/ with the law's force, the same with a contact region
  * solved in every step (impact/concurrent.h), or meshes of both bodies (fe/impact_complete.h). */
-enum contact_solution { CONTACT_BY_LAW, CONTACT_CONCURRENT, CONTACT_COMPLETE };
+enum contact_method { CONTACT_BY_LAW, CONTACT_CONCURRENT, CONTACT_COMPLETE };
 
 /* Tables of computed contacts: not used, used where there are some, insisted on. */
 enum contact_tables { CONTACT_TABLES_NONE, CONTACT_TABLES_IF_ANY, CONTACT_TABLES_ONLY };
@@ -55,7 +55,7 @@ enum contact_tables { CONTACT_TABLES_NONE, CONTACT_TABLES_IF_ANY, CONTACT_TABLES
 struct contact_law_operations {
     enum percuss_contact_model model;
     enum contact_effort effort;
-    enum contact_solution solution;
+    enum contact_method method;
     enum contact_tables tables;
     bool yields_if_needed; /* Hertz's law where no contact exceeds its yield */
     /* The law of a contact of two materials, where no table is used; Hertz's where it is one that

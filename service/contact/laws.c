@@ -15,14 +15,14 @@ const struct contact_law_operations contact_law_AUTO = {
 const struct contact_law_operations contact_law_CONCURRENT_FE = {
     .model = PERCUSS_CONTACT_CONCURRENT_FE,
     .effort = CONTACT_EFFORT_LONG,
-    .solution = CONTACT_CONCURRENT,
+    .method = CONTACT_CONCURRENT,
     .make = contact_law_closed_form,
 };
 
 const struct contact_law_operations contact_law_COMPLETE_FE = {
     .model = PERCUSS_CONTACT_COMPLETE_FE,
     .effort = CONTACT_EFFORT_LONG,
-    .solution = CONTACT_COMPLETE,
+    .method = CONTACT_COMPLETE,
     .make = contact_law_closed_form,
 };
 

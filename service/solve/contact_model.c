@@ -13,6 +13,11 @@
 #include "model/vector.h"
 #include "solve/outcome.h"
 
+static const struct contact_law_operations *asked_of(const struct problem *problem)
+{
+    return contact_law_asked(problem->request->options.contact_model);
+}
+
 /* The dent nearest to a site among those whose patch holds it; its index, or the number of dents.
  */
 static size_t find_dent(const struct body_state *state, const double point[3])
@@ -74,7 +79,7 @@ static enum percuss_status find_table(struct problem *problem,
     if (curves && (!tables->family || contact_law_table_range(&law) > choice->yield)) {
         choice->plastic = law;
         choice->tabulated = true;
-    } else if (problem->request->options.contact_model == PERCUSS_CONTACT_TABLE) {
+    } else if (asked_of(problem)->tables == CONTACT_TABLES_ONLY) {
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.contact_model: table: there is no table for %s on %s "
                          "(contacts[%zu]): %s; auto "
@@ -118,14 +123,13 @@ static enum percuss_status find_law(struct problem *problem,
     const struct hertz_contact *hertz = &problem->hertz[c];
     const struct body *a = problem_body(problem, c, 0);
     const struct body *b = problem_body(problem, c, 1);
-    enum percuss_contact_model asked = problem->request->options.contact_model;
-    // the closed form stands for what yields
+    const struct contact_law_operations *asked = asked_of(problem);
+    // the law itself, or what stands for it
     choice->side = closed_form_softer(&a->material, &b->material);
     choice->yield = closed_form_yield(hertz, &a->material, &b->material);
-    choice->plastic = choice->side < 0 ? contact_law_hertz(hertz->stiffness)
-                                       : contact_law_closed_form(hertz, &a->material, &b->material);
+    choice->plastic = asked->make(hertz, &a->material, &b->material);
     // a table of these materials in its place
-    bool may = asked == PERCUSS_CONTACT_TABLE || asked == PERCUSS_CONTACT_AUTO;
+    bool may = asked->tables != CONTACT_TABLES_NONE;
     if (may && choice->side >= 0) {
         enum percuss_status status = find_table(problem, tables, c, fault);
         if (status)
@@ -161,7 +165,6 @@ enum percuss_status contact_model_choose(struct problem *problem,
                                          struct fault *fault)
 {
     size_t n = problem->contact_count;
-    enum percuss_contact_model asked = problem->request->options.contact_model;
     struct contact_model *model = &problem->contact_model;
     model->depth = arena_take(problem->arena, n, sizeof *model->depth);
     model->laws = arena_take(problem->arena, n, sizeof *model->laws);
@@ -179,9 +182,8 @@ enum percuss_status contact_model_choose(struct problem *problem,
         likely = likely || rigid_indentation(problem, c) > model->choices[c].yield;
     }
     // in use from the beginning where asked for, dented or likely
-    model->decided = asked != PERCUSS_CONTACT_AUTO || dented;
-    use(problem,
-        asked != PERCUSS_CONTACT_HERTZ && (asked != PERCUSS_CONTACT_AUTO || dented || likely));
+    model->decided = !asked_of(problem)->yields_if_needed || dented;
+    use(problem, model->decided || likely);
     return PERCUSS_OK;
 }
 
@@ -195,7 +197,7 @@ bool contact_model_yielded(const struct problem *problem, const struct impact_ou
 double contact_model_beyond_table(const struct impact_outcome *outcome, size_t contact)
 {
     const struct contact_law *law = &outcome->laws[contact];
-    if (law->operations->model != PERCUSS_CONTACT_TABLE)
+    if (law->operations->tables != CONTACT_TABLES_ONLY)
         return 0.0;
     double range = contact_law_table_range(law);
     double depth = fmax(law->history.max_indentation, outcome_deepest(outcome, contact));
@@ -221,14 +223,14 @@ bool contact_model_revise(struct problem *problem, const struct impact_outcome *
     return true;
 }
 
-enum percuss_contact_model contact_model_used(const struct problem *problem)
+const struct contact_law_operations *contact_model_used(const struct problem *problem)
 {
-    const struct contact_model *model = &problem->contact_model;
-    enum percuss_contact_model used = PERCUSS_CONTACT_HERTZ;
-    for (size_t c = 0; model->yielding && c < problem->contact_count; c++) {
-        enum percuss_contact_model here = model->laws[c].operations->model;
-        /* the approximation of a closed form counts for all */
-        if (used == PERCUSS_CONTACT_HERTZ || here == PERCUSS_CONTACT_CLOSED_FORM)
+    const struct contact_law *laws = problem->contact_model.laws;
+    const struct contact_law_operations *used = laws[0].operations;
+    for (size_t c = 1; c < problem->contact_count; c++) {
+        const struct contact_law_operations *here = laws[c].operations;
+        // a law that yields counts for all, and of those one that approximates tables
+        if (here->curve && (!used->curve || here->tables == CONTACT_TABLES_NONE))
             used = here;
     }
     return used;
@@ -268,10 +270,11 @@ static void explain_elastic(const struct problem *problem, const struct impact_o
     for (size_t c = 0; c < problem->contact_count; c++)
         pressure =
             fmax(pressure, hertz_peak_pressure(&problem->hertz[c], outcome_peak_force(outcome, c)));
-    append(text, size, "elastic Hertz contact (peak pressure %.3g MPa) on a half-space",
-           pressure / 1e6);
+    append(text, size, "%s (peak pressure %.3g MPa) on a half-space",
+           contact_model_used(problem)->title, pressure / 1e6);
     double share = outcome_deepest(outcome, hardest) / choice->yield;
-    if (choice->side < 0 && problem->request->options.contact_model == PERCUSS_CONTACT_CLOSED_FORM)
+    const struct contact_law_operations *asked = asked_of(problem);
+    if (choice->side < 0 && asked->curve && asked->tables == CONTACT_TABLES_NONE)
         append(text, size, ", as neither material has a yield stress");
     if (choice->side >= 0 && share <= 1.0)
         append(text, size, ", below yield (%.2g of the indentation at which %s yields)", share,
@@ -285,12 +288,12 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
     const struct contact_choice *choice = &problem->contact_model.choices[c];
     const struct body *body = problem_body(problem, c, choice->side < 0 ? 0 : choice->side);
     const struct contact_history *history = &outcome->laws[c].history;
-    bool tabulated = contact_model_used(problem) == PERCUSS_CONTACT_TABLE;
+    const struct contact_law_operations *used = contact_model_used(problem);
+    bool tabulated = used->tables == CONTACT_TABLES_ONLY;
     // which law, and how deep it went
     append(text, size, "elastic-plastic contact by %s",
-           !tabulated       ? "the closed form of Jackson and Green"
-           : choice->family ? "the family of tables of the contact region"
-                            : "a table of the contact region");
+           tabulated && choice->family ? "the family of tables of the contact region"
+                                       : used->title);
     if (history->max_indentation > 0.0)
         append(text, size, ": indented %.3g times as deep as where %s yields, dent %.3g um",
                history->max_indentation / choice->yield, body->id, 1e6 * history->dent);
@@ -302,9 +305,9 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
     if (contact_model_beyond_table(outcome, c) > 0.0)
         append(text, size, "; the table ends before that and goes on as a fully plastic contact");
     // what is approximated
-    if (!tabulated && problem->request->options.contact_model == PERCUSS_CONTACT_AUTO)
+    if (!tabulated && asked_of(problem)->tables == CONTACT_TABLES_IF_ANY)
         append(text, size, "; no table for these bodies");
-    if (problem->hertz[c].axis_ratio < HERTZ_CIRCULAR_RATIO)
+    if (problem->hertz[c].axis_ratio < HERTZ_CIRCULAR_RATIO && !used->elliptic)
         append(text, size, "; elliptic: by the sphere of equal stiffness, %.3g m, an approximation",
                closed_form_radius(&problem->hertz[c]));
     if (!tabulated && body->material.tangent > 0.0)
@@ -315,8 +318,8 @@ void contact_model_explain(const struct problem *problem, const struct impact_ou
                            char *text, size_t size)
 {
     *text = '\0';
-    if (contact_model_used(problem) == PERCUSS_CONTACT_HERTZ)
-        explain_elastic(problem, outcome, text, size);
-    else
+    if (contact_model_used(problem)->curve)
         explain_plastic(problem, outcome, text, size);
+    else
+        explain_elastic(problem, outcome, text, size);
 }

@@ -34,8 +34,8 @@ enum percuss_status contact_model_choose(struct problem *problem,
  * not needed) and are now the problem's. At most once. */
 bool contact_model_revise(struct problem *problem, const struct impact_outcome *outcome);
 
-/* What the reply names: HERTZ, CLOSED_FORM or TABLE. */
-enum percuss_contact_model contact_model_used(const struct problem *problem);
+/* What the reply names: the law that counts for all contacts. */
+const struct contact_law_operations *contact_model_used(const struct problem *problem);
 
 /* Whether a contact left more than it found. */
 bool contact_model_yielded(const struct problem *problem, const struct impact_outcome *outcome,

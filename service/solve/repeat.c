@@ -77,7 +77,7 @@ static enum percuss_status judge(struct repeat *repeat, size_t contact,
     read_track(problem, solved, contact, outcome);
     validity_find(problem, solved, &repeat->warnings);
     outcome->warnings = repeat->warnings.kinds;
-    outcome->contact_model = contact_model_used(problem);
+    outcome->contact_model = contact_model_used(problem)->model;
     double defect = outcome_energy_defect(problem, solved);
     if (!outcome_keeps_energy(defect) || !isfinite(outcome->impulse))
         outcome->status = fault_set(fault, PERCUSS_INTERNAL,

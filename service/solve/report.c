@@ -132,7 +132,7 @@ static void fill_model(const struct problem *problem, const struct solution *sol
                        struct solve_result *result)
 {
     // what was used
-    result->contact_model = contact_model_used(problem);
+    result->contact_model = contact_model_used(problem)->model;
     result->compliance = problem->compliance.used;
     result->method = problem->request->options.method;
     result->delassus_source =

@@ -113,13 +113,14 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     struct pace pace = {.watch = &means->watch};
     enum percuss_status status = formulate(problem, means, &result->fault);
     // complete finite elements answer by themselves
-    if (!status && request->options.contact_model == PERCUSS_CONTACT_COMPLETE_FE)
+    enum contact_method method = contact_law_asked(request->options.contact_model)->method;
+    if (!status && method == CONTACT_COMPLETE)
         return complete_answer(problem, &pace, result);
     // the solution, and by finite elements in the contact once more
     if (!status)
         status = solution_find(solution, problem, NULL, &workspace->arena, &pace, &result->fault);
     struct concurrent_effort effort;
-    bool concurrent = request->options.contact_model == PERCUSS_CONTACT_CONCURRENT_FE;
+    bool concurrent = method == CONTACT_CONCURRENT;
     if (!status && concurrent)
         status = concurrent_refine(solution, problem, &pace, &effort, &result->fault);
     // the answer, and its histories

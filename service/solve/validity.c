@@ -177,7 +177,7 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     double force = outcome_peak_force(outcome, c);
     double axes[2];
     hertz_ellipse(hertz, force, axes);
-    if (contact_model_used(problem) == PERCUSS_CONTACT_HERTZ)
+    if (!contact_model_used(problem)->curve)
         find_yield(problem, c, hertz_peak_pressure(hertz, force), warnings);
     find_size(problem, outcome, c, axes[0], warnings);
     find_place(problem, outcome, c, warnings);
