@@ -131,8 +131,8 @@ static void keep_touching(struct variation *variation, const char *id, double gr
     const struct body *body = body_set_find(&variation->set, id);
     for (int side = 0; side < 2; side++) {
         size_t index = side == 0 ? contact->a : contact->b;
-        bool round = body_solid(body).form == SOLID_BALL ||
-                     (body_bends(body) && is_on_side(request, index));
+        bool round =
+            body_solid(body).form == SOLID_BALL || (body_bends(body) && is_on_side(request, index));
         if (round && strcmp(request->bodies[index].id, id) == 0)
             move(request->bodies[index].position, contact->normal, side == 0 ? growth : -growth);
     }
