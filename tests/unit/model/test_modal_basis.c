@@ -1,8 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/model/modal_basis.c: which families a load drives, frequencies and participations
- * of rods in closed form, and compliances that the modal sums approach. */
+/* Mirrors service/model/modal_basis.c, longitudinal.c and beam_families.c: which families a load
+ * drives, frequencies and participations of rods in closed form, and compliances that the modal
+ * sums approach. */
 #include "check.h"
 #include "model/bar.h"
 
