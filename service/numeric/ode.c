@@ -66,15 +66,18 @@ static bool open_cvode(struct ode *ode)
     sunindextype size = (sunindextype)ode->problem.size;
     if (SUNContext_Create(NULL, &ode->context))
         return false;
+    /* variables, their tolerances and the integrator */
     ode->y = N_VNew_Serial(size, ode->context);
     ode->absolute = N_VNew_Serial(size, ode->context);
     ode->cvode = CVodeCreate(ode->problem.stiff ? CV_BDF : CV_ADAMS, ode->context);
     if (!ode->y || !ode->absolute || !ode->cvode)
         return false;
+    /* the caller's tolerances are copied */
     N_VConst(0.0, ode->y);
     memcpy(N_VGetArrayPointer(ode->absolute), ode->problem.absolute,
            ode->problem.size * sizeof(double));
     ode->problem.absolute = NULL;
+    /* quiet, with no limit of steps, stopping at roots */
     return CVodeSetErrHandlerFn(ode->cvode, quiet, NULL) == 0 &&
            CVodeInit(ode->cvode, call_rhs, 0.0, ode->y) == 0 &&
            CVodeSVtolerances(ode->cvode, ode->problem.relative, ode->absolute) == 0 &&
@@ -101,6 +104,7 @@ void ode_free(struct ode *ode)
 {
     if (!ode)
         return;
+    /* the integrator before what it works with */
     if (ode->cvode)
         CVodeFree(&ode->cvode);
     if (ode->fixed_point)

@@ -28,14 +28,17 @@ static enum percuss_status compute_point(void *context, const struct contact_fam
     struct work *work = context;
     struct watch watch = {bar_show, &work->bar};
     struct region_input input = family_input(place, resolution);
+    /* in long steps, loading alone */
     struct indentation_plan plan = {input, FAMILY_LONG, 0, 0.0, first, &watch};
     size_t all = family_passages() + family_fine_passages() * (FINE_COST - 1);
     work->bar.share = (resolution == FAMILY_FINE ? FINE_COST : 1) / (double)all;
     enum percuss_status status = indentation_run(&plan, &work->in_long, fault);
+    /* in steps half as long, with unloadings */
     plan = (struct indentation_plan){input, 2 * FAMILY_LONG, FAMILY_BRANCH_EVERY,
                                      first, 1.0 - first,     &watch};
     if (!status)
         status = indentation_run(&plan, &work->in_short, fault);
+    /* both together: the error of the steps is taken out */
     if (!status && !family_point_fill(&work->in_long, &work->in_short, &input, point))
         status = fault_set(fault, PERCUSS_INTERNAL, "family: too few points");
     work->bar.from += work->bar.share;
@@ -45,6 +48,7 @@ static enum percuss_status compute_point(void *context, const struct contact_fam
 enum percuss_status family_compute(const char *folder, struct fault *fault)
 {
     clock_t start = clock();
+    /* all its points, under one bar */
     struct work *work = calloc(1, sizeof *work);
     if (!work)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
@@ -55,6 +59,7 @@ enum percuss_status family_compute(const char *folder, struct fault *fault)
     free(work);
     if (!numbers)
         return PERCUSS_INTERNAL;
+    /* saved with who made it, in how long, on which meshes */
     struct contact_family_samples samples = family_numbers_samples(numbers);
     struct family_origin origin = {"percuss-tables " PERCUSS_VERSION,
                                    (double)(clock() - start) / CLOCKS_PER_SEC, FAMILY_COARSE,

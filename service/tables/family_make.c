@@ -66,12 +66,14 @@ static enum percuss_status make_base(const struct family_source *source, double 
     double largest[FAMILY_SPRINGS];
     for (size_t i = 0; i < FAMILY_SPRINGS; i++)
         largest[i] = family_largest(i);
+    /* one place on two meshes */
     enum percuss_status status =
         source->point(source->context, &place, FAMILY_COARSE, &base->coarse, fault);
     if (!status)
         status = source->point(source->context, &place, FAMILY_FINE, &base->fine, fault);
     if (status)
         return status;
+    /* extrapolated, which tells how far the finer mesh is off */
     base->limit = base->coarse;
     extrapolate(FAMILY_DEPTHS, NULL, base->coarse.force, base->fine.force, base->limit.force);
     extrapolate(FAMILY_DEPTHS, NULL, base->coarse.area, base->fine.area, base->limit.area);
@@ -123,14 +125,17 @@ static void lose(struct family_numbers *numbers, size_t t)
     const double least = 0.005;
     double depth = 1.0, force = 1.0, work = 0.4;
     for (size_t i = 0, k = 0; k < FAMILY_BRANCHES && i < FAMILY_DEPTHS; i++) {
+        /* the work, of a force c d^p since the last depth: its integral is d F / (p + 1) */
         double d = numbers->depth[i];
         double next = numbers->force[t][i] * d * sqrt(d);
         double power = log(next / force) / log(d / depth);
         work += (d * next - depth * force) / (power + 1.0);
         depth = d;
         force = next;
+        /* unloadings begin at some of the depths */
         if (numbers->largest[k] > d * (1.0 + 1e-9))
             continue;
+        /* no more comes back than was put in, less the least loss */
         double most = work / (next * d * mean_share(numbers->share[t][k]));
         double way = log(d);
         numbers->back[t][k] =
@@ -188,10 +193,12 @@ static enum percuss_status make_hardening(const struct family_source *source, si
         for (size_t s = 0; s < SHARES && !status; s++, t++) {
             struct contact_family_place place = {hardenings[h], poissons[p], shares[s]};
             struct family_point point = base.coarse;
+            /* Hertz's law needs no computation */
             if (elastic) {
                 fill_hertz(numbers, t);
                 continue;
             }
+            /* on the coarse mesh, whose error is taken to be that of the base */
             if (!is_base(&place))
                 status = source->point(source->context, &place, FAMILY_COARSE, &point, fault);
             if (!status)
@@ -207,6 +214,7 @@ struct family_numbers *family_numbers_make(const struct family_source *source, s
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         return NULL;
     }
+    /* the computed depths, and those that the curves are continued to */
     for (size_t i = 0; i < ALL_DEPTHS; i++)
         numbers->depth[i] =
             i < FAMILY_DEPTHS ? family_depth(i)
@@ -215,6 +223,7 @@ struct family_numbers *family_numbers_make(const struct family_source *source, s
         numbers->largest[i] =
             i < FAMILY_SPRINGS ? family_largest(i)
                                : FAMILY_DEEPEST * pow(10.0, 0.5 * (double)(i + 1 - FAMILY_SPRINGS));
+    /* a table for each hardening, Poisson's ratio and share */
     enum percuss_status status = PERCUSS_OK;
     for (size_t h = 0; h < HARDENINGS && !status; h++)
         status = make_hardening(source, h, numbers, fault);

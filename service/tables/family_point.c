@@ -82,6 +82,7 @@ bool family_point_fill(const struct indentation_run *in_long,
                        const struct indentation_run *in_short, const struct region_input *input,
                        struct family_point *point)
 {
+    /* depths are in units of that of first yield */
     const struct material *m = input->materials;
     struct hertz_contact hertz = hertz_contact_make(hertz_effective_modulus(&m[0], &m[1]),
                                                     0.5 / input->radius, 0.5 / input->radius);
@@ -89,13 +90,16 @@ bool family_point_fill(const struct indentation_run *in_long,
     double back[INDENTATION_RINGS_MAX];
     if (in_long->rings < 4 || in_short->rings < 4 || in_short->branches < 5)
         return false;
+    /* what comes back of each depth that was unloaded from */
     for (size_t b = 0; b < in_short->branches; b++)
         back[b] = 1.0 - in_short->residual[b] / in_short->largest[b];
+    /* first order in the steps: twice the short ones less the long ones */
     for (size_t i = 0; i < FAMILY_DEPTHS; i++) {
         double d = unit * family_depth(i);
         point->force[i] = 2.0 * ratio_at(in_short, d) - ratio_at(in_long, d);
         point->area[i] = area_at(in_short, d);
     }
+    /* unloadings of the short steps alone */
     for (size_t i = 0; i < FAMILY_SPRINGS; i++) {
         double d = unit * family_largest(i);
         point->back[i] = back_at(in_short, back, unit, d);

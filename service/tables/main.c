@@ -42,10 +42,12 @@ static enum percuss_status make(const struct options *options, const struct tabl
     input.resolution = options->resolution;
     char label[2 * PERCUSS_ID_SIZE + 8], path[TABLE_PATH_SIZE];
     snprintf(label, sizeof label, "%s on %s", a->name, b->name);
+    /* computed once */
     if (is_there(options->folder, &input)) {
         printf("%s: is there\n", label);
         return PERCUSS_OK;
     }
+    /* minutes of work, which a bar shows */
     struct bar bar = bar_begin(label);
     struct watch watch = {bar_show, &bar};
     struct indentation_table table;
@@ -54,6 +56,7 @@ static enum percuss_status make(const struct options *options, const struct tabl
     bar_clear(&bar);
     if (status)
         return status;
+    /* saved with who made it and in how long */
     struct table_origin origin = {"percuss-tables " PERCUSS_VERSION, processor_seconds() - start};
     status = table_file_save(options->folder, &table, &origin, path, fault);
     if (!status)

@@ -49,11 +49,13 @@ bool table_pairs_find(const struct body_set *set, struct table_pair **pairs, siz
     const struct body **bodies = malloc((set->count + 1) * sizeof *bodies);
     if (!bodies)
         return false;
+    /* one body stands for its material */
     size_t materials = find_materials(set, bodies);
     size_t room = 0;
     bool good = true;
     for (size_t i = 0; i < materials && good; i++) {
         for (size_t k = i; k < materials && good; k++) {
+            /* the one with a sphere first */
             const struct body *a = bodies[has_sphere(bodies[i]) ? i : k];
             const struct body *b = a == bodies[i] ? bodies[k] : bodies[i];
             if (!table_pair_is_round(a, b) || !table_pair_yields(a, b))
