@@ -1,13 +1,13 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Random valid requests of every kind: the scenes of tests/physics/hard/campaign_scene.h, with
+/* Random valid requests of every kind: the scenes of tests/bench/drawn_scene.h, with
  * metals from soft to hard, overlaps, contact models, compliances, traces and blows on bodies that
  * ring and have dents. Scene number n is the same scene everywhere. */
 #ifndef PERCUSS_BENCH_ANY_SCENE_H
 #define PERCUSS_BENCH_ANY_SCENE_H
 
-#include "physics/hard/campaign_scene.h"
+#include "bench/drawn_scene.h"
 
 enum { ANY_SCENE_MOST_BLOWS = 4 };
 

@@ -1,30 +1,19 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Random scenes of the campaign: every shape, support and theory, damping, groups of contacts,
- * gaps, accelerations. Scene number n is the same scene on every machine. */
-#ifndef PERCUSS_TEST_CAMPAIGN_SCENE_H
-#define PERCUSS_TEST_CAMPAIGN_SCENE_H
+#include "bench/drawn_scene.h"
 
-#include "physics/support.h"
-
-struct drawn {
-    struct solve_request request;
-    bool passive; /* one contact, bodies at rest but for their rigid motion, no acceleration */
-    char text[256];
-};
-
-static inline double log_between(uint64_t *r, double low, double high)
+double log_between(uint64_t *r, double low, double high)
 {
     return exp(random_between(r, log(low), log(high)));
 }
 
-static inline int pick(uint64_t *r, int count)
+int pick(uint64_t *r, int count)
 {
     return (int)random_between(r, 0.0, count);
 }
 
-static inline struct material draw_material(uint64_t *r)
+static struct material draw_material(uint64_t *r)
 {
     static const struct material list[] = {{"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0},
                                            {"aluminium", 70e9, 0.33, 2700.0, 205e6, 0.0},
@@ -36,13 +25,13 @@ static inline struct material draw_material(uint64_t *r)
     return list[pick(r, pick(r, 2) ? 2 : (int)COUNT(list))];
 }
 
-static inline double draw_damping(uint64_t *r)
+static double draw_damping(uint64_t *r)
 {
     int kind = pick(r, 4);
     return kind < 2 ? 0.0 : kind == 2 ? log_between(r, 1e-4, 0.1) : random_between(r, 0.0, 0.99);
 }
 
-static inline void draw_supports(uint64_t *r, struct body *bar)
+static void draw_supports(uint64_t *r, struct body *bar)
 {
     if (pick(r, 2))
         return;
@@ -51,8 +40,8 @@ static inline void draw_supports(uint64_t *r, struct body *bar)
 }
 
 /* A rod hit on its end at +length/2: free there, free or fixed at the other. */
-static inline struct spot draw_rod(struct lab *lab, uint64_t *r, const char *id, double radius,
-                                   bool tipped)
+static struct spot draw_rod(struct lab *lab, uint64_t *r, const char *id, double radius,
+                            bool tipped)
 {
     double length = radius * log_between(r, 5.0, 300.0);
     struct body rod = make_bar(&rod_kind, draw_material(r), radius, length);
@@ -65,7 +54,7 @@ static inline struct spot draw_rod(struct lab *lab, uint64_t *r, const char *id,
 }
 
 /* A beam hit on its side, now and then on its end. */
-static inline struct spot draw_beam(struct lab *lab, uint64_t *r, const char *id, double radius)
+static struct spot draw_beam(struct lab *lab, uint64_t *r, const char *id, double radius)
 {
     double length = radius * log_between(r, 8.0, 300.0);
     struct body beam = make_bar(&beam_kind, draw_material(r), radius, length);
@@ -90,7 +79,7 @@ static inline struct spot draw_beam(struct lab *lab, uint64_t *r, const char *id
     return spot;
 }
 
-static inline struct spot draw_compact(struct lab *lab, uint64_t *r, const char *id, double radius)
+static struct spot draw_compact(struct lab *lab, uint64_t *r, const char *id, double radius)
 {
     int kind = pick(r, 4);
     struct body body = make_body(&half_space_kind, draw_material(r));
@@ -112,7 +101,7 @@ static inline struct spot draw_compact(struct lab *lab, uint64_t *r, const char 
     return spot;
 }
 
-static inline void draw_motion(uint64_t *r, struct drawn *drawn, double speed, double radius)
+static void draw_motion(uint64_t *r, struct drawn *drawn, double speed, double radius)
 {
     struct solve_contact *contact = drawn->request.contacts;
     int kind = pick(r, 6);
@@ -130,7 +119,7 @@ static inline void draw_motion(uint64_t *r, struct drawn *drawn, double speed, d
 }
 
 /* One contact: something round comes down on anything. */
-static inline void draw_pair(struct lab *lab, uint64_t *r, struct drawn *drawn)
+static void draw_pair(struct lab *lab, uint64_t *r, struct drawn *drawn)
 {
     double speed = pick(r, 3) ? log_between(r, 0.01, 1.0) : log_between(r, 1e-9, 100.0);
     double radius = log_between(r, 1e-3, 0.1);
@@ -159,7 +148,7 @@ static inline void draw_pair(struct lab *lab, uint64_t *r, struct drawn *drawn)
 }
 
 /* Spheres in a column, the uppermost comes down; small gaps between some. */
-static inline void draw_column(struct lab *lab, uint64_t *r, struct drawn *drawn)
+static void draw_column(struct lab *lab, uint64_t *r, struct drawn *drawn)
 {
     struct solve_request *request = &drawn->request;
     static const char ids[][2] = {"a", "b", "c", "d", "e"};
@@ -188,7 +177,7 @@ static inline void draw_column(struct lab *lab, uint64_t *r, struct drawn *drawn
 }
 
 /* Two to four spheres at a beam, on one side of it; the beam may move instead. */
-static inline void draw_landing(struct lab *lab, uint64_t *r, struct drawn *drawn)
+static void draw_landing(struct lab *lab, uint64_t *r, struct drawn *drawn)
 {
     struct solve_request *request = &drawn->request;
     static const char ids[][2] = {"a", "c", "d", "e"};
@@ -223,7 +212,7 @@ static inline void draw_landing(struct lab *lab, uint64_t *r, struct drawn *draw
              count, radius, length, beam.damping);
 }
 
-static inline void draw_scene(struct lab *lab, uint64_t number, struct drawn *drawn)
+void draw_scene(struct lab *lab, uint64_t number, struct drawn *drawn)
 {
     static const double tolerances[] = {1e-2, 1e-3, 1e-3, 1e-4, 1e-6, 1e-8};
     uint64_t r = 0x9e3779b97f4a7c15u * (number + 1);
@@ -244,5 +233,3 @@ static inline void draw_scene(struct lab *lab, uint64_t number, struct drawn *dr
              drawn->request.contacts[0].gap, drawn->request.contacts[0].gap_acceleration,
              drawn->request.options.tolerance);
 }
-
-#endif
