@@ -158,10 +158,13 @@ static void fill_branches(struct contact_curves *curves, const struct contact_ta
     spline_set_slopes(&curves->spring, scratch);
 }
 
-struct contact_curves *contact_curves_create(const struct contact_table *table, struct fault *fault)
+enum percuss_status contact_curves_create(const struct contact_table *table,
+                                          struct contact_curves **made, struct fault *fault)
 {
-    if (check_table(table, fault))
-        return NULL;
+    *made = NULL;
+    enum percuss_status status = check_table(table, fault);
+    if (status)
+        return status;
     /* one block for all numbers, scratch for the longest spline */
     size_t points = table->points;
     size_t branches = table->branches;
@@ -176,8 +179,7 @@ struct contact_curves *contact_curves_create(const struct contact_table *table, 
         free(curves);
         free(scratch);
         free(branch);
-        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-        return NULL;
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     }
     /* splines over their parts of it */
     double *block = curves->memory;
@@ -200,7 +202,8 @@ struct contact_curves *contact_curves_create(const struct contact_table *table, 
     if (branches)
         fill_branches(curves, table, scratch);
     free(scratch);
-    return curves;
+    *made = curves;
+    return PERCUSS_OK;
 }
 
 void contact_curves_free(struct contact_curves *curves)

@@ -35,9 +35,10 @@ struct contact_family; /* family.h */
 /* A table made ready for interpolation; immutable, may be shared. */
 struct contact_curves;
 
-/* Bad samples: NULL with BAD_REQUEST and what is wrong in the fault; out of memory: INTERNAL. */
-struct contact_curves *contact_curves_create(const struct contact_table *table,
-                                             struct fault *fault);
+/* OK; BAD_REQUEST: bad samples; INTERNAL: out of memory. *curves is NULL then; otherwise the caller
+ * frees it. */
+enum percuss_status contact_curves_create(const struct contact_table *table,
+                                          struct contact_curves **curves, struct fault *fault);
 void contact_curves_free(struct contact_curves *curves); /* NULL is allowed */
 
 /* Last indentation that was computed, m: beyond it the law goes on as a fully plastic contact, see

@@ -73,9 +73,11 @@ enum percuss_status table_cache_add(struct table_cache *cache,
     struct table_origin origin = {"percussd " PERCUSS_VERSION, seconds};
     const char *a = table->input.materials[0].name, *b = table->input.materials[1].name;
     enum percuss_status status = table_store_add(cache->made, table, fault);
+    if (status)
+        return status;
     log_line(LEVEL_INFO, "table of %s on %s: computed in %.1f s", a, b, seconds);
     if (*cache->folder && table_file_save(cache->folder, table, &origin, path, &reason))
         log_line(LEVEL_WARNING, "table of %s on %s: kept until the end only: %s", a, b,
                  reason.text);
-    return status;
+    return PERCUSS_OK;
 }

@@ -164,26 +164,26 @@ static bool go_on_by_family(const struct indentation_table *table,
     return curves;
 }
 
-struct contact_curves *table_curves_make(const struct indentation_table *table,
-                                         const struct contact_family *family, struct fault *fault)
+enum percuss_status table_curves_make(const struct indentation_table *table,
+                                      const struct contact_family *family,
+                                      struct contact_curves **curves, struct fault *fault)
 {
-    if (check(table, fault))
-        return NULL;
+    *curves = NULL;
+    enum percuss_status status = check(table, fault);
+    if (status)
+        return status;
     /* room for what is put in before the samples and after them */
     size_t branches = table->branches > 1 ? table->branches - 1 + ONSET : 0;
     struct samples samples = {.branches = branches};
-    struct contact_curves *curves = NULL;
-    if (!make_room(&samples, table->points + ELASTIC_POINTS + BEYOND, branches + BEYOND)) {
-        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-        return NULL;
-    }
+    if (!make_room(&samples, table->points + ELASTIC_POINTS + BEYOND, branches + BEYOND))
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     /* the samples in the form of a contact table */
     samples.points = fill_loading(table, samples.indentation, samples.force, samples.radius);
     fill_branches(table, &samples);
     if (family && branches && !go_on_by_family(table, family, &samples))
-        fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+        status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     else
-        curves = contact_curves_create(
+        status = contact_curves_create(
             &(struct contact_table){
                 .points = samples.points,
                 .indentation = samples.indentation,
@@ -199,7 +199,7 @@ struct contact_curves *table_curves_make(const struct indentation_table *table,
                 .error = table->force_error,
                 .range = samples.range,
             },
-            fault);
+            curves, fault);
     free(samples.indentation);
-    return curves;
+    return status;
 }

@@ -9,9 +9,10 @@
 #include "fe/indentation.h"
 
 /* Beyond the table's last indentation its curves go on in proportion to those of the family, if
- * there is one (NULL: none). NULL with BAD_REQUEST where the table's curves do not rise as they
- * must, or INTERNAL without memory. Free with contact_curves_free. */
-struct contact_curves *table_curves_make(const struct indentation_table *table,
-                                         const struct contact_family *family, struct fault *fault);
+ * there is one (NULL: none). OK; BAD_REQUEST: the table's curves do not rise as they must;
+ * INTERNAL: out of memory. *curves is NULL then; otherwise free it with contact_curves_free. */
+enum percuss_status table_curves_make(const struct indentation_table *table,
+                                      const struct contact_family *family,
+                                      struct contact_curves **curves, struct fault *fault);
 
 #endif

@@ -112,9 +112,9 @@ enum percuss_status table_store_add(struct table_store *store,
     struct table_entry *entry = calloc(1, sizeof *entry);
     if (!entry)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = PERCUSS_BAD_REQUEST;
-    entry->curves = table_curves_make(table, store->source.family, fault);
-    if (!entry->curves) {
+    enum percuss_status status =
+        table_curves_make(table, store->source.family, &entry->curves, fault);
+    if (status) {
         free(entry);
         return status;
     }

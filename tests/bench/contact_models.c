@@ -147,7 +147,8 @@ static struct contact_curves *make_curves(const struct rods *rods, int rod, doub
         fail(fault.text);
         return NULL;
     }
-    struct contact_curves *curves = table_curves_make(&table, NULL, &fault);
+    struct contact_curves *curves;
+    table_curves_make(&table, NULL, &curves, &fault);
     indentation_table_free(&table);
     if (!curves)
         fail(fault.text);

@@ -162,7 +162,8 @@ static void between_its_places_it_is_what_is_computed_there(void **state)
         struct indentation_table table;
         if (indentation_table_make(&input, NULL, &table, &fault))
             fail_msg("%s", fault.text);
-        struct contact_curves *curves = table_curves_make(&table, NULL, &fault);
+        struct contact_curves *curves;
+        table_curves_make(&table, NULL, &curves, &fault);
         assert_non_null(curves);
         struct contact_law direct = contact_law_table_at(curves, radius);
         struct contact_family_place place = contact_family_place(a, b);

@@ -110,7 +110,8 @@ static struct contact_curves *make_own(struct lab *lab, double depth, double rad
         printf("  no table: %s\n", fault.text);
         return NULL;
     }
-    struct contact_curves *curves = table_curves_make(&table, NULL, &fault);
+    struct contact_curves *curves;
+    table_curves_make(&table, NULL, &curves, &fault);
     indentation_table_free(&table);
     return curves;
 }

@@ -29,7 +29,7 @@ static struct pair make_pair(void)
     struct fault fault = {0};
     struct pair pair = {.closed = closed_form()};
     sampled_table_make(&sampled, &pair.closed, 100.0);
-    pair.curves = contact_curves_create(&sampled.table, &fault);
+    contact_curves_create(&sampled.table, &pair.curves, &fault);
     if (!pair.curves)
         fail_msg("%s", fault.text);
     pair.table = contact_law_table(pair.curves);
@@ -107,7 +107,8 @@ static void an_elastic_table_never_yields(void **state)
     struct contact_law closed = closed_form();
     sampled_table_make(&sampled, &closed, 100.0);
     sampled.table.branches = 0;
-    struct contact_curves *curves = contact_curves_create(&sampled.table, &fault);
+    struct contact_curves *curves;
+    contact_curves_create(&sampled.table, &curves, &fault);
     assert_non_null(curves);
     struct contact_law law = contact_law_table(curves);
     double slope;
@@ -124,6 +125,7 @@ static void bad_samples_are_refused(void **state)
     struct contact_law closed = closed_form();
     for (int bad = 0; bad < 7; bad++) {
         struct fault fault = {0};
+        struct contact_curves *curves;
         sampled_table_make(&sampled, &closed, 100.0);
         switch (bad) {
         case 0:
@@ -148,7 +150,9 @@ static void bad_samples_are_refused(void **state)
             sampled.table.yield = sampled.largest[0];
             break;
         }
-        assert_null(contact_curves_create(&sampled.table, &fault));
+        assert_int_equal(contact_curves_create(&sampled.table, &curves, &fault),
+                         PERCUSS_BAD_REQUEST);
+        assert_null(curves);
         assert_true(strlen(fault.text) > 20);
     }
     contact_curves_free(NULL);

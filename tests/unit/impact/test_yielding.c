@@ -176,7 +176,8 @@ static void yielding_costs_few_steps(void **state)
     struct fault fault = {""};
     struct contact_law closed = soft_law();
     sampled_table_make(&sampled, &closed, 60.0);
-    struct contact_curves *curves = contact_curves_create(&sampled.table, &fault);
+    struct contact_curves *curves;
+    contact_curves_create(&sampled.table, &curves, &fault);
     assert_non_null(curves);
     const struct contact_law laws[] = {contact_law_hertz(closed.parameters[0]), closed,
                                        contact_law_table(curves)};

@@ -41,7 +41,7 @@ static struct shelf *shelf_create(struct lab *lab, double range)
     struct contact_law law = contact_law_closed_form(&hertz, &steel, &soft);
     assert_non_null(shelf);
     sampled_table_make(&sampled, &law, range);
-    shelf->curves = contact_curves_create(&sampled.table, &fault);
+    contact_curves_create(&sampled.table, &shelf->curves, &fault);
     assert_non_null(shelf->curves);
     shelf->source = (struct contact_table_source){shelf, look_up, NULL};
     lab->means.tables = &shelf->source;
