@@ -86,10 +86,11 @@ static enum percuss_status begin_contact(struct concurrent *run)
     struct march *march = &run->march;
     const struct scene *scene = &march->scene;
     const struct motion *now = &march->outcome->motion;
+    /* the step: a share of what a contact at this speed takes */
     motion_approach(now, scene, 0, &d, &rate);
     run->scale = impact_scale_of(march->stated, 0, rate);
     run->level = step_level(HERTZ_DURATION * run->scale.duration / run->least_steps);
-    // what a force that rises to 1 N does to bodies at rest
+    /* what a force that rises to 1 N does to bodies at rest */
     for (size_t g = 0; g < scene->groups; g++) {
         enum percuss_status status =
             oscillators_prepare(scene->group[g].set, run->level, march->pace);
@@ -102,7 +103,7 @@ static enum percuss_status begin_contact(struct concurrent *run)
     rising(1.0, unit);
     push(run, unit, &run->end);
     motion_approach(&run->end, scene, 0, &run->response, &d);
-    // the depths that two steps before would have had
+    /* the depths that two steps before would have had */
     double h = step_length(run->level);
     for (int i = 0; i < 3; i++)
         run->depth[i] = -i * rate * h;
@@ -120,19 +121,23 @@ static enum percuss_status find_depth(struct concurrent *run, double approach,
     double compliance = run->march.scene.residual[0] - run->response;
     double low = -INFINITY;
     double high = INFINITY;
+    /* starts on the parabola through the last three depths */
     *depth = 3.0 * (run->depth[0] - run->depth[1]) + run->depth[2];
     for (int i = 0; i < MAX_PRESSES; i++) {
+        /* the region's force there, and Newton's change of the depth */
         enum percuss_status status =
             region_press(run->region, run->bottom + *depth, answer, run->march.fault);
         if (status != PERCUSS_OK)
             return status;
         double excess = *depth + compliance * answer->force - approach;
         double change = -excess / (1.0 + compliance * answer->stiffness);
+        /* small enough: the force follows on its tangent */
         if (fabs(change) <= SETTLED * run->scale.indentation) {
             *depth += change;
             answer->force = fmax(0.0, answer->force + answer->stiffness * change);
             return PERCUSS_OK;
         }
+        /* otherwise on, or to the middle of the bounds */
         *(excess > 0.0 ? &high : &low) = *depth;
         double next = *depth + change;
         *depth = next > low && next < high ? next : 0.5 * (low + high);
@@ -150,17 +155,21 @@ static void keep_books(struct concurrent *run, double depth, const struct region
     double h = step_length(run->level);
     double change = answer->force - run->force;
     double stiffness = depth > 0.0 ? HERTZ_POWER * answer->force / depth : 0.0;
+    /* force and depth are lines along the step: work and impulse */
     run->work += 0.5 * (run->force + answer->force) * (depth - run->depth[0]);
     track->open.impulse += 0.5 * h * (run->force + answer->force);
+    /* what omitted inertia and viscosity would do, by the stiffness of Hertz' law */
     track->inertia += (stiffness - run->stiffness) * change / h;
     track->viscosity += change * change / h;
     run->stiffness = stiffness;
+    /* the deepest of this sub-impact, which ends its compression */
     if (depth > track->open.max_indentation) {
         track->open.max_indentation = depth;
         track->open.compression_end = run->end.time;
         track->open.compression_impulse = track->open.impulse;
     }
     run->peak = fmax(run->peak, answer->force);
+    /* the deepest ever, which is the dent's history */
     if (run->bottom + depth > history->max_indentation) {
         history->max_indentation = run->bottom + depth;
         history->max_force = answer->force;
@@ -196,18 +205,19 @@ static enum percuss_status step(struct concurrent *run, bool *open)
     struct region_answer answer;
     struct march *march = &run->march;
     struct motion *now = &march->outcome->motion;
-    // where the bodies would be, and the force that its indentation then has
+    /* where the bodies would be, and the force that its indentation then has */
     motion_step(&run->end, now, &march->scene, run->level);
     falling(run->force, force);
     push(run, force, &run->end);
     motion_approach(&run->end, &march->scene, 0, &approach, &rate);
+    /* its equilibrium, and the bodies under the new force */
     enum percuss_status status = find_depth(run, approach, &answer, &depth);
     if (status != PERCUSS_OK)
         return status;
     region_commit(run->region);
     rising(answer.force, force);
     push(run, force, &run->end);
-    // what damping took, the books, and the end as the present
+    /* what damping took, the books, and the end as the present */
     for (int j = 0; j < NODES; j++)
         force[j] += run->force * (1.0 - collocation.node[j]);
     march->damping += contact_step_loss(&march->scene, now, run->level, &force);
@@ -233,6 +243,7 @@ static enum percuss_end_reason contact_phase(void *state, size_t contact)
     enum percuss_end_reason end = PERCUSS_END_NONE;
     bool open = false;
     (void)contact;
+    /* steps until it is open, or the window or the work ends */
     enum percuss_status status = begin_contact(run);
     while (status == PERCUSS_OK && !open && end == PERCUSS_END_NONE) {
         status = step(run, &open);
@@ -241,10 +252,10 @@ static enum percuss_end_reason contact_phase(void *state, size_t contact)
         else if (!open && now->time >= march->horizon)
             end = PERCUSS_END_IN_CONTACT;
     }
-    // the force fell to nothing within the last step, and nearly all of it before
+    /* the force fell to nothing within the last step, and nearly all of it before */
     if (status == PERCUSS_OK)
         status = end_contact(run, now->time - (open ? 0.5 * step_length(run->level) : 0.0));
-    // every flight has all of its intervals
+    /* every flight has all of its intervals */
     march->used = 0;
     return status == PERCUSS_OK ? end : march_fail(march, status);
 }
@@ -279,6 +290,7 @@ enum percuss_status impact_concurrent(const struct scene *scene, struct region *
                                        .fault = fault},
                              .least_steps = settings->steps,
                              .region = region};
+    /* the march, which the pace stops in the region too */
     region_watch(region, settings->pace, settings->done);
     if (!march_create(&run.march, arena) || !motion_create(&run.end, scene, arena))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
@@ -287,7 +299,7 @@ enum percuss_status impact_concurrent(const struct scene *scene, struct region *
         return fault_set(fault, status, "stopped at %g s of the impact", outcome->motion.time);
     if (status != PERCUSS_OK || outcome->end_reason != PERCUSS_END_IN_CONTACT)
         return status;
-    // under load the mesh holds a part of the elastic energy only: what the force has put in
+    /* under load the mesh holds a part of the elastic energy only: what the force has put in */
     double stored = run.work - outcome->plastic + 0.5 * scene->residual[0] * run.force * run.force;
     outcome->energy.stored += stored;
     outcome->energy.closure -= stored;

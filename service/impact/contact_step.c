@@ -53,6 +53,7 @@ static enum percuss_status find_coupling(struct contact_step *step, const struct
 {
     size_t n = scene->contacts;
     double h = step_length(level);
+    /* the modes' tables */
     for (size_t g = 0; g < scene->groups; g++) {
         enum percuss_status status = oscillators_prepare(scene->group[g].set, level, step->pace);
         if (status != PERCUSS_OK)
@@ -61,14 +62,17 @@ static enum percuss_status find_coupling(struct contact_step *step, const struct
     double(*all)[NODES][NODES] = arena_take(step->arena, n * n, sizeof *all);
     if (!all)
         return PERCUSS_INTERNAL;
+    /* pairs of contacts */
     for (size_t a = 0; a < n; a++) {
         for (size_t b = 0; b <= a; b++) {
             double(*m)[NODES] = all[a * n + b];
+            /* the rigid bodies, and the series compliance */
             for (int i = 0; i < NODES; i++) {
                 for (int j = 0; j < NODES; j++)
                     m[i][j] = scene->w[a * n + b] * h * h * collocation.position[i][j];
                 m[i][i] += scene->residual[a * n + b];
             }
+            /* the modes that move both */
             for (size_t g = 0; g < scene->groups; g++) {
                 const struct scene_group *group = &scene->group[g];
                 const double *pa = group->participation[a];
@@ -76,7 +80,7 @@ static enum percuss_status find_coupling(struct contact_step *step, const struct
                 if (pa && pb)
                     kernel_response(group->set->tables[level], group->stride, pa, pb, m);
             }
-            // W, the residual flexibility and the modes' products are symmetric
+            /* W, the residual flexibility and the modes' products are symmetric */
             if (a != b)
                 memcpy(all[b * n + a], m, sizeof all[b * n + a]);
         }
@@ -154,6 +158,7 @@ static bool local_of_many(const struct scene *scene, const double *approach, dou
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
         double change = 0.0;
         double scale = 0.0;
+        /* the excess e, and the matrix 1 + C F' */
         for (size_t c = 0; c < n; c++)
             force[c] = contact_law_force(&scene->laws[c], indentation[c], &stiffness[c]);
         for (size_t a = 0; a < n; a++) {
@@ -166,6 +171,7 @@ static bool local_of_many(const struct scene *scene, const double *approach, dou
         }
         if (!linear_solve(n, matrix, excess))
             return false;
+        /* the update, and whether it was the last one */
         for (size_t c = 0; c < n; c++) {
             indentation[c] -= excess[c];
             change = fmax(change, fabs(excess[c]));
@@ -196,12 +202,13 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
                                          const struct contact_start *start)
 {
     double h = step_length(level);
+    /* a level that is new to the scene */
     if (!step->coupling[level]) {
         enum percuss_status status = find_coupling(step, scene, level);
         if (status != PERCUSS_OK)
             return status == PERCUSS_TIMEOUT ? STEP_STOPPED : STEP_MEMORY;
     }
-    // approaches without force, and indentations as the step before has it
+    /* approaches without force, and indentations as the step before has it */
     for (size_t c = 0; c < scene->contacts; c++) {
         const struct contact_start *from = &start[c];
         free_approach(scene, motion, c, level, step->target[c]);
@@ -212,6 +219,7 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
                 t * (from->rate + t * (0.5 * from->curvature + t / 6.0 * from->bend));
         }
     }
+    /* forces and indentations at the nodes */
     struct node_problem problem = {
         .laws = scene->laws,
         .contacts = scene->contacts,
@@ -223,10 +231,11 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
     };
     if (!node_solve(&problem, step->indentation, step->force, step->stiffness, &step->iterations))
         return STEP_UNSOLVED;
-    // the state at the end, which follows from the forces
+    /* the state at the end, which follows from the forces */
     motion_step(&step->end, motion, scene, level);
     motion_push(&step->end, scene, level, step->force);
     step->loss = contact_step_loss(scene, motion, level, step->force);
+    /* the contacts there: Newton's method from where the cubics end */
     for (size_t c = 0; c < scene->contacts; c++) {
         double ignored;
         motion_approach(&step->end, scene, c, &step->approach[c], &ignored);

@@ -74,6 +74,7 @@ bool energy_audit(const struct scene *scene, const double *indentation, double d
     double *travel = arena_take(arena, n, sizeof *travel);
     if (!mass || !travel)
         return false;
+    /* how far the bodies moved: what a dent adds to its gap is no motion */
     for (size_t c = 0; c < n; c++)
         travel[c] = end->gap[c] - scene->gap[c] -
                     (outcome->laws[c].history.dent - scene->laws[c].history.dent);
@@ -83,12 +84,14 @@ bool energy_audit(const struct scene *scene, const double *indentation, double d
     /* the acceleration is a force W^+ a on the gaps: its work is that over the gaps' travel */
     energy->available = 0.5 * form(n, mass, scene->gap_rate, scene->gap_rate) +
                         initial_vibration(scene) + form(n, mass, scene->gap_acceleration, travel);
+    /* what the bodies and the laws hold at the end */
     energy->rigid_after = 0.5 * form(n, mass, end->gap_rate, end->gap_rate);
     for (size_t b = 0; b < scene->bodies; b++) {
         outcome->vibration[b] = motion_vibration(end, scene, b);
         energy->vibration += outcome->vibration[b];
     }
     energy->stored = stored_energy(scene, outcome->laws, indentation);
+    /* what is missing */
     energy->closure = energy->available - energy->rigid_after - energy->vibration -
                       energy->damping - energy->plastic - energy->stored;
     return true;

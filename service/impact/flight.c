@@ -21,6 +21,7 @@ enum { REFRESH = 32 /* intervals between two looks at the decayed amplitudes */ 
 bool flight_create(struct flight *flight, const struct scene *scene, struct arena *arena)
 {
     *flight = (struct flight){0};
+    /* bounds by contact, and what each level makes of them */
     flight->amplitude = arena_take(arena, scene->groups, sizeof *flight->amplitude);
     flight->bound = arena_take(arena, scene->contacts, sizeof *flight->bound);
     flight->approach = arena_take(arena, scene->contacts, sizeof *flight->approach);
@@ -31,6 +32,7 @@ bool flight_create(struct flight *flight, const struct scene *scene, struct aren
     if (!flight->slow_count || !flight->amplitude || !flight->bound || !flight->approach ||
         !flight->rate || !flight->all_modes || !flight->slow_modes)
         return false;
+    /* the modes' amplitudes */
     for (size_t g = 0; g < scene->groups; g++) {
         flight->amplitude[g] = arena_take(arena, scene->group[g].stride, sizeof(double));
         if (!flight->amplitude[g])
@@ -77,12 +79,14 @@ static void find_remainders(struct flight *flight, const struct scene *scene, in
         all[c * STEP_LEVELS] = slow[c * STEP_LEVELS] = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
+        /* how many are slow enough to be followed */
         double stiffer = sqrt(1.0 + 4.0 * group->set->damping * group->set->damping);
         size_t followed = count_slow(group, h);
         flight->slow_count[g * STEP_LEVELS + (size_t)level] = followed;
         for (size_t c = 0; c < scene->contacts; c++) {
             const double *phi = group->participation[c];
             for (size_t k = 0; phi && k < group->count; k++) {
+                /* from the tangent by (omega h)^2/2 a sqrt(1 + 4 zeta^2), from zero by a */
                 double angle = group->set->omega[k] * h;
                 double reach = fabs(phi[k]) * flight->amplitude[g][k];
                 double bend = 0.5 * angle * angle * stiffer * reach;
@@ -98,6 +102,7 @@ static void find_remainders(struct flight *flight, const struct scene *scene, in
 static void slow_approach(const struct flight *flight, const struct scene *scene, size_t contact,
                           int level, double *approach, double *rate)
 {
+    /* the rigid bodies */
     *approach = -flight->probe.gap[contact];
     *rate = -flight->probe.gap_rate[contact];
     for (size_t g = 0; g < scene->groups; g++) {
@@ -107,6 +112,7 @@ static void slow_approach(const struct flight *flight, const struct scene *scene
         double d_rate;
         if (!phi || !count)
             continue;
+        /* the slow modes, the last few one by one */
         size_t whole = count / LANES * LANES;
         const double *q = flight->probe.q[g];
         const double *v = flight->probe.v[g];
@@ -127,11 +133,11 @@ static bool stays_open(const struct flight *flight, const struct scene *scene, s
     double pull = -0.5 * scene->gap_acceleration[c] * h * h; /* what acceleration closes */
     double d = flight->approach[c];
     double rate = flight->rate[c];
-    // by the tangent of all modes; a parabola that opens upward is largest at its ends
+    /* by the tangent of all modes; a parabola that opens upward is largest at its ends */
     double rise = fmax(0.0, flight->all_modes[c * STEP_LEVELS + (size_t)level] + pull);
     if (d <= 0.0 && d + rate * h + rise < 0.0)
         return true;
-    // by that of the slow ones
+    /* by that of the slow ones */
     double margin = flight->slow_modes[c * STEP_LEVELS + (size_t)level];
     slow_approach(flight, scene, c, level, &d, &rate);
     return fmax(d, d + rate * h + fmax(0.0, pull)) + margin < 0.0;
@@ -216,6 +222,7 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
     int level = floor;
     int passed = 0;
     int wait = 1;
+    /* the modes' bounds, and the instant from which they exclude a touch */
     motion_copy(&flight->probe, motion, scene);
     find_approaches(flight, scene);
     find_amplitudes(flight, scene, motion);
@@ -224,6 +231,7 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
         if (!pace_keeps(flight->pace, flight->cost))
             return FLIGHT_LIMIT;
         flight->intervals++;
+        /* an interval that may not stay open is halved */
         double from = flight->probe.time - motion->time;
         bool open = all_stay_open(flight, scene, level);
         if (!open && level < floor) {
@@ -232,9 +240,11 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
             wait = 2;
             continue;
         }
+        /* the shortest ones are looked into */
         if (!open && touch_within(flight, scene, from, step_length(level), time, contact) &&
             *time < fmin(complete, allowed))
             return FLIGHT_TOUCH;
+        /* past it, along exact motion */
         double before = flight->probe.time;
         enum percuss_status moved = move_probe(flight, scene, level);
         if (moved == PERCUSS_INTERNAL)
@@ -250,6 +260,7 @@ enum flight_end flight_find(struct flight *flight, const struct scene *scene,
             level--;
             wait = 1;
         }
+        /* damping has lowered the bounds */
         if (i % REFRESH == 0) {
             find_amplitudes(flight, scene, &flight->probe);
             complete =

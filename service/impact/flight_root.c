@@ -17,7 +17,7 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
     *last = INFINITY;
     if (acceleration >= 0.0) {
         double discriminant = rate * rate - 2.0 * acceleration * excess;
-        // opens, or turns before it falls below; otherwise at the later root
+        /* opens, or turns before it falls below; otherwise at the later root */
         if (excess >= 0.0 && (rate >= 0.0 || (acceleration > 0.0 && discriminant < 0.0)))
             *first = 0.0;
         else if (acceleration > 0.0)
@@ -26,7 +26,7 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
             *first = -excess / rate;
         return;
     }
-    // pressing: only on the way up, and only if the top of the way exceeds it
+    /* pressing: only on the way up, and only if the top of the way exceeds it */
     double discriminant = rate * rate - 2.0 * acceleration * excess;
     if (rate <= 0.0 || discriminant < 0.0)
         return;
@@ -63,6 +63,7 @@ static struct path make_path(const struct motion *motion, const struct scene *sc
     struct path path = {.motion = motion, .scene = scene, .contact = contact};
     if (!(length > 0.0) || !is_slow(scene, length))
         return path;
+    /* derivatives of the gap and of the modes */
     double sums[DERIVATIVES] = {motion->gap[contact], motion->gap_rate[contact],
                                 scene->gap_acceleration[contact]};
     for (size_t g = 0; g < scene->groups; g++) {
@@ -71,6 +72,7 @@ static struct path make_path(const struct motion *motion, const struct scene *sc
             kernel_derivatives(group->stride, group->set->omega, group->set->damping,
                                group->participation[contact], motion->q[g], motion->v[g], sums);
     }
+    /* as terms of the series */
     double scale = -1.0;
     path.length = length;
     for (int n = 0; n < DERIVATIVES; n++) {
@@ -112,8 +114,10 @@ static double cubic_root(double d0, double rate0, double d1, double rate1)
 {
     double low = 0.0;
     double high = 1.0;
+    /* starts on the straight line */
     double s = d0 / (d0 - d1);
     for (int i = 0; i < MAX_CUBIC_ROUNDS; i++) {
+        /* the cubic there tightens the bounds */
         double c3 = rate0 + rate1 - 2.0 * (d1 - d0);
         double c2 = 3.0 * (d1 - d0) - 2.0 * rate0 - rate1;
         double value = ((c3 * s + c2) * s + rate0) * s + d0;
@@ -122,6 +126,7 @@ static double cubic_root(double d0, double rate0, double d1, double rate1)
             high = s;
         else
             low = s;
+        /* Newton's method while it stays between them */
         double next = s - value / slope;
         if (!(next > low && next < high))
             next = 0.5 * (low + high);
@@ -140,16 +145,19 @@ static double rising_root(const struct path *path, double low, double high)
     double rate;
     double d1;
     double rate1;
+    /* starts at the root of the cubic */
     follow(path, low, &d, &rate);
     follow(path, high, &d1, &rate1);
     double h = high - low;
     double t = low + h * cubic_root(d, h * rate, d1, h * rate1);
     for (int i = 0; i < MAX_ROUNDS; i++) {
+        /* the approach there tightens the bounds */
         follow(path, t, &d, &rate);
         if (d > 0.0)
             high = t;
         else
             low = t;
+        /* Newton's method while it stays between them */
         double next = rate > 0.0 ? t - d / rate : low;
         if (!(next > low && next < high))
             next = 0.5 * (low + high);
@@ -186,7 +194,7 @@ bool flight_root_touch(const struct motion *motion, const struct scene *scene, s
     double rate0;
     double d1;
     double rate1;
-    // touching already, or overlapping at the end, or a peak between
+    /* touching already, or overlapping at the end, or a peak between */
     follow(&path, from, &d0, &rate0);
     if (d0 >= 0.0 && rate0 > 0.0) {
         *time = from;

@@ -72,6 +72,7 @@ VECTOR_CLONES void kernel_derivatives(size_t length, const double *omega, double
     lanes total[DERIVATIVES] = {{0}};
     for (size_t k = 0; k < length; k += LANES) {
         lanes w = AT(omega, k);
+        /* n-th derivative of its equation: q^(n+2) = -2 zeta omega q^(n+1) - omega^2 q^(n) */
         lanes brake = -2.0 * damping * w;
         lanes spring = -(w * w);
         lanes now = AT(phi, k) * AT(q, k);

@@ -86,7 +86,7 @@ static enum percuss_end_reason fly(struct march *march, size_t *contact)
     struct motion *motion = &march->outcome->motion;
     unsigned long before = march->flight.intervals;
     double allowed = march->horizon - motion->time;
-    // the last step of a contact phase may have taken more than was left
+    /* the last step of a contact phase may have taken more than was left */
     unsigned long left = march->used < march->most ? march->most - march->used : 0;
     enum flight_end end =
         flight_find(&march->flight, &march->scene, motion, allowed, left, &time, contact);
@@ -95,7 +95,7 @@ static enum percuss_end_reason fly(struct march *march, size_t *contact)
         return no_memory(march);
     if (end == FLIGHT_LIMIT || march->used > march->most)
         return PERCUSS_END_LIMIT;
-    // what damping takes on the way, and the motion at its end
+    /* what damping takes on the way, and the motion at its end */
     march->damping += motion_free_loss(motion, &march->scene, time);
     motion_advance(motion, &march->scene, time);
     if (end == FLIGHT_TIMEOUT)
@@ -136,16 +136,18 @@ enum percuss_status march_run(struct march *march, const struct march_method *me
                               struct arena *arena)
 {
     size_t contact = 0;
+    /* back to where bodies that overlap have touched */
     enum percuss_end_reason end = find_start(march, arena);
     if (march->outcome->always_overlapped)
         return PERCUSS_OK;
-    // flights and contact phases in turn
+    /* flights and contact phases in turn */
     while (end == PERCUSS_END_NONE) {
         if (!method->flies)
             end = fly(march, &contact);
         if (end == PERCUSS_END_NONE)
             end = method->contact_phase(state, contact);
     }
+    /* the method's own end, then the books */
     if (march->status != PERCUSS_OK)
         return march->status;
     march->outcome->end_reason = end;

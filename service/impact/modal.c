@@ -313,7 +313,7 @@ static enum percuss_end_reason contact_phase(void *state, size_t contact)
     while (march_in_contact(march)) {
         if (++march->used > march->most || !pace_keeps(march->pace, march->cost))
             return PERCUSS_END_LIMIT;
-        // the length of the next step
+        /* the length of the next step */
         int finest = finest_level(run);
         int deepest = finest + GRAZE_LEVELS;
         level = limit_level(run, level < deepest ? level : deepest, finest);
@@ -324,7 +324,7 @@ static enum percuss_end_reason contact_phase(void *state, size_t contact)
         if (time + h == time || march->horizon - time < step_length(finest))
             return PERCUSS_END_IN_CONTACT;
 
-        // one that has no solution or is too coarse is tried again with half its length
+        /* one that has no solution or is too coarse is tried again with half its length */
         enum contact_step_end end = solve_step(run, level);
         if (end == STEP_MEMORY)
             return march_fail(march, PERCUSS_INTERNAL);
@@ -337,13 +337,14 @@ static enum percuss_end_reason contact_phase(void *state, size_t contact)
             level++;
             continue;
         }
-        // one that passes the instant at which a law changes, with another length or another law
+        /* one that passes the instant at which a law changes, with another length or another law */
         if (run->yielding.any && yielding_passes(&run->yielding, h, &level)) {
             if (!unload(run))
                 return PERCUSS_END_LIMIT;
             march->outcome->rejected++;
             continue;
         }
+        /* one that is taken: the next is as long as its roughness allows */
         accept(run, level);
         level = next_level(run, level, roughness);
         if (run->yielding.any && yielding_meet(&run->yielding, h, &level) && !unload(run))

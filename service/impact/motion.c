@@ -122,7 +122,7 @@ void motion_push(struct motion *end, const struct scene *scene, int level,
         double travel = 0.0;
         if (!bears_force(force[b]))
             continue;
-        // the rigid gaps by the force's integral and its double integral
+        /* the rigid gaps by the force's integral and its double integral */
         for (int j = 0; j < NODES; j++) {
             impulse += h * collocation.weight[j] * force[b][j];
             travel += h * h * collocation.position_end[j] * force[b][j];
@@ -131,7 +131,7 @@ void motion_push(struct motion *end, const struct scene *scene, int level,
             end->gap[a] += scene->w[a * scene->contacts + b] * travel;
             end->gap_rate[a] += scene->w[a * scene->contacts + b] * impulse;
         }
-        // the modes by their tables
+        /* the modes by their tables */
         for (size_t g = 0; g < scene->groups; g++) {
             const struct scene_group *group = &scene->group[g];
             if (group->participation[b])
@@ -166,6 +166,7 @@ void motion_approach_at(const struct motion *motion, const struct scene *scene, 
 {
     double d = 0.0;
     double d_rate = 0.0;
+    /* the modes at that instant */
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         const double *phi = group->participation[contact];
@@ -179,6 +180,7 @@ void motion_approach_at(const struct motion *motion, const struct scene *scene, 
             d_rate += phi[k] * v;
         }
     }
+    /* with the rigid gap */
     double a = scene->gap_acceleration[contact];
     *approach = -(motion->gap[contact] + time * (motion->gap_rate[contact] + 0.5 * a * time)) - d;
     *rate = -(motion->gap_rate[contact] + a * time) - d_rate;

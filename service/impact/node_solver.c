@@ -28,6 +28,7 @@ static const double LEAST_PIVOT = 0.1;
 static bool eliminate(quad a[NODES], double b[NODES])
 {
     double inverse[NODES];
+    /* forward, without exchanges */
     for (int c = 0; c < NODES; c++) {
         if (!(fabs(a[c][c]) > LEAST_PIVOT))
             return false;
@@ -38,6 +39,7 @@ static bool eliminate(quad a[NODES], double b[NODES])
             b[i] -= factor * b[c];
         }
     }
+    /* and back substitution */
     for (int i = NODES - 1; i >= 0; i--) {
         b[i] *= inverse[i];
         for (int k = 0; k < i; k++)
@@ -92,7 +94,7 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
     const double *target = problem->target[0];
     double previous = INFINITY;
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        // the excess e, and the matrix 1 + coupling F'
+        /* the excess e, and the matrix 1 + coupling F' */
         quad matrix[NODES];
         double change[NODES];
         for (int i = 0; i < NODES; i++)
@@ -109,7 +111,7 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
         if (!eliminate(matrix, change))
             return false;
         ++*iterations;
-        // the update, and whether it was the last one
+        /* the update, and whether it was the last one */
         struct progress progress = {.previous = previous};
         for (int i = 0; i < NODES; i++) {
             d[i] -= change[i];
@@ -156,6 +158,7 @@ static void assemble(const struct node_problem *problem, const struct system *sy
                      double (*indentation)[NODES], double (*force)[NODES])
 {
     size_t n = problem->contacts;
+    /* e_a = d_a - target_a + sum over the pressed b of coupling_ab F_b */
     for (size_t a = 0; a < n; a++)
         for (int i = 0; i < NODES; i++) {
             double sum = indentation[a][i] - problem->target[a][i];
@@ -167,6 +170,7 @@ static void assemble(const struct node_problem *problem, const struct system *sy
             }
             problem->excess[a * NODES + (size_t)i] = sum;
         }
+    /* rows and columns of the pressed ones */
     size_t size = system->pressed_count * NODES;
     for (size_t p = 0; p < system->pressed_count; p++)
         for (size_t q = 0; q < system->pressed_count; q++) {
@@ -186,6 +190,7 @@ static bool find_changes(const struct node_problem *problem, struct system *syst
 {
     size_t n = problem->contacts;
     bool open[PERCUSS_MAX_CONTACTS];
+    /* the pressed ones by their system */
     for (size_t a = 0; a < n; a++)
         open[a] = true;
     for (size_t p = 0; p < system->pressed_count; p++) {
@@ -195,6 +200,7 @@ static bool find_changes(const struct node_problem *problem, struct system *syst
     }
     if (!linear_solve(system->pressed_count * NODES, problem->matrix, system->change))
         return false;
+    /* the open ones by what those change */
     for (size_t a = 0; a < n; a++) {
         for (size_t q = 0; open[a] && q < system->pressed_count; q++) {
             size_t b = system->pressed[q];
@@ -205,6 +211,7 @@ static bool find_changes(const struct node_problem *problem, struct system *syst
                         m[i][j] * system->stiffness[b][j] * system->change[q * NODES + j];
         }
     }
+    /* the changes of the pressed ones beside them */
     for (size_t p = 0; p < system->pressed_count; p++)
         for (size_t i = 0; i < NODES; i++)
             problem->excess[system->pressed[p] * NODES + i] = system->change[p * NODES + i];
@@ -214,9 +221,11 @@ static bool find_changes(const struct node_problem *problem, struct system *syst
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
                 double (*force)[NODES], double (*stiffness)[NODES], unsigned long *iterations)
 {
+    /* one contact by itself, unless that fails */
     if (problem->contacts == 1 &&
         solve_one(problem, indentation[0], force[0], stiffness[0], iterations))
         return true;
+    /* any number: forces, Newton's system and its solution */
     struct system system;
     system.stiffness = stiffness; /* the rest is scratch */
     double previous = INFINITY;
@@ -226,7 +235,7 @@ bool node_solve(const struct node_problem *problem, double (*indentation)[NODES]
         if (!find_changes(problem, &system))
             return false;
         ++*iterations;
-        // the update, and whether it was the last one
+        /* the update, and whether it was the last one */
         struct progress progress = {.previous = previous};
         for (size_t row = 0; row < problem->contacts * NODES; row++) {
             double *d = &indentation[row / NODES][row % NODES];

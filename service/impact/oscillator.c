@@ -53,7 +53,7 @@ double oscillator_free_loss(double omega, double damping, double time, double q,
 {
     if (damping == 0.0 || time == 0.0)
         return 0.0;
-    // V from v(0) and v'(0) = -2 zeta omega v - omega^2 q
+    /* V from v(0) and v'(0) = -2 zeta omega v - omega^2 q */
     double complex lambda = oscillator_lambda(omega, damping);
     double rate = -2.0 * damping * omega * v - omega * omega * q;
     double complex amplitude = CMPLX(v, (creal(lambda) * v - rate) / cimag(lambda));

@@ -46,17 +46,20 @@ static struct velocity split(double omega, double damping, double h, int r)
     double q[NODES + 2] = {0};
     double coupling = 2.0 * damping * omega / h;
     double inertia = 1.0 / (h * h);
+    /* the cubic, from its highest power down */
     if (r >= 2) {
         for (int m = NODES - 1; m >= 0; m--)
             q[m] = (collocation.monomial[r - 2][m] - coupling * (m + 1) * q[m + 1] -
                     inertia * (m + 2) * (m + 1) * q[m + 2]) /
                    (omega * omega);
     }
+    /* the wave A e^(lambda t): Re A is its velocity v0, Re(lambda A) its acceleration */
     double q0 = (r == 0) - q[0];
     double v0 = (r == 1) - q[1] / h;
     double complex lambda = oscillator_lambda(omega, damping);
     double rate = -2.0 * damping * omega * v0 - omega * omega * q0;
     struct velocity velocity = {.wave = CMPLX(v0, (creal(lambda) * v0 - rate) / cimag(lambda))};
+    /* and the cubic's velocity */
     for (int m = 0; m + 1 < NODES; m++)
         velocity.slope[m] = (m + 1) * q[m + 1] / h;
     return velocity;
@@ -103,7 +106,7 @@ void oscillator_loss_form(double omega, double damping, double h,
                           double form[LOSS_INPUTS][LOSS_INPUTS])
 {
     memset(form, 0, sizeof(double[LOSS_INPUTS][LOSS_INPUTS]));
-    // the particular solution cancels against the wave like (omega h)^-4 for slow oscillators
+    /* the particular solution cancels against the wave like (omega h)^-4 for slow oscillators */
     if (omega * h < SLOW_ANGLE)
         form_by_quadrature(omega, damping, h, form);
     else

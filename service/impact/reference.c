@@ -96,6 +96,7 @@ static void handle_roots(struct reference *run, double t, const int *found)
 {
     struct march *march = &run->march;
     size_t n = march->scene.contacts;
+    /* contacts that open and close */
     for (size_t c = 0; c < n; c++) {
         int opens = found[run->system.roots * c];
         if (opens > 0 && !march->closed[c]) {
@@ -105,6 +106,7 @@ static void handle_roots(struct reference *run, double t, const int *found)
             march_close(march, c, t, run->y[n + c]);
         }
     }
+    /* indentations at their largest: a law may yield there */
     reference_system_forces(&run->system, run->y);
     for (size_t c = 0; c < n; c++) {
         if (!march->closed[c] || found[run->system.roots * c + 1] >= 0)
@@ -131,6 +133,7 @@ static bool is_complete(struct reference *run, const double *y)
     const struct scene *scene = &run->march.scene;
     reference_system_unpack(&run->system, y, &run->system.motion);
     for (size_t c = 0; c < scene->contacts; c++) {
+        /* what vibration can bridge: sum |phi| sqrt(q^2 + v^2/omega^2) */
         double bound = 0.0;
         for (size_t g = 0; g < scene->groups; g++) {
             const struct scene_group *group = &scene->group[g];
@@ -139,6 +142,7 @@ static bool is_complete(struct reference *run, const double *y)
                          hypot(run->system.motion.q[g][k],
                                run->system.motion.v[g][k] / group->set->omega[k]);
         }
+        /* whether the rigid gap exceeds it from now on */
         double first;
         double last;
         flight_root_exceeds(run->system.motion.gap[c] - bound, run->system.motion.gap_rate[c],
@@ -167,9 +171,11 @@ static enum percuss_end_reason integrate(struct reference *run)
     int found[3 * PERCUSS_MAX_CONTACTS];
     double cost = PASSES * march->cost;
     for (unsigned long used = 0; used < march->most && pace_keeps(march->pace, cost); used++) {
+        /* one step, to a root at most */
         enum ode_event event = ode_step(run->ode, march->horizon, now, run->y, found);
         if (event == ODE_FAILED)
             return PERCUSS_END_LIMIT;
+        /* contacts and laws that change, from which the solver starts anew */
         if (event == ODE_ROOT) {
             handle_roots(run, *now, found);
             if (must_restart(run, found) && !ode_set(run->ode, *now, run->y))
@@ -177,6 +183,7 @@ static enum percuss_end_reason integrate(struct reference *run)
         }
         if (event == ODE_STEP)
             open_unreported(run, *now);
+        /* the end of the window, or no touch can follow */
         bool closed = march_in_contact(march);
         if (event == ODE_REACHED)
             return closed ? PERCUSS_END_IN_CONTACT : PERCUSS_END_HORIZON;
@@ -194,6 +201,7 @@ static enum percuss_end_reason solve(void *state, size_t contact)
     const struct scene *scene = &march->scene;
     struct motion *motion = &march->outcome->motion;
     (void)contact;
+    /* the system, its tolerances and its solver */
     reference_system_tolerate(&run->system, motion, SHARE_OF_ACCURACY * run->accuracy);
     reference_system_pack(&run->system, motion, run->y);
     run->ode = ode_create(&(struct ode_problem){
@@ -207,13 +215,14 @@ static enum percuss_end_reason solve(void *state, size_t contact)
     });
     if (!run->ode)
         return march_fail(march, PERCUSS_INTERNAL);
-    // contacts that touch at the start
+    /* contacts that touch at the start */
     for (size_t c = 0; c < scene->contacts; c++) {
         motion_approach(motion, scene, c, &run->system.approach[c], &run->system.rate[c]);
         double near = TOUCHING * impact_scale_of(scene, c, run->system.rate[c]).indentation;
         if (run->system.approach[c] >= -near && run->system.rate[c] > 0.0)
             open_contact(run, c, motion->time);
     }
+    /* from there on, in steps that miss no root */
     double fastest = scene_highest_frequency(scene);
     bool ready = ode_set(run->ode, motion->time, run->y) &&
                  (fastest == 0.0 || ode_set_longest_step(run->ode, LONGEST_ANGLE / fastest));
@@ -226,11 +235,12 @@ static void end_march(void *state)
     struct march *march = &run->march;
     if (!run->ode)
         return;
-    // contacts that are being loaded yield so far
+    /* contacts that are being loaded yield so far */
     reference_system_forces(&run->system, run->y);
     for (size_t c = 0; c < march->scene.contacts; c++)
         if (march->closed[c])
             yield(run, c);
+    /* the motion, and the books of contacts that are closed still */
     reference_system_unpack(&run->system, run->y, &march->outcome->motion);
     for (size_t c = 0; c < march->scene.contacts; c++) {
         if (!march->closed[c])
@@ -240,7 +250,7 @@ static void end_march(void *state)
         march->indentation[c] = run->system.indentation[c];
     }
     march->damping = run->y[3 * march->scene.contacts];
-    // what it took
+    /* what it took */
     unsigned long evaluations;
     ode_effort(run->ode, &evaluations, &march->outcome->steps);
     march->used = march->outcome->steps + evaluations;

@@ -29,9 +29,11 @@ bool reference_system_create(struct reference_system *system, const struct scene
 {
     size_t n = scene->contacts;
     *system = (struct reference_system){.scene = scene, .roots = 2};
+    /* laws that yield have a root function more */
     for (size_t c = 0; c < n; c++)
         if (scene->laws[c].operations->curve)
             system->roots = 3;
+    /* gaps, their rates, impulses, the loss, and the modes */
     system->size = 3 * n + 1 + 2 * oscillator_count(scene);
     system->approach = arena_take(arena, n, sizeof(double));
     system->rate = arena_take(arena, n, sizeof(double));
@@ -95,6 +97,7 @@ void reference_system_rates(double t, const double *y, double *rate, void *conte
     const struct scene *scene = system->scene;
     size_t n = scene->contacts;
     reference_system_forces(system, y);
+    /* gaps g'' = a + W F, impulses J' = F */
     for (size_t i = 0; i < n; i++) {
         rate[i] = y[n + i];
         rate[n + i] = scene->gap_acceleration[i];
@@ -102,6 +105,7 @@ void reference_system_rates(double t, const double *y, double *rate, void *conte
             rate[n + i] += scene->w[i * n + j] * system->force[j];
         rate[2 * n + i] = system->force[i];
     }
+    /* modes q'' = sum_c phi_c F_c - 2 zeta omega q' - omega^2 q, and what damping takes */
     double loss = 0.0;
     double *next = rate + 3 * n + 1;
     for (size_t g = 0; g < scene->groups; g++) {
@@ -144,6 +148,7 @@ void reference_system_tolerate(struct reference_system *system, const struct mot
 {
     const struct scene *scene = system->scene;
     size_t n = scene->contacts;
+    /* the energy at hand: of the approaches and of vibration */
     double energy = LEAST_ENERGY;
     for (size_t c = 0; c < n; c++) {
         double v = scene->gap_rate[c];
@@ -152,6 +157,7 @@ void reference_system_tolerate(struct reference_system *system, const struct mot
     for (size_t g = 0; g < scene->groups; g++)
         for (size_t b = 0; b < scene->bodies; b++)
             energy += motion_vibration(motion, scene, b) / (double)scene->groups;
+    /* a contact with all of it: force, gap, rate and impulse */
     for (size_t c = 0; c < n; c++) {
         double v = sqrt(2.0 * energy * scene->w[c * n + c]);
         struct impact_scale scale = impact_scale_of(scene, c, v);
@@ -161,6 +167,7 @@ void reference_system_tolerate(struct reference_system *system, const struct mot
         system->absolute[2 * n + c] = relative * v / scene->w[c * n + c];
     }
     system->absolute[3 * n] = relative * energy;
+    /* a mode with all of it */
     double *next = system->absolute + 3 * n + 1;
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];

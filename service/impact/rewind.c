@@ -47,6 +47,7 @@ static bool mirror_create(struct mirror *mirror, const struct scene *scene,
                           const struct motion *motion, size_t contact, struct arena *arena)
 {
     *mirror = (struct mirror){.acceleration = -scene->gap_acceleration[contact]};
+    /* this contact alone, its acceleration turned round */
     mirror->scene = (struct scene){.contacts = 1,
                                    .groups = scene->groups,
                                    .bodies = scene->bodies,
@@ -54,6 +55,7 @@ static bool mirror_create(struct mirror *mirror, const struct scene *scene,
     mirror->scene.group = arena_take(arena, scene->groups + 1, sizeof *mirror->scene.group);
     if (!mirror->scene.group)
         return false;
+    /* the modes, undamped */
     for (size_t g = 0; g < scene->groups; g++) {
         struct scene_group *group = &mirror->scene.group[g];
         *group = scene->group[g];
@@ -64,6 +66,7 @@ static bool mirror_create(struct mirror *mirror, const struct scene *scene,
     }
     if (!motion_create(&mirror->motion, &mirror->scene, arena))
         return false;
+    /* gap and coordinates turned round */
     mirror->motion.gap[0] = -motion->gap[contact];
     mirror->motion.gap_rate[0] = motion->gap_rate[contact];
     for (size_t g = 0; g < scene->groups; g++)
@@ -83,14 +86,17 @@ static enum rewind_end find_ringing(struct rewind *rewind, const struct scene *s
     if (!mirror_create(&mirror, scene, motion, contact, rewind->arena) ||
         !flight_create(&flight, &mirror.scene, rewind->arena))
         return REWIND_MEMORY;
+    /* forward to the touch */
     flight.pace = rewind->pace;
     flight.cost = step_cost(scene);
     enum flight_end end = flight_find(&flight, &mirror.scene, &mirror.motion, rewind->longest,
                                       rewind->intervals, time, &only);
+    /* what that took */
     rewind->intervals -=
         flight.intervals < rewind->intervals ? flight.intervals : rewind->intervals;
     if (end == FLIGHT_LIMIT || end == FLIGHT_MEMORY)
         return end == FLIGHT_LIMIT ? REWIND_LIMIT : REWIND_MEMORY;
+    /* the touch as an instant behind us */
     rewind->beyond = rewind->beyond || end == FLIGHT_TIMEOUT;
     *time = -*time;
     return end == FLIGHT_TOUCH ? REWIND_TOUCHED : REWIND_NEVER;
@@ -116,11 +122,13 @@ static enum rewind_end find_touch(const struct scene *scene, struct rewind *rewi
     size_t left_out = *at;
     *earliest = 0.0;
     for (size_t c = 0; c < scene->contacts; c++) {
+        /* contacts that overlap, but for the one that now touches */
         double d;
         double rate;
         motion_approach(motion, scene, c, &d, &rate);
         if (d <= allowed || c == left_out)
             continue;
+        /* each one's last touch, and the earliest of these */
         double back;
         enum rewind_end end = rewind_find(rewind, scene, motion, c, &back);
         if (end != REWIND_TOUCHED)

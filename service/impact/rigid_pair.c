@@ -58,6 +58,7 @@ static double compression_time(const struct contact_law *law, double largest, do
     double squares = 0.0;
     for (int p = 0; p < PANELS; p++) {
         for (int j = 0; j < NODES; j++) {
+            /* dd = d_max 2 sin(phi) cos(phi) dphi, at the speed v sqrt(1 - U(d)/E) */
             double phi = 0.5 * M_PI * (p + collocation.node[j]) / PANELS;
             double s = sin(phi);
             double left = 1.0 - law->operations->stored(law, largest * s * s) / energy;
@@ -81,10 +82,12 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
     double energy = 0.5 * speed * speed / w;
     double touch = scene->gap[0] / speed;
     double closed = 0.0;
+    /* bodies that part as fast as they met */
     impact_begin(outcome, scene);
     motion_start(&outcome->motion, scene);
     outcome->time_shift = touch;
     outcome->end_reason = PERCUSS_END_SEPARATED;
+    /* how deep, and for how long: rebound takes the time of compression */
     const struct contact_law *law = &scene->laws[0];
     double start = impact_scale_of(scene, 0, speed).indentation;
     double largest = largest_indentation(law, start, energy);
@@ -93,6 +96,7 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
     if (touch + 2.0 * half > settings->horizon)
         return impact_modal(scene, settings, arena, outcome);
 
+    /* the one sub-impact */
     outcome->tracks[0].viscosity = 2.0 * viscosity;
     track_open(&outcome->tracks[0], touch, -speed);
     struct sub_impact *open = &outcome->tracks[0].open;
@@ -101,6 +105,7 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
     open->impulse = 2.0 * speed / w;
     open->max_indentation = largest;
     track_close(&outcome->tracks[0], law, touch + 2.0 * half, speed);
+    /* and the motion at its end */
     outcome->motion.gap[0] = 0.0;
     outcome->motion.gap_rate[0] = speed;
     outcome->motion.time = outcome->window = touch + 2.0 * half;

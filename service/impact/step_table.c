@@ -71,6 +71,7 @@ int step_level(double h)
 /* One block: the table, then its arrays, each `stride` long and aligned. */
 static struct step_table *table_allocate(size_t stride, bool damped)
 {
+    /* zero throughout: the modes that only fill the last lanes never move */
     size_t arrays = 2 * NODES + 4 + 2 * NODES + NODES * NODES + (damped ? LOSS_TERMS : 0);
     size_t header = (sizeof(struct step_table) + 31) / 32 * 32;
     size_t bytes = header + arrays * stride * sizeof(double);
@@ -80,6 +81,7 @@ static struct step_table *table_allocate(size_t stride, bool damped)
     memset(block, 0, bytes);
     struct step_table *table = (struct step_table *)block;
     double *next = (double *)(block + header);
+    /* arrays in the order of the table */
     double **first[] = {table->node_q,          table->node_v,  &table->end_qq, &table->end_qv,
                         &table->end_vq,         &table->end_vv, table->force_q, table->force_v,
                         &table->response[0][0], table->loss};
@@ -96,6 +98,7 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
 {
     double to_q[NODES + 2];
     double to_v[NODES + 2];
+    /* at the nodes: of the motion before, and of forces there */
     for (int i = 0; i < NODES; i++) {
         oscillator_map(set->omega[k], set->damping, h, collocation.node[i], to_q, to_v);
         table->node_q[i][k] = to_q[0];
@@ -103,6 +106,7 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
         for (int j = 0; j < NODES; j++)
             table->response[i][j][k] = to_q[j + 2];
     }
+    /* at the end */
     oscillator_map(set->omega[k], set->damping, h, 1.0, to_q, to_v);
     table->end_qq[k] = to_q[0];
     table->end_qv[k] = to_q[1];
@@ -112,6 +116,7 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
         table->force_q[j][k] = to_q[j + 2];
         table->force_v[j][k] = to_v[j + 2];
     }
+    /* what damping takes */
     if (set->damping > 0.0) {
         double form[LOSS_INPUTS][LOSS_INPUTS];
         oscillator_loss_form(set->omega[k], set->damping, h, form);

@@ -39,11 +39,13 @@ static bool create(struct tracer *tracer, struct arena *arena)
 {
     struct trace *trace = tracer->trace;
     size_t n = tracer->scene->contacts;
+    /* room for instants: the fewer the more contacts */
     tracer->room = MOST_VALUES / n;
     if (tracer->room > MOST_INSTANTS)
         tracer->room = MOST_INSTANTS;
     if (tracer->room < LEAST_INSTANTS)
         tracer->room = LEAST_INSTANTS;
+    /* instants, and the tracer's own state */
     *trace = (struct trace){.contacts = n};
     trace->time = arena_take(arena, tracer->room, sizeof(double));
     trace->contact = arena_take(arena, n, sizeof *trace->contact);
@@ -55,6 +57,7 @@ static bool create(struct tracer *tracer, struct arena *arena)
         !tracer->none || !motion_create(&tracer->now, tracer->scene, arena) ||
         !motion_create(&tracer->next, tracer->scene, arena))
         return false;
+    /* histories of the contacts */
     for (size_t c = 0; c < n; c++) {
         struct trace_contact *contact = &trace->contact[c];
         double **arrays[] = {
@@ -102,9 +105,11 @@ static void move_of_side(const struct tracer *tracer, size_t c, int s, const dou
     const struct motion *now = &tracer->now;
     double sign = s == 0 ? 1.0 : -1.0;
     double fall = s == 0 ? scene->gap_acceleration[c] : 0.0;
+    /* a side that is unknown */
     *displacement = *velocity = NAN;
     if (!sides->w[s])
         return;
+    /* what the forces did to the rigid body, and do to the residual flexibility */
     double x = 0.0;
     double v = 0.0;
     for (size_t j = 0; j < scene->contacts; j++) {
@@ -112,6 +117,7 @@ static void move_of_side(const struct tracer *tracer, size_t c, int s, const dou
         x += w * tracer->travel[j] + sides->residual[s][c * scene->contacts + j] * force[j];
         v += w * tracer->impulse[j];
     }
+    /* the body's modes */
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         double part;
@@ -123,6 +129,7 @@ static void move_of_side(const struct tracer *tracer, size_t c, int s, const dou
         x += part;
         v += part_rate;
     }
+    /* on top of its free motion */
     double t = now->time;
     *displacement = t * (sides->velocity[s][c] + 0.5 * fall * t) + sign * x;
     *velocity = sides->velocity[s][c] + fall * t + sign * v;
@@ -135,6 +142,7 @@ static void sample(struct tracer *tracer, const double *force, const double *ind
     /* steps shorter than the time's rounding show nothing new */
     if (trace->count > 0 && !(tracer->now.time > trace->time[trace->count - 1]))
         return;
+    /* only every stride-th is kept */
     if (tracer->skip > 0) {
         tracer->skip--;
         return;
@@ -142,6 +150,7 @@ static void sample(struct tracer *tracer, const double *force, const double *ind
     if (trace->count == tracer->room)
         thin(tracer);
     tracer->skip = tracer->stride - 1;
+    /* forces, indentations and motion of each contact */
     size_t i = trace->count++;
     trace->time[i] = tracer->now.time;
     for (size_t c = 0; c < trace->contacts; c++) {
@@ -162,13 +171,14 @@ static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
 {
     const struct scene *scene = tracer->scene;
     double h = step_length(level);
+    /* the work it takes, and the tables of the level */
     tracer->left -= tracer->cost;
     if (tracer->left < 0.0 || !pace_keeps(tracer->pace, tracer->cost))
         return false;
     for (size_t g = 0; g < scene->groups; g++)
         if (oscillators_prepare(scene->group[g].set, level, tracer->pace) != PERCUSS_OK)
             return false;
-    // integrals of the forces
+    /* integrals of the forces */
     for (size_t c = 0; c < scene->contacts; c++) {
         double impulse = 0.0;
         double travel = 0.0;
@@ -179,6 +189,7 @@ static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
         tracer->travel[c] += h * tracer->impulse[c] + travel;
         tracer->impulse[c] += impulse;
     }
+    /* the motion at its end */
     motion_step(&tracer->next, &tracer->now, scene, level);
     motion_push(&tracer->next, scene, level, force);
     struct motion old = tracer->now;
@@ -197,6 +208,7 @@ static bool show_step(struct tracer *tracer, const struct force_step *logged)
     double end_force[PERCUSS_MAX_CONTACTS];
     double end_indentation[PERCUSS_MAX_CONTACTS];
     for (int p = 0; p < parts; p++) {
+        /* the cubics at the part's nodes and at its end */
         for (size_t c = 0; c < n; c++) {
             double end = (p + 1.0) / parts;
             for (int j = 0; j < NODES; j++)
@@ -205,6 +217,7 @@ static bool show_step(struct tracer *tracer, const struct force_step *logged)
             end_force[c] = collocation_value(logged->force[c], end);
             end_indentation[c] = collocation_value(logged->indentation[c], end);
         }
+        /* the motion under them */
         if (!step(tracer, logged->level + finer, force))
             return false;
         sample(tracer, end_force, end_indentation);
@@ -218,6 +231,7 @@ static bool show_flight(struct tracer *tracer, double end, double phase)
     double length = end - tracer->now.time;
     if (!(length > 0.0))
         return true;
+    /* instants by the length of the phase before, neither too few nor too many */
     double part = phase > 0.0 ? PHASE_SHARE * phase : length;
     part = fmax(length / MOST_FLIGHT, fmin(part, length / LEAST_FLIGHT));
     int level = step_level(part);
@@ -229,6 +243,7 @@ static bool show_flight(struct tracer *tracer, double end, double phase)
             return false;
         sample(tracer, tracer->none, tracer->none);
     }
+    /* what is left is shorter than a step */
     double left = end - tracer->now.time;
     for (size_t c = 0; c < tracer->scene->contacts; c++)
         tracer->travel[c] += left * tracer->impulse[c];
@@ -244,7 +259,7 @@ static bool follow(struct tracer *tracer, const struct force_log *log, double en
     double phase = 0.0;
     for (size_t i = 0; i < log->count && log->steps[i].start < end; i++) {
         const struct force_step *logged = &log->steps[i];
-        // what is shorter than a step is rounding, not a flight
+        /* what is shorter than a step is rounding, not a flight */
         if (logged->start - tracer->now.time > NO_FLIGHT * step_length(logged->level)) {
             if (!show_flight(tracer, logged->start, phase))
                 return false;
@@ -269,9 +284,11 @@ enum percuss_status trace_make(const struct trace_task *task, struct arena *aren
                             .left = task->max_work};
     if (!task->log->complete || !create(&tracer, arena))
         return PERCUSS_INTERNAL;
+    /* parts of a step, so that few of them are dropped */
     for (tracer.finer = FINER; tracer.finer > 0; tracer.finer--)
         if (task->log->count << tracer.finer <= DROPPED * tracer.room)
             break;
+    /* from the first instant to the end of the log */
     motion_start(&tracer.now, task->scene);
     if (task->shift < 0.0)
         motion_rewind(&tracer.now, task->scene, -task->shift);

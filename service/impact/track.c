@@ -76,6 +76,7 @@ static double peak_around(const double place[POINTS], const double value[POINTS]
 void track_step(struct track *track, double time, double h, const struct track_values *values)
 {
     struct sub_impact *open = &track->open;
+    /* the indentation at start, nodes and end */
     double place[POINTS] = {0.0};
     double value[POINTS] = {values->start + track->deepened};
     int largest = 0;
@@ -88,7 +89,7 @@ void track_step(struct track *track, double time, double h, const struct track_v
     for (int i = 1; i < POINTS; i++)
         if (value[i] > value[largest])
             largest = i;
-    // the largest indentation: where it still rises the end will do, as the next step looks closer
+    /* the largest indentation: where it still rises the end will do, the next step looks closer */
     if (largest == POINTS - 1 && value[largest] > open->max_indentation) {
         open->max_indentation = value[largest];
         open->compression_end = time + h;
@@ -102,7 +103,7 @@ void track_step(struct track *track, double time, double h, const struct track_v
             open->compression_impulse = open->impulse + h * collocation_integral(values->force, s);
         }
     }
-    // the impulse, and int K' F' dt and int F'^2 dt by the derivatives of the nodes' polynomials
+    /* the impulse, and int K' F' dt and int F'^2 dt by the derivatives of the nodes' polynomials */
     for (int j = 0; j < NODES; j++)
         open->impulse += h * collocation.weight[j] * values->force[j];
     double inertia = 0.0;

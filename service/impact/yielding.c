@@ -84,9 +84,11 @@ static void add_peak(struct path *path, const double nodes[NODES], double before
         double after = rate_at(nodes, path->place[i]);
         double step = path->place[i] - path->place[i - 1];
         if (before > 0.0 && after <= 0.0) {
+            /* where the line between the two rates is zero */
             path->turns = true;
             path->peak = path->place[i - 1] + step * before / (before - after);
             path->largest = collocation_value(nodes, path->peak);
+            /* as one more point */
             size_t rest = (size_t)(path->points - i);
             memmove(path->place + i + 1, path->place + i, rest * sizeof(double));
             memmove(path->value + i + 1, path->value + i, rest * sizeof(double));
@@ -180,16 +182,17 @@ static void expect(struct yielding *yielding, size_t contact, double h)
     double rise = fmax(0.0, path.rise);
     double dent = law->history.dent;
     double place;
+    /* what was expected on this step is looked for anew */
     if (yielding->event[contact].time < time + h)
         yielding->event[contact].kind = EVENT_NONE;
-    // reloading comes back to the virgin curve
+    /* reloading comes back to the virgin curve */
     double within = near_kink(yielding, duration);
     if (law->history.max_indentation > 0.0 && path.value[0] + rise * within < limit &&
         passes_on(&path, limit, &place))
         note(yielding, contact,
              (struct yielding_event){EVENT_PASSING, time + h * place, within, limit});
 
-    // the curve has a joint
+    /* the curve has a joint */
     within = near_peak(yielding, duration);
     double start = fmax(path.value[0] + rise * within + dent, law->history.max_indentation);
     double joint = law->operations->curve->joint(law, start) - dent;
@@ -197,7 +200,7 @@ static void expect(struct yielding *yielding, size_t contact, double h)
         note(yielding, contact,
              (struct yielding_event){EVENT_PASSING, time + h * place, within, joint});
 
-    // loading beyond the limit ends
+    /* loading beyond the limit ends */
     if (!path.turns || !exceeds(yielding, contact, path.largest))
         return;
     within = near_peak(yielding, fmin(duration, unloading_time(yielding, contact, &path, h)));
@@ -296,7 +299,7 @@ bool yielding_passes(struct yielding *yielding, double h, int *level)
     double end = yielding->outcome->motion.time + h;
     bool passes = false;
     bool yielded = false;
-    // the events on the step; one that is due already is taken where the step begins
+    /* the events on the step; one that is due already is taken where the step begins */
     for (size_t c = 0; c < yielding->scene->contacts; c++) {
         const struct yielding_event *event = &yielding->event[c];
         if (!yielding->scene->laws[c].operations->curve)
@@ -309,7 +312,7 @@ bool yielding_passes(struct yielding *yielding, double h, int *level)
         else
             passes = true;
     }
-    // the next step: with the new law, or up to the first event
+    /* the next step: with the new law, or up to the first event */
     if (yielded) {
         resume(yielding, level);
     } else if (passes) {
@@ -329,7 +332,7 @@ bool yielding_meet(struct yielding *yielding, double h, int *level)
         double left = event->time - yielding->outcome->motion.time;
         if (event->kind == EVENT_NONE)
             continue;
-        // what lies behind is of the step just made; ahead, maybe of one that was not made
+        /* what lies behind is of the step just made; ahead, maybe of one that was not made */
         bool seen = left <= 0.0;
         if (!is_due(yielding, c) && left <= FORESIGHT * h)
             correct(yielding, c);
