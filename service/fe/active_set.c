@@ -16,6 +16,7 @@ static bool solve_active(struct active_set *set, size_t active, double *constant
     size_t row = 0;
     for (int pass = 0; pass < 2; pass++) {
         double *right = pass ? slope : constant;
+        /* active rows and columns, anew for each solution, which overwrites them */
         row = 0;
         for (size_t i = 0; i < set->count; i++) {
             if (!set->active[i])
@@ -109,11 +110,13 @@ static size_t turn(struct active_set *set, bool cautiously)
 
 bool active_set_solve(struct active_set *set)
 {
+    /* an edge says which nodes touch */
     if (set->kind == ACTIVE_SET_BY_EDGE) {
         for (size_t i = 0; i < set->count; i++)
             set->active[i] = i <= set->edge;
         return evaluate(set);
     }
+    /* a total needs a node that bears it */
     if (set->kind == ACTIVE_SET_BY_TOTAL) {
         bool any = false;
         for (size_t i = 0; i < set->count; i++)

@@ -44,6 +44,7 @@ static double judge_bias(struct complete_convergence *convergence)
     convergence->order = NAN;
     if (convergence->meshes < 2)
         return INFINITY;
+    /* two meshes: their difference; three: its order too */
     double first = swing[1].mean - swing[0].mean;
     if (convergence->meshes == 2)
         return fabs(first);
@@ -132,11 +133,13 @@ static enum percuss_status solve_one(struct search *search, double phase,
 static enum percuss_status add_phases(struct search *search, unsigned count, struct fault *fault)
 {
     struct complete_swing *swing = &search->convergence->swing[search->convergence->meshes - 1];
+    /* the known ones in their places among so many */
     unsigned stride = swing->phases ? count / swing->phases : 0;
     for (unsigned k = swing->phases; k-- > 0;) {
         search->latest[k * stride] = search->latest[k];
         swing->restitution[k * stride] = swing->restitution[k];
     }
+    /* the others */
     for (unsigned k = 0; k < count; k++) {
         if (stride && k % stride == 0)
             continue;
@@ -146,6 +149,7 @@ static enum percuss_status add_phases(struct search *search, unsigned count, str
             return status;
         swing->restitution[k] = search->latest[k].restitution;
     }
+    /* what they say of the mean and of the limit */
     swing->phases = count;
     complete_swing_judge(swing);
     complete_converge_judge(search->convergence);
@@ -179,9 +183,11 @@ static enum percuss_status choose(struct search *search, struct fault *fault)
     const struct complete_swing *swing = &convergence->swing[convergence->meshes - 1];
     const double allowed = (1.0 + OFF_LIMIT) * convergence->error;
     struct complete_bracket bracket;
+    /* of the phases solved the nearest */
     convergence->result_error = INFINITY;
     for (unsigned k = 0; k < swing->phases; k++)
         answer_with(search, &search->latest[k], (double)k / swing->phases);
+    /* aims at the limit between the two phases around it */
     double phase = complete_swing_phase(swing, convergence->restitution, &bracket);
     for (int i = 0; i < AIMS && convergence->result_error > allowed && isfinite(phase); i++) {
         double turned = fmod(phase, 1.0);

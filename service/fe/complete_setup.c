@@ -49,6 +49,7 @@ static enum percuss_status check_body(const struct complete_body *body, const ch
 
 enum percuss_status complete_check(const struct complete_problem *problem, struct fault *fault)
 {
+    /* the bodies, one of them a sphere */
     enum percuss_status status = check_body(&problem->a, "a", fault);
     if (status == PERCUSS_OK)
         status = check_body(&problem->b, "b", fault);
@@ -57,6 +58,7 @@ enum percuss_status complete_check(const struct complete_problem *problem, struc
     if (problem->a.shape != COMPLETE_SPHERE && problem->b.shape != COMPLETE_SPHERE)
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "complete finite elements: one of the bodies must be a sphere");
+    /* numbers of the impact and of its solution */
     if (!(problem->speed > 0.0 && isfinite(problem->speed)))
         return fault_set(fault, PERCUSS_BAD_REQUEST, "speed: %g: must be > 0", problem->speed);
     if (problem->cells < 4 || problem->cells > 96)

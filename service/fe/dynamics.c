@@ -74,6 +74,7 @@ struct dynamics_energy dynamics_energy(const struct dynamics *dynamics, const do
 {
     struct dynamics_energy energy = {0};
     for (size_t b = 0; b < DYNAMICS_BODIES; b++) {
+        /* of the nodes: v is known half a step either side, and holds the root of their mass */
         for (size_t i = 0; i < dynamics->body[b].mesh->nodes; i++) {
             uint32_t node = dynamics->number[b][i];
             bool on_axis = dynamics->at[node][0] == 0.0;
@@ -82,10 +83,12 @@ struct dynamics_energy dynamics_energy(const struct dynamics *dynamics, const do
                 energy.kinetic[b] += 0.5 * v * v;
             }
         }
+        /* of vibration: less that of the mean motion */
         double mean =
             0.5 * (dynamics_mean(dynamics, b, dynamics->v) + dynamics_mean(dynamics, b, v_before));
         energy.vibration[b] = energy.kinetic[b] - 0.5 * dynamics->mass[b] * mean * mean;
     }
+    /* of strain, and what flow took */
     for (unsigned k = 0; k < dynamics->levels; k++)
         add_strain_energy(dynamics, &dynamics->level[k], &energy);
     return energy;

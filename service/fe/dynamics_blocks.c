@@ -28,6 +28,7 @@ static void put(const struct dynamics *dynamics, size_t element, struct elastic_
     double scale[QUAD_NODES];
     const struct material *material = &dynamics->body[dynamics_body_of(dynamics, element)].material;
     dynamics_quad(dynamics, element, &quad);
+    /* its nodes, by whose root of mass their displacements are divided */
     for (int a = 0; a < QUAD_NODES; a++) {
         uint32_t node = dynamics->quads[element][a];
         scale[a] = 1.0 / dynamics->root_mass[node];
@@ -36,6 +37,7 @@ static void put(const struct dynamics *dynamics, size_t element, struct elastic_
         else
             plastic->node[a][lane] = node;
     }
+    /* its stiffness, or its slopes and law */
     if (elastic)
         elastic_block_put(elastic, lane, &quad, material, scale);
     else

@@ -72,6 +72,7 @@ static enum percuss_status measure(struct dynamics *dynamics, double safety, dou
 /* Lumped masses, scaled to the mass of the true body. */
 static void weigh(struct dynamics *dynamics)
 {
+    /* volumes of the elements, shared out to their nodes */
     for (size_t e = 0; e < dynamics->elements; e++) {
         struct quad quad;
         double share[QUAD_NODES];
@@ -80,6 +81,7 @@ static void weigh(struct dynamics *dynamics)
         for (int a = 0; a < QUAD_NODES; a++)
             dynamics->root_mass[dynamics->quads[e][a]] += share[a];
     }
+    /* with the density that makes each body as heavy as it is */
     for (size_t b = 0; b < DYNAMICS_BODIES; b++) {
         const struct dynamics_body *body = &dynamics->body[b];
         double volume = 0.0;

@@ -59,6 +59,7 @@ static void refine_contact(struct dynamics *dynamics, uint8_t *node_level)
 void dynamics_levels_assign(struct dynamics *dynamics, const double *longest, uint8_t *node_level,
                             uint8_t *scratch)
 {
+    /* an element of level k takes steps of 2^k times the shortest */
     double shortest = INFINITY;
     for (size_t e = 0; e < dynamics->elements; e++)
         shortest = fmin(shortest, longest[e]);
@@ -70,10 +71,13 @@ void dynamics_levels_assign(struct dynamics *dynamics, const double *longest, ui
         dynamics->element_level[e] =
             (uint8_t)(level < DYNAMICS_LEVELS - 1 ? level : DYNAMICS_LEVELS - 1);
     }
+    /* the contact takes the shortest, and levels rise one by one from there */
     refine_contact(dynamics, node_level);
     while (limit_jumps(dynamics, scratch, node_level))
         ;
+    /* a node is moved with the finest of its elements */
     finest_around(dynamics, dynamics->element_level, node_level);
+    /* how many levels there are */
     for (size_t e = 0; e < dynamics->elements; e++)
         if (dynamics->element_level[e] >= dynamics->levels)
             dynamics->levels = dynamics->element_level[e] + 1u;

@@ -40,14 +40,17 @@ void elastic_block_move(struct elastic_block *to, size_t to_lane, struct elastic
 void plastic_block_put(struct plastic_block *block, size_t lane, const struct quad *quad,
                        const struct material *material, const double scale[QUAD_NODES])
 {
+    /* its law */
     struct plastic_law law = plastic_law_make(material);
     block->shear[lane] = law.shear;
     block->yield[lane] = law.yield;
     block->hardening[lane] = law.hardening;
+    /* the mean change of volume by its displacements */
     double dilatation[QUAD_FREEDOMS];
     quad_dilatation(quad, dilatation);
     for (int i = 0; i < QUAD_FREEDOMS; i++)
         block->mean[i][lane] = dilatation[i] * scale[i / 2];
+    /* at each point the slopes, of which the deviator is made */
     for (int p = 0; p < QUAD_POINTS; p++) {
         double slope[QUAD_NODES][3];
         quad_slopes(quad, p, slope);
@@ -102,12 +105,14 @@ void plastic_block_energy(const struct plastic_block *block, const double *y, do
     for (int lane = 0; lane < FE_LANES; lane++) {
         if (block->element[lane] == UINT32_MAX)
             continue;
+        /* displacements, and the change of volume */
         double u[QUAD_FREEDOMS];
         double dilatation = 0.0;
         for (int i = 0; i < QUAD_FREEDOMS; i++) {
             u[i] = y[2 * block->node[i / 2][lane] + i % 2];
             dilatation += block->mean[i][lane] * u[i];
         }
+        /* what pressure stores, then at each point what shear stores and flow takes */
         *stored += 0.5 * block->bulk_volume[lane] * dilatation * dilatation;
         for (int p = 0; p < QUAD_POINTS; p++) {
             double weight = block->weight[p][lane];

@@ -83,11 +83,13 @@ INLINE void flow(struct plastic_block *block, int p, lanes s[4])
 {
     lanes g = AT(block->shear);
     lanes path = AT(block->accumulated[p]);
+    /* q^2 = 3/2 s:s, at most the yield stress' square */
     lanes limit = AT(block->yield) + AT(block->hardening) * path;
     lanes square = 1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * s[3] * s[3]);
     mask beyond = square > limit * limit;
     if (!(beyond[0] | beyond[1] | beyond[2] | beyond[3]))
         return;
+    /* beyond it 3 G slip + H slip = q - limit (Simo and Hughes, box 3.2) */
     lanes q = {sqrt(square[0]), sqrt(square[1]), sqrt(square[2]), sqrt(square[3])};
     lanes slip = ONLY(beyond, (q - limit) / (3.0 * g + AT(block->hardening)));
     /* plastic strain over the deviator of the trial stress */

@@ -146,6 +146,8 @@ static void add_point(const struct place *p, double lambda, double mu,
                       double stiffness[LOCAL][LOCAL])
 {
     for (size_t a = 0; a < SIDE * SIDE; a++) {
+        /* u_r = N strains by rr = N,r, tt = N/r and gamma = N,z, div u = N,r + N/r; u_z = N by
+         * zz = div u = N,z and gamma = N,r */
         double hoop = p->value[a] / p->r;
         double div_r = p->slope_r[a] + hoop;
         for (size_t b = 0; b <= a; b++) {
@@ -252,6 +254,7 @@ static double mean_half_space(const struct cylinder *cylinder)
     for (size_t i = 0; i < PIECES * GAUSS; i++) {
         double place = ((double)(i / GAUSS) + 0.5 + 0.5 * b->point[i % GAUSS]) / PIECES;
         double weight = 0.5 * M_PI * b->weight[i % GAUSS] / PIECES;
+        /* int u_z dV = pi int g(angle) sin(angle) reach^2 d angle, first over the far face */
         double low = log(tan(0.5 * corner));
         double angle = place * corner;
         double u[2];

@@ -346,6 +346,7 @@ enum percuss_status mesh_half_space(double extent, const struct mesh_grade *grad
     enum percuss_status status = check_grade(grade, extent, fault);
     if (status != PERCUSS_OK)
         return status;
+    /* rings along the surface, as far as the mesh reaches */
     struct growing growing = {.mesh = mesh, .grade = grade};
     struct outline circle = {OUTLINE_CIRCLE, extent, extent, 0.5 * M_PI};
     double *positions;
@@ -353,6 +354,7 @@ enum percuss_status mesh_half_space(double extent, const struct mesh_grade *grad
     status = rings ? mesh_room(mesh, grade->core, rings, 0, false, fault)
                    : misfit(fault, grade, extent, positions);
     if (status == PERCUSS_OK) {
+        /* grown as quarter circles, the last of which is far */
         grow_core(&growing, INFINITY);
         grow_rings(&growing, INFINITY, &circle, positions, rings);
         for (size_t i = 0; i <= 2 * grade->core; i++)

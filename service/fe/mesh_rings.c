@@ -81,6 +81,7 @@ size_t mesh_rows(double length, double first, const struct mesh_grade *grade, do
     *heights = list;
     if (!list)
         return 0;
+    /* each higher than the one before, up to the coarsest, until they reach the end */
     double coarse = fmax(grade->coarse, first);
     double sum = 0.0;
     size_t rows = 0;
@@ -91,6 +92,7 @@ size_t mesh_rows(double length, double first, const struct mesh_grade *grade, do
         list[rows] = height;
         sum += height;
     }
+    /* all lowered alike, so that they end there */
     for (size_t i = 0; i < rows; i++)
         list[i] *= length / sum;
     return rows;

@@ -84,6 +84,7 @@ bool plasticity_return(const struct plastic_law *law, const struct plastic_state
         stress[i] = scale * trial[i] + (i < 3 ? pressure : 0.0);
     }
     after->accumulated += increment;
+    /* the tangent that is consistent with it */
     if (tangent) {
         double slope = 2.0 * law->shear / (1.0 + law->hardening / (3.0 * law->shear));
         double rank = slope - 2.0 * law->shear * (1.0 - scale);

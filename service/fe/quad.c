@@ -14,6 +14,7 @@ static double shapes(const double r[4], const double z[4], const double at[2], d
 {
     double ds[4], dt[4];
     double rs = 0.0, rt = 0.0, zs = 0.0, zt = 0.0;
+    /* bilinear on the square, and the slopes of the map from it to r and z */
     for (int i = 0; i < 4; i++) {
         double a = 1.0 + corner[i][0] * at[0];
         double b = 1.0 + corner[i][1] * at[1];
@@ -25,6 +26,7 @@ static double shapes(const double r[4], const double z[4], const double at[2], d
         zs += ds[i] * z[i];
         zt += dt[i] * z[i];
     }
+    /* their slopes in r and z, by the map's inverse */
     double jacobian = rs * zt - rt * zs;
     for (int i = 0; i < 4; i++) {
         slope[i][0] = (zt * ds[i] - zs * dt[i]) / jacobian;

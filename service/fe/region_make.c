@@ -136,6 +136,7 @@ enum percuss_status region_create(const struct region_input *input, struct regio
     enum percuss_status status = check_input(input, fault);
     if (status != PERCUSS_OK)
         return status;
+    /* all of it, or nothing */
     struct region *made = calloc(1, sizeof *made);
     if (!made)
         return fault_set(fault, PERCUSS_INTERNAL, "contact region: no memory");

@@ -37,6 +37,7 @@ double solid_elastic_energy(const struct solid *solid)
         double local[QUAD_FREEDOMS];
         solid_gather(solid, e, local);
         for (int p = 0; p < QUAD_POINTS; p++) {
+            /* half of the elastic strain times its stress */
             double strain[STRESS_COMPONENTS];
             double density = 0.0;
             quad_strain(&solid->quads[e], p, local, strain);

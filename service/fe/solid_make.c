@@ -46,6 +46,7 @@ void solid_assemble(const struct solid *solid, size_t element, const double *loc
             size_t b = nodes[k / 2];
             if (b >= solid->free_nodes)
                 continue;
+            /* lower triangle from `first` on; a fixed freedom keeps its diagonal alone */
             size_t row = freedom(solid, a) + i % 2;
             size_t column = freedom(solid, b) + k % 2;
             bool fixed = is_fixed(solid, a, i % 2) || is_fixed(solid, b, k % 2);
