@@ -41,11 +41,13 @@ static bool set_initial(const struct addition *add, struct scene_group *group,
 {
     if (!add->state || add->state->count[add->family] == 0)
         return true;
+    /* room, at rest where the state has no such mode */
     const double *pairs = body_state_family(add->state, add->family);
     double *q = arena_take(add->problem->arena, group->stride, sizeof *q);
     double *v = arena_take(add->problem->arena, group->stride, sizeof *v);
     if (!q || !v)
         return false;
+    /* free vibration from the state until now */
     for (size_t k = 0; k < group->count; k++) {
         size_t mode = source->mode[k];
         if (mode >= add->state->count[add->family])
@@ -83,7 +85,7 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
     struct assembly *assembly = add->assembly;
     size_t n = add->problem->contact_count;
     struct scene_group *group = &assembly->groups[assembly->scene.groups];
-    // as many modes of it as take part
+    /* as many modes of it as take part */
     *group = (struct scene_group){.set = source->set, .body = add->body};
     while (group->count < source->set->count && source->mode[group->count] < add->count)
         group->count++;
@@ -91,7 +93,7 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
     group->participation = arena_take(add->problem->arena, n, sizeof *group->participation);
     if (!group->participation)
         return false;
-    // a row for every contact that excites one of them
+    /* a row for every contact that excites one of them */
     double scale = participation_scale(add->problem->bodies[add->body]);
     *added = false;
     for (size_t c = 0; c < n && group->count; c++) {
@@ -132,12 +134,16 @@ static void add_omitted(const struct addition *add, size_t first)
         const struct family_load *load = problem_load(add->problem, i, add->body, add->family);
         if (!load)
             continue;
+        /* static compliance that no group holds; rounding may leave it below zero */
         double left = modal_compliance(body, add->family, load, load);
         for (size_t g = first; g < assembly->scene.groups; g++)
             left -= held_compliance(&assembly->groups[g], i, i);
         left = fmax(left, 0.0);
+        /* the sums of struct omitted as integrals, shapes alike and frequencies evenly spaced:
+         * phi^2/omega^2 adds up to left, 2 damping phi^2/omega^3 to damping left/omega */
         assembly->omitted[i].inertia += left / (stand_in * stand_in);
         assembly->omitted[i].viscosity += body->damping * left / omega;
+        /* kept for assemble_remainder */
         assembly->parts[assembly->part_count++] =
             (struct omitted_part){add->body, i, add->family, add->count, left};
     }
@@ -151,7 +157,7 @@ static bool add_family(const struct addition *add, double *residual)
     const struct body *body = problem->bodies[add->body];
     size_t n = problem->contact_count;
     size_t first_group = assembly->scene.groups;
-    // all of its static compliance
+    /* all of its static compliance */
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++) {
             const struct family_load *a = problem_load(problem, i, add->body, add->family);
@@ -160,7 +166,7 @@ static bool add_family(const struct addition *add, double *residual)
                 residual[i * n + j] += modal_compliance(body, add->family, a, b);
         }
     }
-    // less what its modes hold
+    /* less what its modes hold */
     for (size_t g = 0; g < add->prepared->group_count; g++) {
         bool added;
         if (!add_group(add, &add->prepared->groups[g], &added))
@@ -178,6 +184,7 @@ static bool add_family(const struct addition *add, double *residual)
         assembly->all_modes += group->count;
         assembly->highest = fmax(assembly->highest, group->set->omega[group->count - 1]);
     }
+    /* what none of them holds does not follow a force at once */
     add_omitted(add, first_group);
     return true;
 }
@@ -185,6 +192,7 @@ static bool add_family(const struct addition *add, double *residual)
 static bool fill_scene(struct assembly *assembly, const struct problem *problem)
 {
     size_t n = problem->contact_count;
+    /* gaps, wider by the depth of dents */
     double *gap = arena_take(problem->arena, n, sizeof *gap);
     double *acceleration = arena_take(problem->arena, n, sizeof *acceleration);
     if (!gap || !acceleration)
@@ -193,6 +201,7 @@ static bool fill_scene(struct assembly *assembly, const struct problem *problem)
         gap[c] = problem->request->contacts[c].gap + problem->contact_model.depth[c];
         acceleration[c] = problem->request->contacts[c].gap_acceleration;
     }
+    /* all else is the problem's */
     assembly->scene.contacts = n;
     assembly->scene.bodies = problem->body_count;
     assembly->scene.w = problem->w;
@@ -240,12 +249,12 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
     double *residual = arena_take(problem->arena, n * n, sizeof *residual);
     if (!residual || !create(assembly, problem) || !fill_scene(assembly, problem))
         return false;
-    // what is in series with the laws
+    /* what is in series with the laws */
     for (size_t c = 0; problem->compliance.series && c < n; c++)
         residual[c * n + c] = problem->compliance.series[c];
     assembly->scene.residual = residual;
     const struct scene rigid = assembly->scene;
-    // every loaded family of every body that vibrates
+    /* every loaded family of every body that vibrates */
     for (size_t b = 0; b < problem->body_count; b++) {
         const struct body *body = problem->bodies[b];
         for (size_t f = 0; f < body->kind->family_count; f++) {
@@ -267,6 +276,7 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
                 return false;
         }
     }
+    /* and the waves that leave through half-spaces */
     return radiation_add(problem, assembly, residual);
 }
 
@@ -289,11 +299,11 @@ bool assemble_remainder(const struct assembly *assembly, const struct problem *p
     double *residual = arena_take(problem->arena, n * n, sizeof *residual);
     if (!scene->group || !residual)
         return false;
-    // the scene as it is
+    /* the scene as it is */
     memcpy(scene->group, assembly->groups, scene->groups * sizeof *scene->group);
     memcpy(residual, assembly->scene.residual, n * n * sizeof *residual);
     scene->residual = residual;
-    // one oscillator more for each part, in the place of its compliance
+    /* one oscillator more for each part, in the place of its compliance */
     for (size_t p = 0; p < assembly->part_count; p++) {
         const struct omitted_part *part = &assembly->parts[p];
         struct scene_group *group = &scene->group[scene->groups++];

@@ -37,6 +37,7 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
     };
     if (!impact_create(&attempt->outcome, scene, context->arena))
         return PERCUSS_INTERNAL;
+    /* the method asked for, or the closed form where that is exact */
     enum percuss_status status;
     if (context->problem->request->options.method == PERCUSS_METHOD_CVODE)
         status = impact_cvode(scene, &settings, context->arena, &attempt->outcome);
@@ -44,6 +45,7 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
         status = impact_rigid_pair(scene, &settings, context->arena, &attempt->outcome);
     else
         status = impact_modal(scene, &settings, context->arena, &attempt->outcome);
+    /* what it took is no longer there for the others */
     context->work -= impact_work(scene, &attempt->outcome);
     return status;
 }

@@ -24,7 +24,7 @@ static enum percuss_status check_options(const struct solve_request *request, st
 {
     const struct solve_options *options = &request->options;
     const struct solve_contact *contact = &request->contacts[0];
-    // two free bodies with one contact, left alone
+    /* two free bodies with one contact, left alone */
     if (request->contact_count != 1 || request->body_count != 2)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.contact_model: complete-fe: %zu bodies and %zu contacts: it "
@@ -37,7 +37,7 @@ static enum percuss_status check_options(const struct solve_request *request, st
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "contacts[0].gap_acceleration: %g: must be 0 for complete-fe",
                          contact->gap_acceleration);
-    // no choice of method or model that it has not
+    /* no choice of method or model that it has not */
     if (options->method != PERCUSS_METHOD_MODAL)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.method: %s: complete-fe has a method of its own: leave it out",
@@ -71,21 +71,21 @@ static enum percuss_status check_side(const struct problem *problem, int which, 
     struct solid solid = body_solid(body);
     double axis[3];
     double off[3];
-    // the impact along the axis
+    /* the impact along the axis */
     find_axis(&solid, side->direction, axis);
     if (!(fabs(dot3(axis, side->direction)) >= 1.0 - 0.5 * ALONG * ALONG))
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "contacts[0].normal: complete-fe: must lie along the axis of %s (%c): hit "
                          "in the middle of an end face",
                          body->id, "xyz"[solid.axis]);
-    // and through the centre of mass
+    /* and through the centre of mass */
     cross3(side->site.point, side->direction, off);
     if (!(norm3(off) <= ALONG * solid.across))
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "contacts[0].point: complete-fe: the normal passes %g m beside the centre "
                          "of mass of %s: must be at most %g m",
                          norm3(off), body->id, ALONG * solid.across);
-    // no turning across it
+    /* no turning across it */
     double spin[3];
     rotate_back3(problem->poses[side->body].rotation, stated->angular_velocity, spin);
     cross3(spin, axis, off);
@@ -95,7 +95,7 @@ static enum percuss_status check_side(const struct problem *problem, int which, 
                          "bodies[%zu].angular_velocity: complete-fe: %g rad/s across the axis of "
                          "%s: must be 0",
                          side->body, norm3(off), body->id);
-    // from rest and without dents
+    /* from rest and without dents */
     if (stated->state)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "bodies[%zu].state: complete-fe starts from bodies at rest and without "
@@ -148,7 +148,7 @@ static void fill_contact(const struct problem *problem, const struct complete_re
         from->sub_impacts < COMPLETE_SUB_IMPACTS ? from->sub_impacts : COMPLETE_SUB_IMPACTS;
     struct sub_impact *list = arena_take(problem->arena, listed, sizeof *list);
     struct solve_contact_result *contact = &result->contacts[0];
-    // the sub-impacts, from the stated instant on
+    /* the sub-impacts, from the stated instant on */
     for (size_t i = 0; list && i < listed; i++) {
         const struct complete_sub_impact *one = &from->sub_impact[i];
         list[i] = (struct sub_impact){
@@ -165,7 +165,7 @@ static void fill_contact(const struct problem *problem, const struct complete_re
         };
         rate = list[i].gap_rate_after;
     }
-    // and the contact as a whole
+    /* and the contact as a whole */
     *contact = (struct solve_contact_result){
         .impulse = from->impulse,
         .impulse_compression = problem->impulse_compression[0],
@@ -206,10 +206,12 @@ static void fill_model(const struct complete_convergence *convergence,
     const struct complete_swing *finest = &convergence->swing[convergence->meshes - 1];
     const struct body *bodies[2] = {problem->bodies[0], problem->bodies[1]};
     const struct complete_energy *energy = &from->energy;
+    /* what was used */
     result->contact_model = PERCUSS_CONTACT_COMPLETE_FE;
     result->compliance = PERCUSS_COMPLIANCE_MATCHED;
     result->method = PERCUSS_METHOD_MODAL;
     result->delassus_source = PERCUSS_DELASSUS_SERVICE;
+    /* how fine, and how far from the limit */
     snprintf(
         result->reason, sizeof result->reason,
         "complete finite elements, explicit dynamics, no modes: %u elements across the "
@@ -241,6 +243,7 @@ static double step_error(const struct complete_result *from)
 static void fill_end(const struct complete_result *from, double error, double tolerance,
                      struct solve_result *result)
 {
+    /* how it ended */
     result->end_reason = from->end;
     result->complete = from->end == PERCUSS_END_SEPARATED;
     result->status = result->complete ? PERCUSS_OK : PERCUSS_TRUNCATED;
@@ -248,6 +251,7 @@ static void fill_end(const struct complete_result *from, double error, double to
         fault_set(&result->fault, result->status,
                   "the horizon was reached before vibration could cause no further contact: the "
                   "restitution is not final");
+    /* errors: of the mesh, told as the modes', and of the steps */
     result->restitution_modes = error;
     result->impulse_modes = error * result->contacts[0].impulse_compression;
     result->restitution_time = step_error(from);
@@ -258,6 +262,7 @@ static void fill_end(const struct complete_result *from, double error, double to
                     "error.tolerance_met: false: the estimated error of the restitution is %.2g on "
                     "the finest mesh allowed",
                     error + result->restitution_time);
+    /* what is not answered */
     report_warn(result, "states_after: none: complete-fe keeps neither vibration nor dents");
 }
 
@@ -268,15 +273,18 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
     struct complete_convergence *convergence = arena_take(problem->arena, 1, sizeof *convergence);
     if (!convergence)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
+    /* the impact, on finer meshes until they agree */
     enum percuss_status status = make_complete(problem, &complete, &result->fault);
     if (status == PERCUSS_OK)
         status = complete_converge(&complete, problem->tolerance, convergence, &result->fault);
     if (status)
         return status;
+    /* the answer of the finest */
     fill_contact(problem, &convergence->result, result);
     fill_bodies(problem, &convergence->result, result);
     fill_model(convergence, problem, result);
     fill_end(&convergence->result, convergence->result_error, problem->tolerance, result);
+    /* where small strains end */
     struct warnings warnings = {0};
     validity_find_speed(problem, &warnings);
     report_warnings(&warnings, result);

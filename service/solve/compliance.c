@@ -78,7 +78,7 @@ static void find_matched(struct problem *problem, bool asked)
 {
     struct compliance *compliance = &problem->compliance;
     compliance->used = PERCUSS_COMPLIANCE_MATCHED;
-    // of every contact, or of none
+    /* of every contact, or of none */
     for (size_t c = 0; c < problem->contact_count; c++) {
         if (!asked && !any_flexible(problem, c)) {
             use_half_space(problem, "");
@@ -131,13 +131,16 @@ static double largest_stiffness(const struct problem *problem, const struct impa
 bool compliance_revise(struct problem *problem, const struct scene *scene,
                        const struct impact_outcome *outcome)
 {
+    /* nothing else is ever taken back */
     bool radiates = radiation_is_in(problem, scene);
     if (problem->compliance.used != PERCUSS_COMPLIANCE_MATCHED && !radiates)
         return false;
+    /* waves that contacts share may take all of the effort */
     if (outcome->end_reason == PERCUSS_END_LIMIT && radiation_is_shared(problem, scene)) {
         problem->compliance.still = true;
         return true;
     }
+    /* too stiff a contact: without waves, and then without matched compliance */
     for (size_t c = 0; c < scene->contacts; c++) {
         if (!outcome->too_stiff && contact_bears(scene, c, largest_stiffness(problem, outcome, c)))
             continue;

@@ -28,6 +28,7 @@ static const double INDENTATION_LIMIT = 0.0199;
 static enum percuss_status check(const struct problem *problem, struct fault *fault)
 {
     const struct solve_options *options = &problem->request->options;
+    /* one contact, without a dent */
     if (problem->contact_count != 1)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.contact_model: concurrent-fe: %zu contacts: it answers one",
@@ -37,6 +38,7 @@ static enum percuss_status check(const struct problem *problem, struct fault *fa
             fault, PERCUSS_BAD_REQUEST,
             "bodies[].state: concurrent-fe: there is a dent at contacts[0]: its region "
             "starts without: options.dents must be ignore");
+    /* no choice that it has not */
     if (options->method != PERCUSS_METHOD_MODAL)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.method: %s: concurrent-fe is modal: leave it out",
@@ -60,6 +62,7 @@ struct refinement {
 static enum percuss_status solve_on(const struct refinement *refinement, size_t resolution,
                                     struct impact_outcome *outcome)
 {
+    /* a region that is deep enough for what is expected, and steps as fine as its mesh */
     const struct problem *problem = refinement->problem;
     struct concurrent_settings settings = refinement->settings;
     struct region_input input = {
@@ -70,12 +73,12 @@ static enum percuss_status solve_on(const struct refinement *refinement, size_t 
     input.indentation = fmax(refinement->expected,
                              fmin(ROOM * refinement->expected, INDENTATION_LIMIT * input.radius));
     settings.steps = STEPS * (unsigned)resolution;
-    // a fresh region, without dents
+    /* a fresh region, without dents */
     struct region *region;
     enum percuss_status status = region_create(&input, &region, refinement->fault);
     if (status != PERCUSS_OK)
         return status;
-    // the impact with it, and what that took
+    /* the impact with it, and what that took */
     status = impact_create(outcome, refinement->scene, refinement->problem->arena)
                  ? impact_concurrent(refinement->scene, region, &settings,
                                      refinement->problem->arena, outcome, refinement->fault)
@@ -121,8 +124,10 @@ enum percuss_status concurrent_refine(struct solution *solution, const struct pr
         .fault = fault,
     };
     *effort = (struct concurrent_effort){.extrapolated = NAN};
+    /* nothing to refine where they do not touch */
     if (solution->outcome.tracks[0].count == 0)
         return PERCUSS_OK;
+    /* finer regions until two agree */
     refinement.expected = outcome_deepest(&solution->outcome, 0);
     solution->tolerance_met = false;
     for (size_t i = 0; i < RESOLUTIONS && !solution->tolerance_met; i++) {
@@ -137,6 +142,7 @@ enum percuss_status concurrent_refine(struct solution *solution, const struct pr
             continue;
         nearby_add(&solution->nearby, problem, &coarse);
         estimate(solution, problem, &coarse);
+        /* Richardson, first order, twice as fine: the limit is as far again */
         effort->extrapolated = 2.0 * outcome_restitution(problem, &solution->outcome, 0) -
                                outcome_restitution(problem, &coarse, 0);
     }

@@ -45,13 +45,16 @@ static void find_dents(struct problem *problem, size_t c)
     struct contact_choice *choice = &model->choices[c];
     for (int which = 0; which < 2 && problem->request->options.dents == PERCUSS_DENTS_KEEP;
          which++) {
+        /* the dent there, if the state has one */
         const struct contact_side *side = &problem->sides[c][which];
         const struct body_state *state = problem->request->bodies[side->body].state;
         size_t i = state ? find_dent(state, side->site.point) : 0;
         if (!state || i == state->dents)
             continue;
+        /* by which the surface is lower */
         const struct dent *dent = &body_state_dents(state)[i];
         model->depth[c] += dent->history.dent;
+        /* and from which the law of the body that yields goes on */
         if (which != choice->side)
             continue;
         choice->dented = true;
@@ -69,6 +72,7 @@ static enum percuss_status find_table(struct problem *problem,
     const struct hertz_contact *hertz = &problem->hertz[c];
     const struct body *a = problem_body(problem, c, 0);
     const struct body *b = problem_body(problem, c, 1);
+    /* looked up, for the contact's curvature */
     struct contact_pair pair = {
         &a->material, &b->material, {hertz->curvature[0], hertz->curvature[1]}};
     const struct contact_curves *curves = tables ? tables->find(tables->context, &pair) : NULL;
@@ -97,6 +101,7 @@ static bool find_family(struct problem *problem, const struct contact_family *fa
                         bool used)
 {
     struct contact_choice *choice = &problem->contact_model.choices[c];
+    /* the curves at the place of these materials */
     const struct material *a = &problem_body(problem, c, 0)->material;
     const struct material *b = &problem_body(problem, c, 1)->material;
     struct contact_family_place place = contact_family_place(a, b);
@@ -104,10 +109,12 @@ static bool find_family(struct problem *problem, const struct contact_family *fa
     if (!curves)
         return false;
     struct contact_law law = contact_law_family(curves, &problem->hertz[c], a, b);
+    /* to compare with */
     if (!used) {
         choice->compared = law;
         return true;
     }
+    /* in use, with what makes it less certain */
     choice->plastic = law;
     choice->tabulated = choice->family = true;
     choice->outside = contact_family_outside(family, &place);
@@ -124,21 +131,22 @@ static enum percuss_status find_law(struct problem *problem,
     const struct body *a = problem_body(problem, c, 0);
     const struct body *b = problem_body(problem, c, 1);
     const struct contact_law_operations *asked = asked_of(problem);
-    // the law itself, or what stands for it
+    /* the law itself, or what stands for it */
     choice->side = closed_form_softer(&a->material, &b->material);
     choice->yield = closed_form_yield(hertz, &a->material, &b->material);
     choice->plastic = asked->make(hertz, &a->material, &b->material);
-    // a table of these materials in its place
+    /* a table of these materials in its place */
     bool may = asked->tables != CONTACT_TABLES_NONE;
     if (may && choice->side >= 0) {
         enum percuss_status status = find_table(problem, tables, c, fault);
         if (status)
             return status;
     }
-    // or the family: in use, or to compare with
+    /* or the family: in use, or to compare with */
     if (choice->side >= 0 && !choice->tabulated && tables && tables->family &&
         !find_family(problem, tables->family, c, may))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    /* from the dents that are there */
     find_dents(problem, c);
     return PERCUSS_OK;
 }
@@ -171,7 +179,7 @@ enum percuss_status contact_model_choose(struct problem *problem,
     model->choices = arena_take(problem->arena, n, sizeof *model->choices);
     if (!model->depth || !model->laws || !model->choices)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    // the laws of every contact, and whether they are likely to be needed
+    /* the laws of every contact, and whether they are likely to be needed */
     bool dented = false;
     bool likely = false;
     for (size_t c = 0; c < n; c++) {
@@ -181,7 +189,7 @@ enum percuss_status contact_model_choose(struct problem *problem,
         dented = dented || model->choices[c].dented;
         likely = likely || rigid_indentation(problem, c) > model->choices[c].yield;
     }
-    // in use from the beginning where asked for, dented or likely
+    /* in use from the beginning where asked for, dented or likely */
     model->decided = !asked_of(problem)->yields_if_needed || dented;
     use(problem, model->decided || likely);
     return PERCUSS_OK;
@@ -229,7 +237,7 @@ const struct contact_law_operations *contact_model_used(const struct problem *pr
     const struct contact_law_operations *used = laws[0].operations;
     for (size_t c = 1; c < problem->contact_count; c++) {
         const struct contact_law_operations *here = laws[c].operations;
-        // a law that yields counts for all, and of those one that approximates tables
+        /* a law that yields counts for all, and of those one that approximates tables */
         if (here->curve && (!used->curve || here->tables == CONTACT_TABLES_NONE))
             used = here;
     }
@@ -290,7 +298,7 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
     const struct contact_history *history = &outcome->laws[c].history;
     const struct contact_law_operations *used = contact_model_used(problem);
     bool tabulated = used->tables == CONTACT_TABLES_ONLY;
-    // which law, and how deep it went
+    /* which law, and how deep it went */
     append(text, size, "elastic-plastic contact by %s",
            tabulated && choice->family ? "the family of tables of the contact region"
                                        : used->title);
@@ -299,12 +307,12 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
                history->max_indentation / choice->yield, body->id, 1e6 * history->dent);
     else
         append(text, size, ", below yield");
-    // what it starts from and where it ends
+    /* what it starts from and where it ends */
     if (choice->dented)
         append(text, size, ", in the dent of earlier impacts");
     if (contact_model_beyond_table(outcome, c) > 0.0)
         append(text, size, "; the table ends before that and goes on as a fully plastic contact");
-    // what is approximated
+    /* what is approximated */
     if (!tabulated && asked_of(problem)->tables == CONTACT_TABLES_IF_ANY)
         append(text, size, "; no table for these bodies");
     if (problem->hertz[c].axis_ratio < HERTZ_CIRCULAR_RATIO && !used->elliptic)

@@ -150,11 +150,13 @@ static void find_parts(const struct problem *problem, const struct impact_outcom
     parts[0] = parts[1] = 0.0;
     if (!contact_model_yielded(problem, outcome, contact))
         return;
+    /* size and shape */
     const struct contact_side *side = &problem->sides[contact][choice->side];
     const struct material *soft = &problem->bodies[side->body]->material;
     double hardening = soft->tangent / soft->young;
     parts[0] = by_size(history->contact_radius / closed_form_radius(&problem->hertz[contact])) +
                by_roundness(problem, contact, history->contact_radius);
+    /* the law itself, by what it can be held against */
     if (choice->tabulated)
         parts[1] = by_table(choice, history->max_indentation);
     else if (!choice->compared.operations)

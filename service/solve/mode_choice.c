@@ -71,9 +71,11 @@ static bool suffices(const struct body *body, const struct modal_family *modes, 
 size_t mode_choice_count(const struct mode_choice *choice, const struct problem *problem,
                          const struct scene *scene, size_t body, size_t family)
 {
+    /* what the contacts ask of the family */
     struct demand demands[PERCUSS_MAX_CONTACTS];
     const struct body *owner = problem->bodies[body];
     size_t loads = find_demands(problem, scene, body, family, demands);
+    /* mode after mode, until the others do not matter */
     const struct modal_family *modes = NULL;
     for (size_t k = 0; k < choice->most; k++) {
         /* asked for in powers of two: outgrown families are remade */
@@ -87,6 +89,7 @@ size_t mode_choice_count(const struct mode_choice *choice, const struct problem 
         if (modes->omega[k] > choice->cut ||
             suffices(owner, modes, k, demands, loads, choice->allowed))
             return k;
+        /* compliance left to those */
         for (size_t i = 0; i < loads; i++) {
             double shape = modal_participation(owner, modes, k, demands[i].load);
             demands[i].left -= shape * shape / (modes->omega[k] * modes->omega[k]);

@@ -40,6 +40,7 @@ static struct outcome_difference slow_effect(const struct attempt_context *conte
     for (size_t c = 0; c < problem->contact_count; c++) {
         const struct track *track = &attempt->outcome.tracks[c];
         const struct omitted *omitted = &attempt->assembly->omitted[c];
+        /* impulse by the inertia, energy by the viscosity */
         double compression = problem->impulse_compression[c];
         double impulse = omitted->inertia * track->inertia;
         double lost = omitted->viscosity * track->viscosity; /* J */
@@ -126,7 +127,7 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
         .cut = INFINITY, .allowed = first_allowed(context), .most = MODE_SEARCH_MOST};
     *error = (struct mode_error){0};
     for (int raise = 0;; raise++) {
-        // the next attempt: more modes, or shorter steps
+        /* the next attempt: more modes, or shorter steps */
         struct attempt next = *best;
         if (raise > 0)
             improve(context, error, &next);
@@ -134,7 +135,7 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
         if (status)
             return status;
         best->choice = next.choice;
-        // solved where it is another one
+        /* solved where it is another one */
         if (raise == 0 || is_another(&next, best)) {
             status = attempt_run(context, &next, &next.assembly->scene);
             if (status)
@@ -150,7 +151,7 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
                 return PERCUSS_OK;
             status = estimate(context, best, error);
         }
-        // until it is good enough or cannot be better
+        /* until it is good enough or cannot be better */
         bool enough = error->covers_steps ||
                       error->restitution <= SEQUENCE_MODES_SHARE * context->problem->tolerance;
         if (status || (enough && !error->by_steps) || raise >= MAX_RAISES ||

@@ -72,7 +72,7 @@ double outcome_energy_defect(const struct problem *problem, const struct impact_
     for (size_t c = 0; c < problem->contact_count; c++)
         approach += 0.5 * problem->impulse_compression[c] * fabs(problem->gap_rate[c]);
     double lost = fabs(outcome->energy.closure);
-    // the slowest approach of all has no energy that doubles can hold
+    /* the slowest approach of all has no energy that doubles can hold */
     return lost == 0.0 ? 0.0 : lost / fmax(outcome->energy.available, approach);
 }
 
@@ -85,12 +85,14 @@ enum percuss_status outcome_refuse_overlap(const struct problem *problem,
                                            const struct impact_outcome *outcome, double horizon,
                                            struct fault *fault)
 {
+    /* the contact that overlaps most */
     const struct solve_contact *contacts = problem->request->contacts;
     bool group = problem->contact_count > 1;
     size_t deepest = 0;
     for (size_t c = 1; c < problem->contact_count; c++)
         if (contacts[c].gap < contacts[deepest].gap)
             deepest = c;
+    /* whether a longer horizon may help */
     char within[96] = "";
     if (outcome->beyond_horizon)
         snprintf(within, sizeof within, " within options.horizon (%g s) before: raise it", horizon);

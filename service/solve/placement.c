@@ -47,6 +47,7 @@ static enum percuss_status find_bodies(struct problem *problem, const struct bod
 {
     for (size_t i = 0; i < problem->body_count; i++) {
         const struct solve_body *body = &problem->request->bodies[i];
+        /* the catalogue's, or with parameters of the request's own */
         problem->bodies[i] = body_set_find(catalogue, body->id);
         if (!problem->bodies[i])
             return fault_set(fault, PERCUSS_UNKNOWN_BODY,
@@ -58,6 +59,7 @@ static enum percuss_status find_bodies(struct problem *problem, const struct bod
             status = vary(problem, i, fault);
         if (status)
             return status;
+        /* where it is */
         memcpy(problem->poses[i].position, body->position, sizeof body->position);
         rotation_matrix(body->orientation, problem->poses[i].rotation);
     }
@@ -77,6 +79,7 @@ static enum percuss_status place_side(struct problem *problem, const struct solv
     char field[32];
     scale3(which == 0 ? 1.0 : -1.0, contact->normal, push);
     scale3(-1.0, push, outward);
+    /* the point on the body, and how it loads the modes */
     snprintf(field, sizeof field, "contacts[%zu]", index);
     enum percuss_status status =
         site_locate(body, pose, contact->point, outward, allowed, field, &side->site, fault);
@@ -92,20 +95,20 @@ static enum percuss_status place_contact(struct problem *problem, size_t index, 
     const struct solve_contact *contact = &problem->request->contacts[index];
     const struct body *a = problem->bodies[contact->a];
     const struct body *b = problem->bodies[contact->b];
-    // a contact is a point: no two planes
+    /* a contact is a point: no two planes */
     double smallest = fmin(body_smallest_radius(a), body_smallest_radius(b));
     if (!isfinite(smallest))
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "contacts[%zu]: %s on %s: two planes do not touch in a point", index,
                          a->id, b->id);
-    // on both surfaces
+    /* on both surfaces */
     for (int which = 0; which < 2; which++) {
         enum percuss_status status =
             place_side(problem, contact, index, which, OFF_SURFACE * smallest, fault);
         if (status)
             return status;
     }
-    // with curvatures that make it an ellipse
+    /* with curvatures that make it an ellipse */
     double curvature[2];
     site_relative_curvature(&problem->sides[index][0].site, &problem->poses[contact->a],
                             &problem->sides[index][1].site, &problem->poses[contact->b],
@@ -155,12 +158,12 @@ static void find_service_w(struct problem *problem)
 static enum percuss_status choose_w(struct problem *problem, struct fault *fault)
 {
     size_t n = problem->contact_count;
-    // the simulator's own where it sends one
+    /* the simulator's own where it sends one */
     find_service_w(problem);
     problem->from_client = problem->request->delassus != NULL;
     memcpy(problem->w, problem->request->delassus ? problem->request->delassus : problem->service_w,
            n * n * sizeof *problem->w);
-    // every contact must be able to move
+    /* every contact must be able to move */
     for (size_t i = 0; i < n; i++) {
         if (problem->w[i * n + i] >= MIN_INVERSE_MASS &&
             problem->w[i * n + i] <= 1.0 / MIN_INVERSE_MASS)
@@ -177,7 +180,7 @@ static enum percuss_status choose_w(struct problem *problem, struct fault *fault
     }
     if (n == 1)
         return PERCUSS_OK;
-    // and the matrix be symmetric
+    /* and the matrix be symmetric */
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < i; j++) {
             double scale = sqrt(problem->w[i * (n + 1)]) * sqrt(problem->w[j * (n + 1)]);
@@ -188,7 +191,7 @@ static enum percuss_status choose_w(struct problem *problem, struct fault *fault
                                  "delassus[%zu] and [%zu]: %g and %g: the matrix must be symmetric",
                                  i * n + j, j * n + i, a, b);
         }
-    // and positive semidefinite
+    /* and positive semidefinite */
     double *scratch = arena_take(problem->arena, n * (2 * n + 1), sizeof *scratch);
     if (!scratch)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");

@@ -88,6 +88,7 @@ static struct prepared_family *family_create(const struct body *body, size_t whi
         family_free(family);
         return NULL;
     }
+    /* even shapes in one group, odd ones in another */
     bool any_odd = false;
     for (size_t k = 0; k < count; k++)
         any_odd = any_odd || family->modes->odd[k];
@@ -211,14 +212,17 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
     struct entry *entry = find_entry(cache, body);
     if (!entry)
         return NULL;
+    /* families that are alike share theirs */
     family = roll_common_family(body, family);
     struct prepared_family *known = entry->families[family];
     if (known && known->modes->count >= count)
         return known;
+    /* too few: anew, with some to spare */
     size_t rounded = (count + ROUNDING - 1) / ROUNDING * ROUNDING;
     struct prepared_family *made = family_create(body, family, rounded ? rounded : ROUNDING);
     if (!made)
         return NULL;
+    /* a scene may still point at the old ones */
     if (known) {
         known->next_retired = cache->retired;
         cache->retired = known;
@@ -230,6 +234,7 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
 struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
                                            size_t family, size_t first)
 {
+    /* the frequency follows from the first mode left out */
     const struct prepared_family *modes = prepared_family_get(cache, body, family, first + 1);
     struct entry *entry = modes ? find_entry(cache, body) : NULL;
     if (!entry)
@@ -237,6 +242,7 @@ struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const s
     for (struct remainder *known = entry->remainders[family]; known; known = known->next)
         if (known->first == first)
             return known->set;
+    /* made when first asked for */
     struct remainder *made = calloc(1, sizeof *made);
     if (!made)
         return NULL;
@@ -261,6 +267,7 @@ struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const s
     for (struct radiation *known = entry->radiation; known; known = known->next)
         if (known->step == step)
             return known->set;
+    /* made when first asked for */
     struct radiation *made = calloc(1, sizeof *made);
     if (!made)
         return NULL;

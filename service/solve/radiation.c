@@ -60,12 +60,15 @@ static struct collision collide(const struct problem *problem, const struct scen
     struct impact_scale scale = impact_scale_of(scene, contact, rate);
     double axes[2];
     double loading;
+    /* the approach, into yield if it goes so far */
     contact_law_force(&law, scale.indentation, &loading);
     if (scale.indentation > contact_law_limit(&law))
         contact_law_yield(&law, scale.indentation);
+    /* the rebound, from what springs back */
     double back = fmin(scale.indentation, contact_law_limit(&law));
     double unloading = back < scale.indentation ? contact_law_unloading(&law) : loading;
     double e = sqrt(back / scale.indentation);
+    /* int F'^2 dt of both */
     double squares =
         0.35 * rate * (loading * loading * scale.indentation + unloading * unloading * e * back);
     hertz_ellipse(&problem->hertz[contact], scale.force, axes);
@@ -178,13 +181,13 @@ static bool add_group(struct arena *arena, const struct radiator *radiator, stru
     size_t n = assembly->scene.contacts;
     double omega = set->omega[0];
     double scale = omega * sqrt(radiator->waves.lag * omega * M_SQRT1_2);
-    // one oscillator for all contacts
+    /* one oscillator for all contacts */
     struct scene_group *group = &assembly->groups[assembly->scene.groups];
     *group = (struct scene_group){.set = set, .body = radiator->body, .count = 1, .stride = LANES};
     group->participation = arena_take(arena, n, sizeof *group->participation);
     if (!group->participation)
         return false;
-    // excited by those that the column holds
+    /* excited by those that the column holds */
     for (size_t i = column; i < radiator->count; i++) {
         double part = factor[i * radiator->count + column];
         if (part == 0.0)
@@ -195,7 +198,7 @@ static bool add_group(struct arena *arena, const struct radiator *radiator, stru
         row[0] = scale * part;
         group->participation[radiator->contact[i]] = row;
     }
-    // and taken from the residual flexibility
+    /* and taken from the residual flexibility */
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++)
             if (group->participation[i] && group->participation[j])
@@ -233,13 +236,16 @@ static bool add_radiator(const struct problem *problem, const struct radiator *r
     double *factor = arena_take(problem->arena, n * n, sizeof *factor);
     if (!factor)
         return false;
+    /* how the contacts share the waves */
     factor_shares(problem, radiator, factor);
+    /* an oscillator of no more compliance than they bear together */
     for (size_t i = 0; i < n; i++)
         together = fmax(together, felt(problem, radiator, i));
     struct oscillators *set = prepared_radiation_get(
         problem->cache, problem->bodies[radiator->body], frequency_step(radiator, together));
     if (!set)
         return false;
+    /* a group of it for each column of the factor */
     for (size_t k = 0; k < n; k++)
         if (!add_group(problem->arena, radiator, set, factor, k, assembly, residual))
             return false;
@@ -256,14 +262,17 @@ bool radiation_add(const struct problem *problem, struct assembly *assembly, dou
     for (size_t b = 0; b < problem->body_count; b++) {
         if (!is_half_space(problem, b))
             continue;
+        /* what waves would take of the contacts on it */
         struct radiator radiator = find_radiator(problem, &scene, b);
         if (radiator.count == 0)
             continue;
+        /* oscillators where that matters */
         if (!problem->compliance.still && 0.5 * radiator.loss > negligible) {
             if (!add_radiator(problem, &radiator, assembly, residual))
                 return false;
             continue;
         }
+        /* omitted viscosity where it does not, or where contacts do not bear them */
         for (size_t i = 0; i < radiator.count; i++)
             assembly->omitted[radiator.contact[i]].viscosity +=
                 radiator.waves.lag * felt(problem, &radiator, i);

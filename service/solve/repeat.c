@@ -127,6 +127,7 @@ static enum percuss_status find(struct repeat *repeat, const struct solve_means 
                                 const struct solution_model *model, bool same_scene,
                                 struct fault *fault)
 {
+    /* the problem kept, or a new one */
     struct pace pace = {.watch = &means->watch};
     bool kept = same_scene && repeat->problem && repeat->lasting;
     arena_reset(&repeat->run_memory);
@@ -137,7 +138,7 @@ static enum percuss_status find(struct repeat *repeat, const struct solve_means 
                                &pace, fault);
     /* what this blow decided is not for the next one */
     repeat->lasting = repeat->lasting && !repeat->solution.revised;
-    // a solution that lacks something for want of memory is none, whatever it says
+    /* a solution that lacks something for want of memory is none, whatever it says */
     if (repeat->problem_memory.lacks || repeat->run_memory.lacks) {
         repeat->problem = NULL;
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");

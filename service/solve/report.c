@@ -64,7 +64,7 @@ void report_velocities(const struct problem *problem, struct solve_result *resul
     for (size_t b = 0; b < problem->body_count; b++) {
         double velocity[3] = {0.0, 0.0, 0.0};
         double angular[3] = {0.0, 0.0, 0.0};
-        // what the impulses change, body frame
+        /* what the impulses change, body frame */
         for (size_t c = 0; c < problem->contact_count; c++) {
             for (int which = 0; which < 2; which++) {
                 const struct contact_side *side = &problem->sides[c][which];
@@ -76,7 +76,7 @@ void report_velocities(const struct problem *problem, struct solve_result *resul
                                     angular);
             }
         }
-        // added to the velocities before, world
+        /* added to the velocities before, world */
         rotate3(problem->poses[b].rotation, velocity, result->bodies[b].velocity);
         rotate3(problem->poses[b].rotation, angular, result->bodies[b].angular_velocity);
         add_scaled3(1.0, problem->request->bodies[b].velocity, result->bodies[b].velocity);
@@ -103,6 +103,7 @@ static void fill_bodies(const struct problem *problem, const struct solution *so
         };
         memcpy(out->id, body->id, sizeof out->id);
     }
+    /* an articulated body moves as its simulator says */
     if (!problem->from_client)
         report_velocities(problem, result);
 }
@@ -131,7 +132,7 @@ static double largest_restitution(const struct solve_result *result)
 static void fill_model(const struct problem *problem, const struct solution *solution,
                        struct solve_result *result)
 {
-    // what was used
+    /* what was used */
     result->contact_model = contact_model_used(problem)->model;
     result->compliance = problem->compliance.used;
     result->method = problem->request->options.method;
@@ -139,7 +140,7 @@ static void fill_model(const struct problem *problem, const struct solution *sol
         problem->from_client ? PERCUSS_DELASSUS_CLIENT : PERCUSS_DELASSUS_SERVICE;
     const struct assembly *assembly = solution->assembly;
     double unmodelled = assembly->radiated_error + validity_wave_loss(problem);
-    // why, in words
+    /* why, in words */
     contact_model_explain(problem, &solution->outcome, result->reason, sizeof result->reason);
     size_t used = strlen(result->reason);
     if (assembly->all_modes)
@@ -158,7 +159,7 @@ static void fill_model(const struct problem *problem, const struct solution *sol
     if (problem->compliance.reason[0])
         snprintf(result->reason + used, sizeof result->reason - used, "; half-space: %s",
                  problem->compliance.reason);
-    // what it leaves out
+    /* what it leaves out */
     result->omitted_error =
         solution->modes.restitution + unmodelled +
         law_error_worst(problem, &solution->outcome) * largest_restitution(result);
@@ -178,14 +179,13 @@ static const char *reason_of_error(const struct problem *problem, const struct s
     bool sequence = problem->contact_count > 1 || solution->outcome.tracks[0].count > 1;
     bool modes = solution->modes.restitution > solution->steps.restitution;
     bool omitted = isfinite(assembly->lowest_omitted);
-    // what ended the search
+    /* what ended the search */
     if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
         return "the effort allowed is spent";
     if (!solution->steps.energy_closes)
         return "the shortest steps allowed do not keep the energy";
-    // what limits the modes
+    /* what limits the modes */
     if (modes && omitted && assembly->capped)
-        // or what amplifies
         return sequence ? "the most modes that are tried of a body are too few for what the "
                           "sequence of sub-impacts makes of the others"
                         : "the most modes that are tried of a body are too few";
@@ -195,6 +195,7 @@ static const char *reason_of_error(const struct problem *problem, const struct s
         return "waves that leave through half-spaces are left out: a contact is too stiff for "
                "them, or "
                "too many share them";
+    /* or what amplifies */
     return sequence ? "the sequence of sub-impacts amplifies small differences"
                     : "the search for more modes or shorter steps ended";
 }
@@ -234,6 +235,7 @@ static void warn_counts(const struct problem *problem, const struct solution *so
 static void fill_errors(const struct problem *problem, const struct solution *solution,
                         struct solve_result *result)
 {
+    /* errors, and what the speed does */
     result->restitution_time = solution->steps.restitution;
     result->restitution_modes = solution->modes.restitution;
     result->impulse_time = solution->steps.impulse;
@@ -245,6 +247,7 @@ static void fill_errors(const struct problem *problem, const struct solution *so
     result->energy = solution->outcome.energy;
     result->time_shift = solution->outcome.time_shift;
     result->window = solution->outcome.window;
+    /* why it is not met */
     if (!result->tolerance_met) {
         report_warn(
             result,
@@ -284,15 +287,18 @@ static bool is_finite(const struct solve_result *result)
 void report_fill(const struct problem *problem, const struct solution *solution,
                  struct solve_result *result)
 {
+    /* the answer */
     fill_contacts(problem, solution, result);
     fill_bodies(problem, solution, result);
     fill_errors(problem, solution, result);
     fill_model(problem, solution, result);
     warn_dents(result);
     fill_end(solution, result);
+    /* where the models end */
     struct warnings warnings;
     validity_find(problem, &solution->outcome, &warnings);
     report_warnings(&warnings, result);
+    /* numbers that are no answer */
     if (!outcome_keeps_energy(solution->steps.energy_defect))
         result->status =
             fault_set(&result->fault, PERCUSS_INTERNAL,

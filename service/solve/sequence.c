@@ -80,6 +80,7 @@ static enum percuss_status compare_again(struct attempt_context *context, struct
 static enum percuss_status tell_apart(struct attempt_context *context, struct attempt *best,
                                       const struct attempt *both, struct mode_error *error)
 {
+    /* the same model with longer steps */
     struct attempt *longer = arena_take(context->arena, 1, sizeof *longer);
     if (!longer)
         return PERCUSS_INTERNAL;
@@ -88,6 +89,7 @@ static enum percuss_status tell_apart(struct attempt_context *context, struct at
     enum percuss_status status = solve_beside(context, best, &best->assembly->scene, longer, error);
     if (status || error->unchecked)
         return status;
+    /* the steps' part of the difference, and the model's */
     double steps = SEQUENCE_FACTOR *
                    outcome_compare(context->problem, &best->outcome, &longer->outcome).restitution;
     widen(error, SEQUENCE_FACTOR,
@@ -110,14 +112,14 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
     bool first = context->nearby->solutions == 1;
     struct attempt both = *best;
     struct scene better;
-    // a better model with longer steps
+    /* a better model with longer steps */
     both.accuracy *= ATTEMPT_LONGER;
     if (!assemble_remainder(best->assembly, context->problem, &better))
         return PERCUSS_INTERNAL;
     enum percuss_status status = solve_beside(context, best, &better, &both, error);
     if (status || error->unchecked)
         return status;
-    // good where they agree, unless that may be chance
+    /* good where they agree, unless that may be chance */
     struct outcome_difference change =
         outcome_compare(context->problem, &best->outcome, &both.outcome);
     bool is_long =
@@ -128,7 +130,7 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
         first && !is_long && error->restitution <= BOTH_SHARE * context->problem->tolerance;
     if (error->covers_steps)
         return PERCUSS_OK;
-    // otherwise which of the two makes the difference
+    /* otherwise which of the two makes the difference */
     *error = slow;
     status = tell_apart(context, best, &both, error);
     if (status || error->unchecked || error->by_steps ||

@@ -23,11 +23,13 @@ static const double DERIVATIVE_ACCURACY = 1e-9;
 static enum percuss_status find_conditioning(struct attempt_context *context,
                                              const struct attempt *best, double *by_speed)
 {
+    /* the contact with the largest impulse */
     const struct track *tracks = best->outcome.tracks;
     size_t main_contact = 0;
     for (size_t c = 1; c < context->problem->contact_count; c++)
         if (tracks[c].impulse > tracks[main_contact].impulse)
             main_contact = c;
+    /* its restitution a little slower and a little faster */
     double restitution[2];
     for (int side = 0; side < 2; side++) {
         struct attempt shifted = *best;
@@ -38,6 +40,7 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
             return status;
         restitution[side] = outcome_restitution(context->problem, &shifted.outcome, main_contact);
     }
+    /* over the step in speed */
     *by_speed = (restitution[1] - restitution[0]) /
                 (2.0 * SPEED_STEP * fabs(context->problem->gap_rate[main_contact]));
     return PERCUSS_OK;
@@ -82,6 +85,7 @@ static void bound(double range, double compression, double *restitution, double 
 static void conclude(const struct attempt_context *context, const struct attempt *best,
                      struct solution *solution)
 {
+    /* the best attempt */
     solution->assembly = best->assembly;
     solution->scene = &best->assembly->scene;
     solution->outcome = best->outcome;
@@ -109,17 +113,17 @@ static enum percuss_status search(struct attempt_context *context, struct soluti
     const struct problem *problem = context->problem;
     memset(solution, 0, sizeof *solution);
     solution->restitution_by_speed = NAN;
-    // steps as the tolerance asks for to begin with, and as many modes
+    /* steps as the tolerance asks for to begin with, and as many modes */
     struct attempt best = {
         .accuracy = step_search_first_accuracy(
             problem->tolerance, mode_search_expects_sequence(problem), problem->contact_count > 1)};
     enum percuss_status status = mode_search(context, &best, &solution->modes);
     if (status)
         return status;
-    // as short steps, unless there is nothing to solve
+    /* as short steps, unless there is nothing to solve */
     if (!best.outcome.always_overlapped)
         status = step_search(context, &best, &solution->modes, &solution->steps);
-    // and what the speed does
+    /* and what the speed does */
     if (!status && !best.outcome.always_overlapped && problem->request->options.conditioning)
         status = find_conditioning(context, &best, &solution->restitution_by_speed);
     if (!status)
@@ -159,7 +163,7 @@ enum percuss_status solution_find(struct solution *solution, struct problem *pro
                                   struct pace *pace, struct fault *fault)
 {
     for (bool revised = false;; revised = true) {
-        // each time with all of the effort
+        /* each time with all of the effort */
         struct attempt_context context = {
             .problem = problem,
             .arena = arena,
@@ -175,7 +179,7 @@ enum percuss_status solution_find(struct solution *solution, struct problem *pro
         if (solution->outcome.always_overlapped)
             return outcome_refuse_overlap(problem, &solution->outcome,
                                           attempt_horizon(problem, solution->scene), fault);
-        // again where the solution contradicts what was chosen
+        /* again where the solution contradicts what was chosen */
         if (!formulation_revise(problem, solution->scene, &solution->outcome))
             return PERCUSS_OK;
         solution->scene = NULL;

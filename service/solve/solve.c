@@ -104,26 +104,26 @@ static enum percuss_status answer(struct solve_workspace *workspace,
                                   const struct solve_means *means,
                                   const struct solve_request *request, struct solve_result *result)
 {
-    // memory of the request
+    /* memory of the request */
     struct problem *problem = problem_create(request, workspace->cache, &workspace->arena);
     struct solution *solution = arena_take(&workspace->arena, 1, sizeof *solution);
     if (!problem || !solution)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
-    // the request as a problem
+    /* the request as a problem */
     struct pace pace = {.watch = &means->watch};
     enum percuss_status status = formulate(problem, means, &result->fault);
-    // complete finite elements answer by themselves
+    /* complete finite elements answer by themselves */
     enum contact_method method = contact_law_asked(request->options.contact_model)->method;
     if (!status && method == CONTACT_COMPLETE)
         return complete_answer(problem, &pace, result);
-    // the solution, and by finite elements in the contact once more
+    /* the solution, and by finite elements in the contact once more */
     if (!status)
         status = solution_find(solution, problem, NULL, &workspace->arena, &pace, &result->fault);
     struct concurrent_effort effort;
     bool concurrent = method == CONTACT_CONCURRENT;
     if (!status && concurrent)
         status = concurrent_refine(solution, problem, &pace, &effort, &result->fault);
-    // the answer, and its histories
+    /* the answer, and its histories */
     if (!status) {
         report_fill(problem, solution, result);
         if (concurrent)
@@ -146,7 +146,7 @@ enum percuss_status solve(struct solve_workspace *workspace, const struct solve_
         result->status = check_finite(request, &result->fault);
     if (!result->status)
         result->status = answer(workspace, means, request, result);
-    // an answer that lacks something for want of memory is none, whatever it says
+    /* an answer that lacks something for want of memory is none, whatever it says */
     if (workspace->arena.lacks)
         result->status = fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
     return result->status;

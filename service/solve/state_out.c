@@ -44,8 +44,10 @@ static void fill_modes(const struct assembly *assembly, const struct impact_outc
     const struct body_state *before = problem->states[index];
     for (size_t f = 0; f < body->kind->family_count; f++) {
         double *family = (double *)body_state_family(state, f);
+        /* modes that took no part vibrate on freely */
         if (before && before->count[f])
             move_freely(body, f, before, elapsed + outcome->window, problem->arena, family);
+        /* the others are as the impact left them */
         for (size_t g = 0; g < assembly->scene.groups; g++) {
             const struct scene_group *group = &assembly->groups[g];
             if (group->body != index || assembly->families[g] != f)
@@ -98,7 +100,7 @@ const struct body_state *state_after(const struct assembly *assembly,
 {
     bool flexible = body_is_flexible(problem->bodies[body]);
     const struct solve_body *stated = &problem->request->bodies[body];
-    // how much there is to keep
+    /* how much there is to keep */
     struct dent dents[BODY_STATE_MAX_DENTS];
     struct body_state sizes = {.dents = 0};
     if (problem->request->options.dents == PERCUSS_DENTS_KEEP)
@@ -107,13 +109,13 @@ const struct body_state *state_after(const struct assembly *assembly,
         return NULL;
     for (size_t f = 0; f < problem->bodies[body]->kind->family_count; f++)
         sizes.count[f] = family_size(assembly, problem->states[body], body, f);
-    // one block of it
+    /* one block of it */
     body_state_make_room(&problem->rolls[body], &sizes);
     struct body_state *state = arena_take(problem->arena, 1, body_state_size(&sizes));
     if (!state)
         return NULL;
     *state = sizes;
-    // filled
+    /* filled */
     if (flexible) {
         fill_modes(assembly, outcome, problem, stated->elapsed, state, body);
         body_state_turn_back(&problem->rolls[body], state);

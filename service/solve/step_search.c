@@ -79,7 +79,7 @@ static enum percuss_status compare(struct attempt_context *context, const struct
                                    double longer, const struct attempt *known,
                                    struct step_error *error)
 {
-    // a solution with longer steps
+    /* a solution with longer steps */
     struct attempt own = *best;
     if (!known) {
         own.accuracy *= longer;
@@ -92,7 +92,7 @@ static enum percuss_status compare(struct attempt_context *context, const struct
         error->unchecked = attempt_is_sequence(best);
         return PERCUSS_OK;
     }
-    // what that changes
+    /* what that changes */
     struct outcome_difference change =
         outcome_compare(context->problem, &best->outcome, &known->outcome);
     nearby_add(context->nearby, context->problem, &known->outcome);
@@ -126,6 +126,7 @@ static enum percuss_status estimate(struct attempt_context *context, const struc
 enum percuss_status step_search(struct attempt_context *context, struct attempt *best,
                                 const struct mode_error *modes, struct step_error *error)
 {
+    /* how well the energy must close */
     double tolerance = context->problem->tolerance;
     double closure_allowed =
         tolerance <= AUDITED ? AUDIT : fmin(CLOSURE * tolerance, OUTCOME_WORST_DEFECT);
@@ -133,7 +134,7 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
     struct attempt before;
     for (int i = 0;; i++) {
         bool compared = modes->covers_steps && i == 0;
-        // what the steps do now
+        /* what the steps do now */
         enum percuss_status status = estimate(context, best, coarse, compared, error);
         if (status)
             return status;
@@ -144,7 +145,7 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         if (enough || i >= MAX_TIGHTENINGS || !attempt_can_shorten(best->accuracy) ||
             attempt_is_spent(best) || best->outcome.too_stiff)
             return PERCUSS_OK;
-        // a hundred times finer ones
+        /* a hundred times finer ones */
         struct attempt finer = *best;
         finer.accuracy = fmax(best->accuracy / ATTEMPT_LONGER, ATTEMPT_FINEST);
         status = attempt_run(context, &finer, &best->assembly->scene);

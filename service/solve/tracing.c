@@ -79,14 +79,14 @@ static bool find_sides(const struct problem *problem, const struct assembly *ass
     size_t n = problem->contact_count;
     *sides = (struct trace_sides){0};
     for (int s = 0; s < 2 && !problem->from_client; s++) {
-        // the four arrays of this side
+        /* the four arrays of this side */
         double *w = arena_take(arena, n * n, sizeof *w);
         double *residual = arena_take(arena, n * n, sizeof *residual);
         double *velocity = arena_take(arena, n, sizeof *velocity);
         size_t *body = arena_take(arena, n, sizeof *body);
         if (!w || !residual || !velocity || !body)
             return false;
-        // contact by contact
+        /* contact by contact */
         for (size_t c = 0; c < n; c++) {
             body[c] = problem->sides[c][s].body;
             velocity[c] = velocity_along_normal(problem->request, c, body[c]);
@@ -122,6 +122,7 @@ static void warn(const struct problem *problem, const struct solution *solution,
                     last, result->window);
         return;
     }
+    /* another method, another answer */
     double off = outcome_compare(problem, again, &solution->outcome).restitution;
     if (off > SAME_METHOD)
         report_warn(result,
@@ -144,7 +145,7 @@ enum percuss_status tracing_make(const struct problem *problem, const struct sol
     /* the closed form of a rigid pair is exact */
     if (impact_is_rigid_pair(scene))
         settings.accuracy = fmin(settings.accuracy, CLOSED_FORM);
-    // the same solution once more, with a log of its forces
+    /* the same solution once more, with a log of its forces */
     struct impact_outcome again;
     struct trace_sides sides;
     struct trace *trace = arena_take(arena, 1, sizeof *trace);

@@ -96,18 +96,21 @@ static void find_size(const struct problem *problem, const struct impact_outcome
 static void find_place(const struct problem *problem, const struct impact_outcome *outcome,
                        size_t c, struct warnings *warnings)
 {
+    /* near an edge */
     for (unsigned which = 0; which < 2; which++)
         if (problem->sides[c][which].site.at_edge)
             warnings_add(warnings, WARNING_EDGE + which,
                          "contacts[%zu]: within 10 %% of the radius of an edge of %s: the contact "
                          "law assumes material on all sides",
                          c, problem_body(problem, c, which)->id);
+    /* where the law is off */
     double error = law_error(problem, outcome, c);
     if (error > WRONG_LAW)
         warnings_add(warnings, WARNING_LAW,
                      "contacts[%zu]: the contact law itself is estimated to be off by %.2g of the "
                      "restitution: %s",
                      c, error, law_error_reason(problem, outcome, c));
+    /* deeper than its table */
     double beyond = contact_model_beyond_table(outcome, c);
     if (beyond > 0.0)
         warnings_add(warnings, WARNING_TABLE_END,
@@ -150,11 +153,13 @@ static double inverse_mass_along(const struct problem *problem, size_t c, const 
 static void find_sliding(const struct problem *problem, const struct impact_outcome *outcome,
                          size_t c, double approach, struct warnings *warnings)
 {
+    /* only where it slides fast */
     double impulse = FRICTION * outcome->tracks[c].impulse;
     double speed = norm3(problem->sliding[c]);
     char change[64] = "";
     if (!(impulse > 0.0 && speed > SLIDING * approach))
         return;
+    /* no more than stops it, as far as the mass along the surface is known */
     if (!problem->from_client) {
         double direction[3];
         scale3(1.0 / speed, problem->sliding[c], direction);
@@ -205,7 +210,7 @@ void validity_find(const struct problem *problem, const struct impact_outcome *o
     /* a contact that was cut off is not listed */
     bool touches =
         outcome->end_reason == PERCUSS_END_LIMIT || outcome->end_reason == PERCUSS_END_IN_CONTACT;
-    // what closes, and whether it touched
+    /* what closes, and whether it touched */
     double approach = problem_approach(problem);
     warnings->count = 0;
     warnings->kinds = 0;
@@ -214,11 +219,11 @@ void validity_find(const struct problem *problem, const struct impact_outcome *o
     if (!touches && outcome->end_reason != PERCUSS_END_LIMIT)
         warnings_add(warnings, WARNING_NO_TOUCH,
                      "contacts: the bodies do not touch: gap and acceleration keep them apart");
-    // contact by contact
+    /* contact by contact */
     for (size_t c = 0; c < problem->contact_count; c++)
         find_contact(problem, outcome, c, approach, warnings);
     validity_find_speed(problem, warnings);
-    // and of all
+    /* and of all */
     if (problem->from_client)
         find_delassus(problem, warnings);
     if (problem->request->options.compliance == PERCUSS_COMPLIANCE_MATCHED &&
