@@ -60,6 +60,7 @@ static enum percuss_status solve_pilots(struct choice *choice, struct fault *fau
         copula_apply(&ensemble->copula, point);
         /* lists taken in order are looked at along all their length */
         ensemble_values(ensemble, point, k * ensemble->count / PILOTS, pilot->values);
+        /* kept if the search answers it */
         status = worker_search(choice->worker, pilot->values, &pilot->model, &outcome, fault);
         pilot->restitution = outcome.restitution;
         choice->count += ensemble_has_result(status);
@@ -170,6 +171,7 @@ static void choose(struct choice *choice)
 enum percuss_status choice_of_model(struct ensemble *ensemble, const struct watch *watch,
                                     struct fault *fault)
 {
+    /* the pilots, and the model that they agree on */
     ensemble->model.tolerance = solve_tolerance(&ensemble->spec.request->options);
     struct choice choice = {.ensemble = ensemble, .watch = watch};
     enum percuss_status status = ensemble_worker_create(&choice.worker, ensemble, watch, fault);
@@ -180,8 +182,10 @@ enum percuss_status choice_of_model(struct ensemble *ensemble, const struct watc
                            : fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     if (!status)
         choose(&choice);
+    /* a stop leaves no model */
     if (!is_wanted(&choice))
         status = fault_set(fault, PERCUSS_TIMEOUT, "stopped before the first sample");
+    /* the scene can be kept where only the blow varies */
     ensemble->same_scene = !spec_changes_scene(&ensemble->spec);
     ensemble_worker_free(choice.worker);
     free(choice.pilots);

@@ -32,6 +32,7 @@ static void centre(struct classes *classes)
 
 bool classes_create(struct classes *classes, const struct class_samples *samples)
 {
+    /* room for all samples */
     const double *x = samples->x, *y = samples->y;
     size_t count = samples->count;
     *classes = (struct classes){.replicates = samples->replicates};
@@ -40,12 +41,14 @@ bool classes_create(struct classes *classes, const struct class_samples *samples
     classes->list = calloc(count + 1, sizeof *classes->list);
     if (!classes->members || !classes->place || !classes->list)
         return false;
+    /* members have both values, and an order by chance among equal x */
     for (size_t i = 0; i < count; i++) {
         uint32_t order = random_hash(0, (uint32_t)((uint64_t)i >> 32), (uint32_t)i);
         classes->place[i] = SIZE_MAX;
         if (isfinite(x[i]) && isfinite(y[i]))
             classes->members[classes->member_count++] = (struct member){x[i], y[i], i, order};
     }
+    /* by ascending x, and back from a sample to its place */
     centre(classes);
     qsort(classes->members, classes->member_count, sizeof *classes->members, compare);
     for (size_t i = 0; i < classes->member_count; i++)
@@ -128,6 +131,7 @@ const struct class *class_at(const struct classes *classes, double x)
 
 double class_variance(const struct classes *classes, const struct class *class)
 {
+    /* sums by replicate */
     size_t replicates = classes->replicates;
     double sums[SAMPLING_REPLICATES] = {0}, squares[SAMPLING_REPLICATES] = {0};
     double counts[SAMPLING_REPLICATES] = {0};
@@ -146,6 +150,7 @@ double class_variance(const struct classes *classes, const struct class *class)
         pairs -= counts[r] * counts[r];
     }
     all = n * all - class->sum * class->sum;
+    /* half the mean square difference: of all pairs, or of those across replicates */
     if (replicates == 1 || pairs == 0.0)
         return all / (n * (n - 1.0));
     return (all + apart) / pairs;

@@ -14,6 +14,7 @@
 /* Of seconds each there would be too many. */
 static enum percuss_status refuse_long(unsigned asked, struct fault *fault)
 {
+    /* the others, as a list in words */
     char names[128] = "";
     unsigned left = 0;
     for (unsigned m = 0; m < PERCUSS_CONTACT_COUNT; m++)
@@ -41,7 +42,7 @@ static enum percuss_status try_request(struct ensemble *ensemble, const struct w
     unsigned asked = spec->request->options.contact_model;
     if (contact_law_asked(asked)->effort == CONTACT_EFFORT_LONG)
         return refuse_long(asked, fault);
-    // a solve of its own
+    /* a solve of its own */
     struct solve_workspace *workspace = solve_workspace_create();
     struct solve_result *result = calloc(1, sizeof *result);
     enum percuss_status status = PERCUSS_INTERNAL;
@@ -65,7 +66,7 @@ static enum percuss_status find_dimensions(struct ensemble *ensemble, struct fau
     const struct ensemble_spec *spec = &ensemble->spec;
     size_t dimension_of[ENSEMBLE_MAX_INPUTS] = {0}, dimensions = 0;
     uint64_t count = spec->samples;
-    // the inputs that are drawn, and how many samples the lists give
+    /* the inputs that are drawn, and how many samples the lists give */
     for (size_t i = 0; i < spec->input_count; i++) {
         if (count == 0 && spec->inputs[i].distribution == DISTRIBUTION_IS_LIST)
             count = spec->inputs[i].value_count;
@@ -74,13 +75,13 @@ static enum percuss_status find_dimensions(struct ensemble *ensemble, struct fau
         dimension_of[i] = dimensions;
         ensemble->drawn[dimensions++] = i;
     }
-    // points of the unit cube
+    /* points of the unit cube */
     enum percuss_status status =
         sampling_create(&ensemble->sampling, spec->sampling, dimensions, count, spec->seed, fault);
     if (status)
         return status;
     ensemble->count = ensemble->sampling.count;
-    // correlations between dimensions instead of inputs
+    /* correlations between dimensions instead of inputs */
     struct copula_pair *pairs = calloc(spec->correlation_count + 1, sizeof *pairs);
     if (!pairs)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");

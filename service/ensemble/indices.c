@@ -42,12 +42,14 @@ static double chance_of(const struct classes *classes)
  * memory, one number a class. */
 static struct estimate first_order(const struct classes *classes, double *added)
 {
+    /* variance within the classes */
     double n = (double)classes->member_count, count = (double)classes->count, within = 0.0;
     for (size_t k = 0; k < classes->count; k++) {
         const struct class *class = &classes->list[k];
         added[k] = class_size(class) * class_variance(classes, class);
         within += added[k];
     }
+    /* what each class adds to the error, and how neighbours scatter */
     double rest = within / (n * classes->variance), all = 0.0, scatter = 0.0;
     for (size_t k = 0; k < classes->count; k++) {
         for (size_t i = classes->list[k].first; i < classes->list[k].end; i++)
@@ -57,6 +59,7 @@ static struct estimate first_order(const struct classes *classes, double *added)
             scatter += 0.5 * (added[k] - added[k - 1]) * (added[k] - added[k - 1]);
     }
     scatter *= count / (count - 1.0);
+    /* the drift is chance where x is, in plain points */
     double drift = classes->replicates == 1 ? fmax(0.0, all - scatter) * count / n : 0.0;
     double error = sqrt(scatter + drift) / (n * classes->variance);
     /* of differences two thirds as many are independent */
@@ -104,11 +107,13 @@ static double find_v(const struct indices_data *data, const struct classes *clas
 {
     double sum = 0.0, count = 0.0;
     for (size_t k = 0; k < data->row_count; k++) {
+        /* rows with both values */
         const struct indices_row *row = &data->rows[k];
         size_t at = classes->place[row->sample];
         v[k] = NAN;
         if (at == SIZE_MAX || !isfinite(row->y))
             continue;
+        /* y and y' less their class means */
         const struct member *member = &classes->members[at];
         double g = class_mean_without(classes, class_at(classes, member->x), at);
         double anew = class_mean_without(classes, class_at(classes, row->x), at);
@@ -145,12 +150,14 @@ static double replicated_error(const struct contribution *each, size_t count, do
 static struct estimate total_order(const struct indices_data *data, const struct classes *classes,
                                    double trust, double *work)
 {
+    /* the identity of indices.h, divided by the variance */
     struct contribution each[SAMPLING_REPLICATES] = {0};
     double *u = work, *v = work + classes->member_count;
     double mean_u = find_u(classes, trust, u), mean_v = find_v(data, classes, trust, v);
     struct estimate total = {1.0 + (mean_v - mean_u) / classes->variance, NAN, NAN};
     if (isnan(mean_v))
         return total;
+    /* what samples and rows of each replicate add to its error */
     double n = (double)classes->member_count, part = (1.0 - total.value) * n / (n - 1.0);
     for (size_t i = 0; i < classes->member_count; i++) {
         const struct member *member = &classes->members[i];
@@ -170,6 +177,7 @@ static struct estimate total_order(const struct indices_data *data, const struct
         one->v_squares += v[k] * v[k];
         one->uv += v[k] * u[classes->place[data->rows[k].sample]];
     }
+    /* from their sums, or from the spread of replicates */
     total.degrees = each[0].rows - 1.0;
     total.error = data->replicates == 1 ? plain_error(each)
                                         : replicated_error(each, data->replicates, &total.degrees);
@@ -259,13 +267,16 @@ static void order(const struct estimate *first, const struct estimate *total,
 
 bool indices_find(const struct indices_data *data, struct indices *indices)
 {
+    /* unknown, unless there is enough to tell */
     static const struct interval unknown = {NAN, NAN};
     *indices = (struct indices){NAN, NAN, unknown, unknown, NAN};
+    /* samples sorted by x */
     struct classes classes;
     const struct class_samples samples = {data->x, data->y, data->count, data->replicates};
     double *work = calloc(data->count + data->row_count + 1, sizeof *work);
     bool good = classes_create(&classes, &samples) && work;
     size_t n = classes.member_count;
+    /* both indices where x and y vary */
     if (good && n >= LEAST && classes.members[n - 1].x > classes.members[0].x &&
         classes.variance > 0.0) {
         struct estimate first, total = {NAN, NAN, NAN};

@@ -74,13 +74,13 @@ void influence_parts(const struct influence_pair *sorted, size_t count, double r
     double low = sorted[0].x, width = (sorted[count - 1].x - low) / (double)part_count;
     double all = sqrt(scatter_of(sorted, count) / fmax(1.0, (double)count - 1.0));
     size_t first = 0;
-    // equal parts of the range
+    /* equal parts of the range */
     for (size_t k = 0; k < part_count; k++) {
         struct influence_part *part = &parts[k];
         *part = (struct influence_part){
             .low = low + width * (double)k, .mean = NAN, .deviation = NAN, .local = NAN};
         part->high = k + 1 < part_count ? low + width * (double)(k + 1) : sorted[count - 1].x;
-        // what lies in one
+        /* what lies in one */
         size_t end = first;
         while (end < count && (k + 1 == part_count || sorted[end].x < part->high))
             end++;
@@ -90,7 +90,7 @@ void influence_parts(const struct influence_pair *sorted, size_t count, double r
         if (part->count > 1)
             part->deviation =
                 sqrt(scatter_of(sorted + first, part->count) / ((double)part->count - 1.0));
-        // and whether neighbours in it differ as much as all
+        /* and whether neighbours in it differ as much as all */
         part->local = local_deviation(sorted, count, first, end, resolution);
         part->chaotic = part->local > CHAOTIC * all;
         first = end;

@@ -178,6 +178,7 @@ static enum percuss_status check_list(const struct ensemble_input *input, size_t
 static enum percuss_status check_spread(const struct ensemble_input *input, size_t index,
                                         struct fault *fault)
 {
+    /* mean and deviation */
     bool logarithmic = input->distribution == DISTRIBUTION_IS_LOG_NORMAL;
     if (!isfinite(input->first) || (logarithmic && !(input->first > 0.0)))
         return refuse(input, index, "first", input->first,
@@ -185,6 +186,7 @@ static enum percuss_status check_spread(const struct ensemble_input *input, size
     if (!(input->second >= 0.0 && isfinite(input->second)))
         return refuse(input, index, "second", input->second, "a finite standard deviation >= 0",
                       fault);
+    /* bounds that leave enough of it */
     if (input->lower >= input->upper)
         return refuse(input, index, "upper", input->upper, "above lower", fault);
     if (input->second == 0.0)
@@ -201,7 +203,7 @@ enum percuss_status input_check(const struct ensemble_input *input, size_t index
                                 struct fault *fault)
 {
     const struct limit *limit = limit_of(input->quantity);
-    // what the distribution needs
+    /* what the distribution needs */
     switch (input->distribution) {
     case DISTRIBUTION_IS_LIST:
         return check_list(input, index, fault);
@@ -223,7 +225,7 @@ enum percuss_status input_check(const struct ensemble_input *input, size_t index
     default:
         break;
     }
-    // and a place within what is possible
+    /* and a place within what is possible */
     if (!limit_holds(limit, input->first))
         return refuse(input, index, "first", input->first, limit->text, fault);
     return PERCUSS_OK;

@@ -86,6 +86,7 @@ static void quote(struct ensemble_report *report, const struct witness *witness,
 static bool warn_samples(struct ensemble_report *report, struct witness *witness,
                          const struct ensemble_sample *samples)
 {
+    /* how often each occurs, and where first */
     struct occurrence found[WARNING_KINDS + 1] = {0};
     for (uint64_t i = 0; i < report->done; i++) {
         if (!ensemble_sample_has_result(&samples[i]))
@@ -93,6 +94,7 @@ static bool warn_samples(struct ensemble_report *report, struct witness *witness
         for (unsigned kinds = samples[i].warnings; kinds; kinds &= kinds - 1)
             note(&found[__builtin_ctz(kinds)], i);
     }
+    /* in the words of that sample, solved again */
     bool good = true;
     for (int kind = 0; good && kind <= WARNING_KINDS; kind++) {
         if (found[kind].count == 0)
@@ -155,7 +157,7 @@ static void warn_verification(struct ensemble_report *report, const struct ensem
     double tolerance = ensemble->model.tolerance;
     if (verification->count == 0)
         return;
-    // samples that differ
+    /* samples that differ */
     double outside = 1.0 - verification->within;
     if (outside > OUTSIDE_SHARE || verification->largest > OUTSIDE_FACTOR * tolerance)
         warn(report,
@@ -166,13 +168,13 @@ static void warn_verification(struct ensemble_report *report, const struct ensem
              100.0 * (1.0 - verification->within_bounds.high),
              100.0 * (1.0 - verification->within_bounds.low), fabs(verification->mean_shift),
              verification->quantile_shift);
-    // searches that do not know better
+    /* searches that do not know better */
     if ((double)verification->unmet > OUTSIDE_SHARE * (double)verification->count)
         warn(report,
              "verification: %zu of %zu samples: the accuracy search itself does not reach the "
              "tolerance of %g, by its own estimate",
              verification->unmet, verification->count, tolerance);
-    // a mean that is off
+    /* a mean that is off */
     if (fabs(verification->mean_shift) > tolerance)
         warn(report,
              "verification: the mean is off by %.2g: more than the tolerance: ask for a "

@@ -45,7 +45,7 @@ struct report_progress report_progress(const struct ensemble *ensemble,
     double *values = malloc(2 * (done + 1) * sizeof *values);
     if (!values)
         return progress;
-    // the mean so far
+    /* the mean so far */
     for (uint64_t i = 0; i < done; i++)
         values[i] = samples[i].restitution;
     double *sorted = values + done;
@@ -55,7 +55,7 @@ struct report_progress report_progress(const struct ensemble *ensemble,
     progress.mean = moments.mean;
     progress.deviation = moments.deviation;
     progress.half_width = interval_mean(&sample, &moments).high - moments.mean;
-    // and whether the bounds asked for are met
+    /* and whether the bounds asked for are met */
     bool mean_enough = spec->half_width == 0.0 || progress.half_width <= spec->half_width;
     if (quantiles && mean_enough && spec->quantile_half_width > 0.0) {
         sample.kept = summary_sort(values, done, sorted);

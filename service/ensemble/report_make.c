@@ -45,7 +45,7 @@ static void fill_curve(struct report_quantity *quantity, const double *sorted, s
 static bool fill_quantity(struct ensemble_report *report, const struct ensemble *ensemble,
                           struct report_quantity *quantity, struct interval_sample *sample)
 {
-    // what is told of it
+    /* what is told of it */
     report_probabilities(&ensemble->spec, &quantity->probabilities, &quantity->quantile_count);
     quantity->moments = summary_moments(sample->values, sample->count);
     quantity->bins = ensemble->spec.bins ? ensemble->spec.bins : summary_bins(sample->kept);
@@ -53,7 +53,7 @@ static bool fill_quantity(struct ensemble_report *report, const struct ensemble 
         quantity->bins = 0; /* they would have no width */
     if (!take_quantity(quantity, &report->memory))
         return false;
-    // mean, deviation and quantiles with their intervals
+    /* mean, deviation and quantiles with their intervals */
     quantity->mean = interval_mean(sample, &quantity->moments);
     quantity->deviation = interval_deviation(sample, &quantity->moments);
     for (size_t i = 0; i < quantity->quantile_count; i++) {
@@ -63,7 +63,7 @@ static bool fill_quantity(struct ensemble_report *report, const struct ensemble 
         quantity->quantiles_low[i] = interval.low;
         quantity->quantiles_high[i] = interval.high;
     }
-    // and the distribution
+    /* and the distribution */
     summary_histogram(sample->sorted, sample->kept, quantity->bins, quantity->edges,
                       quantity->counts);
     fill_curve(quantity, sample->sorted, sample->kept);
@@ -100,7 +100,7 @@ static bool fill_quantities(struct ensemble_report *report, const struct ensembl
     double *sorted = malloc((report->done + 1) * sizeof *sorted);
     bool good = values && sorted;
     for (int q = 0; good && q < REPORT_QUANTITIES; q++) {
-        // its values, and sorted
+        /* its values, and sorted */
         for (uint64_t i = 0; i < report->done; i++)
             values[i] = value_of(&samples[i], q);
         struct interval_sample sample = {
@@ -111,7 +111,7 @@ static bool fill_quantities(struct ensemble_report *report, const struct ensembl
             .kept = summary_sort(values, report->done, sorted),
             .level = REPORT_LEVEL,
         };
-        // what follows from them
+        /* what follows from them */
         report->quantities[q].name = names[q];
         good = fill_quantity(report, ensemble, &report->quantities[q], &sample);
         if (good && q == 0)
@@ -124,6 +124,7 @@ static bool fill_quantities(struct ensemble_report *report, const struct ensembl
 
 static bool fill_counts(struct ensemble_report *report, const struct ensemble_sample *samples)
 {
+    /* as long as the longest sequence */
     size_t most = 0;
     for (uint64_t i = 0; i < report->done; i++)
         if (ensemble_sample_has_result(&samples[i]) && samples[i].sub_impacts > most)
@@ -133,6 +134,7 @@ static bool fill_counts(struct ensemble_report *report, const struct ensemble_sa
     report->significant_counts = arena_take(&report->memory, most + 1, sizeof(uint64_t));
     if (!report->sub_impact_counts || !report->significant_counts)
         return false;
+    /* how many samples have so many */
     for (uint64_t i = 0; i < report->done; i++) {
         report->refused += !ensemble_sample_has_result(&samples[i]);
         report->truncated += samples[i].status == PERCUSS_TRUNCATED;
@@ -171,6 +173,7 @@ static bool is_uncertain(const struct ensemble_spec *spec, size_t input)
 static bool find_indices(const struct report_material *material, const struct ensemble *ensemble,
                          struct report_input *out, struct indices_data *data)
 {
+    /* rows: the extras in which this input alone is another */
     uint64_t count = material->extras ? ensemble_extras(ensemble, material->done) : 0;
     struct indices_row *rows = malloc((count + 1) * sizeof *rows);
     if (!rows)
@@ -184,6 +187,7 @@ static bool find_indices(const struct report_material *material, const struct en
         rows[data->row_count++] =
             (struct indices_row){place.sample, values[out->input], material->extras[k].restitution};
     }
+    /* the indices from them */
     data->rows = rows;
     bool good = indices_find(data, &out->indices);
     free(rows);
@@ -214,6 +218,7 @@ static void release_columns(struct columns *columns)
 static bool fill_inputs(struct ensemble_report *report, const struct ensemble *ensemble,
                         const struct report_material *material)
 {
+    /* room for all inputs, and for the columns of one */
     const struct ensemble_spec *spec = &ensemble->spec;
     size_t n = report->done;
     struct columns columns;
@@ -225,6 +230,7 @@ static bool fill_inputs(struct ensemble_report *report, const struct ensemble *e
         if (!is_uncertain(spec, i))
             continue;
         struct report_input *out = &report->inputs[report->input_count++];
+        /* its values beside the restitutions */
         for (size_t k = 0; k < n; k++) {
             double values[ENSEMBLE_MAX_INPUTS];
             ensemble_inputs(ensemble, k, values);
@@ -232,6 +238,7 @@ static bool fill_inputs(struct ensemble_report *report, const struct ensemble *e
             columns.y[k] = varies ? material->samples[k].restitution : NAN;
             columns.pairs[k] = (struct influence_pair){columns.x[k], columns.y[k]};
         }
+        /* how the restitution depends on them */
         out->input = i;
         out->values = summary_moments(columns.x, n);
         struct indices_data data = {.count = n,

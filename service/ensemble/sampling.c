@@ -21,6 +21,7 @@ enum percuss_status sampling_create(struct sampling *sampling, enum sampling_met
                          "sampling: sobol: has %d dimensions and %zu inputs are uncertain: use "
                          "latin-hypercube or plain",
                          SOBOL_DIMENSIONS, dimensions);
+    /* as many points in each replicate */
     uint64_t replicates = method == SAMPLING_IS_PLAIN ? 1 : SAMPLING_REPLICATES;
     *sampling = (struct sampling){
         .method = method,

@@ -19,6 +19,7 @@ struct sigma_interval shape_sigma_interval(const double *sorted, const struct mo
                                            double sigmas, const struct shape_range *range)
 {
     size_t n = moments->count;
+    /* the interval, and the quantiles of as large a share of a normal distribution */
     double half = sigmas * moments->deviation;
     double inside = 2.0 * special_normal_cdf(sigmas) - 1.0;
     struct sigma_interval interval = {
@@ -28,10 +29,12 @@ struct sigma_interval shape_sigma_interval(const double *sorted, const struct mo
         .quantile_low = summary_quantile(sorted, n, 0.5 - 0.5 * inside),
         .quantile_high = summary_quantile(sorted, n, 0.5 + 0.5 * inside),
     };
+    /* what lies in it, its ends included */
     interval.covered = summary_share(sorted, n, interval.high) -
                        summary_share(sorted, n, nextafter(interval.low, -INFINITY));
     if (half == 0.0) /* all lie there, but for rounding */
         interval.covered = 1.0;
+    /* and what part of it nothing can lie in */
     interval.unphysical =
         half > 0.0 ? length_outside(interval.low, interval.high, range) / (2.0 * half) : 0.0;
     return interval;

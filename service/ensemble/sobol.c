@@ -32,11 +32,14 @@ struct sobol_directions sobol_directions(unsigned dimension)
     struct sobol_directions directions;
     unsigned degree = table[dimension].degree;
     for (unsigned i = 0; i < SOBOL_BITS; i++) {
+        /* van der Corput, the numbers that are given, or those that follow */
         if (degree == 0) {
             directions.bit[i] = UINT32_C(1) << (SOBOL_BITS - 1 - i);
         } else if (i < degree) {
             directions.bit[i] = table[dimension].m[i] << (SOBOL_BITS - 1 - i);
         } else {
+            /* Joe and Kuo 2008, degree s, inner coefficients a:
+             * v_i = a_1 v_(i-1) ^ ... ^ a_(s-1) v_(i-s+1) ^ v_(i-s) ^ (v_(i-s) >> s) */
             uint32_t v = directions.bit[i - degree];
             v ^= v >> degree;
             for (unsigned k = 1; k < degree; k++)

@@ -48,7 +48,7 @@ bool spec_changes_scene(const struct ensemble_spec *spec)
 static enum percuss_status check_lists(const struct ensemble_spec *spec, struct fault *fault)
 {
     size_t count = 0;
-    // lists of one length
+    /* lists of one length */
     for (size_t i = 0; i < spec->input_count; i++) {
         const struct ensemble_input *input = &spec->inputs[i];
         if (input->distribution != DISTRIBUTION_IS_LIST)
@@ -60,7 +60,7 @@ static enum percuss_status check_lists(const struct ensemble_spec *spec, struct 
                              i, input->value_count, count);
         count = input->value_count;
     }
-    // at least one
+    /* at least one */
     if (count == 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "samples: 0: must be 1 to %d (0 goes with inputs that are lists)",
@@ -74,7 +74,7 @@ static enum percuss_status check_lists(const struct ensemble_spec *spec, struct 
 
 static enum percuss_status check_numbers(const struct ensemble_spec *spec, struct fault *fault)
 {
-    // samples and when to stop
+    /* samples and when to stop */
     if (spec->samples > ENSEMBLE_MAX_SAMPLES)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "samples: %llu: must be at most %d",
                          (unsigned long long)spec->samples, ENSEMBLE_MAX_SAMPLES);
@@ -85,7 +85,7 @@ static enum percuss_status check_numbers(const struct ensemble_spec *spec, struc
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "quantile_half_width: %g: must be >= 0 and finite",
                          spec->quantile_half_width);
-    // what is to be told of them
+    /* what is to be told of them */
     for (size_t i = 0; i < spec->quantile_count; i++) {
         if (!(spec->quantiles[i] > 0.0 && spec->quantiles[i] < 1.0))
             return fault_set(fault, PERCUSS_BAD_REQUEST,
@@ -98,7 +98,7 @@ static enum percuss_status check_numbers(const struct ensemble_spec *spec, struc
     if (spec->bins > ENSEMBLE_MAX_BINS)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "bins: %zu: must be at most %d", spec->bins,
                          ENSEMBLE_MAX_BINS);
-    // and of which contact
+    /* and of which contact */
     if (spec->contact >= spec->request->contact_count)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "contact: %zu: must be an index into contacts, 0 to %zu", spec->contact,
@@ -141,7 +141,7 @@ static enum percuss_status check_input(const struct ensemble_spec *spec, size_t 
 {
     const struct ensemble_input *input = &spec->inputs[i];
     const char *name = input_quantity_name(input->quantity);
-    // nothing that a state or another contact depends on
+    /* nothing that a state or another contact depends on */
     if (changes_body(input) && spec->request->bodies[input->body].state)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "inputs[%zu].body: %s: must have no state token: its vibration is that of "
@@ -153,7 +153,7 @@ static enum percuss_status check_input(const struct ensemble_spec *spec, size_t 
                          "inputs[%zu].name: %s: must be another one where there are %zu contacts: "
                          "it would move them apart",
                          i, name, spec->request->contact_count);
-    // nothing that is given twice
+    /* nothing that is given twice */
     enum percuss_status status = check_overrides(spec, i, fault);
     if (status)
         return status;

@@ -34,6 +34,7 @@ static void find_range(const double *values, size_t count, struct moments *momen
 struct moments summary_moments(const double *values, size_t count)
 {
     struct moments moments = {.lowest = NAN, .highest = NAN, .deviation = NAN, .skewness = NAN};
+    /* first pass: range and mean */
     find_range(values, count, &moments);
     if (moments.count > 1 && !summary_varies(&moments)) {
         /* the mean of equal values is one of them, whatever adding them up has left */
@@ -41,6 +42,7 @@ struct moments summary_moments(const double *values, size_t count)
         moments.deviation = moments.fourth = 0.0;
         return moments;
     }
+    /* second pass: sums of powers about the mean */
     double rest = 0.0, second = 0.0, third = 0.0, fourth = 0.0;
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(values[i]))

@@ -86,10 +86,11 @@ static enum percuss_status check_damping(const struct variation *variation, size
 enum percuss_status variation_create(struct variation *variation, const struct ensemble_spec *spec,
                                      struct fault *fault)
 {
+    /* bodies to change */
     *variation = (struct variation){.spec = spec, .request = *spec->request};
     if (!copy_bodies(variation))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    // what every input needs of this impact
+    /* what every input needs of this impact */
     variation->gap_rate = gap_rate_of(spec->request, spec->contact);
     enum percuss_status status = PERCUSS_OK;
     for (size_t i = 0; !status && i < spec->input_count; i++) {
@@ -141,11 +142,13 @@ static void keep_touching(struct variation *variation, const char *id, double gr
 static void change_body(struct variation *variation, const struct ensemble_input *input,
                         double value)
 {
+    /* the ensemble's own copy of it */
     const char *id = variation->spec->request->bodies[input->body].id;
     struct body *body = NULL;
     for (size_t i = 0; i < variation->set.count; i++)
         if (strcmp(variation->set.bodies[i].id, id) == 0)
             body = &variation->set.bodies[i];
+    /* the property, and with another radius the place in which it still touches */
     switch (input->quantity) {
     case INPUT_YOUNG:
         body->material.young = value;
@@ -249,6 +252,7 @@ enum percuss_status variation_apply(struct variation *variation, const double *v
         for (size_t i = 0; i < spec->input_count; i++)
             if (spec->inputs[i].quantity == (enum input_quantity)quantity)
                 change_body(variation, &spec->inputs[i], values[i]);
+    /* the place of the impact, and its velocity */
     double angle = 0.0;
     for (size_t i = 0; i < spec->input_count; i++) {
         if (spec->inputs[i].quantity == INPUT_SITE)

@@ -32,7 +32,7 @@ static void compare(struct report_verification *out, const struct ensemble *ense
     double tolerance = ensemble->model.tolerance;
     uint64_t count = ensemble_extras(ensemble, material->done);
     size_t within = 0;
-    // both answers of every sample that was solved again
+    /* both answers of every sample that was solved again */
     for (uint64_t k = 0; k < count; k++) {
         struct ensemble_extra_place place = ensemble_extra_place(ensemble, material->done, k);
         double fast = material->samples[place.sample].restitution;
@@ -48,7 +48,7 @@ static void compare(struct report_verification *out, const struct ensemble *ense
         out->unmet += !(material->extras[k].error <= tolerance);
         out->largest = fmax(out->largest, fabs(shift));
     }
-    // the share that agrees
+    /* the share that agrees */
     out->within = (double)within / (double)out->count;
     out->within_bounds = interval_share(within, out->count, REPORT_LEVEL);
 }
@@ -56,6 +56,7 @@ static void compare(struct report_verification *out, const struct ensemble *ense
 bool verification_fill(struct ensemble_report *report, const struct ensemble *ensemble,
                        const struct report_material *material)
 {
+    /* both answers side by side */
     struct report_verification *out = &report->verification;
     uint64_t count = ensemble_extras(ensemble, report->done);
     double *memory = calloc(3 * count + 1, sizeof *memory);
@@ -63,6 +64,7 @@ bool verification_fill(struct ensemble_report *report, const struct ensemble *en
         return false;
     struct comparison comparison = {memory, memory + count, memory + 2 * count};
     compare(out, ensemble, material, &comparison);
+    /* what the fast one does to the mean and the deviation */
     struct moments moments = summary_moments(comparison.difference, out->count);
     struct interval_sample sample = {comparison.difference, out->count, 1, NULL, out->count,
                                      REPORT_LEVEL};
@@ -70,6 +72,7 @@ bool verification_fill(struct ensemble_report *report, const struct ensemble *en
     out->mean_shift_half_width = interval_mean(&sample, &moments).high - moments.mean;
     out->deviation_shift = summary_moments(comparison.fast, out->count).deviation -
                            summary_moments(comparison.searched, out->count).deviation;
+    /* and to the quantiles, last as these sort the values */
     out->quantile_shift =
         quantile_shift(&ensemble->spec, comparison.fast, comparison.searched, out->count);
     free(memory);

@@ -22,6 +22,7 @@ enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
     *worker = calloc(1, sizeof **worker);
     if (!*worker)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    /* bodies to vary, and what solves with them */
     (*worker)->ensemble = ensemble;
     enum percuss_status status = variation_create(&(*worker)->variation, &ensemble->spec, fault);
     (*worker)->repeat = status ? NULL : repeat_create();
@@ -29,6 +30,7 @@ enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     (*worker)->means = (struct solve_means){&(*worker)->variation.set, ensemble->spec.tables,
                                             watch ? *watch : (struct watch){0}};
+    /* all of it or nothing */
     if (status) {
         ensemble_worker_free(*worker);
         *worker = NULL;
@@ -90,11 +92,13 @@ enum percuss_status worker_search(struct ensemble_worker *worker, const double *
 void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensemble_sample *sample,
                     struct fault *fault)
 {
+    /* the sample's inputs, solved */
     double values[ENSEMBLE_MAX_INPUTS];
     struct repeat_outcome outcome;
     ensemble_inputs(worker->ensemble, index, values);
     enum percuss_status status = worker_solve(worker, values, &outcome, fault);
     bool good = ensemble_has_result(status);
+    /* in short; NAN where refused */
     *sample = (struct ensemble_sample){
         .restitution = good ? outcome.restitution : NAN,
         .impulse = good ? outcome.impulse : NAN,
