@@ -126,12 +126,14 @@ struct answer *batch_answer(const struct envelope *envelope, struct answer *cons
     struct answer *answer = create(count_parts(members, count), count);
     if (!answer)
         return NULL;
+    /* the replies of all members, one after the other */
     for (size_t i = 0; i < count; i++) {
         answer->members[i] = members[i];
         answer->reply[i] = *members[i]->reply;
         answer->bytes += members[i]->bytes;
         answer->passing = answer->passing || members[i]->passing;
     }
+    /* parts, each of as many of them as its sample holds */
     size_t first = 0;
     for (size_t i = 0; i < answer->part_count; i++) {
         percuss_v1_BatchReply *part = &answer->parts[i];

@@ -104,6 +104,7 @@ void check_choice(struct check *check, const char *field, unsigned value, unsign
 /* Bytes of the UTF-8 character at `text`; 0: none, or a control character. */
 static size_t character_size(const unsigned char *text)
 {
+    /* forms of one to four octets (RFC 3629): how the first begins, and the least code of each */
     static const struct {
         unsigned char mask, lead;
         unsigned least; /* longer than needed is not UTF-8 */
@@ -112,12 +113,14 @@ static size_t character_size(const unsigned char *text)
     for (size_t extra = 0; extra < 4; extra++) {
         if ((text[0] & forms[extra].mask) != forms[extra].lead)
             continue;
+        /* six bits of the code from each octet that follows */
         unsigned code = text[0] & (unsigned char)~forms[extra].mask;
         for (size_t i = 1; i <= extra; i++) {
             if ((text[i] & 0xc0) != 0x80)
                 return 0;
             code = code << 6 | (text[i] & 0x3f);
         }
+        /* neither a control character nor half of a UTF-16 pair */
         bool surrogate = code >= 0xd800 && code < 0xe000;
         bool allowed = code >= forms[extra].least && code != 0x7f && code < 0x110000;
         return allowed && !surrogate ? extra + 1 : 0;

@@ -138,17 +138,21 @@ enum percuss_status decode_request(const percuss_v1_Request *wire, struct solve_
 {
     struct check check = {.fault = fault};
     size_t body_count = wire->bodies._length, contact_count = wire->contacts._length;
+    /* as many as the solver has room for */
     check_count(&check, "bodies", body_count, PERCUSS_MAX_BODIES);
     check_count(&check, "contacts", contact_count, PERCUSS_MAX_CONTACTS);
+    /* the bodies, and which objects they are */
     for (size_t i = 0; !check.status && i < body_count; i++) {
         check_enter(&check, "bodies", i);
         decode_body(&check, &wire->bodies._buffer[i], &request->bodies[i]);
     }
     check_specimens(&check, wire->bodies._buffer, check.status ? 0 : body_count);
+    /* the contacts between them */
     for (size_t i = 0; !check.status && i < contact_count; i++) {
         check_enter(&check, "contacts", i);
         decode_contact(&check, &wire->contacts._buffer[i], body_count, &request->contacts[i]);
     }
+    /* the scene as a whole */
     check_enter(&check, NULL, CHECK_NO_LIST);
     if (wire->delassus._length > 0)
         check_delassus(&check, &wire->delassus, contact_count);

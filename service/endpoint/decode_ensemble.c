@@ -14,17 +14,20 @@ static void decode_owner(struct check *check, const percuss_v1_EnsembleInput *wi
 {
     check_text(check, "name", wire->name);
     check_text(check, "body", wire->body);
+    /* what varies */
     input->quantity = input_quantity_find(wire->name);
     check_that(check, input->quantity < INPUT_QUANTITY_COUNT,
                "name: '%s': must be one of speed, direction, site, young, poisson, density, "
                "radius, yield, damping",
                wire->name);
+    /* a quantity of the contact has no body */
     input->body = 0;
     if (!input_is_of_body(input->quantity)) {
         check_that(check, !wire->body[0], "body: '%s': must be empty: %s is the contact's",
                    wire->body, wire->name);
         return;
     }
+    /* any other one is of a body of the scene */
     while (input->body < request->body_count &&
            strcmp(request->bodies[input->body].id, wire->body) != 0)
         input->body++;
@@ -83,19 +86,23 @@ enum percuss_status decode_ensemble(const percuss_v1_EnsembleRequest *wire,
                                     struct decoded_ensemble *decoded, struct fault *fault)
 {
     struct check check = {.fault = fault};
+    /* a scene as in a single request, of bodies without a history */
     enum percuss_status status = decode_request(&wire->scene, &decoded->request, fault);
     if (status)
         return status;
     check_scene(&check, &wire->scene);
+    /* its uncertain inputs */
     check_that(&check, wire->inputs._length <= ENSEMBLE_MAX_INPUTS,
                "inputs: %u given: must be at most %d", wire->inputs._length, ENSEMBLE_MAX_INPUTS);
     for (uint32_t i = 0; !check.status && i < wire->inputs._length; i++) {
         check_enter(&check, "inputs", i);
         decode_input(&check, &wire->inputs._buffer[i], &decoded->request, &decoded->inputs[i]);
     }
+    /* how they depend on each other and are sampled */
     check.place = NULL;
     decode_correlations(&check, wire, decoded);
     check_choice(&check, "sampling", wire->sampling, SAMPLING_METHODS, sampling_name);
+    /* all of it in the ensemble's words */
     decoded->spec = (struct ensemble_spec){
         .request = &decoded->request,
         .contact = wire->contact,

@@ -122,6 +122,7 @@ bool destinations_add(struct destinations *destinations, struct digest reader,
     struct remote_reader *added = calloc(1, sizeof *added);
     if (!added)
         return false;
+    /* the client's writer of this channel, made for its first reader */
     pthread_mutex_lock(&destinations->lock);
     struct destination *destination = find_or_create(destinations, client);
     if (destination) {
@@ -135,6 +136,7 @@ bool destinations_add(struct destinations *destinations, struct digest reader,
         free(added);
         return false;
     }
+    /* by this key the reader is known when it goes */
     added->node.key = reader;
     added->destination = destination;
     added->channel = channel;

@@ -56,6 +56,7 @@ static void fill_statistic(struct answer *answer, const struct report_quantity *
 {
     size_t n = from->quantile_count;
     COPY_TEXT(to->quantity, from->name);
+    /* moments and extremes */
     to->mean = from->moments.mean;
     to->mean_low = from->mean.low;
     to->mean_high = from->mean.high;
@@ -66,6 +67,7 @@ static void fill_statistic(struct answer *answer, const struct report_quantity *
     to->count = from->moments.count;
     to->lowest = from->moments.lowest;
     to->highest = from->moments.highest;
+    /* quantiles, histogram, distribution function */
     COPY_LIST(answer, to->probabilities, from->probabilities, n);
     COPY_LIST(answer, to->quantiles, from->quantiles, n);
     COPY_LIST(answer, to->quantiles_low, from->quantiles_low, n);
@@ -80,9 +82,11 @@ static void fill_sensitivity(struct answer *answer, const struct ensemble_spec *
                              const struct report_input *from, percuss_v1_Sensitivity *to)
 {
     const struct ensemble_input *input = &spec->inputs[from->input];
+    /* which input, of which body */
     COPY_TEXT(to->input, input_quantity_name(input->quantity));
     if (input_is_of_body(input->quantity))
         COPY_TEXT(to->body, spec->request->bodies[input->body].id);
+    /* Sobol indices with their intervals */
     to->first_order = from->indices.first_order;
     to->first_order_low = from->indices.first_bounds.low;
     to->first_order_high = from->indices.first_bounds.high;
@@ -90,11 +94,13 @@ static void fill_sensitivity(struct answer *answer, const struct ensemble_spec *
     to->total = from->indices.total;
     to->total_low = from->indices.total_bounds.low;
     to->total_high = from->indices.total_bounds.high;
+    /* the values that were drawn of it */
     to->mean = from->values.mean;
     to->standard_deviation = from->values.deviation;
     to->lowest = from->values.lowest;
     to->highest = from->values.highest;
     to->resolution = from->resolution;
+    /* part by part of its range: how much the result still varies there */
     TAKE_LIST(answer, to->parts, from->part_count);
     for (size_t k = 0; k < from->part_count; k++) {
         const struct influence_part *part = &from->parts[k];
@@ -136,6 +142,7 @@ static void fill_model(struct answer *answer, const struct ensemble *ensemble,
                        const struct report_verification *check)
 {
     percuss_v1_EnsembleReply *reply = answer->report;
+    /* how far the samples agree with the full accuracy search */
     TAKE_LIST(answer, reply->check, 1);
     reply->check._buffer[0] = (percuss_v1_EnsembleCheck){
         .count = check->count,
@@ -149,6 +156,7 @@ static void fill_model(struct answer *answer, const struct ensemble *ensemble,
         .within_high = check->within_bounds.high,
         .unmet = check->unmet,
     };
+    /* what the pilots chose for all of them */
     reply->cut = ensemble->model.model.cut / (2.0 * M_PI);
     reply->step_accuracy = ensemble->model.model.accuracy;
     reply->pilots = ensemble->model.pilots;
@@ -185,11 +193,13 @@ struct answer *encode_ensemble(const struct envelope *envelope, const struct ens
     answer->report = answer_take(answer, 1, sizeof *answer->report);
     percuss_v1_EnsembleReply *reply = answer->report;
     ENCODE_HEAD(reply, envelope, ending->status, ending->message);
+    /* how far it came */
     reply->complete = ending->status == PERCUSS_OK;
     reply->samples = report->done;
     reply->requested = ensemble->count;
     reply->refused = report->refused;
     reply->truncated = report->truncated;
+    /* what the samples say, and how good they are */
     fill_lists(answer, ensemble, report);
     fill_shape(answer, report);
     fill_model(answer, ensemble, &report->verification);

@@ -49,6 +49,7 @@ void encode_trace(struct answer *answer, const struct envelope *envelope, const 
     for (size_t c = 0; c < trace->contacts; c++) {
         const struct trace_contact *contact = &trace->contact[c];
         percuss_v1_Trace *first = &answer->traces[c * parts];
+        /* of which request, contact and part each sample is */
         for (size_t part = 0; part < parts; part++) {
             memcpy(first[part].client, envelope->client, sizeof first[part].client);
             first[part].sequence = envelope->sequence;
@@ -56,6 +57,7 @@ void encode_trace(struct answer *answer, const struct envelope *envelope, const 
             first[part].part = (uint32_t)part;
             first[part].parts = (uint32_t)parts;
         }
+        /* the histories, cut into the parts */
         fill_column(answer, trace, trace->time, &first->time);
         fill_column(answer, trace, contact->force, &first->force);
         fill_column(answer, trace, contact->indentation, &first->indentation);

@@ -57,6 +57,7 @@ void subscriptions_take(dds_entity_t reader,
     while ((count = dds_take(reader, samples, infos, TAKEN_AT_ONCE, TAKEN_AT_ONCE)) > 0) {
         for (dds_return_t i = 0; i < count; i++) {
             const dds_builtintopic_endpoint_t *endpoint = samples[i];
+            /* of a reader that has gone no more than the key is told */
             struct subscription subscription = {
                 .key = digest_of_octets(endpoint->key.v),
                 .alive = infos[i].instance_state == DDS_ALIVE_INSTANCE_STATE,
