@@ -153,6 +153,7 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
     struct shared *shared = dispatch->shared;
     struct time_limit limit = {.end = arrival + inline_seconds};
     struct snapshot *snapshot = snapshots_hold(&shared->snapshots);
+    /* wanted as long as it is quick */
     struct question question = {
         .request = request,
         .snapshot = snapshot,
@@ -162,6 +163,7 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
         .context = &limit,
     };
     struct answer *answer = responder_answer(dispatch->responder, &question);
+    /* what was given up on the way says nothing to the client */
     if (!limit.over)
         deliver(shared, name, answer);
     answer_release(answer);

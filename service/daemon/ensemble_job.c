@@ -53,6 +53,7 @@ struct client_job *ensemble_job_create(struct shared *shared, const struct reque
     struct ensemble_job *job = calloc(1, sizeof *job);
     if (!job)
         return NULL;
+    /* copies: what was taken goes back to DDS */
     job->scene = question_copy(&request->scene, 1);
     job->request = question_copy_ensemble(request);
     if (!job->scene || !job->request) {
@@ -62,9 +63,11 @@ struct client_job *ensemble_job_create(struct shared *shared, const struct reque
         return NULL;
     }
     job->request->scene = *job->scene;
+    /* a job of its client, among those that take long */
     job_init(&job->base.job, &ensemble_kind, 1);
     client_job_begin(&job->base, shared, name, arrival);
     job->base.lane = LANE_LONG;
+    /* by which the client can cancel it, and is told of its turn */
     job->entry.client = job->base.client;
     job->entry.sequence = name->sequence;
     job->entry.samples = request->samples;

@@ -146,6 +146,7 @@ static bool work_on_extra(void *context, unsigned thread, uint64_t item)
 static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault)
 {
     const struct client_job *base = run->job;
+    /* until when, and what of */
     double seconds = run->request->scene.options.deadline;
     run->deadline = seconds > 0.0 ? base->arrival + seconds : INFINITY;
     run->decoded = calloc(1, sizeof *run->decoded);
@@ -266,6 +267,7 @@ static struct answer *refuse(const struct envelope *envelope, enum percuss_statu
 static struct answer *carry_out(struct ensemble_run *run, const struct envelope *envelope)
 {
     struct fault fault = {""};
+    /* the model that all samples share, and who solves them */
     enum percuss_status status = prepare(run, &fault);
     if (!status)
         status = create_workers(run, &fault);
@@ -315,6 +317,7 @@ struct answer *ensemble_run(struct client_job *job, struct ensemble_entry *entry
     struct answer *answer = carry_out(run, &envelope);
     activity_clear(&job->shared->activity);
     release(run);
+    /* how long it waited, and took */
     if (answer) {
         answer->report->timing.queue = start - job->arrival;
         answer->report->timing.solve = clock_now() - start;

@@ -44,6 +44,7 @@ void log_line(enum log_level level, const char *format, ...)
     va_start(args, format);
     int length = vsnprintf(line + used, sizeof line - used - 1, format, args);
     va_end(args);
+    /* what does not fit is cut off, and no control character breaks the line */
     size_t room = sizeof line - used - 2;
     size_t end = used + (length < 0 ? 0 : (size_t)length < room ? (size_t)length : room);
     for (size_t i = used; i < end; i++) {

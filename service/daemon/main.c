@@ -101,6 +101,7 @@ int main(int argc, char **argv)
     struct arguments arguments = arguments_read(argc, argv);
     struct settings settings;
     struct fault fault;
+    /* the settings, which may be all that is to be looked at */
     if (gather_settings(&arguments, &settings, &fault)) {
         fprintf(stderr, "percussd: %s\n", fault.text);
         return EXIT_FAILURE;
@@ -108,12 +109,14 @@ int main(int argc, char **argv)
     if (arguments.check_config)
         return check_config(&settings);
     log_limit(settings.log_level);
+    /* blocked before there are threads, so that no thread takes them */
     sigset_t signals = block_signals();
     struct service *service = service_create(&settings, &fault);
     if (!service) {
         log_line(LEVEL_ERROR, "%s", fault.text);
         return EXIT_FAILURE;
     }
+    /* until a signal, and then what is still queued */
     serve(service, &signals);
     if (!drain(service, &signals, settings.drain_seconds)) {
         /* a thread still works, so nothing is taken apart */

@@ -88,6 +88,7 @@ static void attend(struct parallel *parallel, struct thread *threads, unsigned c
             ;
         if (parallel->running == 0)
             break;
+        /* without the lock: threads end while the watch is asked */
         pthread_mutex_unlock(&parallel->lock);
         if (!parallel->loop->watch(parallel->loop->context, done_by_all(parallel, threads, count)))
             atomic_store(&parallel->stopped, true);

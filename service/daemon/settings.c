@@ -169,12 +169,14 @@ static enum percuss_status read_mapping(struct reader *reader, const yaml_node_t
     if (mapping->type != YAML_MAPPING_NODE)
         return reader_refuse_value(reader, mapping, "a mapping of keys");
     for (size_t i = 0; i < reader_count(mapping); i++) {
+        /* every key once */
         struct entry entry = reader_entry(reader, mapping, i);
         struct excerpt name = reader_excerpt(entry.key);
         size_t mark = reader_enter(reader, name.text);
         if (reader_find(reader, mapping, name.text).key != entry.key &&
             entry.key->type == YAML_SCALAR_NODE)
             return reader_refuse(reader, entry.key, "stands twice: must stand once");
+        /* a setting, a section of them, or nothing that is known */
         const struct setting *setting = find(reader->path);
         enum percuss_status status;
         if (setting)
@@ -198,6 +200,7 @@ static enum percuss_status read_document(FILE *file, const char *path, struct se
     enum percuss_status status = PERCUSS_OK;
     if (!yaml_parser_initialize(&parser))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    /* YAML, or the line where it is none */
     yaml_parser_set_input_file(&parser, file);
     if (!yaml_parser_load(&parser, &document)) {
         status = fault_set(fault, PERCUSS_BAD_REQUEST, "%s:%zu: must be valid YAML: %s",

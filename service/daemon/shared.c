@@ -13,6 +13,7 @@ static const double megabyte = 1048576.0;
 static bool create_stores(struct shared *shared)
 {
     const struct settings *settings = shared->settings;
+    /* how much is remembered, and how long */
     struct token_limits tokens = {
         .count = settings->token_count,
         .bytes = (size_t)(settings->token_megabytes * megabyte),

@@ -134,15 +134,18 @@ static const char *store(struct specimen_lane *lane, const struct question *ques
     struct specimen_change changes[PERCUSS_MAX_BODIES];
     struct fault fault;
     size_t count = find_changes(question, responder, changes);
+    /* the reply as it is sent when the same is asked again */
     reply->bytes = reply_bytes_write(answer, &reply->size);
     if (!reply->bytes)
         return "out of memory: nothing has changed, ask again";
+    /* impact and reply are stored together or not at all */
     enum percuss_status status = specimen_store_commit(lane->store, changes, count, reply, &fault);
     free(reply->bytes);
     if (status) {
         log_line(LEVEL_ERROR, "%s", fault.text);
         return "the store of specimens failed: nothing has changed, ask again";
     }
+    /* others are told what is new */
     atomic_store(&lane->count, specimen_store_count(lane->store));
     for (size_t i = 0; i < count; i++)
         announce_again(lane, changes[i].name);
@@ -221,6 +224,7 @@ static struct answer *recall(const struct question *question, const struct store
 struct answer *specimen_lane_respond(struct specimen_lane *lane, struct responder *responder,
                                      const struct question *question)
 {
+    /* what the request and its reply are known by */
     struct digest content = question_digest_single(question->request);
     struct stored_reply reply = {.sequence = question->envelope.sequence,
                                  .content = {content.first, content.second}};

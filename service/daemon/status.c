@@ -21,6 +21,7 @@ static uint32_t waiting(const struct shared *shared)
 void status_announce(struct shared *shared)
 {
     struct snapshot *snapshot = snapshots_hold(&shared->snapshots);
+    /* its numbers */
     percuss_v1_ServerStatus status = {
         .process = (uint32_t)getpid(),
         .workers = shared->settings->workers,

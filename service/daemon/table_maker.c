@@ -47,16 +47,19 @@ static const struct contact_curves *make(struct table_maker *maker, const struct
                                          const struct material *b)
 {
     struct region_input input = table_input(a, b, covered_speed);
+    /* the table, as long as somebody wants it */
     struct watch watch = {go_on, maker};
     struct indentation_table table;
     struct fault fault;
     double start = thread_seconds();
     enum percuss_status status = indentation_table_make(&input, &watch, &table, &fault);
     activity_clear(&maker->shared->activity);
+    /* for all who ask from now on */
     if (!status) {
         status = table_cache_add(maker->cache, &table, thread_seconds() - start, &fault);
         indentation_table_free(&table);
     }
+    /* nobody gave it up, so it failed */
     if (status && !maker->status)
         maker->status = fault_set(&maker->fault, PERCUSS_INTERNAL,
                                   "the contact table of %s on %s could not be computed: %.300s",
