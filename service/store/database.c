@@ -93,6 +93,7 @@ static enum percuss_status check_schema(struct database *database,
 {
     int application, version, tables;
     bool whole;
+    /* whose file it is, of which version, and whether it is whole */
     if (!query_number(database, "PRAGMA application_id", &application) ||
         !query_number(database, "PRAGMA user_version", &version) ||
         !query_number(database, "SELECT count(*) FROM sqlite_master", &tables) ||
@@ -100,10 +101,12 @@ static enum percuss_status check_schema(struct database *database,
         return refuse_file(database, fault);
     if (!whole)
         return refuse(database, "is damaged: restore it from a copy or move it away", fault);
+    /* ours, up to date or brought there */
     if (application == APPLICATION && version == design->version)
         return PERCUSS_OK;
     if (application == APPLICATION)
         return upgrade(database, design, version, fault);
+    /* another program's, or an empty one that becomes ours */
     if (application != 0 || tables != 0)
         return refuse(database, "is a database of another program", fault);
     return execute(database, design->schema) && mark(database, design->version)

@@ -95,6 +95,7 @@ static enum percuss_status read_head(const json_t *root, struct lists *lists, st
         status = fault_set(fault, PERCUSS_BAD_REQUEST,
                            "indentation_version: %zu: must be %d: compute the family anew", version,
                            INDENTATION_VERSION);
+    /* how far it was computed, how well, and the counts of its lists */
     if (!status)
         status = json_numbers_take(json_object_get(root, "computed"), "computed", &lists->computed,
                                    fault);

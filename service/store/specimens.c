@@ -84,6 +84,7 @@ enum percuss_status specimen_store_open(const char *path, unsigned replies,
     if (!created)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     created->most_replies = replies;
+    /* our file, and how much it holds */
     static const struct database_design design = {
         .version = 2, .schema = schema, .upgrades = upgrades, .texts = texts};
     enum percuss_status status = database_open(&created->database, path, &design, fault);
@@ -158,11 +159,13 @@ static enum percuss_status check_body(sqlite3_stmt *row, const char *name, const
     const char *known = (const char *)sqlite3_column_text(row, 2);
     if (!id || !known)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    /* it was made of the body of this id */
     if (strcmp(id, body->id) != 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "%s: is a specimen of %s, not of %s: must be another name, or be cleared "
                          "first",
                          name, id, body->id);
+    /* whose shape, size and material are what they were */
     nature_describe(body, nature);
     if (strcmp(known, nature) == 0)
         return PERCUSS_OK;
@@ -258,6 +261,7 @@ static bool drop_oldest(struct specimen_store *store)
     uint8_t client[16];
     uint64_t mark;
     sqlite3_stmt *oldest = database_statement(&store->database, STATEMENT_OLDEST);
+    /* the reply that was stored first */
     if (sqlite3_step(oldest) != SQLITE_ROW || sqlite3_column_bytes(oldest, 1) != 16)
         return false;
     int64_t id = sqlite3_column_int64(oldest, 0);
@@ -268,6 +272,7 @@ static bool drop_oldest(struct specimen_store *store)
     sqlite3_bind_int64(drop, 1, id);
     if (!database_run(drop) || !read_mark(store, client, &mark))
         return false;
+    /* its client's mark: replies up to there are no longer kept */
     if (sequence <= mark)
         return true;
     sqlite3_stmt *set = database_statement(&store->database, STATEMENT_MARK);
@@ -305,6 +310,7 @@ enum percuss_status specimen_store_commit(struct specimen_store *store,
 {
     struct database *database = &store->database;
     size_t created = 0, kept = store->replies + 1;
+    /* impact and reply in one transaction */
     bool good = database_run(database_statement(database, STATEMENT_BEGIN));
     for (size_t i = 0; good && i < count; i++)
         good = write_change(store, &changes[i], &created);
@@ -318,6 +324,7 @@ enum percuss_status specimen_store_commit(struct specimen_store *store,
         store->specimens += created;
         return PERCUSS_OK;
     }
+    /* or nothing of all that */
     enum percuss_status status = database_fault(database, "the impact is not stored", fault);
     database_roll_back(database);
     return status;

@@ -47,6 +47,7 @@ enum percuss_status table_file_write(const char *folder, const char *text, const
     int file = mkstemp(aside);
     if (file < 0)
         return refuse(fault, folder, "cannot be written to");
+    /* it gets its name once it is whole */
     bool good = write_all(file, text) && fchmod(file, 0644) == 0;
     good = close(file) == 0 && good;
     if (good && rename(aside, path) == 0)

@@ -88,6 +88,7 @@ static enum percuss_status read_material(const json_t *object, struct material *
     for (size_t i = 0; i < sizeof list / sizeof *list && !status; i++)
         status = json_numbers_take(json_object_get(object, list[i].name), list[i].name,
                                    list[i].value, fault);
+    /* null: it never yields */
     material->yield = INFINITY;
     if (!status && !json_is_null(yield))
         status = json_numbers_take(yield, "yield", &material->yield, fault);
@@ -138,6 +139,7 @@ static enum percuss_status read_arrays(const json_t *root, struct indentation_ta
         if (status)
             return status;
     }
+    /* each branch has a fixed number of samples */
     if (samples != table->branches * INDENTATION_SAMPLES)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "recovery: %zu values: must be %zu", samples,
                          table->branches * INDENTATION_SAMPLES);
@@ -158,6 +160,7 @@ static enum percuss_status read_numbers(const json_t *root, struct indentation_t
     for (size_t i = 0; i < sizeof list / sizeof *list && !status; i++)
         status = json_numbers_take(member(root, list[i].section, list[i].name), list[i].name,
                                    list[i].value, fault);
+    /* how large the computation was */
     if (!status)
         status =
             json_numbers_take_whole(member(root, "effort", "nodes"), "nodes", &table->nodes, fault);

@@ -118,10 +118,12 @@ enum percuss_status table_store_add(struct table_store *store,
         free(entry);
         return status;
     }
+    /* by what it is looked up, and preferred to others */
     memcpy(entry->materials, table->input.materials, sizeof entry->materials);
     entry->depth = contact_curves_range(entry->curves) / table->input.radius;
     entry->error = table->force_error;
     table_key(&table->input, entry->key);
+    /* into the list in one step: others look up meanwhile */
     entry->next = atomic_load(&store->first);
     while (!atomic_compare_exchange_weak(&store->first, &entry->next, entry)) {
     }
@@ -176,6 +178,7 @@ enum percuss_status table_store_load(struct table_store *store, const char *fold
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: cannot be read: %s", folder,
                          strerror(errno));
     load_family(store, folder, complain);
+    /* what is no sound table is left out */
     for (int i = 0; i < found; i++) {
         char path[TABLE_PATH_SIZE];
         struct fault reason;
