@@ -111,6 +111,7 @@ static enum percuss_status read_body(struct reader *reader, struct entry entry,
     *body = (struct body){.tip_radius = INFINITY};
     memcpy(body->id, entry.key->data.scalar.value, entry.key->data.scalar.length);
     size_t mark = reader_enter(reader, body->id);
+    /* its kind first, which says what other keys there are */
     enum percuss_status status = read_kind(reader, entry, body);
     if (status)
         return status;
@@ -121,6 +122,7 @@ static enum percuss_status read_body(struct reader *reader, struct entry entry,
         status = find_material(reader, entry, materials, body);
     if (status)
         return status;
+    /* what follows from them, if they make a body */
     struct fault fault = {0};
     if (body_complete(body, &fault))
         return refuse_field(reader, entry, fault.text);

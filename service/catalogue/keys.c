@@ -76,6 +76,7 @@ static bool read_name(const yaml_node_t *value, char *field)
 static enum percuss_status read_list(struct reader *reader, const yaml_node_t *list,
                                      const struct key *key, size_t count, char *field)
 {
+    /* an element is read like a key of its own */
     struct key one = *key;
     one.type = key->type == KEY_ENDS ? KEY_WORD : KEY_NUMBER;
     size_t stride = key->type == KEY_ENDS ? sizeof(unsigned) : sizeof(double);

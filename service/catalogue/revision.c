@@ -83,6 +83,7 @@ static int by_id(const void *a, const void *b)
 
 enum percuss_status revision_write(struct body_set *set, struct fault *fault)
 {
+    /* by id, wherever in the file they stand */
     const struct body **order = malloc((set->count + 1) * sizeof *order);
     if (!order)
         return fault_set(fault, PERCUSS_INTERNAL, "catalogue revision: out of memory");
@@ -90,6 +91,7 @@ enum percuss_status revision_write(struct body_set *set, struct fault *fault)
         order[i] = &set->bodies[i];
     qsort(order, set->count, sizeof *order, by_id);
 
+    /* from the offset basis over all that a result depends on */
     struct hash hash = {(wide)0x6c62272e07bb0142 << 64 | 0x62b821756295c58d};
     hash_text(&hash, "percuss catalogue 1"); /* of this list of fields */
     hash_number(&hash, set->compliance);
