@@ -80,10 +80,14 @@ static double plastic_piece(const struct contact_law *law, double w, double *by_
 {
     const double *p = law->parameters;
     double log_w = log(w);
+    /* what is left of Hertz's force: exp(-w^(5/12)/4) w^(3/2) */
     double fading = exp(5.0 / 12.0 * log_w);
     double first = exp(-0.25 * fading) * w * sqrt(w);
+    /* share that the plastic force has reached: 1 - exp(-w^(5/9)/25) */
     double rise = exp(5.0 / 9.0 * log_w) / 25.0;
     double left = exp(-rise);
+    /* hardness, which falls as the contact widens: 4H/(C S_y) = (4 2.84/C) (1 - exp(-size)),
+     * size = 0.82 (a/R)^-0.7, log(a/R) = (log w + log(d_c/R) + B log(w/1.9))/2 */
     double half = 0.5 * (1.0 + p[GROWTH]);
     double log_a =
         half * log_w + 0.5 * (log(p[YIELD_DEPTH] / p[RADIUS]) - p[GROWTH] * log(PLASTIC_FROM));
@@ -91,6 +95,7 @@ static double plastic_piece(const struct contact_law *law, double w, double *by_
     double soft = exp(-size);
     double hardness = p[HARDNESS] * (1.0 - soft);
     double second = hardness * (1.0 - left) * w;
+    /* by the product rule, d/dlog w of w^n being n w^n */
     *by_log = first * (1.5 - 5.0 / 48.0 * fading) + second -
               0.7 * half * p[HARDNESS] * size * soft * (1.0 - left) * w +
               hardness * left * rise * (5.0 / 9.0) * w;
@@ -104,10 +109,12 @@ static double loading_force(const struct contact_law *law, double d, double *slo
     double elastic = hertz_force(law, d, slope);
     if (!(w > PLASTIC_FROM))
         return elastic;
+    /* the second piece, in units of F_c = k d_c^(3/2) */
     double unit = law->parameters[STIFFNESS] * depth * sqrt(depth);
     double by_log;
     double plastic = unit * plastic_piece(law, w, &by_log);
     double plastic_slope = unit * by_log / d;
+    /* between the two by the quintic step s(t) = 6 t^5 - 15 t^4 + 10 t^3, s' = 30 t^2 (1 - t)^2 */
     double t = (w - PLASTIC_FROM) / (PLASTIC_FULL - PLASTIC_FROM);
     if (t >= 1.0) {
         *slope = plastic_slope;

@@ -64,6 +64,7 @@ static double table_work(const struct contact_curves *curves, double d)
     size_t last = loading->count - 1;
     double beyond = straight_on(curves, d);
     double slope;
+    /* under the straight line beyond the last point */
     if (beyond > 0.0) {
         double force = table_force(curves, loading->place[last], &slope);
         return curves->work[last] + beyond * (force + 0.5 * slope * beyond);
@@ -74,6 +75,7 @@ static double table_work(const struct contact_curves *curves, double d)
         double to = spline_at(loading, d, &slope);
         return curves->work[last] + 0.4 / slope * (to * to * sqrt(to) - from * from * sqrt(from));
     }
+    /* up to the segment of d, and on it */
     size_t i = spline_segment(loading, d);
     return curves->work[i] +
            curves_work_on(loading, loading, 0.0, i, (double[]){loading->place[i], d});
