@@ -28,11 +28,11 @@ static bool may_pass(const struct ddsi_sertype *type, const uint8_t *data, size_
     const struct ddsi_sertype_default *own = (const struct ddsi_sertype_default *)type;
     if (size < ENCAPSULATION || data[0] != 0)
         return false;
-    // delimited XCDR2, of a big or a little machine
+    /* delimited XCDR2, of a big or a little machine */
     const uint8_t big = 8, little = 9;
     if (data[1] != big && data[1] != little)
         return false;
-    // DDS takes only this bit of the padding's size
+    /* DDS takes only this bit of the padding's size */
     size_t padding = data[3] & 2;
     bool swapped = (data[1] == big) == (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
     return size - ENCAPSULATION >= padding && wire_whole(own->type.ops.ops, data + ENCAPSULATION,
@@ -76,7 +76,7 @@ static struct ddsi_serdata *from_network(const struct ddsi_sertype *type,
 {
     if (fragments->maxp1 < ENCAPSULATION)
         return NULL;
-    // keys are octets and strings, and these are checked well
+    /* keys are octets and strings, and these are checked well */
     if (kind == SDK_DATA && fragments->nextfrag)
         return take_fragments(type, fragments, size);
     if (kind == SDK_DATA && !may_pass(type, fragment_data(fragments), fragments->maxp1))
@@ -128,7 +128,7 @@ static void prepare_operations(void)
     sample_operations.from_ser_iov = from_pieces;
     sample_operations.to_untyped = to_key;
     type_operations = ddsi_sertype_ops_default;
-    // there is no other representation to derive a type for
+    /* there is no other representation to derive a type for */
     type_operations.derive_sertype = NULL;
 }
 
@@ -139,12 +139,14 @@ static struct ddsi_sertype_default *create_type(const dds_topic_descriptor_t *de
     memset(type, 0, sizeof *type);
     ddsi_sertype_init(&type->c, descriptor->m_typename, &type_operations, &sample_operations,
                       false);
+    /* written as delimited XCDR2 alone */
     type->c.allowed_data_representation = DDS_DATA_REPRESENTATION_FLAG_XCDR2;
 #ifdef DDS_HAS_SHM
     type->c.iox_size = descriptor->m_size;
 #endif
     type->encoding_format = CDR_ENC_FORMAT_DELIMITED;
     type->write_encoding_version = CDR_ENC_VERSION_2;
+    /* the sample in memory, and its keys */
     type->type.size = descriptor->m_size;
     type->type.align = descriptor->m_align;
     type->type.flagset = descriptor->m_flagset;
@@ -153,6 +155,7 @@ static struct ddsi_sertype_default *create_type(const dds_topic_descriptor_t *de
     for (uint32_t i = 0; i < descriptor->m_nkeys; i++)
         type->type.keys.keys[i] = (ddsi_sertype_default_desc_key_t){
             .ops_offs = descriptor->m_keys[i].m_offset, .idx = descriptor->m_keys[i].m_idx};
+    /* the operations that write and read it */
     type->type.ops.nops =
         dds_stream_countops(descriptor->m_ops, descriptor->m_nkeys, descriptor->m_keys);
     size_t ops = type->type.ops.nops * sizeof *type->type.ops.ops;
@@ -168,14 +171,14 @@ dds_entity_t wire_topic_create_typed(dds_entity_t participant,
     if (descriptor->m_nkeys == 0 || descriptor->m_ops[0] != DDS_OP_DLC)
         return DDS_RETCODE_BAD_PARAMETER;
     pthread_once(&operations_once, prepare_operations);
-    // registered with the domain, or exchanged for an equal one that is
+    /* registered with the domain, or exchanged for an equal one that is */
     struct ddsi_sertype *used = &create_type(descriptor)->c;
     dds_entity_t topic = dds_create_topic_sertype(participant, name, &used, NULL, NULL, NULL);
     if (topic < 0) {
         ddsi_sertype_unref(used);
         return topic;
     }
-    // only now is it known which domain's pool of samples it takes from
+    /* only now is it known which domain's pool of samples it takes from */
     const struct ddsi_domaingv *domain = ddsrt_atomic_ldvoidp(&used->gv);
     __atomic_store_n(&((struct ddsi_sertype_default *)used)->serpool, domain->serpool,
                      __ATOMIC_RELEASE);

@@ -120,7 +120,7 @@ static bool check_list(const uint32_t *ops, struct cursor *cursor)
     if ((number == 0 && !enter(cursor, &inner)) || !read_number(&inner, &count) ||
         (list.bound && count > list.bound))
         return false;
-    // numbers take what they take on the wire, and DDS counts bytes with 32 bits
+    /* numbers take what they take on the wire, and DDS counts bytes with 32 bits */
     if (count > (number ? UINT32_MAX : largest_list) / list.size)
         return false;
     bool good = number ? count == 0 || skip(&inner, number, count)
@@ -193,7 +193,7 @@ static bool check_struct(const uint32_t *ops, struct cursor *cursor)
         if (!is_known(ops) || !(missing ? may_be_missing(*ops) : check_member(ops, &inner)))
             return false;
     }
-    // members that a newer version has appended
+    /* members that a newer version has appended */
     cursor->at = appendable ? inner.end : inner.at;
     return true;
 }
