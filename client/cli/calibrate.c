@@ -261,6 +261,7 @@ static int run_calibration(struct run *run)
         parameter->value = value_at(parameter, calibration.fit.x[i]);
         parameter->half_width = parameter->size * calibration.fit.half_width[i];
     }
+    /* the values, and what makes them doubtful */
     if (calibrate->common->json)
         calibrate_print_json(&report);
     else
@@ -291,10 +292,12 @@ int command_calibrate(int argc, char **argv, struct common *common)
     argp_parse(&calibrate_argp, argc, argv, 0, NULL, &calibrate);
     if (calibrate.scene.options.tolerance == 0.0)
         calibrate.scene.options.tolerance = FINE_TOLERANCE;
+    /* what was measured */
     if (!measured_read(calibrate.file, &run.set, &fault)) {
         complain("%s", fault.text);
         return EXIT_USAGE;
     }
+    /* its twins, and the parameters that bring them closest */
     run.list = calloc(run.set.count, sizeof *run.list);
     int code = run.list ? twins_open(&run.twins, common, &calibrate.scene) : EXIT_FAILURE;
     if (code == EXIT_ANSWERED) {

@@ -168,10 +168,12 @@ int command_compare(int argc, char **argv, struct common *common)
     struct measured_fault fault;
     struct twins twins;
     argp_parse(&compare_argp, argc, argv, 0, NULL, &compare);
+    /* what was measured */
     if (!measured_read(compare.file, &set, &fault)) {
         complain("%s", fault.text);
         return EXIT_USAGE;
     }
+    /* its twins, and how far they are from it */
     int code = twins_open(&twins, common, &compare.scene);
     if (code == EXIT_ANSWERED) {
         code = run(&compare, &twins, &set);

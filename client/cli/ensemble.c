@@ -302,6 +302,7 @@ static int run(struct ensemble *ensemble)
     for (size_t i = 0; i < ensemble->request->input_count; i++)
         if (!strcmp(ensemble->request->inputs[i].name, "speed"))
             speed = input_text_middle(&ensemble->request->inputs[i]);
+    /* bodies of the catalogue, placed in contact */
     int code = open_client(ensemble->common, NULL, &client);
     if (code != EXIT_ANSWERED)
         return code;

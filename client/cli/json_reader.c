@@ -128,6 +128,7 @@ static bool read_overrides(const json_t *object, const struct json_path *path,
     json_t *value;
     if (!json_is_object(object))
         return json_fail(fault, path, "an object is needed, not %s", json_kind_of(object));
+    /* numbers for parameters that there are */
     json_object_foreach((json_t *)object, name, value)
     {
         struct json_path here = {path, name, 0};
@@ -140,6 +141,7 @@ static bool read_overrides(const json_t *object, const struct json_path *path,
         if (!json_is_number(value))
             return json_fail(fault, &here, "a number is needed, not %s", json_kind_of(value));
     }
+    /* in the order of the parameters, not of the file */
     for (unsigned i = 0; i < member->size; i++)
         if ((value = json_object_get(object, member->name_of(i))))
             body->overrides[body->override_count++] =
@@ -172,7 +174,7 @@ static bool read_member(const json_t *value, const struct json_path *path,
         return read_overrides(value, path, member, structure, fault);
     case JSON_KIND_CHOICE:
         return read_choice(value, path, member, target, fault);
-    default: // only in replies
+    default: /* only in replies */
         return json_fail(fault, path, "is not read");
     }
 }

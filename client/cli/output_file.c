@@ -34,6 +34,7 @@ static bool can_write_behind(const char *link)
 static bool can_write(const char *file)
 {
     struct stat there;
+    /* a file that is not there yet is tried and taken away again */
     int trial = open(file, O_WRONLY | O_CREAT | O_EXCL, 0666);
     if (trial >= 0) {
         close(trial);

@@ -244,6 +244,7 @@ static int print(const struct sweep *sweep, const struct run *runs, size_t count
         complain("out of memory");
         return EXIT_FAILURE;
     }
+    /* all curves over the same speeds */
     for (unsigned i = 0; i < sweep->count; i++)
         speeds[i] = speed_at(sweep, i);
     for (size_t k = 0; k < count; k++)

@@ -31,6 +31,7 @@ static struct row row_of(const struct sweep_points *points, const struct sweep_c
                       .impulse = NAN,
                       .end_time = NAN,
                       .status = percuss_status_name(reply->status)};
+    /* a refusal has no contacts */
     if (reply->contact_count > 0) {
         const struct percuss_contact_result *contact = &reply->contacts[0];
         row.restitution = contact->restitution;
