@@ -71,10 +71,14 @@ bool matched_compliance(const struct body *body, double patch, double *complianc
         return true;
     case SOLID_CYLINDER:
         if (solid.approximate || isfinite(solid.tip_radius))
+            break;
+        if (!matched_cylinder(poisson, slenderness, compliance))
             return false;
-        *compliance = scale * (matched_cylinder(poisson, slenderness) - held);
-        return isfinite(*compliance);
+        *compliance = scale * (*compliance - held);
+        return true;
     default:
-        return false;
+        break;
     }
+    *compliance = NAN;
+    return true;
 }

@@ -21,13 +21,13 @@
  * of an end face, a half-space (0). `patch` is the contact radius in m: a sphere's surface bends
  * away from the half-space's, which leaves a term in its logarithm; a flat end does not need it.
  * The basis held elsewhere is taken as rigid (sphere, cylinder) or as the free rod's L / (3 E A); a
- * rod whose other end is fixed gets the same, since both differ far from the hit end alone. False:
- * no solution for such a solid (beam, block, rounded tip), or no memory. */
+ * rod whose other end is fixed gets the same, since both differ far from the hit end alone. NAN:
+ * no solution for such a solid (beam, block, rounded tip). False: out of memory. */
 bool matched_compliance(const struct body *body, double patch, double *compliance);
 
-/* Times young * radius, dimensionless: of a cylinder that is long or short, rigid basis. NAN: no
- * memory. Some milliseconds; depends on poisson and on length / radius alone. */
-double matched_cylinder(double poisson, double slenderness);
+/* Times young * radius, dimensionless: of a cylinder that is long or short, rigid basis. False:
+ * out of memory. Some milliseconds; depends on poisson and on length / radius alone. */
+bool matched_cylinder(double poisson, double slenderness, double *compliance);
 
 /* Times young * radius: of a sphere; `patch` is the contact radius over the sphere's. */
 double matched_sphere(double poisson, double patch);

@@ -305,7 +305,7 @@ static double solve(struct cylinder *cylinder)
     return -pole_above_mean(cylinder) + mean_half_space(cylinder);
 }
 
-double matched_cylinder(double poisson, double slenderness)
+bool matched_cylinder(double poisson, double slenderness, double *compliance)
 {
     struct cylinder cylinder = {.poisson = poisson, .length = slenderness};
     double first = 0.5 * fmin(1.0, slenderness);
@@ -317,10 +317,10 @@ double matched_cylinder(double poisson, double slenderness)
     size_t width = 2 * (ORDER * cylinder.row + ORDER) + 1;
     cylinder.matrix = (struct band){n, width, calloc(n * (width + 1), sizeof(double))};
     cylinder.load = calloc(n, sizeof(double));
-    double compliance = NAN;
-    if (cylinder.matrix.values && cylinder.load)
-        compliance = solve(&cylinder);
+    bool room = cylinder.matrix.values && cylinder.load;
+    if (room)
+        *compliance = solve(&cylinder);
     free(cylinder.matrix.values);
     free(cylinder.load);
-    return compliance;
+    return room;
 }

@@ -40,14 +40,15 @@ static bool is_central(const struct body *body, const double point[3])
     return off <= CENTRAL * body->radius && length > END * body->length;
 }
 
-/* The correction of one side of a contact, m/N. False: none is known. */
+/* The correction of one side of a contact, m/N. NAN: none is known. False: out of memory. */
 static bool side_compliance(struct problem *problem, size_t c, int which, double *compliance)
 {
     const struct contact_side *side = &problem->sides[c][which];
     const struct body *body = problem->bodies[side->body];
     enum solid_form form = body_solid(body).form;
+    *compliance = NAN;
     if (form == SOLID_CYLINDER && !is_central(body, side->site.point))
-        return false;
+        return true;
     double patch = 0.0;
     if (form == SOLID_BALL) {
         patch = patch_radius(problem, c);
@@ -86,7 +87,9 @@ static void find_matched(struct problem *problem, bool asked)
         }
         for (int which = 0; which < 2; which++) {
             double *part = &compliance->sides[c][which];
-            if (!side_compliance(problem, c, which, part)) {
+            if (!side_compliance(problem, c, which, part))
+                problem->arena->lacks = true;
+            if (!isfinite(*part)) {
                 char why[sizeof compliance->reason];
                 const struct contact_side *side = &problem->sides[c][which];
                 snprintf(why, sizeof why, "no matched compliance is known for %s there",

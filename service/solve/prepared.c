@@ -37,7 +37,7 @@ struct entry {
     struct prepared_family *families[BODY_MOST_FAMILIES];
     struct remainder *remainders[BODY_MOST_FAMILIES];
     struct radiation *radiation;
-    enum { UNASKED, KNOWN, NONE } matched_is[OCTAVES];
+    bool asked[OCTAVES];     /* for the compliance beside it */
     double matched[OCTAVES]; /* [k]: with the patch radius/2^k; [0] where it does not matter */
 };
 
@@ -131,7 +131,7 @@ static void entry_clear(struct entry *entry)
         free(entry->radiation);
         entry->radiation = next;
     }
-    memset(entry->matched_is, 0, sizeof entry->matched_is);
+    memset(entry->asked, 0, sizeof entry->asked);
 }
 
 /* Forgets all bodies, or only the varied ones. */
@@ -281,14 +281,13 @@ struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const s
     return made->set;
 }
 
-/* The compliance at an octave; NAN: none is known. */
-static double matched_at(struct entry *entry, const struct body *body, int octave)
+/* Asks for the compliance at an octave. False: out of memory. */
+static bool match_at(struct entry *entry, const struct body *body, int octave)
 {
     double patch = ldexp(body->radius, -octave);
-    if (entry->matched_is[octave] == UNASKED)
-        entry->matched_is[octave] =
-            matched_compliance(body, patch, &entry->matched[octave]) ? KNOWN : NONE;
-    return entry->matched_is[octave] == KNOWN ? entry->matched[octave] : NAN;
+    if (!entry->asked[octave])
+        entry->asked[octave] = matched_compliance(body, patch, &entry->matched[octave]);
+    return entry->asked[octave];
 }
 
 bool prepared_matched_get(struct prepared_cache *cache, const struct body *body, double patch,
@@ -298,15 +297,18 @@ bool prepared_matched_get(struct prepared_cache *cache, const struct body *body,
     if (!entry)
         return false;
     if (body_solid(body).form != SOLID_BALL) {
-        *compliance = matched_at(entry, body, 0);
-        return isfinite(*compliance);
+        bool matched = match_at(entry, body, 0);
+        *compliance = entry->matched[0];
+        return matched;
     }
     double octave = fmax(1.0, -log2(patch / body->radius));
     int below = (int)fmin(octave, OCTAVES - 2);
-    double low = matched_at(entry, body, below);
-    double high = matched_at(entry, body, below + 1);
+    if (!match_at(entry, body, below) || !match_at(entry, body, below + 1))
+        return false;
+    double low = entry->matched[below];
+    double high = entry->matched[below + 1];
     *compliance = low + (octave - below) * (high - low);
-    return isfinite(*compliance);
+    return true;
 }
 
 void prepared_cache_forget(struct prepared_cache *cache, const char *id)

@@ -57,8 +57,8 @@ struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const s
 
 /* matched_compliance of a sphere, or of a rod's or cylinder's end, with the contact radius `patch`
  * (m). It takes milliseconds when first asked for. A sphere's is linear in the logarithm of the
- * patch but for terms of the order of (patch/radius)^2: taken from octaves. False: none is known,
- * or out of memory. */
+ * patch but for terms of the order of (patch/radius)^2: taken from octaves. NAN: none is known.
+ * False: out of memory. */
 bool prepared_matched_get(struct prepared_cache *cache, const struct body *body, double patch,
                           double *compliance);
 

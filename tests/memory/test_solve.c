@@ -152,6 +152,14 @@ static void a_table(void **state)
     ask("table", bodies(), request, 100);
 }
 
+static void matched_compliance(void **state)
+{
+    (void)state;
+    struct solve_request request = on_rod("rod");
+    request.options.compliance = PERCUSS_COMPLIANCE_MATCHED;
+    ask("matched", bodies(), request, 100);
+}
+
 static void a_half_space(void **state)
 {
     (void)state;
@@ -218,11 +226,17 @@ static void concurrent_finite_elements(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hertz_on_a_rod), cmocka_unit_test(hertz_on_a_beam_that_strikes_back),
-        cmocka_unit_test(a_history),      cmocka_unit_test(closed_form),
-        cmocka_unit_test(a_table),        cmocka_unit_test(a_half_space),
-        cmocka_unit_test(by_cvode),       cmocka_unit_test(two_balls_on_a_beam),
-        cmocka_unit_test(on_states),      cmocka_unit_test(concurrent_finite_elements),
+        cmocka_unit_test(hertz_on_a_rod),
+        cmocka_unit_test(hertz_on_a_beam_that_strikes_back),
+        cmocka_unit_test(a_history),
+        cmocka_unit_test(closed_form),
+        cmocka_unit_test(a_table),
+        cmocka_unit_test(matched_compliance),
+        cmocka_unit_test(a_half_space),
+        cmocka_unit_test(by_cvode),
+        cmocka_unit_test(two_balls_on_a_beam),
+        cmocka_unit_test(on_states),
+        cmocka_unit_test(concurrent_finite_elements),
     };
     return cmocka_run_group_tests(tests, load_shipped, free_shipped);
 }

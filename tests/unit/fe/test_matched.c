@@ -22,7 +22,9 @@ static void rod_end_has_the_known_compliance(void **state)
         double beta[2];
         for (size_t k = 0; k < 2; k++) {
             double slenderness = k ? 1000.0 : 500.0;
-            beta[k] = slenderness / (3.0 * M_PI) - matched_cylinder(known[i][0], slenderness);
+            double compliance;
+            assert_true(matched_cylinder(known[i][0], slenderness, &compliance));
+            beta[k] = slenderness / (3.0 * M_PI) - compliance;
         }
         double endless = 2.0 * beta[1] - beta[0];
         if (!(fabs(endless - known[i][1]) < 1e-4))
@@ -168,7 +170,9 @@ static void agrees_with_a_whole_rod(void **state)
     for (size_t i = 0; i < 3; i++) {
         struct body_case c = {.poisson = cases[i][0], .patch = 0.05};
         assert_int_equal(mesh_cylinder(1.0, cases[i][1], &fine, &c.mesh, NULL), PERCUSS_OK);
-        near(above_half_space(&c, flat), matched_cylinder(cases[i][0], cases[i][1]), 0.015);
+        double compliance;
+        assert_true(matched_cylinder(cases[i][0], cases[i][1], &compliance));
+        near(above_half_space(&c, flat), compliance, 0.015);
     }
 }
 
@@ -194,7 +198,7 @@ static void knows_its_shapes(void **state)
     assert_true(matched_compliance(&body, 3e-4, &compliance));
     near(compliance * 70e9 * 0.010, -0.5876, 2e-3);
     body.tip_radius = 0.02;
-    assert_false(matched_compliance(&body, 3e-4, &compliance));
+    assert_true(matched_compliance(&body, 3e-4, &compliance) && isnan(compliance));
     body.kind = &sphere_kind;
     assert_true(matched_compliance(&body, 3e-4, &compliance));
     near(compliance * 70e9 * 0.010, matched_sphere(0.33, 0.03), 1e-12);
@@ -203,7 +207,7 @@ static void knows_its_shapes(void **state)
     body.kind = &half_space_kind;
     assert_true(matched_compliance(&body, 3e-4, &compliance) && compliance == 0.0);
     body.kind = &beam_kind;
-    assert_false(matched_compliance(&body, 3e-4, &compliance));
+    assert_true(matched_compliance(&body, 3e-4, &compliance) && isnan(compliance));
 }
 
 int main(void)
