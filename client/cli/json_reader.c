@@ -200,7 +200,7 @@ bool json_read_object(const json_t *object, const struct json_path *path,
         struct json_path here = {path, name, 0};
         const struct json_member *member = members;
         while (member->name && strcmp(member->name, name))
-            ++member;
+            member++;
         if (!member->name)
             return unknown_member(&here, members, fault);
         if (!read_member(value, &here, member, target, fault))

@@ -119,7 +119,7 @@ static bool check_members(const json_t *root, struct json_fault *fault)
     {
         size_t i = 0;
         while (i < REQUEST_MEMBERS && strcmp(request_members[i].name, name))
-            ++i;
+            i++;
         if (i == REQUEST_MEMBERS)
             return json_fail(fault, &(struct json_path){NULL, name, 0},
                              "unknown member; allowed are: bodies, contacts, delassus, options, "

@@ -17,7 +17,7 @@ static enum percuss_result convert_input(const struct percuss_input *from, size_
                          index, PERCUSS_ID_SIZE - 1);
     *to = (percuss_v1_EnsembleInput){0};
     PERCUSS_INPUT_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
-    // writing only reads it
+    /* writing only reads it */
     to->values._buffer = (double *)from->values;
     to->values._length = to->values._maximum = (uint32_t)from->value_count;
     return PERCUSS_RESULT_OK;

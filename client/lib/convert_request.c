@@ -79,7 +79,7 @@ enum percuss_result convert_request(const struct percuss_request *request,
     wire->contacts._buffer = storage->contacts;
     wire->contacts._length = wire->contacts._maximum = contacts;
     if (request->delassus) {
-        // writing only reads it
+        /* writing only reads it */
         wire->delassus._buffer = (double *)request->delassus;
         wire->delassus._length = wire->delassus._maximum = contacts * contacts;
     }

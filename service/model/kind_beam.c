@@ -63,7 +63,7 @@ static void complete_section(struct body *body)
 {
     double length = body->length;
     double *second = body->second_moment;
-    // the section
+    /* the section */
     if (is_round(body)) {
         double r2 = body->radius * body->radius;
         body->area = M_PI * r2;
@@ -74,12 +74,12 @@ static void complete_section(struct body *body)
         second[0] = h * w * w * w / 12.0;
         second[1] = w * h * h * h / 12.0;
     }
-    // mass and twist
+    /* mass and twist */
     body->mass = body->material.density * body->area * length;
     body->torsion_constant = torsion_constant(body);
     body->warping_constant = torsion_warping_constant(body);
 
-    // inertia: Euler-Bernoulli's sections carry none in bending
+    /* inertia: Euler-Bernoulli's sections carry none in bending */
     bool rotatory = body->theory == THEORY_TIMOSHENKO;
     double slender = length * length / 12.0;
     body->inertia[0] = body->mass * (second[0] + second[1]) / body->area;
@@ -154,9 +154,9 @@ static void load_families(const struct body *body, const struct site *site,
     bool on_end = site->face == SITE_END;
     double x = bar_place(body, site);
     const double *point = site->point;
-    // along the axis
+    /* along the axis */
     bar_load_along(body, site, direction, &load->family[BAR_LONGITUDINAL]);
-    // across it, in both planes
+    /* across it, in both planes */
     for (int plane = 0; plane < 2; plane++) {
         struct family_load *bending = &load->family[BAR_BENDING_Y + plane];
         bending->bar.x = x;
@@ -164,7 +164,7 @@ static void load_families(const struct body *body, const struct site *site,
         bending->bar.moment = on_end ? -point[1 + plane] * direction[0] : 0.0;
         bar_load_settle(body, bending);
     }
-    // about it
+    /* about it */
     struct family_load *twist = &load->family[BAR_TWIST];
     twist->bar.x = x;
     if (!is_round(body) && !on_end)

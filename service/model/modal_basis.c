@@ -21,7 +21,7 @@ struct modal_family *modal_family_create(const struct body *body, size_t family,
     struct modal_family *modes = calloc(1, sizeof *modes);
     if (!modes)
         return NULL;
-    // room for all of them
+    /* room for all of them */
     modes->family = family;
     modes->count = count;
     modes->omega = calloc(count + 1, sizeof *modes->omega);
@@ -32,7 +32,7 @@ struct modal_family *modal_family_create(const struct body *body, size_t family,
         modal_family_free(modes);
         return NULL;
     }
-    // the modes themselves
+    /* the modes themselves */
     kind->find(body, modes);
     return modes;
 }

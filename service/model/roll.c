@@ -23,7 +23,7 @@ size_t roll_common_family(const struct body *body, size_t family)
 bool roll_choose(const struct body *body, const struct site_load *load, struct roll *roll)
 {
     size_t first;
-    // only where two families are alike, and the load acts on them
+    /* only where two families are alike, and the load acts on them */
     *roll = (struct roll){0, 1.0, 0.0};
     if (!find_alike(body, &first))
         return false;
@@ -32,12 +32,12 @@ bool roll_choose(const struct body *body, const struct site_load *load, struct r
     if (!y->acts && !z->acts)
         return false;
 
-    // the plane of a force on the side, or of the moment of one beside the axis of an end
+    /* the plane of a force on the side, or of the moment of one beside the axis of an end */
     double moment = hypot(y->bar.moment, z->bar.moment);
     double force = hypot(y->bar.force, z->bar.force);
     double along_y = moment > 0.0 ? y->bar.moment / moment : y->bar.force / force;
     double along_z = moment > 0.0 ? z->bar.moment / moment : z->bar.force / force;
-    // turned by as little as puts the second family there
+    /* turned by as little as puts the second family there */
     double sign = along_z < 0.0 ? -1.0 : 1.0;
     if (fabs(along_y) > NEGLIGIBLE)
         *roll = (struct roll){first, sign * along_z, sign * along_y};

@@ -79,7 +79,7 @@ int main(int argc, char **argv)
     if (pthread_create(&thread, NULL, load_and_unload, NULL) != 0 ||
         pthread_join(thread, NULL) != 0)
         return EXIT_FAILURE;
-    // threads of DDS that were left without their code would have run by now
+    /* threads of DDS that were left without their code would have run by now */
     struct timespec while_they_run = {.tv_nsec = 300000000};
     nanosleep(&while_they_run, NULL);
     printf("%d times loaded and unloaded\n", ROUNDS + 1);

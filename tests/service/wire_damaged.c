@@ -81,7 +81,7 @@ static void write_bytes(struct target *target, const struct any_bytes *good,
     memcpy(data + ENCAPSULATION, bytes->data, bytes->size);
     ((struct ddsi_serdata_default *)sample)->pos = (uint32_t)bytes->size;
     ddsi_serdata_to_ser_unref(held, &inside);
-    // gives the sample away
+    /* gives the sample away */
     dds_writecdr(target->writer, sample);
     written++;
 }
@@ -182,7 +182,7 @@ static void attack_clients(double seconds)
     for (double end = peer_now() + seconds; peer_now() < end;) {
         count = find_victims(subscriptions, victims, count);
         attack(&announcements[any_number() % ANNOUNCEMENTS], NULL, false);
-        // the latest client is the one that is still there
+        /* the latest client is the one that is still there */
         if (count)
             attack(&victims[count - 1].targets[any_number() % REPLY_TOPICS], victims[count - 1].id,
                    false);
@@ -201,7 +201,7 @@ int main(int argc, char **argv)
         attack_daemon((unsigned)strtoul(argv[3], NULL, 10));
     else
         attack_clients(strtod(argv[3], NULL));
-    // what is on its way arrives
+    /* what is on its way arrives */
     dds_sleepfor(DDS_MSECS(300));
     dds_delete(dds_get_parent(participant));
     printf("%u damaged samples written\n", written);

@@ -95,7 +95,8 @@ static void answer_ping(struct foreign *foreign)
     percuss_v1_Reply reply = {0};
     memcpy(reply.client, foreign->client, sizeof reply.client);
     memset(reply.server, 0x5e, sizeof reply.server);
-    // what nobody hears yet is no answer, and the client goes on counting time from the first one
+    /* what nobody hears yet is no answer, and the client goes on counting time from the first one
+     */
     dds_instance_handle_t hearer;
     if (dds_get_matched_subscriptions(foreign->replies, &hearer, 1) < 1)
         return;

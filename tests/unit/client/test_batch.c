@@ -31,12 +31,12 @@ static void puts_parts_in_order(void **state)
     struct batch batch = {0};
     struct percuss_reply replies[6];
     assert_int_equal(add(&batch, 2, 7), PERCUSS_RESULT_PENDING);
-    assert_int_equal(add(&batch, 2, 7), PERCUSS_RESULT_PENDING); // again
-    assert_int_equal(add(&batch, 0, 8), PERCUSS_RESULT_PENDING); // of another server
+    assert_int_equal(add(&batch, 2, 7), PERCUSS_RESULT_PENDING); /* again */
+    assert_int_equal(add(&batch, 0, 8), PERCUSS_RESULT_PENDING); /* of another server */
     assert_int_equal(add(&batch, 0, 7), PERCUSS_RESULT_PENDING);
     assert_int_equal(add(&batch, 1, 7), PERCUSS_RESULT_OK);
     batch_collect(&batch, replies, 6);
-    for (uint64_t i = 0; i < 6; ++i) {
+    for (uint64_t i = 0; i < 6; i++) {
         assert_int_equal(replies[i].sequence, 10 * (i / 2) + i % 2);
         assert_int_equal(replies[i].status, PERCUSS_OK);
         percuss_reply_free(&replies[i]);
@@ -49,12 +49,12 @@ static void fills_in_for_missing_answers(void **state)
     (void)state;
     struct batch batch = {0};
     struct percuss_reply replies[7];
-    for (uint32_t part = 0; part < 3; ++part)
+    for (uint32_t part = 0; part < 3; part++)
         add(&batch, part, 7);
     batch_collect(&batch, replies, 7);
     assert_int_equal(replies[6].status, PERCUSS_INTERNAL);
     assert_non_null(strstr(replies[6].message, "no answer"));
-    for (int i = 0; i < 7; ++i)
+    for (int i = 0; i < 7; i++)
         percuss_reply_free(&replies[i]);
     batch_clear(&batch);
 }
@@ -68,7 +68,7 @@ static void a_refused_batch_refuses_every_question(void **state)
         .parts = 1, .status = percuss_v1_STATUS_BUSY, .message = "queue full"};
     assert_int_equal(batch_add_part(&batch, &wire), PERCUSS_RESULT_OK);
     batch_collect(&batch, replies, 2);
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 2; i++) {
         assert_int_equal(replies[i].status, PERCUSS_BUSY);
         assert_string_equal(replies[i].message, "queue full");
     }
@@ -90,7 +90,7 @@ static void drops_impossible_parts(void **state)
     add(&batch, 1, 7);
     assert_int_equal(batch_add_part(&batch, &other), PERCUSS_RESULT_PENDING);
     assert_int_equal(batch.missing, 2);
-    batch_clear(&batch); // with replies that were not collected
+    batch_clear(&batch); /* with replies that were not collected */
 }
 
 int main(void)

@@ -110,7 +110,7 @@ static void an_empty_reply(void **state)
     assert_int_equal(empty.status, PERCUSS_BUSY);
     assert_int_equal(empty.contact_count + empty.warning_count + empty.model.body_count, 0);
     percuss_reply_free(&empty);
-    percuss_reply_free(&empty); // an empty one is allowed
+    percuss_reply_free(&empty); /* an empty one is allowed */
 }
 
 int main(void)

@@ -111,10 +111,10 @@ static void a_full_request_takes_no_more(void **state)
 {
     (void)state;
     percuss_request_init(&request);
-    for (int i = 0; i < PERCUSS_MAX_BODIES; ++i)
+    for (int i = 0; i < PERCUSS_MAX_BODIES; i++)
         assert_non_null(percuss_request_add_body(&request, "b"));
     assert_null(percuss_request_add_body(&request, "b"));
-    for (int i = 0; i < PERCUSS_MAX_CONTACTS; ++i)
+    for (int i = 0; i < PERCUSS_MAX_CONTACTS; i++)
         assert_non_null(percuss_request_add_contact(&request, 0, 1));
     assert_null(percuss_request_add_contact(&request, 0, 1));
     assert_int_equal(convert_request(&request, &storage, &wire), PERCUSS_RESULT_OK);

@@ -20,7 +20,7 @@ static percuss_v1_Trace part_of(uint32_t contact, uint32_t part, uint32_t parts,
     wire.indentation = wire.gap = wire.gap_rate = list(0, length);
     wire.displacement_a = wire.displacement_b = list(0, length);
     wire.velocity_a = list(2 + part, length);
-    // velocity_b is missing, as from a server that does not know it
+    /* velocity_b is missing, as from a server that does not know it */
     return wire;
 }
 
@@ -32,12 +32,12 @@ static void puts_parts_together(void **state)
     percuss_v1_Trace second = part_of(1, 1, 2, 1), first = part_of(1, 0, 2, 3);
     percuss_v1_Trace other = part_of(0, 0, 1, 2), foreign = part_of(64, 0, 1, 2);
     percuss_v1_Trace longer = part_of(1, 1, 2, 7);
-    gather_add(&gather, &second); // too early
+    gather_add(&gather, &second); /* too early */
     gather_add(&gather, &foreign);
     assert_false(gather_is_complete(&gather, 2));
     gather_add(&gather, &first);
-    gather_add(&gather, &first);  // repeated
-    gather_add(&gather, &longer); // does not fit what was announced
+    gather_add(&gather, &first);  /* repeated */
+    gather_add(&gather, &longer); /* does not fit what was announced */
     gather_add(&gather, &second);
     assert_false(gather_is_complete(&gather, 2));
     gather_add(&gather, &other);

@@ -52,7 +52,7 @@ static void turn(const double q[4], const double v[3], bool back, double result[
         {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
         {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)},
     };
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         result[i] = matrix[i][0] * v[0] + matrix[i][1] * v[1] + matrix[i][2] * v[2];
 }
 
@@ -61,7 +61,7 @@ static void site_of(int which, double point[3], double normal[3])
 {
     const struct percuss_body_motion *body = &request.bodies[which];
     double from_centre[3], outward[3];
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         from_centre[i] = request.contacts[0].point[i] - body->position[i];
         outward[i] = (which == 0 ? -1.0 : 1.0) * request.contacts[0].normal[i];
     }
@@ -72,7 +72,7 @@ static void site_of(int which, double point[3], double normal[3])
 static void expect_vector(const double got[3], double x, double y, double z)
 {
     const double expected[3] = {x, y, z};
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; i++)
         if (!(fabs(got[i] - expected[i]) <= tolerance))
             fail_msg("(%g %g %g) instead of (%g %g %g)", got[0], got[1], got[2], x, y, z);
 }
@@ -90,7 +90,7 @@ static void expect_default_site(const struct percuss_body *body, const double po
         expect_vector(point, half[0], 0.0, 0.0);
         expect_vector(normal, 1.0, 0.0, 0.0);
     } else if (!strcmp(body->shape, "beam")) {
-        expect_vector(point, -0.5 * half[0], 0.0, half[2]); // at 0.25 of the length
+        expect_vector(point, -0.5 * half[0], 0.0, half[2]); /* at 0.25 of the length */
         expect_vector(normal, 0.0, 0.0, 1.0);
     } else {
         expect_vector(point, 0.0, 0.0, half[2]);
@@ -101,8 +101,8 @@ static void expect_default_site(const struct percuss_body *body, const double po
 static void every_pair_touches_at_its_sites(void **state)
 {
     (void)state;
-    for (int i = 0; i < SHAPES; ++i) {
-        for (int j = 0; j < SHAPES; ++j) {
+    for (int i = 0; i < SHAPES; i++) {
+        for (int j = 0; j < SHAPES; j++) {
             double point[3], normal[3];
             place(&shapes[i], &shapes[j], 0.25);
             assert_int_equal(request.body_count, 2);
@@ -122,8 +122,8 @@ static void every_pair_touches_at_its_sites(void **state)
 static void every_pair_approaches(void **state)
 {
     (void)state;
-    for (int i = 0; i < SHAPES; ++i) {
-        for (int j = 0; j < SHAPES; ++j) {
+    for (int i = 0; i < SHAPES; i++) {
+        for (int j = 0; j < SHAPES; j++) {
             place(&shapes[i], &shapes[j], 0.5);
             const double *n = request.contacts[0].normal, *q = request.bodies[0].orientation;
             expect_vector(request.bodies[0].velocity, -0.3 * n[0], -0.3 * n[1], -0.3 * n[2]);
@@ -156,14 +156,14 @@ static void beams_cross_at_a_right_angle(void **state)
     (void)state;
     static const double axis[3] = {1.0, 0.0, 0.0};
     double turned[3];
-    for (int i = 3; i <= 4; ++i) {
-        for (int j = 3; j <= 4; ++j) {
+    for (int i = 3; i <= 4; i++) {
+        for (int j = 3; j <= 4; j++) {
             place(&shapes[i], &shapes[j], 0.5);
             turn(request.bodies[0].orientation, axis, false, turned);
             expect_vector(turned, 0.0, 1.0, 0.0);
         }
     }
-    // a rod stands upright on a beam, which is across as well
+    /* a rod stands upright on a beam, which is across as well */
     place(&shapes[1], &shapes[3], 0.5);
     turn(request.bodies[0].orientation, axis, false, turned);
     expect_vector(turned, 0.0, 0.0, -1.0);
@@ -178,7 +178,7 @@ static void refuses_what_it_cannot_place(void **state)
     assert_int_equal(percuss_contact_pair(&pair, &request), PERCUSS_RESULT_INVALID_ARGUMENT);
     assert_non_null(strstr(percuss_error_text(), "plate: a body of shape 'half-disc'"));
     const double speeds[] = {0.0, -1.0, INFINITY, NAN};
-    for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; ++i) {
+    for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; i++) {
         pair = percuss_pair_default(&shapes[0], &shapes[3]);
         pair.speed = speeds[i];
         assert_int_equal(percuss_contact_pair(&pair, &request), PERCUSS_RESULT_INVALID_ARGUMENT);

@@ -16,12 +16,12 @@ static void finds_by_sequence(void **state)
 {
     (void)state;
     struct pending_table table = {.window = 1024};
-    // several share a bucket
-    for (uint64_t i = 1; i <= 4 * PENDING_BUCKETS; ++i)
+    /* several share a bucket */
+    for (uint64_t i = 1; i <= 4 * PENDING_BUCKETS; i++)
         add(&table, i);
     for (uint64_t i = 1; i <= 4 * PENDING_BUCKETS; i += 2)
         pending_remove(&table, pending_find(&table, i));
-    for (uint64_t i = 1; i <= 4 * PENDING_BUCKETS; ++i) {
+    for (uint64_t i = 1; i <= 4 * PENDING_BUCKETS; i++) {
         struct pending *pending = pending_find(&table, i);
         assert_int_equal(pending != NULL, i % 2 == 0);
         assert_true(!pending || pending->sequence == i);
@@ -35,16 +35,16 @@ static void hands_out_in_order_of_arrival(void **state)
 {
     (void)state;
     struct pending_table table = {.window = 8};
-    for (uint64_t i = 1; i <= 5; ++i)
+    for (uint64_t i = 1; i <= 5; i++)
         add(&table, i);
     pending_find(&table, 4)->waited = true;
     const uint64_t arrivals[] = {3, 4, 1, 5, 2};
-    for (int i = 0; i < 5; ++i)
+    for (int i = 0; i < 5; i++)
         pending_set_ready(&table, pending_find(&table, arrivals[i]), PERCUSS_RESULT_OK);
-    // 4 belongs to a thread that waits for it; 1 is taken by its sequence
+    /* 4 belongs to a thread that waits for it; 1 is taken by its sequence */
     pending_remove(&table, pending_find(&table, 1));
     const uint64_t expected[] = {3, 5, 2};
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; i++) {
         struct pending *first = pending_first_ready(&table);
         assert_int_equal(first->sequence, expected[i]);
         pending_remove(&table, first);

@@ -26,11 +26,11 @@ static const struct input_share inputs[] = {
 
 static struct ensemble_picture whole(void)
 {
-    for (int i = 0; i <= BINS; ++i)
+    for (int i = 0; i <= BINS; i++)
         edges[i] = 0.08 * i;
-    for (int i = 0; i < BINS; ++i)
+    for (int i = 0; i < BINS; i++)
         counts[i] = (uint64_t)(10 + i * (BINS - i));
-    for (int i = 0; i < SAMPLES; ++i) {
+    for (int i = 0; i < SAMPLES; i++) {
         speeds[i] = 0.1 + 0.3 * i / SAMPLES;
         restitutions[i] = 0.4 + 0.3 * sin(60.0 * speeds[i]);
         sub_impacts[i] = 1 + i % 5;
@@ -93,7 +93,7 @@ static void draws_all_panels(void **state)
 static void draws_each_panel_alone(void **state)
 {
     (void)state;
-    for (int panel = 0; panel < 4; ++panel) {
+    for (int panel = 0; panel < 4; panel++) {
         struct ensemble_picture picture = whole();
         picture.bins = panel == 0 ? picture.bins : 0;
         picture.quantile_count = panel == 1 ? picture.quantile_count : 0;

@@ -107,7 +107,7 @@ static void seventeen_digits_are_the_same_double(void **state)
 {
     (void)state;
     const double numbers[] = {0.1, 1.0 / 3.0, 5e-324, 1.7976931348623157e308, -2.5e-7};
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         json_t *number = json_number(numbers[i]);
         char *text = json_dumps(number, JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
         assert_true(strtod(text, NULL) == numbers[i]);

@@ -107,7 +107,7 @@ static void refuses_unknown_overrides(void **state)
 static void takes_an_empty_request(void **state)
 {
     (void)state;
-    // whether it makes sense is the server's judgement
+    /* whether it makes sense is the server's judgement */
     accept("{}");
     assert_int_equal(request.request.body_count, 0);
     assert_int_equal(request.request.contact_count, 0);
@@ -116,12 +116,12 @@ static void takes_an_empty_request(void **state)
 static void reads_delassus_flat_or_in_rows(void **state)
 {
     (void)state;
-    // members may come in any order: the contacts count
+    /* members may come in any order: the contacts count */
     accept("{\"delassus\": [[1, 2], [3, 4]], \"contacts\": [{}, {}]}");
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4; i++)
         assert_true(request.request.delassus[i] == i + 1);
     accept("{\"delassus\": [1, 2, 3, 4], \"contacts\": [{}, {}]}");
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4; i++)
         assert_true(request.request.delassus[i] == i + 1);
     refuse("{\"delassus\": [[1, 2]], \"contacts\": [{}, {}]}",
            "delassus: 2 rows are needed, one a contact, not 1");
@@ -181,7 +181,7 @@ static void refuses_wrong_lengths(void **state)
            "bodies[0].orientation: 4 numbers are needed, not 3");
     refuse("{\"contacts\": [{\"normal\": [0, 0, 1, 0]}]}",
            "contacts[0].normal: 3 numbers are needed, not 4");
-    // an id of 63 bytes fits, one of 64 does not
+    /* an id of 63 bytes fits, one of 64 does not */
     char text[128];
     snprintf(text, sizeof text, "{\"bodies\": [{\"id\": \"%063d\"}]}", 0);
     accept(text);
@@ -193,7 +193,7 @@ static void refuses_too_many(void **state)
 {
     (void)state;
     char text[512] = "{\"contacts\": [{}";
-    for (int i = 1; i < 65; ++i)
+    for (int i = 1; i < 65; i++)
         strcat(text, ", {}");
     strcat(text, "]}");
     refuse(text, "contacts: up to 64 are allowed, not 65");

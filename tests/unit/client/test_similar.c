@@ -27,7 +27,7 @@ static void finds_what_was_meant(void **state)
     assert_ptr_equal(similar_body(&list, "al_rod"), &bodies[1]);
     assert_null(similar_body(&list, "concrete-wall"));
     assert_null(similar_body(&list, ""));
-    // longer than any id
+    /* longer than any id */
     char text[200];
     memset(text, 'x', sizeof text);
     text[sizeof text - 1] = '\0';

@@ -50,7 +50,7 @@ static inline percuss_v1_Reply wire_reply(void)
                              .timing = {27, 28}};
     subs[1].negligible = true;
     contacts[0].restitution = 0.5;
-    contacts[0].sub_impact_count = 300; // more than are listed
+    contacts[0].sub_impact_count = 300; /* more than are listed */
     contacts[1].restitution = NAN;
     FILL(contacts[0].sub_impacts, subs);
     FILL(wire.contacts, contacts);
@@ -71,7 +71,7 @@ static inline percuss_v1_Reply wire_reply(void)
     strcpy(wire.model.reason, "because");
     wire.model.omitted_error = 39;
     FILL(wire.warnings, warnings);
-    for (uint8_t i = 0; i < 16; ++i) {
+    for (uint8_t i = 0; i < 16; i++) {
         wire.client[i] = i;
         wire.server[i] = (uint8_t)(0xf0 + i);
     }

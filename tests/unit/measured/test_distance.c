@@ -20,9 +20,9 @@ static void agrees_with_scipy(void **state)
     near_relative(distance.p, 0.07867132867132867, 1e-12);
     assert_true(distance_energy(x, 7, y, 9, 9, 1, &distance));
     near_relative(distance.value, 0.24448979591836736, 1e-13);
-    for (int i = 0; i < 40; ++i)
+    for (int i = 0; i < 40; i++)
         waves[i] = sin((i + 1) * 1.7);
-    for (int i = 0; i < 53; ++i)
+    for (int i = 0; i < 53; i++)
         others[i] = sin((i + 1) * 2.3) + 0.2;
     assert_true(distance_kolmogorov(waves, 40, others, 53, &distance));
     near_relative(distance.value, 0.225, 1e-14);
@@ -39,7 +39,7 @@ static void large_samples_meet_the_limit(void **state)
     static double a[N], b[N];
     struct random random = {5};
     struct distance exact, limit;
-    for (int i = 0; i < N; ++i) {
+    for (int i = 0; i < N; i++) {
         a[i] = random_normal(&random);
         b[i] = random_normal(&random) + 0.02;
     }
@@ -48,7 +48,7 @@ static void large_samples_meet_the_limit(void **state)
     assert_true(exact.p > 0.0 && exact.p < 1.0 && limit.p > 0.0 && limit.p < 1.0);
     assert_true(fabs(exact.value - limit.value) < 0.01);
     /* nothing alike */
-    for (int i = 0; i < N; ++i)
+    for (int i = 0; i < N; i++)
         b[i] += 3.0;
     assert_true(distance_kolmogorov(a, 200, b, 200, &exact));
     assert_true(exact.p < 1e-12);
@@ -64,18 +64,18 @@ static void small_p_values_are_rare_by_chance(void **state)
     (void)state;
     struct random random = {11};
     int kolmogorov = 0, energy = 0, found = 0;
-    for (int trial = 0; trial < 600; ++trial) {
+    for (int trial = 0; trial < 600; trial++) {
         double a[30], b[40];
         struct distance distance;
-        for (int i = 0; i < 30; ++i)
+        for (int i = 0; i < 30; i++)
             a[i] = random_normal(&random);
-        for (int i = 0; i < 40; ++i)
+        for (int i = 0; i < 40; i++)
             b[i] = random_normal(&random);
         assert_true(distance_kolmogorov(a, 30, b, 40, &distance));
         kolmogorov += distance.p < 0.05;
         assert_true(distance_energy(a, 30, b, 40, 199, (uint64_t)trial, &distance));
         energy += distance.p <= 0.05;
-        for (int i = 0; i < 40; ++i)
+        for (int i = 0; i < 40; i++)
             b[i] += 1.5;
         assert_true(distance_energy(a, 30, b, 40, 199, (uint64_t)trial, &distance));
         found += distance.p <= 0.05;

@@ -18,7 +18,7 @@ struct data {
 static bool line(void *context, const double *p, double *residuals)
 {
     const struct data *data = context;
-    for (int i = 0; i < POINTS; ++i)
+    for (int i = 0; i < POINTS; i++)
         residuals[i] = p[0] + p[1] * data->x[i] - data->y[i];
     return true;
 }
@@ -30,7 +30,7 @@ static void a_line_has_its_textbook_intervals(void **state)
     struct data data;
     struct random random = {3};
     double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
-    for (int i = 0; i < POINTS; ++i) {
+    for (int i = 0; i < POINTS; i++) {
         double x = data.x[i] = 0.1 * i,
                y = data.y[i] = 1.5 + 0.7 * x + 0.05 * random_normal(&random);
         sx += x;
@@ -40,7 +40,7 @@ static void a_line_has_its_textbook_intervals(void **state)
     }
     double mean = sx / POINTS, spread = sxx - POINTS * mean * mean;
     double slope = (sxy - mean * sy) / spread, intercept = sy / POINTS - slope * mean, sum = 0.0;
-    for (int i = 0; i < POINTS; ++i)
+    for (int i = 0; i < POINTS; i++)
         sum += pow(intercept + slope * data.x[i] - data.y[i], 2.0);
     double sigma = sqrt(sum / (POINTS - 2));
     struct fit_problem problem = {2, POINTS, line, &data, 1e-4, NULL, 0};
@@ -59,7 +59,7 @@ static void a_line_has_its_textbook_intervals(void **state)
 static bool decay(void *context, const double *p, double *residuals)
 {
     const struct data *data = context;
-    for (int i = 0; i < POINTS; ++i)
+    for (int i = 0; i < POINTS; i++)
         residuals[i] = (p[0] * exp(-p[1] * data->x[i]) - data->y[i]) / 0.02;
     return true;
 }
@@ -70,20 +70,20 @@ static void intervals_cover_the_truth(void **state)
     (void)state;
     struct random random = {17};
     int covered[2] = {0, 0};
-    for (int trial = 0; trial < 400; ++trial) {
+    for (int trial = 0; trial < 400; trial++) {
         struct data data;
         const double truth[2] = {1.2, 0.9};
-        for (int i = 0; i < POINTS; ++i) {
+        for (int i = 0; i < POINTS; i++) {
             data.x[i] = 0.1 * i;
             data.y[i] = truth[0] * exp(-truth[1] * data.x[i]) + 0.02 * random_normal(&random);
         }
         struct fit_problem problem = {2, POINTS, decay, &data, 1e-4, NULL, 0};
         struct fit fit = {.x = {1.0, 1.0}};
         assert_true(fit_solve(&problem, &fit));
-        for (int k = 0; k < 2; ++k)
+        for (int k = 0; k < 2; k++)
             covered[k] += fabs(fit.x[k] - truth[k]) <= fit.half_width[k];
     }
-    for (int k = 0; k < 2; ++k)
+    for (int k = 0; k < 2; k++)
         assert_in_range(covered[k], 367, 393);
 }
 
@@ -94,10 +94,10 @@ static void groups_that_share_errors_widen_intervals(void **state)
     struct random random = {29};
     int covered = 0, covered_alone = 0;
     size_t group[POINTS];
-    for (int trial = 0; trial < 400; ++trial) {
+    for (int trial = 0; trial < 400; trial++) {
         struct data data;
         double shared = 0.0;
-        for (int i = 0; i < POINTS; ++i) {
+        for (int i = 0; i < POINTS; i++) {
             if (i % 2 == 0)
                 shared = 0.02 * random_normal(&random);
             group[i] = (size_t)i / 2;
@@ -122,7 +122,7 @@ static void groups_that_share_errors_widen_intervals(void **state)
 static bool degenerate(void *context, const double *p, double *residuals)
 {
     const struct data *data = context;
-    for (int i = 0; i < POINTS; ++i)
+    for (int i = 0; i < POINTS; i++)
         residuals[i] = (p[0] + p[1]) * data->x[i] - data->y[i] + 0.0 * p[2];
     return true;
 }
@@ -132,7 +132,7 @@ static void what_is_not_determined_is_told(void **state)
     (void)state;
     struct data data;
     struct random random = {23};
-    for (int i = 0; i < POINTS; ++i) {
+    for (int i = 0; i < POINTS; i++) {
         data.x[i] = 0.1 * i;
         data.y[i] = 3.0 * data.x[i] + 0.01 * random_normal(&random);
     }

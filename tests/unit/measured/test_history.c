@@ -23,13 +23,13 @@ static double share(double s)
     enum { PARTS = 200 };
     static double table[PARTS + 1];
     if (table[PARTS] == 0.0) {
-        for (int i = 0; i < PARTS; ++i) {
+        for (int i = 0; i < PARTS; i++) {
             double sum = 0.0;
-            for (int k = 0; k < 20; ++k)
+            for (int k = 0; k < 20; k++)
                 sum += pow(sin(M_PI * (i + (k + 0.5) / 20) / PARTS), 1.5);
             table[i + 1] = table[i] + sum;
         }
-        for (int i = 0; i <= PARTS; ++i)
+        for (int i = 0; i <= PARTS; i++)
             table[i] /= table[PARTS];
         table[PARTS] = 1.0;
     }
@@ -48,7 +48,7 @@ static struct history make(const struct pulse *pulses, int count, double rate, d
     struct history history = {.time = time, .velocity_a = velocity};
     for (double t = -1e-3; t < 8e-3 && history.count < MOST; t += 1.0 / rate) {
         double v = -0.3;
-        for (int k = 0; k < count; ++k)
+        for (int k = 0; k < count; k++)
             v += pulses[k].jump * share((t - pulses[k].start) / pulses[k].length);
         time[history.count] = t;
         velocity[history.count++] = v + noise * random_normal(&random);
@@ -64,8 +64,8 @@ static void finds_sub_impacts(void **state)
     (void)state;
     static const double noises[] = {0.0, 1e-4, 5e-4, 2e-3};
     static const double rates[] = {1e6, 250e3};
-    for (int r = 0; r < 2; ++r) {
-        for (int n = 0; n < 4; ++n) {
+    for (int r = 0; r < 2; r++) {
+        for (int n = 0; n < 4; n++) {
             struct history history = make(pulses, 3, rates[r], noises[n], 7);
             struct history_impacts found;
             struct measured_fault fault;
@@ -75,7 +75,7 @@ static void finds_sub_impacts(void **state)
             /* a mean over hundreds of readings */
             measured("before", found.before, -0.3, 1e-6 + 0.2 * noises[n]);
             measured("noise", found.noise, noises[n], 1e-6 + 0.1 * noises[n]);
-            for (int k = 0; k < 3; ++k) {
+            for (int k = 0; k < 3; k++) {
                 /* the extrapolation misses some per cent of the length, the noise more */
                 double slack = (0.05 + 1.5 * noises[n] / pulses[k].jump) * pulses[k].length;
                 measured("jump", found.list[k].jump, pulses[k].jump, 2e-6 + 0.5 * noises[n]);
@@ -99,7 +99,7 @@ static void invents_nothing(void **state)
 {
     (void)state;
     static const struct pulse with_graze[] = {{0.0, 180e-6, 0.25}, {2e-3, 50e-6, 1e-5}};
-    for (uint64_t seed = 1; seed <= 60; ++seed) {
+    for (uint64_t seed = 1; seed <= 60; seed++) {
         struct history history = make(with_graze, 2, 500e3, 1e-3, seed);
         struct history_impacts found;
         struct measured_fault fault;
@@ -122,7 +122,7 @@ static void takes_what_instruments_give(void **state)
     struct measured_fault fault;
     assert_true(history_find(&history, &found, &fault));
     static double b[MOST];
-    for (size_t i = 0; i < history.count; ++i) {
+    for (size_t i = 0; i < history.count; i++) {
         history.velocity_a[i] = -history.velocity_a[i];
         b[i] = -0.05; /* A moves at +0.3 now and B comes towards it */
     }
@@ -168,7 +168,7 @@ static void reads_tables(void **state)
     FILE *file = fopen(path, "w");
     fputs("time, displacement_a, comment\n", file);
     double x = 0.0;
-    for (size_t i = 0; i < history.count; ++i) {
+    for (size_t i = 0; i < history.count; i++) {
         fprintf(file, "%.9g,%.12g,x\n", history.time[i], x);
         x += history.velocity_a[i] * 2e-6;
     }
@@ -221,7 +221,7 @@ static int remove_folder(void **state)
     (void)state;
     static const char *const names[] = {"bad.csv", "good.csv", "one.csv", "short.csv", "blind.csv"};
     char path[128];
-    for (size_t i = 0; i < 5; ++i) {
+    for (size_t i = 0; i < 5; i++) {
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
         unlink(path);
     }

@@ -55,7 +55,7 @@ static inline void any_fill(enum dds_stream_typecode type, char *data, size_t co
         if (type == DDS_OP_VAL_STU)
             any_fill_struct(elements, data);
         else if (type == DDS_OP_VAL_BST)
-            memset(data, 'a', any_number() % size); // zeroed before
+            memset(data, 'a', any_number() % size); /* zeroed before */
         else if (type == DDS_OP_VAL_STR)
             *(char **)data = dds_string_dup("text");
         else if (type == DDS_OP_VAL_BLN)

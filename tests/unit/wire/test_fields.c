@@ -33,7 +33,7 @@ static size_t read_members(const char *structure, char names[MOST][SIZE])
         char *end = strpbrk(line, "/;"),
              *name = end ? memrchr(line, ' ', (size_t)(end - line)) : NULL;
         if (inside && name && *end == ';') {
-            name += 1 + (name[1] == '_'); // a keyword of the IDL
+            name += 1 + (name[1] == '_'); /* a keyword of the IDL */
             assert_true(count < MOST && sscanf(name, "%63[a-z0-9_]", names[count]) == 1);
             count++;
         }

@@ -41,7 +41,7 @@ static int count_filtered(void)
 static void the_domain_is_closed_and_nothing_else(void **state)
 {
     (void)state;
-    // as another DDS library in this process would have: a port of the domain, of process 50
+    /* as another DDS library in this process would have: a port of the domain, of process 50 */
     int other = socket(AF_INET, SOCK_DGRAM, 0);
     struct sockaddr_in address = {.sin_family = AF_INET,
                                   .sin_port = htons((uint16_t)(7400 + 250 * domain + 10 + 2 * 50)),
@@ -50,7 +50,7 @@ static void the_domain_is_closed_and_nothing_else(void **state)
     dds_entity_t created = wire_loopback_create(domain);
     assert_true(created > 0);
     assert_int_equal(filter_length(other), 0);
-    // announcements and data
+    /* announcements and data */
     assert_int_equal(count_filtered(), 2);
     assert_int_equal(wire_loopback_create(domain), DDS_RETCODE_PRECONDITION_NOT_MET);
     assert_int_equal(dds_delete(created), DDS_RETCODE_OK);

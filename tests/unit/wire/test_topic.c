@@ -57,7 +57,7 @@ static void whole_samples_are_taken_and_cut_ones_are_not(void **state)
         struct ddsi_serdata *sample = take(type, &bytes, bytes.size, i % 2);
         assert_non_null(sample);
         ddsi_serdata_unref(sample);
-        // the size in front says more than there is
+        /* the size in front says more than there is */
         for (size_t size = 4; size < bytes.size; size++)
             assert_null(take(type, &bytes, size, i % 2));
         free(bytes.data);
@@ -74,7 +74,7 @@ static void a_request_with_half_of_its_delassus_is_dropped(void **state)
     const struct ddsi_sertype *type = type_of(0);
     for (int swapped = 0; swapped < 2; swapped++) {
         const size_t delassus =
-            4 + 16 + 8 + 8 + 8; // after client, sequence, no bodies, no contacts
+            4 + 16 + 8 + 8 + 8; /* after client, sequence, no bodies, no contacts */
         const size_t count = (sizeof data - delassus - 4) / 4;
         any_put(data, sizeof data - 4, swapped);
         any_put(data + 28, 4, swapped);

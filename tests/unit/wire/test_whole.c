@@ -95,7 +95,7 @@ static void cut_samples_pass_only_where_dds_stays_inside(void **state)
         }
         free(bytes.data);
     }
-    // the first is the growth of types that peers rely on; with the second the check is in vain
+    /* the first is the growth of types that peers rely on; with the second the check is in vain */
     assert_true(passed > 50);
     print_message("%d cut samples pass; of the others DDS would leave %d\n", passed, unsafe);
     assert_true(unsafe > 100);
@@ -125,7 +125,7 @@ static void damaged_samples_pass_only_where_dds_stays_inside(void **state)
         }
         free(bytes.data);
     }
-    assert_true(passed > 1000); // most words are numbers
+    assert_true(passed > 1000); /* most words are numbers */
 }
 
 /* A request may end before its last member, the server, but not before or in its options. */
@@ -148,8 +148,8 @@ static void more_elements_than_the_bound_are_refused(void **state)
     (void)state;
     static uint8_t data[8192];
     struct any_bytes bytes = {data, sizeof data};
-    // a batch: client, sequence, then requests of no bytes each, which a bound of 256 forbids
-    // anyway
+    /* a batch: client, sequence, then requests of no bytes each, which a bound of 256 forbids
+     * anyway */
     any_put(data, sizeof data - 4, false);
     any_put(data + 28, sizeof data - 32, false);
     any_put(data + 32, 2000, false);
@@ -163,7 +163,7 @@ static void a_list_that_would_swell_is_refused(void **state)
     const size_t before = 44, room = (64 << 20) / sizeof(percuss_v1_Dent);
     struct any_bytes bytes = {calloc(1, before + 4 * (room + 1)), before + 4 * (room + 1)};
     assert_non_null(bytes.data);
-    // specimen and body, empty, around the server; then the size of the list and how many
+    /* specimen and body, empty, around the server; then the size of the list and how many */
     any_put(bytes.data + 4, 1, false);
     any_put(bytes.data + 28, 1, false);
     for (size_t count = room; count <= room + 1; count++) {
