@@ -95,7 +95,7 @@ void report_release(struct ensemble_report *report);
 struct report_progress {
     double mean, deviation;
     double half_width;          /* of the mean's 95 % interval */
-    double quantile_half_width; /* largest of the quantiles asked for; only for report_is_enough */
+    double quantile_half_width; /* largest of the quantiles asked for; where they are wanted */
     bool enough;                /* the bounds that were asked for are met */
 };
 struct report_progress report_progress(const struct ensemble *ensemble,

@@ -1,9 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/axi_element.c: patch test, rank, volume, thick tube of incompressible
- * material.
- */
+/* Mirrors service/fe/quad_dynamics.c: patch test, rank, volume, thick tube of incompressible
+ * material. */
 #include <string.h>
 
 #include "check.h"

@@ -68,7 +68,7 @@ static void a_rigid_pair_rebounds_by_its_energy(void **state)
             /* the step control's own statement, see docs/accuracy.md, and rounding */
             double allowed = 0.1 * pow(accuracy, 0.8) + 1e-12;
             measured("restitution", e, expected, allowed);
-            /* what solve/accuracy.c counts on: tolerance ten times, or 1e-3, the accuracy */
+            /* what solve/step_search.c counts on: tolerance ten times, or 1e-3, the accuracy */
             measured("closure", outcome.energy.closure / outcome.energy.available, 0.0,
                      100.0 * accuracy + 1e-12);
             assert_true((outcome.energy.plastic > 0.0) == (e < 1.0 - 1e-4));
