@@ -36,7 +36,8 @@ const char *quantity_name(int quantity)
     return names[quantity];
 }
 
-double quantity_of(const struct measured_impact *impact, int quantity)
+/* The quantity of an impact; NAN: unknown. */
+static double quantity_of(const struct measured_impact *impact, int quantity)
 {
     if (quantity == QUANTITY_FIRST_IMPULSE)
         return impact->first_impulse;

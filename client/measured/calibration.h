@@ -15,9 +15,6 @@ enum { QUANTITY_FIRST_IMPULSE, QUANTITY_FIRST_DURATION, QUANTITY_SECOND_START, Q
 /* "impulse of the first sub-impact", ... */
 const char *quantity_name(int quantity);
 
-/* The quantity of an impact; NAN: unknown. */
-double quantity_of(const struct measured_impact *impact, int quantity);
-
 struct calibration_problem {
     const struct measured_set *set;
     size_t parameters;

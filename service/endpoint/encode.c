@@ -22,7 +22,8 @@ bool encode_status_has_result(enum percuss_status status)
     return status == PERCUSS_OK || status == PERCUSS_TRUNCATED;
 }
 
-bool encode_status_is_passing(enum percuss_status status)
+/* Whether a status tells of the moment only, so that the same request may get another later. */
+static bool is_passing(enum percuss_status status)
 {
     return status == PERCUSS_BUSY || status == PERCUSS_TIMEOUT || status == PERCUSS_INTERNAL;
 }
@@ -73,7 +74,7 @@ struct answer *encode_refusal(const struct envelope *envelope, enum percuss_stat
 {
     struct answer *answer = create_blank(envelope, status, message, 0);
     if (answer)
-        answer->passing = encode_status_is_passing(status);
+        answer->passing = is_passing(status);
     return answer;
 }
 
@@ -93,7 +94,7 @@ struct answer *encode_batch_refusal(const struct envelope *envelope, enum percus
         return NULL;
     answer->parts = answer_take(answer, 1, sizeof *answer->parts);
     answer->part_count = 1;
-    answer->passing = encode_status_is_passing(status);
+    answer->passing = is_passing(status);
     encode_batch_head(answer->parts, envelope, status, message);
     return answer;
 }
@@ -106,7 +107,7 @@ struct answer *encode_ensemble_refusal(const struct envelope *envelope, enum per
     if (!answer)
         return NULL;
     answer->report = answer_take(answer, 1, sizeof *answer->report);
-    answer->passing = encode_status_is_passing(status);
+    answer->passing = is_passing(status);
     percuss_v1_EnsembleReply *to = answer->report;
     ENCODE_HEAD(to, envelope, status, message);
     PERCUSS_ENSEMBLE_REPLY_FIELDS(PERCUSS_UNDEFINED, PERCUSS_NONE)

@@ -44,7 +44,4 @@ struct answer *encode_ensemble_refusal(const struct envelope *envelope, enum per
 /* Whether a status comes with results: the request was understood and computed. */
 bool encode_status_has_result(enum percuss_status status);
 
-/* Whether a status tells of the moment only, so that the same request may get another later. */
-bool encode_status_is_passing(enum percuss_status status);
-
 #endif
