@@ -3,11 +3,10 @@
 
 /* percuss bodies: the server's catalogue. */
 
-#include <math.h>
 #include <stdio.h>
 
 #include "cli.h"
-#include "reply_json.h"
+#include "json_writer.h"
 
 static json_t *numbers(const double *values, size_t count)
 {

@@ -7,7 +7,7 @@
 
 #include "calibrate.h"
 #include "cli.h"
-#include "reply_json.h"
+#include "json_writer.h"
 
 /* An interval wider than this share of the value leaves the parameter open. */
 static const double WIDE = 0.5;

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 #include "compare.h"
+#include "json_writer.h"
 #include "plot.h"
-#include "reply_json.h"
 
 /* p-values below this are called small. */
 static const double SMALL = 0.05;

@@ -13,9 +13,9 @@
 #include "cli.h"
 #include "ensemble_output.h"
 #include "input_text.h"
+#include "json_writer.h"
 #include "output_file.h"
 #include "plot.h"
-#include "reply_json.h"
 #include "scene.h"
 
 enum {

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "cli.h"
-#include "reply_json.h"
+#include "json_writer.h"
 
 enum { KEY_COUNT = OPTION_OWN, DEFAULT_COUNT = 10, MOST_PINGS = 1000000 };
 

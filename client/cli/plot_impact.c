@@ -4,7 +4,6 @@
 #include "plot_impact.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,6 @@
 
 #include <math.h>
 #include <percuss/server.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "error.h"

@@ -3,7 +3,6 @@
 
 #include "receive.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 #include <time.h>

@@ -3,7 +3,6 @@
 
 /* An ensemble: one request, progress, perhaps a list of samples, and the reply. */
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -7,7 +7,6 @@
 
 #include "contact/curves.h"
 #include "contact/family_parts.h"
-#include "contact/law_closed_form.h"
 
 static const double JUST_BEYOND = 1e-6; /* of the depth of yield */
 

@@ -5,7 +5,6 @@
 
 #include <dds/ddsi/ddsi_serdata.h>
 #include <stdatomic.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/random.h>

@@ -3,7 +3,6 @@
 
 #include "endpoint/subscriptions.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "endpoint/key_map.h"

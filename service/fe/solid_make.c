@@ -1,7 +1,6 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

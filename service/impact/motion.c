@@ -3,7 +3,6 @@
 
 #include "impact/motion.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "impact/kernel.h"

@@ -7,8 +7,6 @@
 #include <string.h>
 
 #include "impact/oscillator.h"
-#include "solve/compliance.h"
-#include "solve/contact_model.h"
 #include "solve/radiation.h"
 
 /* A group whose shapes all vanish at every contact, up to rounding, does not exist for the scene.

@@ -10,7 +10,6 @@
 
 #include "model/rigid.h"
 #include "model/vector.h"
-#include "solve/compliance.h"
 #include "solve/contact_model.h"
 #include "solve/law_error.h"
 #include "solve/radiation.h"

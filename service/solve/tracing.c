@@ -8,7 +8,6 @@
 #include "impact/trace.h"
 #include "model/rigid.h"
 #include "model/vector.h"
-#include "solve/compliance.h"
 #include "solve/report.h"
 
 /* Share of the window by which the last instant kept may lie before its end. */

@@ -8,7 +8,6 @@
 
 #include "model/rigid.h"
 #include "model/vector.h"
-#include "solve/compliance.h"
 #include "solve/contact_model.h"
 #include "solve/law_error.h"
 #include "solve/outcome.h"

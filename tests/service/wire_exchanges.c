@@ -3,7 +3,6 @@
 
 /* What the wire promises about replies: the same to a repeated request, state tokens, deadlines,
  * batches equal to single requests. */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Mirrors client/cli/input_text.c: distributions and columns of numbers as people write them. */
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
