@@ -27,16 +27,16 @@ struct march {
     struct flight flight;
 };
 
-/* A method of solving contacts. `method` is its own state. */
+/* A method of solving contacts. `state` is its own, of one march. */
 struct march_method {
     bool flies; /* passes flights too: its contact phase begins at once and ends the march */
     /* From a touch of `contact` until every contact is open again (NONE), or what ends the march.
      * Moves the outcome's motion, keeps its books by march_open and march_close, adds to `used`
      * and `damping`. */
-    enum percuss_end_reason (*contact_phase)(void *method, size_t contact);
+    enum percuss_end_reason (*contact_phase)(void *state, size_t contact);
     /* The march has ended, for outcome->end_reason: the last entries into the books of contacts
      * that are still closed, and their `indentation`. */
-    void (*end)(void *method);
+    void (*end)(void *state);
 };
 
 /* Prepares a march whose members down to `fault` are set (but for `scene`): the outcome has no

@@ -105,8 +105,7 @@ static int finest_level(const struct modal_run *run)
     return step_level(shortest * run->limits.event_share);
 }
 
-/* A step must not jump over a contact's end, nor pump a
- * mode, nor pass the horizon. */
+/* A step must not jump over a contact's end, nor pump a mode, nor pass the horizon. */
 static int limit_level(const struct modal_run *run, int level, int finest)
 {
     for (size_t c = 0; c < run->march.scene.contacts; c++) {

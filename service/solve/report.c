@@ -183,7 +183,7 @@ static const char *reason_of_error(const struct problem *problem, const struct s
         return "the effort allowed is spent";
     if (!solution->steps.energy_closes)
         return "the shortest steps allowed do not keep the energy";
-    /* what limits the modes */
+    /* what limits the modes, or amplifies what they leave out */
     if (modes && omitted && assembly->capped)
         return sequence ? "the most modes that are tried of a body are too few for what the "
                           "sequence of sub-impacts makes of the others"
@@ -192,8 +192,7 @@ static const char *reason_of_error(const struct problem *problem, const struct s
         return "the catalogue fixes the number of modes";
     if (modes && problem->compliance.still)
         return "waves that leave through half-spaces are left out: a contact is too stiff for "
-               "them, or "
-               "too many share them";
+               "them, or too many share them";
     /* or what amplifies */
     return sequence ? "the sequence of sub-impacts amplifies small differences"
                     : "the search for more modes or shorter steps ended";
