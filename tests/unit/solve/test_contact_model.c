@@ -13,7 +13,7 @@
 static struct solve_result result, other;
 
 /* One table, for the paper's sphere on rod 1. */
-struct shelf {
+struct tables {
     struct contact_curves *curves;
     struct contact_table_source source;
     int asked;
@@ -21,37 +21,37 @@ struct shelf {
 
 static const struct contact_curves *look_up(void *context, const struct contact_pair *pair)
 {
-    struct shelf *shelf = context;
-    shelf->asked++;
+    struct tables *tables = context;
+    tables->asked++;
     bool fits = strcmp(pair->a->name, "steel") == 0 && strcmp(pair->b->name, "al-205") == 0 &&
                 fabs(pair->curvature[0] - 0.5 / 0.015) < 1e-9 &&
                 pair->curvature[1] == pair->curvature[0];
-    return fits ? shelf->curves : NULL;
+    return fits ? tables->curves : NULL;
 }
 
 /* Up to `range` times the indentation at yield. */
-static struct shelf *shelf_create(struct lab *lab, double range)
+static struct tables *tables_create(struct lab *lab, double range)
 {
     static struct sampled_table sampled;
     struct fault fault = {""};
-    struct shelf *shelf = calloc(1, sizeof *shelf);
+    struct tables *tables = calloc(1, sizeof *tables);
     struct material steel = STEEL, soft = AL_205;
     struct hertz_contact hertz =
         hertz_contact_make(hertz_effective_modulus(&steel, &soft), 0.5 / 0.015, 0.5 / 0.015);
     struct contact_law law = contact_law_closed_form(&hertz, &steel, &soft);
-    assert_non_null(shelf);
+    assert_non_null(tables);
     sampled_table_make(&sampled, &law, range);
-    contact_curves_create(&sampled.table, &shelf->curves, &fault);
-    assert_non_null(shelf->curves);
-    shelf->source = (struct contact_table_source){shelf, look_up, NULL};
-    lab->means.tables = &shelf->source;
-    return shelf;
+    contact_curves_create(&sampled.table, &tables->curves, &fault);
+    assert_non_null(tables->curves);
+    tables->source = (struct contact_table_source){tables, look_up, NULL};
+    lab->means.tables = &tables->source;
+    return tables;
 }
 
-static void shelf_free(struct shelf *shelf)
+static void tables_free(struct tables *tables)
 {
-    contact_curves_free(shelf->curves);
-    free(shelf);
+    contact_curves_free(tables->curves);
+    free(tables);
 }
 
 static struct lab *bodies(void)
@@ -77,13 +77,13 @@ static void a_table_answers_like_what_it_was_sampled_from(void **state)
 {
     (void)state;
     struct lab *lab = bodies();
-    struct shelf *shelf = shelf_create(lab, 60.0);
+    struct tables *tables = tables_create(lab, 60.0);
     for (double speed = 0.05; speed < 1.0; speed *= 1.7) {
         struct solve_request request = blow("rod-1", speed, 1e-6);
         lab_solve(lab, &request, &result);
         assert_int_equal(result.contact_model, PERCUSS_CONTACT_TABLE);
         assert_non_null(strstr(result.reason, "table"));
-        assert_true(result.tolerance_met && shelf->asked > 0);
+        assert_true(result.tolerance_met && tables->asked > 0);
         request.options.contact_model = PERCUSS_CONTACT_CLOSED_FORM;
         lab_solve(lab, &request, &other);
         assert_int_equal(other.contact_model, PERCUSS_CONTACT_CLOSED_FORM);
@@ -94,7 +94,7 @@ static void a_table_answers_like_what_it_was_sampled_from(void **state)
         lab_solve(lab, &request, &other);
         assert_true(other.contacts[0].impulse == result.contacts[0].impulse);
     }
-    shelf_free(shelf);
+    tables_free(tables);
     lab_free(lab);
 }
 
@@ -103,7 +103,7 @@ static void a_table_keeps_the_energy(void **state)
 {
     (void)state;
     struct lab *lab = bodies();
-    struct shelf *shelf = shelf_create(lab, 60.0);
+    struct tables *tables = tables_create(lab, 60.0);
     struct solve_request request = blow("rod-1", 0.3, 1e-8);
     lab_solve(lab, &request, &result);
     measured("closure", result.energy.closure / result.energy.available, 0.0, 1e-9);
@@ -116,7 +116,7 @@ static void a_table_keeps_the_energy(void **state)
     lab_solve(lab, &request, &other);
     assert_int_equal(other.contact_model, PERCUSS_CONTACT_TABLE);
     measured("e", other.contacts[0].restitution, result.contacts[0].restitution, 1e-6);
-    shelf_free(shelf);
+    tables_free(tables);
     lab_free(lab);
 }
 
@@ -124,7 +124,7 @@ static void without_a_fitting_table_auto_says_so(void **state)
 {
     (void)state;
     struct lab *lab = bodies();
-    struct shelf *shelf = shelf_create(lab, 60.0);
+    struct tables *tables = tables_create(lab, 60.0);
     struct solve_request request = strike(sphere_spot("small", 0.005), end_spot("rod-1", 1.0), 0.3);
     lab_solve(lab, &request, &result);
     assert_int_equal(result.contact_model, PERCUSS_CONTACT_CLOSED_FORM);
@@ -133,12 +133,12 @@ static void without_a_fitting_table_auto_says_so(void **state)
     assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(result.fault.text, "small on rod-1"));
     /* a pair that cannot yield needs none */
-    shelf->asked = 0;
+    tables->asked = 0;
     request = blow("rod", 0.3, 1e-3);
     lab_solve(lab, &request, &result);
     assert_int_equal(result.contact_model, PERCUSS_CONTACT_HERTZ);
-    assert_int_equal(shelf->asked, 0);
-    shelf_free(shelf);
+    assert_int_equal(tables->asked, 0);
+    tables_free(tables);
     lab_free(lab);
 }
 
@@ -157,7 +157,7 @@ static void a_table_that_ends_too_early_goes_on(void **state)
 {
     (void)state;
     struct lab *lab = bodies();
-    struct shelf *shelf = shelf_create(lab, 8.0);
+    struct tables *tables = tables_create(lab, 8.0);
     struct solve_request request = blow("rod-1", 0.1, 1e-4);
     lab_solve(lab, &request, &result);
     assert_int_equal(result.contact_model, PERCUSS_CONTACT_TABLE);
@@ -182,7 +182,7 @@ static void a_table_that_ends_too_early_goes_on(void **state)
     }
     /* what the straight line leaves of the power at 100 times the speed of the table's end */
     measured("power", log(strike_wall(lab, 20.0) / strike_wall(lab, 2.0)) / log(10.0), -0.25, 0.02);
-    shelf_free(shelf);
+    tables_free(tables);
     lab_free(lab);
 }
 
