@@ -60,7 +60,7 @@ static void run_on_specimens(struct job *job, size_t item, struct responder *res
     struct shared *shared = impact->base.shared;
     struct question question = question_of(impact, item);
     size_t before = specimen_lane_count(shared->specimens);
-    impact->answers[item] = specimen_lane_respond(shared->specimens, responder, &question);
+    impact->answers[item] = specimen_lane_answer(shared->specimens, responder, &question);
     /* who has seen the reply finds its specimen announced */
     if (specimen_lane_count(shared->specimens) != before)
         status_announce(shared);

@@ -221,8 +221,8 @@ static struct answer *recall(const struct question *question, const struct store
     return refuse_damaged(question, problem);
 }
 
-struct answer *specimen_lane_respond(struct specimen_lane *lane, struct responder *responder,
-                                     const struct question *question)
+struct answer *specimen_lane_answer(struct specimen_lane *lane, struct responder *responder,
+                                    const struct question *question)
 {
     /* what the request and its reply are known by */
     struct digest content = question_digest_single(question->request);

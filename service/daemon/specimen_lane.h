@@ -22,8 +22,8 @@ void specimen_lane_announce(struct specimen_lane *lane, struct endpoint *endpoin
 
 /* The reply to a request that names specimens: the stored one if there is one of this client and
  * number. NULL: out of memory. */
-struct answer *specimen_lane_respond(struct specimen_lane *lane, struct responder *responder,
-                                     const struct question *question);
+struct answer *specimen_lane_answer(struct specimen_lane *lane, struct responder *responder,
+                                    const struct question *question);
 
 /* Forgets a specimen. */
 void specimen_lane_clear(struct specimen_lane *lane, const char *specimen);
