@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Of a block; the reply of most impacts needs one. */
-static const size_t least_room = 4096;
+static const size_t LEAST_ROOM = 4096;
 
 struct storage_block {
     struct storage_block *next;
@@ -21,7 +21,7 @@ void *storage_take(struct storage *storage, size_t count, size_t size)
     size_t grain = alignof(max_align_t), bytes = (count * size + grain - 1) / grain * grain;
     struct storage_block *block = storage->blocks;
     if (!block || block->room - block->used < bytes) {
-        size_t room = bytes > least_room ? bytes : least_room;
+        size_t room = bytes > LEAST_ROOM ? bytes : LEAST_ROOM;
         block = calloc(1, sizeof *block + room);
         storage->failed = storage->failed || !block;
         if (!block)

@@ -19,10 +19,10 @@
 #include "endpoint/question.h"
 
 /* Two clients that ask within this time, s, are served side by side by the workers. */
-static const double company_seconds = 0.01;
+static const double COMPANY_SECONDS = 0.01;
 
 /* What takes longer than this, s, is not cheap whatever it looks like. */
-static const double inline_seconds = 0.005;
+static const double INLINE_SECONDS = 0.005;
 
 struct dispatch {
     struct shared *shared;
@@ -120,7 +120,7 @@ static bool admit(struct shared *shared, const struct request_name *name, struct
 static bool is_sole(struct dispatch *dispatch, const uint8_t client[16], double now)
 {
     if (memcmp(dispatch->last_client, client, sizeof dispatch->last_client) != 0)
-        dispatch->company_until = now + company_seconds;
+        dispatch->company_until = now + COMPANY_SECONDS;
     memcpy(dispatch->last_client, client, sizeof dispatch->last_client);
     return now >= dispatch->company_until;
 }
@@ -151,7 +151,7 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
                         const percuss_v1_Request *request, double arrival)
 {
     struct shared *shared = dispatch->shared;
-    struct time_limit limit = {.end = arrival + inline_seconds};
+    struct time_limit limit = {.end = arrival + INLINE_SECONDS};
     struct snapshot *snapshot = snapshots_hold(&shared->snapshots);
     /* wanted as long as it is quick */
     struct question question = {

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 enum { MOST_THREADS = 64, CHUNK = 16, NICE = 10 };
-static const long long watch_nanoseconds = 100000000;
+static const long long WATCH_NANOSECONDS = 100000000;
 
 struct parallel {
     const struct parallel_loop *loop;
@@ -80,7 +80,7 @@ static void attend(struct parallel *parallel, struct thread *threads, unsigned c
     pthread_mutex_lock(&parallel->lock);
     while (parallel->running > 0) {
         /* until the next look, or the end of the last thread */
-        long long nanoseconds = wake.tv_nsec + watch_nanoseconds;
+        long long nanoseconds = wake.tv_nsec + WATCH_NANOSECONDS;
         wake.tv_sec += nanoseconds / 1000000000;
         wake.tv_nsec = nanoseconds % 1000000000;
         while (parallel->running > 0 &&

@@ -16,8 +16,8 @@
 #include "daemon/status.h"
 #include "endpoint/clock.h"
 
-static const int long_lane_nice = 10;
-static const double flush_seconds = 1.0, cut_seconds = 2.0;
+static const int LONG_LANE_NICE = 10;
+static const double FLUSH_SECONDS = 1.0, CUT_SECONDS = 2.0;
 
 struct service {
     struct shared shared;
@@ -63,7 +63,7 @@ static bool add_workers(struct service *service, enum lane lane, unsigned count,
             return false;
         }
         if (!pool_add(service->pool, shared->lanes[lane], responder,
-                      is_long ? long_lane_nice : 0)) {
+                      is_long ? LONG_LANE_NICE : 0)) {
             fault_set(fault, PERCUSS_INTERNAL, "threads: cannot be started");
             return false;
         }
@@ -151,7 +151,7 @@ void service_free(struct service *service)
     dispatch_free(service->dispatch);
     /* what they shared goes */
     if (shared->endpoint)
-        endpoint_flush(shared->endpoint, flush_seconds);
+        endpoint_flush(shared->endpoint, FLUSH_SECONDS);
     endpoint_free(shared->endpoint);
     specimen_lane_close(shared->specimens);
     shared_release(shared);
@@ -211,5 +211,5 @@ bool service_cut_short(struct service *service)
 {
     for (int lane = 0; lane < LANE_COUNT; lane++)
         queue_cancel(service->shared.lanes[lane]);
-    return service_drain(service, cut_seconds);
+    return service_drain(service, CUT_SECONDS);
 }

@@ -8,7 +8,7 @@
 
 enum { REMEMBERED_CLIENTS = 4096 };
 
-static const double megabyte = 1048576.0;
+static const double MEGABYTE = 1048576.0;
 
 static bool create_stores(struct shared *shared)
 {
@@ -16,12 +16,12 @@ static bool create_stores(struct shared *shared)
     /* how much is remembered, and how long */
     struct token_limits tokens = {
         .count = settings->token_count,
-        .bytes = (size_t)(settings->token_megabytes * megabyte),
+        .bytes = (size_t)(settings->token_megabytes * MEGABYTE),
         .seconds = 60.0 * settings->token_minutes,
     };
     struct reply_limits replies = {
         .per_client = settings->replies_per_client,
-        .bytes = (size_t)(settings->reply_megabytes * megabyte),
+        .bytes = (size_t)(settings->reply_megabytes * MEGABYTE),
         .clients = REMEMBERED_CLIENTS,
         .seconds = 60.0 * settings->session_minutes,
     };

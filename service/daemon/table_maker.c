@@ -11,7 +11,7 @@
 #include "store/table_key.h"
 
 /* How deep tables made here go: fixed, so that the table does not depend on who asks first. */
-static const double covered_speed = 1.0;
+static const double COVERED_SPEED = 1.0;
 
 /* Asked by the computation; false stops it. */
 static bool go_on(void *context, double done)
@@ -46,7 +46,7 @@ static double thread_seconds(void)
 static const struct contact_curves *make(struct table_maker *maker, const struct material *a,
                                          const struct material *b)
 {
-    struct region_input input = table_input(a, b, covered_speed);
+    struct region_input input = table_input(a, b, COVERED_SPEED);
     /* the table, as long as somebody wants it */
     struct watch watch = {go_on, maker};
     struct indentation_table table;

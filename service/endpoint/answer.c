@@ -7,11 +7,11 @@
 #include <stdalign.h>
 #include <stdlib.h>
 
-static const size_t grain = alignof(max_align_t);
+static const size_t GRAIN = alignof(max_align_t);
 
 static size_t round_up(size_t bytes)
 {
-    return (bytes + grain - 1) / grain * grain;
+    return (bytes + GRAIN - 1) / GRAIN * GRAIN;
 }
 
 size_t answer_room(size_t count, size_t size)

@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* How far from 1 the norm of a unit vector may be. */
-static const double unit_tolerance = 1e-4;
+static const double UNIT_TOLERANCE = 1e-4;
 
 void check_enter(struct check *check, const char *name, size_t index)
 {
@@ -82,10 +82,10 @@ void check_unit(struct check *check, const char *field, const double *vector, si
     for (size_t i = 0; i < size; i++)
         square += vector[i] * vector[i];
     double norm = sqrt(square);
-    if (!(fabs(norm - 1.0) <= unit_tolerance))
+    if (!(fabs(norm - 1.0) <= UNIT_TOLERANCE))
         check_that(check, false, "%s: %s: must be a unit %s (norm within %g of 1)", field,
                    vector_text(vector, size).text, size == 4 ? "quaternion (w, x, y, z)" : "vector",
-                   unit_tolerance);
+                   UNIT_TOLERANCE);
     for (size_t i = 0; i < size; i++)
         unit[i] = vector[i] / norm;
 }

@@ -10,7 +10,7 @@
 #include "endpoint/text.h"
 #include "percuss/fields.h"
 
-static const double delassus_asymmetry = 1e-9; /* of the two contacts' own inverse masses */
+static const double DELASSUS_ASYMMETRY = 1e-9; /* of the two contacts' own inverse masses */
 
 /* Checks a member of *from and puts it into *to. Indices are checked before, against the bodies;
  * tokens and specimens are not the solver's. */
@@ -96,9 +96,9 @@ static void check_delassus_pair(struct check *check, const double *matrix, size_
     check_that(check, isfinite(upper) && isfinite(lower),
                "delassus[%zu][%zu]: %g: must be finite, as its mirror image %g", row, column, upper,
                lower);
-    check_that(check, fabs(upper - lower) <= delassus_asymmetry * size,
+    check_that(check, fabs(upper - lower) <= DELASSUS_ASYMMETRY * size,
                "delassus[%zu][%zu]: %.17g: must equal [%zu][%zu], %.17g, within %g", row, column,
-               upper, column, row, lower, delassus_asymmetry * size);
+               upper, column, row, lower, DELASSUS_ASYMMETRY * size);
 }
 
 static void check_delassus(struct check *check, const dds_sequence_double *matrix, size_t count)

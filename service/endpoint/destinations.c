@@ -11,7 +11,7 @@
 #include "endpoint/clock.h"
 #include "endpoint/key_map.h"
 
-static const double stall_pause = 1.0; /* s */
+static const double STALL_PAUSE = 1.0; /* s */
 
 /* A client. */
 struct destination {
@@ -189,7 +189,7 @@ void destinations_stall(struct destinations *destinations, const uint8_t client[
     pthread_mutex_lock(&destinations->lock);
     struct destination *destination = find(destinations, client);
     if (destination)
-        destination->stalled_until[channel] = clock_now() + stall_pause;
+        destination->stalled_until[channel] = clock_now() + STALL_PAUSE;
     pthread_mutex_unlock(&destinations->lock);
 }
 

@@ -9,12 +9,12 @@
 
 /* What differs by less, relative to the values, differs by rounding: some thousand steps of it, far
  * below the 1e-9 to which an impact is computed at its best. */
-static const double rounding = 1e-12;
+static const double ROUNDING = 1e-12;
 
 bool summary_varies(const struct moments *moments)
 {
     double size = fmax(fabs(moments->lowest), fabs(moments->highest));
-    return moments->count > 1 && moments->highest - moments->lowest > rounding * size;
+    return moments->count > 1 && moments->highest - moments->lowest > ROUNDING * size;
 }
 
 static void find_range(const double *values, size_t count, struct moments *moments)

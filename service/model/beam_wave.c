@@ -7,7 +7,7 @@
 
 /* b r q beyond which the first wave is trigonometric is where alpha^2 changes sign; alpha itself
  * stays above this, so that quotients by it are finite and have their limits. */
-static const double smallest_alpha = 1e-150;
+static const double SMALLEST_ALPHA = 1e-150;
 
 /* alpha^2 and beta^2 without cancellation: with p = b^2(r^2 + q^2) and c = b^2(1 - b^2 r^2 q^2),
  * beta^2 = p/2 + sqrt(p^2/4 + c) and alpha^2 beta^2 = c. With d = b^2(q^2 - r^2)/2 the root is
@@ -23,7 +23,7 @@ static void set_wave_numbers(struct beam_wave *wave, const struct beam_ratios *r
     wave->beta = sqrt(beta_squared);
     wave->alpha_squared =
         squared * (1.0 - squared * ratios->inertia * ratios->shear) / beta_squared;
-    wave->alpha = fmax(sqrt(fabs(wave->alpha_squared)), smallest_alpha);
+    wave->alpha = fmax(sqrt(fabs(wave->alpha_squared)), SMALLEST_ALPHA);
     if (half >= 0.0) {
         wave->hyper = half + root;
         wave->trig = squared / wave->hyper;

@@ -11,8 +11,6 @@
 
 #include <math.h>
 
-static const double pi = 3.14159265358979323846;
-
 /* Both integrands with x^2 = from + (to - from) sin^2(t), which takes the roots out of them. */
 static double both_run_off(double ratio, double sine, double cosine)
 {
@@ -40,8 +38,8 @@ static double run_off(double ratio)
     double sum = 0.0;
     for (int i = 0; i < POINTS; i++) {
         double u = (i + 0.5) / POINTS;
-        double t = 0.5 * pi * (u - sin(2.0 * pi * u) / (2.0 * pi));
-        double weight = 0.5 * pi * (1.0 - cos(2.0 * pi * u)) / POINTS;
+        double t = 0.5 * M_PI * (u - sin(2.0 * M_PI * u) / (2.0 * M_PI));
+        double weight = 0.5 * M_PI * (1.0 - cos(2.0 * M_PI * u)) / POINTS;
         double sine = sin(t);
         double cosine = cos(t);
         sum += weight * (both_run_off(ratio, sine, cosine) + shear_runs_off(ratio, sine, cosine));
@@ -78,7 +76,7 @@ static double pole(double ratio, double x)
     double b = sqrt(x * x - 1.0);
     double slope =
         8.0 * x * (2.0 * x * x - 1.0) - 8.0 * x * a * b - 4.0 * x * x * x * (b / a + a / b);
-    return pi * x * a / fabs(slope);
+    return M_PI * x * a / fabs(slope);
 }
 
 struct half_space_waves half_space_waves_of(const struct material *material)
@@ -90,7 +88,7 @@ struct half_space_waves half_space_waves_of(const struct material *material)
     double slow = slowness(ratio);
     double sum = run_off(ratio) + pole(ratio, slow);
     return (struct half_space_waves){
-        .lag = sum / (2.0 * pi * mu * transverse),
+        .lag = sum / (2.0 * M_PI * mu * transverse),
         .rayleigh = transverse / slow,
         .transverse = transverse,
     };
