@@ -14,8 +14,9 @@ enum { MODE_SEARCH_MOST = 1200 };
  * which amplifies every error. */
 bool mode_search_expects_sequence(const struct problem *problem);
 
-/* Solves with as few modes as the tolerance allows; best->accuracy is given. PERCUSS_OK or
- * PERCUSS_INTERNAL. An overlap without a touch before (outcome.always_overlapped) ends it. */
+/* Solves with as few modes as the tolerance allows; best->accuracy is given. PERCUSS_OK,
+ * PERCUSS_INTERNAL or PERCUSS_TIMEOUT. An overlap without a touch before
+ * (outcome.always_overlapped) ends it. */
 enum percuss_status mode_search(struct attempt_context *context, struct attempt *best,
                                 struct mode_error *error);
 

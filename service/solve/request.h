@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* What is asked of the solver: bodies by their ids, where they are and how they move, and where
- * they touch: percuss/fields.h says what the members mean. Units SI; conventions as in
- * docs/architecture.md. */
+ * they touch: percuss/fields.h says what the members mean. Units SI; conventions as at the top of
+ * idl/percuss_wire.idl. */
 #ifndef PERCUSS_SOLVE_REQUEST_H
 #define PERCUSS_SOLVE_REQUEST_H
 

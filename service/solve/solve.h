@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The library's one entrance: (means, request) -> result. No files, no clock, no globals; same
- * input, same bits. Units SI; conventions as in docs/architecture.md. */
+ * input, same bits. Units SI; conventions as in solve/request.h. */
 #ifndef PERCUSS_SOLVE_SOLVE_H
 #define PERCUSS_SOLVE_SOLVE_H
 

@@ -11,7 +11,7 @@
 /* Solves the answer's scene once more by the modal method, with the forces taken down, and sets
  * result->trace. That may take as much work as an answer, and the histories as much again: where it
  * is spent they end, with a warning. Warns where the answer came from another method and that
- * solution differs. Returns result->status, or PERCUSS_INTERNAL with the message. */
+ * solution differs. Returns result->status, or INTERNAL or TIMEOUT with the message. */
 enum percuss_status tracing_make(const struct problem *problem, const struct solution *solution,
                                  struct pace *pace, struct solve_result *result);
 
