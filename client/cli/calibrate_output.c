@@ -124,8 +124,7 @@ bool calibrate_warn(const struct calibrate_report *report)
         if ((double)left <= MANY * (double)calibration->known[q])
             continue;
         complain("%s: %zu of %zu readings are no smooth function of the parameters, or off by more "
-                 "than four "
-                 "standard deviations, and were left out",
+                 "than four standard deviations, and were left out",
                  quantity_name(q), left, calibration->known[q]);
         warned = true;
     }

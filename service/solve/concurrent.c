@@ -157,8 +157,7 @@ void concurrent_report(const struct concurrent_effort *effort, const struct prob
     snprintf(result->reason, sizeof result->reason,
              "contact region of finite elements, solved at each of %lu steps: %zu elements along "
              "its core, %zu Newton steps, dent %.3g um, extrapolated restitution %.5f; %zu modes "
-             "up to %.4g Hz, residual "
-             "flexibility for the others%s",
+             "up to %.4g Hz, residual flexibility for the others%s",
              effort->steps, effort->resolution, effort->newton_steps, 1e6 * history->dent,
              effort->extrapolated, solution->assembly->all_modes,
              solution->assembly->highest / (2.0 * M_PI),

@@ -86,8 +86,7 @@ static enum percuss_status find_table(struct problem *problem,
     } else if (asked_of(problem)->tables == CONTACT_TABLES_ONLY) {
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "options.contact_model: table: there is no table for %s on %s "
-                         "(contacts[%zu]): %s; auto "
-                         "or closed-form do without",
+                         "(contacts[%zu]): %s; auto or closed-form do without",
                          a->id, b->id, c,
                          hertz->axis_ratio < HERTZ_CIRCULAR_RATIO
                              ? "the contact is elliptic, tables are of circular ones"
