@@ -1,0 +1,106 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The members of replies, see fields.h. */
+#ifndef PERCUSS_FIELDS_REPLY_H
+#define PERCUSS_FIELDS_REPLY_H
+
+#define PERCUSS_SUB_IMPACT_FIELDS(F, ...)                                                          \
+    F(VALUE, start, "s; from the stated instant")                                                  \
+    F(VALUE, compression_end, "s")                                                                 \
+    F(VALUE, end, "s")                                                                             \
+    F(VALUE, impulse, "N s")                                                                       \
+    F(VALUE, compression_impulse, "N s; up to the largest indentation")                            \
+    F(VALUE, peak_force, "N")                                                                      \
+    F(VALUE, max_indentation, "m")                                                                 \
+    F(VALUE, gap_rate_before, "m/s")                                                               \
+    F(VALUE, gap_rate_after, "m/s")                                                                \
+    F(FLAG, negligible, "below 1 % of the contact's impulse")
+
+#define PERCUSS_CONTACT_RESULT_FIELDS(F, L)                                                        \
+    F(VALUE, impulse, "N s; of all sub-impacts")                                                   \
+    F(VECTOR, impulse_vector, INFINITY, "N s; on body a, world")                                   \
+    F(VALUE, impulse_compression, "N s; that stops the rigid approach")                            \
+    F(VALUE, restitution, "impulse / impulse_compression - 1; undefined where that is 0")          \
+    F(VALUE, inverse_effective_mass, "1/kg")                                                       \
+    F(VALUE, end_time, "s; end of the last sub-impact")                                            \
+    F(COUNT, sub_impact_count, "exact, however many are listed")                                   \
+    L(LIST, sub_impacts, sub_impacts_listed, sub_impact, "at most 256; 16 in a batch")
+
+#define PERCUSS_BODY_VELOCITY_FIELDS(F, ...)                                                       \
+    F(ID, id, "of the body")                                                                       \
+    F(VECTOR, velocity, INFINITY, "m/s; of the centre of mass, world")                             \
+    F(VECTOR, angular_velocity, INFINITY, "rad/s; world")
+
+#define PERCUSS_BODY_STATE_FIELDS(F, ...)                                                          \
+    F(ID, id, "of the body")                                                                       \
+    F(TEXT, state, "token for a later request")
+
+#define PERCUSS_BODY_ENERGY_FIELDS(F, ...)                                                         \
+    F(ID, id, "of the body")                                                                       \
+    F(VALUE, energy, "J")
+
+#define PERCUSS_ENERGY_FIELDS(F, L)                                                                \
+    F(VALUE, available, "J")                                                                       \
+    F(VALUE, rigid_after, "J")                                                                     \
+    L(LIST, vibration, vibration_count, body_energy, "of each body")                               \
+    F(VALUE, damping, "J; with the waves that leave through half-spaces")                          \
+    F(VALUE, plastic, "J")                                                                         \
+    F(VALUE, stored, "J")                                                                          \
+    F(VALUE, closure, "J; available less all the others: a check of the solution")
+
+#define PERCUSS_ERROR_FIELDS(F, ...)                                                               \
+    F(VALUE, restitution_time, "of the restitution, by the time steps")                            \
+    F(VALUE, restitution_modes, "of the restitution, by the modes left out")                       \
+    F(VALUE, impulse_time, "N s")                                                                  \
+    F(VALUE, impulse_modes, "N s")                                                                 \
+    F(VALUE, restitution_by_speed, "s/m; d(restitution)/d(speed), with `conditioning`")            \
+    F(FLAG, tolerance_met, "by these estimates")
+
+#define PERCUSS_BODY_MODEL_FIELDS(F, ...)                                                          \
+    F(ID, id, "of the body")                                                                       \
+    F(COUNT, modes, "kept in the scene")                                                           \
+    F(FLAG, rigid, "whether it does not vibrate")                                                  \
+    F(TEXT, theory, "rigid, rod, rayleigh-love, timoshenko, euler-bernoulli")                      \
+    F(VALUE, shear_factor, "undefined where there is none")
+
+#define PERCUSS_MODEL_FIELDS(F, L)                                                                 \
+    L(LIST, bodies, body_count, body_model, "how each was modelled")                               \
+    F(CHOICE, contact_model, contact_model, PERCUSS_CONTACT_COUNT, "local model of the contacts")  \
+    F(CHOICE, compliance, compliance, PERCUSS_COMPLIANCE_COUNT,                                    \
+      "local compliance of the contacts")                                                          \
+    F(CHOICE, method, method, PERCUSS_METHOD_COUNT, "integrator of the fast time scale")           \
+    F(TEXT, reason, "why this model")                                                              \
+    F(VALUE, omitted_error, "estimated effect on the restitution of what was left out")
+
+#define PERCUSS_TIMING_FIELDS(F, ...)                                                              \
+    F(VALUE, queue, "s")                                                                           \
+    F(VALUE, solve, "s")
+
+/* What all replies begin with. */
+#define PERCUSS_HEAD_FIELDS(F, ...)                                                                \
+    F(OCTETS, client, "who asked")                                                                 \
+    F(LONG_COUNT, sequence, "of the request")                                                      \
+    F(OCTETS, server, "who answered")                                                              \
+    F(TEXT, catalogue_revision, "hash of the catalogue")                                           \
+    F(TEXT, version, "of the server")                                                              \
+    F(CHOICE, status, status, PERCUSS_STATUS_COUNT, "the server's judgement")                      \
+    F(TEXT, message, "names the field, its value and what is allowed; empty for OK")
+
+/* What follows the head. */
+#define PERCUSS_REPLY_FIELDS(F, L)                                                                 \
+    F(FLAG, complete, "false: the restitution is not the final one")                               \
+    F(CHOICE, end_reason, end_reason, PERCUSS_END_COUNT, "why the fast time scale ended")          \
+    F(VALUE, window, "s; from then on vibration cannot cause a contact")                           \
+    L(LIST, contacts, contact_count, contact_result, "in the order of the request")                \
+    F(CHOICE, delassus_source, delassus_source, PERCUSS_DELASSUS_COUNT, "whose matrix was used")   \
+    L(LIST, velocity_after, velocity_after_count, body_velocity, "with the service's own matrix")  \
+    L(LIST, states_after, states_after_count, body_state, "of each body")                          \
+    L(OBJECT, energy, energy, "balance")                                                           \
+    L(OBJECT, error, error_estimate, "estimates")                                                  \
+    L(OBJECT, model, model, "of the impact")                                                       \
+    F(VALUE, time_shift, "s; of the touch of a ringing body, from the stated instant")             \
+    L(TEXTS, warnings, warning_count, "where the models end")                                      \
+    L(OBJECT, timing, timing, "where the server's time went")
+
+#endif

@@ -1,0 +1,35 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The members of what servers announce of themselves and of specimens, see fields.h. */
+#ifndef PERCUSS_FIELDS_SERVER_H
+#define PERCUSS_FIELDS_SERVER_H
+
+#define PERCUSS_SERVER_FIELDS(F, ...)                                                              \
+    F(OCTETS, server, "its id")                                                                    \
+    F(TEXT, version, "of the program")                                                             \
+    F(TEXT, catalogue_revision, "hash of the catalogue")                                           \
+    F(TEXT, catalogue, "file")                                                                     \
+    F(TEXT, host, "its name")                                                                      \
+    F(COUNT, process, "its number")                                                                \
+    F(TEXT, state, "ready, draining")                                                              \
+    F(COUNT, workers, "threads that solve")                                                        \
+    F(COUNT, bodies, "of the catalogue")                                                           \
+    F(COUNT, queue_length, "requests that wait")                                                   \
+    F(COUNT, queue_capacity, "requests that may wait")                                             \
+    F(LONG_COUNT, answered, "requests")                                                            \
+    F(LONG_COUNT, refused, "requests")                                                             \
+    F(COUNT, specimens, "that it keeps")                                                           \
+    F(VALUE, uptime, "s")                                                                          \
+    F(TEXT, activity, "what a long computation is doing")                                          \
+    F(VALUE, progress, "0..1; undefined: nothing is running")
+
+#define PERCUSS_DENT_FIELDS(F, ...)                                                                \
+    F(VECTOR, point, INFINITY, "m; body frame")                                                    \
+    F(VALUE, size, "m; radius of the patch")                                                       \
+    F(VALUE, max_indentation, "m")                                                                 \
+    F(VALUE, max_force, "N")                                                                       \
+    F(VALUE, residual_indentation, "m; depth that stays")                                          \
+    F(VALUE, contact_radius, "m; at the largest force")
+
+#endif
