@@ -14,6 +14,7 @@ allowed() {
     base) echo "base" ;;
     numeric) echo "base numeric" ;;
     model) echo "base numeric model" ;;
+    mesh) echo "base numeric model mesh" ;;
     fe) echo "base numeric model fe" ;;
     contact) echo "base numeric model fe contact" ;;
     impact) echo "base numeric model fe contact impact" ;;
@@ -105,7 +106,7 @@ only 'yaml' 'service/catalogue|service/daemon'
 only 'jansson' 'client/cli|service/store'
 only 'sqlite3' 'service/store'
 only 'dds/' 'service/endpoint|service/daemon|client/lib'
-only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|service/store|service/tables|client/lib|client/cli'
+only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|client/lib|client/cli'
 
 # clients do not look into the service; the slow scale is built with its complementarity solver
 found=$(grep -nE '^ *# *include *"(base|numeric|model|fe|contact|impact|solve|ensemble|store|catalogue|endpoint|daemon)/' client/*/*.[ch] |

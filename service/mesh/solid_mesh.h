@@ -1,0 +1,52 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A body cut into elements of second order, as files of meshes state it. */
+#ifndef PERCUSS_MESH_SOLID_MESH_H
+#define PERCUSS_MESH_SOLID_MESH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "model/material.h"
+
+/* Nodes of an element in the order of Gmsh. */
+enum element_type { ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27 };
+
+enum { ELEMENT_MOST_NODES = 27, MESH_NAME_SIZE = 64 };
+
+/* Elements of one material: a physical volume, an element set. */
+struct mesh_part {
+    char name[MESH_NAME_SIZE];
+    bool has_material; /* the file states it; else it is the caller's to set */
+    struct material material;
+};
+
+/* Nodes with a name, to hold a body by: a physical surface, a node set. */
+struct mesh_set {
+    char name[MESH_NAME_SIZE];
+    size_t count;
+    size_t *nodes; /* [count], ascending */
+};
+
+/* Owns its arrays. */
+struct solid_mesh {
+    double unit; /* m of one unit of length of the file */
+    size_t node_count;
+    double (*points)[3]; /* [node_count], m, in the file's frame */
+    size_t *labels;      /* [node_count]: the file's numbers, for messages */
+    size_t element_count;
+    unsigned char *types; /* [element_count], enum element_type */
+    size_t *first;        /* [element_count + 1]: an element's nodes are nodes[first[e]] .. */
+    size_t *nodes;
+    size_t *parts;          /* [element_count]: index of its part */
+    size_t *element_labels; /* [element_count]: the file's numbers, for messages */
+    size_t part_count;
+    struct mesh_part *part;
+    size_t set_count;
+    struct mesh_set *set;
+};
+
+void solid_mesh_free(struct solid_mesh *mesh);
+
+#endif

@@ -1,0 +1,69 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A body reduced from a mesh, as its file (mesh/body_file.h) holds it: immutable, shared by all
+ * variants of the body. Axes are the mesh's; the origin is the centre of mass. */
+#ifndef PERCUSS_MODEL_MESH_BODY_H
+#define PERCUSS_MODEL_MESH_BODY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "model/material.h"
+
+enum { MESH_BODY_FACE_NODES = 9, MESH_BODY_WEIGHTS = 12 };
+
+/* A piece of the surface, see mesh/surface.h for the order of nodes. */
+struct mesh_body_face {
+    unsigned char count;                  /* 6, 8 or 9 nodes */
+    unsigned char material;               /* index */
+    unsigned patch;                       /* faces of one patch meet smoothly */
+    unsigned nodes[MESH_BODY_FACE_NODES]; /* of the surface */
+    /* at each of its nodes */
+    float normal[MESH_BODY_FACE_NODES][3];    /* outward */
+    float curvature[MESH_BODY_FACE_NODES][6]; /* xx yy zz xy yz zx, 1/m */
+    float doubt[MESH_BODY_FACE_NODES];        /* of the normal, rad */
+    /* flexibility for a unit force along the normal, beyond that of the half-space of the face's
+     * material, without that of the first `removed` modes, m/N (MESH: C_K0); NAN: not known there
+     */
+    double flexibility[MESH_BODY_FACE_NODES];
+    /* and its change with the logarithm of the contact's radius, m/N: C(a) = flexibility +
+     * slope ln(cut / a) */
+    double flexibility_slope[MESH_BODY_FACE_NODES];
+};
+
+struct mesh_body {
+    /* provenance */
+    char hash[65];         /* SHA-256 of what it was made from: mesh, materials, supports, settings */
+    char source[256];      /* file's name, version of percuss-reduce, date */
+    double unit;           /* m of one unit of the mesh's file */
+    double centre[3];      /* centre of mass in the mesh's frame, m */
+    double volume;         /* m^3 */
+    double mass;           /* kg */
+    double inertia[9];     /* about the centre of mass, kg m^2, row-major */
+    bool supported;        /* nodes are held: it does not move as a whole */
+    char supports[128];    /* names of the held sets */
+    double element_size;   /* median edge of the surface, m */
+    double cut;            /* contact radius that flexibilities are stated for, m */
+    size_t material_count;
+    struct material *materials;
+    /* vibration */
+    size_t mode_count;     /* elastic modes, ascending */
+    double *omega;         /* [mode_count], rad/s */
+    size_t removed;        /* modes without which flexibilities are stated */
+    /* surface */
+    size_t node_count;
+    double (*points)[3];   /* [node_count], m, from the centre of mass */
+    float *shapes;         /* [node_count][3][mode_count], 1/sqrt(kg) */
+    size_t face_count;
+    struct mesh_body_face *faces;
+    /* flexibility between places, for several contacts: the response at one surface site to a
+     * unit normal force at another, without the first `removed` modes, m/N; good from `near` on */
+    size_t site_count;
+    unsigned *site_face;   /* [site_count] */
+    double (*site_point)[3], (*site_normal)[3]; /* [site_count] */
+    float *between;        /* [site_count][site_count]; NULL: not computed */
+    double near;           /* m */
+};
+
+#endif
