@@ -15,7 +15,9 @@
 
 enum support { SUPPORT_FREE, SUPPORT_PINNED, SUPPORT_CLAMPED }; /* a rod's `fixed` is CLAMPED */
 enum beam_theory { THEORY_TIMOSHENKO, THEORY_EULER_BERNOULLI };
-enum shear_rule { SHEAR_COWPER, SHEAR_HUTCHINSON, SHEAR_NUMBER };
+/* Nothing stated: Hutchinson's, and Cowper's where that is no fraction (a wide section, see
+ * kind_beam.c). */
+enum shear_rule { SHEAR_ABSENT, SHEAR_COWPER, SHEAR_HUTCHINSON, SHEAR_NUMBER };
 
 struct body {
     char id[PERCUSS_ID_SIZE];

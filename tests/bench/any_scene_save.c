@@ -36,7 +36,7 @@ static void write_bar(FILE *file, const struct body *body)
     if (body->kind == &beam_kind)
         fprintf(file, ", theory: %s",
                 body->theory == THEORY_TIMOSHENKO ? "timoshenko" : "euler-bernoulli");
-    if (body->kind == &beam_kind && body->theory == THEORY_TIMOSHENKO)
+    if (body->kind == &beam_kind && body->shear_rule != SHEAR_ABSENT)
         fprintf(file, ", shear_factor: %s",
                 body->shear_rule == SHEAR_COWPER ? "cowper" : "hutchinson");
 }

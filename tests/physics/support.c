@@ -61,6 +61,12 @@ struct body make_supported(struct body bar, enum support left, enum support righ
     return bar;
 }
 
+struct body make_cowper(struct body beam)
+{
+    beam.shear_rule = SHEAR_COWPER;
+    return beam;
+}
+
 struct spot side_spot(const char *id, double x, double radius, double about)
 {
     return (struct spot){

@@ -41,6 +41,8 @@ struct body make_sphere(struct material material, double radius);
 struct body make_bar(const struct body_kind *kind, struct material material, double radius,
                      double length);
 struct body make_supported(struct body bar, enum support left, enum support right);
+/* With Cowper's shear factor, which many a recorded number is of. */
+struct body make_cowper(struct body beam);
 
 /* A place on a body's surface, body frame; roll turns the body about the contact's normal. */
 struct spot {

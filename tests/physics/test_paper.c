@@ -110,7 +110,8 @@ static void the_beam_s_symmetric_frequencies(void **state)
     static const double hertz[] = {89.67617, 482.22915, 1180.58011, 2168.87533, 3427.14857};
     struct material metal = {"metal", 68.9e9, 0.33, 2710.0, INFINITY, 0.0};
     struct lab *lab = lab_create();
-    const struct body *beam = lab_add(lab, "beam", make_bar(&beam_kind, metal, 0.010, 1.0));
+    const struct body *beam =
+        lab_add(lab, "beam", make_cowper(make_bar(&beam_kind, metal, 0.010, 1.0)));
     struct modal_family *modes = modal_family_create(beam, BAR_BENDING_Z, 10);
     assert_non_null(modes);
     for (size_t i = 0; i < 5; i++)

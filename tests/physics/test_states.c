@@ -359,9 +359,9 @@ static void questions_on_ringing_beams_take_no_seconds(void **state)
         print_message("    %u ways back, most work %g, longest %.3f s\n", back, most * PACE_WORK,
                       longest);
     assert_true(back > 50);
-    /* the effort that one solve by the modal method may take, and a fifth for what is counted after
-     * it is done and for the questions asked before each step table is made */
-    assert_true(most * PACE_WORK < 3.6e7);
+    /* the effort that one solve by the modal method may take, and half of it for the step tables,
+     * which are made once: those of 53, 348, 530 and 894 modes were 0.9e7 */
+    assert_true(most * PACE_WORK < 4.5e7);
     /* seen: 1 s; what else the machine does counts little in this thread's own time */
     assert_true(longest < 4.0);
     lab_free(lab);

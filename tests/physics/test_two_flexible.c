@@ -157,7 +157,7 @@ static void a_roll_does_not_decide_a_long_sequence(void **state)
     struct body rod = make_bar(&rod_kind, ALUMINIUM, 0.0116339, 0.996043);
     rod.tip_radius = 0.0324624;
     lab_add(lab, "rod", rod);
-    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.00777971, 1.11376));
+    lab_add(lab, "beam", make_cowper(make_bar(&beam_kind, ALUMINIUM, 0.00777971, 1.11376)));
     double e = NAN;
     for (double about = 0.0; about < 3.2; about += 0.25 * M_PI) {
         struct spot side = side_spot("beam", -0.530729, 0.00777971, about);

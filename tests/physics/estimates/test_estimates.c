@@ -103,7 +103,7 @@ static void references_settle_to_known_numbers(void **state)
     assert_non_null(room);
     lab_add(lab, "ball", make_sphere(STEEL, 0.015));
     lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0));
-    lab_add(lab, "beam", make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0));
+    lab_add(lab, "beam", make_cowper(make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0)));
     struct solve_request request = strike(sphere_spot("ball", 0.015), end_spot("rod", 1.0), 0.3);
     assert_true(truth_find(room, &lab->set, &request, &settings, &truth));
     assert_true(truth.spread <= 1e-6);

@@ -52,7 +52,9 @@ static void loads_the_shipped_bodies(void **state)
 
     const struct body *beam = get(set, "al-beam");
     assert_int_equal(beam->theory, THEORY_TIMOSHENKO);
-    is_read_as(beam->shear_factor[0], 6.0 * 1.33 / (7.0 + 6.0 * 0.33)); /* Cowper, circle */
+    is_read_as(beam->shear_factor[0],
+               6.0 * 1.33 * 1.33 /
+                   (7.0 + 12.0 * 0.33 + 4.0 * 0.33 * 0.33)); /* Hutchinson, circle */
 
     /* bodies of equal mass, to the digits of the file */
     assert_true(fabs(get(set, "al-cylinder")->mass / rod->mass - 1.0) < 1e-8);
@@ -153,8 +155,9 @@ static void keeps_its_revision_when_only_the_look_changes(void **state)
         "bodies:\n  'a':\n    radius: 10e-3\n    shape: sphere\n    material: m\n" BASE_B,
         "materials: {n: {young: 1e9, poisson: 0.3, density: 1}, " /* one that nobody uses */
         "m: {young: 70e9, poisson: 0.3, density: 2700}}\nbodies:\n" BASE_A BASE_B,
-        BASE_MATERIAL "bodies:\n" BASE_A "  b: {shape: beam, material: m, radius: 0.01, length: 1, "
-                      "theory: timoshenko, shear_factor: cowper, ends: [free, free], damping: 0}\n",
+        BASE_MATERIAL
+        "bodies:\n" BASE_A "  b: {shape: beam, material: m, radius: 0.01, length: 1, "
+        "theory: timoshenko, shear_factor: hutchinson, ends: [free, free], damping: 0}\n",
     };
     char base[PERCUSS_ID_SIZE], other[PERCUSS_ID_SIZE];
     revision_of(BASE_MATERIAL "bodies:\n" BASE_A BASE_B, base);

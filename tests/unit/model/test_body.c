@@ -153,18 +153,23 @@ static void follows_the_shear_rule(void **state)
 {
     (void)state;
     struct body beam = aluminium(&beam_kind);
+    beam.shear_rule = SHEAR_COWPER;
     complete(&beam);
     near_relative(beam.shear_factor[1], 6.0 * 1.33 / (7.0 + 6.0 * 0.33), 1e-14); /* Cowper 1966 */
-    beam.shear_rule = SHEAR_HUTCHINSON;
-    complete(&beam);
-    near_relative(beam.shear_factor[1], 6.0 * 1.33 * 1.33 / (7.0 + 12.0 * 0.33 + 4.0 * 0.33 * 0.33),
-                  1e-14);
+    /* Hutchinson 2001, also where nothing is stated */
+    double hutchinson = 6.0 * 1.33 * 1.33 / (7.0 + 12.0 * 0.33 + 4.0 * 0.33 * 0.33);
+    for (beam.shear_rule = SHEAR_ABSENT; beam.shear_rule <= SHEAR_HUTCHINSON;
+         beam.shear_rule += 2) {
+        complete(&beam);
+        near_relative(beam.shear_factor[1], hutchinson, 1e-14);
+    }
     beam.shear_rule = SHEAR_NUMBER;
     beam.shear_number = 0.85;
     complete(&beam);
     assert_true(beam.shear_factor[0] == 0.85 && beam.shear_factor[1] == 0.85);
 
     struct body flat = rectangular(THEORY_TIMOSHENKO);
+    flat.shear_rule = SHEAR_COWPER;
     complete(&flat);
     near_relative(flat.shear_factor[0], 10.0 * 1.33 / (12.0 + 11.0 * 0.33),
                   1e-14); /* Cowper 1966 */
@@ -178,6 +183,19 @@ static void follows_the_shear_rule(void **state)
     complete(&turned);
     assert_true(flat.shear_factor[0] == turned.shear_factor[1]);
     assert_true(flat.shear_factor[0] != flat.shear_factor[1]);
+}
+
+static void a_strip_without_hutchinsons_factor_takes_cowpers(void **state)
+{
+    (void)state;
+    struct body strip = rectangular(THEORY_TIMOSHENKO);
+    strip.width = 10.0 * strip.height;
+    complete(&strip);
+    double cowper = 10.0 * 1.33 / (12.0 + 11.0 * 0.33);
+    near_relative(strip.shear_factor[1], cowper, 1e-14);
+    /* on edge it is a tenth as thick as deep, in plane stress but for terms of the fourth order:
+     * 5(1 + nu)/(6 + 5 nu), Stephen 2001 */
+    near_relative(strip.shear_factor[0], 5.0 * 1.33 / (6.0 + 5.0 * 0.33), 1e-5);
 }
 
 static void knows_its_smallest_radius(void **state)
@@ -232,7 +250,7 @@ static void refuses_impossible_bodies(void **state)
     REFUSE(beam, width = 0.1, "section: 0.1 x 0: must be absent beside radius");
     REFUSE(beam, length = -1.0, "length: -1: must be");
     REFUSE(beam, theory = 2, "theory: 2: must be one of timoshenko");
-    REFUSE(beam, shear_rule = 3, "shear_factor: 3: must be cowper");
+    REFUSE(beam, shear_rule = 4, "shear_factor: 4: must be cowper");
     REFUSE(beam, shear_rule = SHEAR_NUMBER, "shear_factor: 0: must be a number > 0");
     REFUSE(beam, supports[0] = 3, "ends: 3: must be one of free, pinned, clamped");
     REFUSE(flat, height = 0.0, "section.height: 0: must be");
@@ -262,6 +280,7 @@ int main(void)
         cmocka_unit_test(matches_closed_forms),
         cmocka_unit_test(gives_each_theory_its_rotatory_inertia),
         cmocka_unit_test(follows_the_shear_rule),
+        cmocka_unit_test(a_strip_without_hutchinsons_factor_takes_cowpers),
         cmocka_unit_test(knows_its_smallest_radius),
         cmocka_unit_test(refuses_impossible_bodies),
         cmocka_unit_test(refuses_impossible_materials),

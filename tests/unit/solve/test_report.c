@@ -62,9 +62,10 @@ static void names_theories_and_models(void **state)
         assert_true(result.omitted_error > 0.0 && result.omitted_error < 1e-2);
         assert_string_equal(result.fault.text, "");
     }
-    /* Cowper 1966 */
+    /* Hutchinson 2001 */
     lab_solve(lab, &requests[2], &result);
-    measured("shear factor", result.bodies[1].shear_factor, 6.0 * 1.33 / (7.0 + 6.0 * 0.33), 1e-15);
+    measured("shear factor", result.bodies[1].shear_factor,
+             6.0 * 1.33 * 1.33 / (7.0 + 12.0 * 0.33 + 4.0 * 0.33 * 0.33), 1e-15);
     lab_free(lab);
 }
 
