@@ -24,7 +24,8 @@ void compare_print_table(const struct comparison *comparison);
 void compare_print_csv(const struct comparison *comparison);
 void compare_print_json(const struct comparison *comparison);
 
-/* The restitution against the speed, and both empirical distributions. Exit code; complains. */
+/* The restitution and the number of sub-impacts against the speed, and both empirical
+ * distributions. Exit code; complains. */
 int compare_plot(const char *file, const struct comparison *comparison);
 
 #endif

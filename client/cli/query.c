@@ -25,7 +25,8 @@ enum {
     KEY_SPECIMEN_A,
     KEY_SPECIMEN_B,
     KEY_TRACE,
-    KEY_PLOT
+    KEY_PLOT,
+    KEY_MEASURED
 };
 
 struct query {
@@ -34,8 +35,9 @@ struct query {
     double speed;       /* NAN: not given */
     double speed_sigma; /* its standard deviation; 0: not given */
     const char *file;
-    const char *trace, *plot; /* files; NULL: not wanted */
-    const char *specimens[2]; /* of A, B; NULL: not given */
+    const char *trace, *plot;       /* files; NULL: not wanted */
+    struct history_motion measured; /* laid over the picture; count 0: nothing */
+    const char *specimens[2];       /* of A, B; NULL: not given */
 };
 
 static const struct argp_option options[] = {
@@ -50,6 +52,10 @@ static const struct argp_option options[] = {
     {"trace", KEY_TRACE, "FILE", 0, "write the time histories as comma-separated values", 40},
     {"plot", KEY_PLOT, "FILE", 0,
      "draw motion and contact force over time with gnuplot: FILE.png or FILE.svg", 40},
+    {"measured", KEY_MEASURED, "FILE.csv", 0,
+     "lay a measured history over the picture: columns time, velocity_a or displacement_a, and "
+     "those of b",
+     40},
     {0},
 };
 
@@ -62,8 +68,29 @@ static void check(const struct query *query, struct argp_state *state)
         (scene->given || specimen || !isnan(query->speed) || query->speed_sigma > 0.0))
         argp_error(state, "--request says everything; no other flag of the impact goes with it");
     scene_check_single(scene, state);
+    if (query->measured.count > 0 && !query->plot)
+        argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
     if (!query->file && !(scene->a && scene->b && !isnan(query->speed)))
         argp_error(state, "--a ID --b ID --speed V or --request FILE is needed");
+}
+
+/* Reads a measured history and lays its first touch on time 0; usage error with the reason. */
+static void read_measured(const char *file, struct query *query, struct argp_state *state)
+{
+    struct history history;
+    struct history_impacts impacts;
+    struct measured_fault fault = {""};
+    bool good = history_read(file, &history, &fault);
+    if (good && history_find(&history, &impacts, &fault)) {
+        history_motion_free(&query->measured);
+        good = history_align(&history, &impacts, &query->measured) ||
+               measured_fail(&fault, "%s: out of memory", file);
+    } else {
+        good = false;
+    }
+    history_free(&history);
+    if (!good)
+        argp_error(state, "--measured: %s", fault.text);
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -102,6 +129,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_PLOT:
         plot_check(text, state);
         query->plot = text;
+        return 0;
+    case KEY_MEASURED:
+        read_measured(text, query, state);
         return 0;
     case ARGP_KEY_END:
         check(query, state);
@@ -177,8 +207,10 @@ static int ask(const struct query *query, const struct percuss_request *request,
     int written = EXIT_ANSWERED;
     if (query->trace && trace.contact_count > 0)
         written = write_trace_csv(query->trace, &trace);
+    const struct impact_picture picture = {request, &reply, &trace,
+                                           query->measured.count > 0 ? &query->measured : NULL};
     if (query->plot && trace.contact_count > 0 && written == EXIT_ANSWERED)
-        written = plot_impact(query->plot, request, &reply, &trace);
+        written = plot_impact(query->plot, &picture);
     if (written != EXIT_ANSWERED)
         code = written;
     percuss_trace_free(&trace);
@@ -233,5 +265,7 @@ int command_query(int argc, char **argv, struct common *common)
 {
     struct query query = {.common = common, .scene = scene_default(), .speed = NAN};
     argp_parse(&query_argp, argc, argv, 0, NULL, &query);
-    return query.file ? ask_file(&query) : ask_scene(&query);
+    int code = query.file ? ask_file(&query) : ask_scene(&query);
+    history_motion_free(&query.measured);
+    return code;
 }

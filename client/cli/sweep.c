@@ -16,8 +16,8 @@
 
 /* Enough to keep a server's workers busy, few enough for its queue. */
 enum { OUTSTANDING = 16, MOST_POINTS = 1000000 };
-enum { KEY_SPEED = OPTION_OWN, KEY_CSV, KEY_PLOT };
-enum { MOST_CURVES = SCENE_CHOICES * SCENE_CHOICES };
+enum { KEY_SPEED = OPTION_OWN, KEY_CSV, KEY_PLOT, KEY_MEASURED };
+enum { MOST_CURVES = SCENE_CHOICES * SCENE_CHOICES, MOST_MEASURED = 8 };
 
 struct sweep {
     struct common *common;
@@ -26,6 +26,8 @@ struct sweep {
     unsigned count; /* 0: no --speed */
     bool csv;
     const char *plot; /* file; NULL: no picture */
+    struct sweep_measured measured[MOST_MEASURED];
+    size_t measured_count;
 };
 
 static const struct argp_option options[] = {
@@ -33,6 +35,10 @@ static const struct argp_option options[] = {
     {"csv", KEY_CSV, NULL, 0, "print comma-separated values", 90},
     {"plot", KEY_PLOT, "FILE", 0,
      "draw the restitution against the speed with gnuplot: FILE.png or FILE.svg", 40},
+    {"measured", KEY_MEASURED, "FILE.csv", 0,
+     "lay measured impacts over the picture: columns speed, restitution and sub_impacts; may be "
+     "given several times",
+     40},
     {0},
 };
 
@@ -54,6 +60,20 @@ static void check(const struct sweep *sweep, struct argp_state *state)
         argp_error(state, "--a ID --b ID --speed LO:HI:N are needed");
     if (sweep->csv && sweep->common->json)
         argp_error(state, "--csv or --json, not both");
+    if (sweep->measured_count > 0 && !sweep->plot)
+        argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
+}
+
+static void read_measured(const char *file, struct sweep *sweep, struct argp_state *state)
+{
+    struct measured_fault fault;
+    if (sweep->measured_count == MOST_MEASURED)
+        argp_error(state, "--measured: '%s': at most %d files", file, MOST_MEASURED);
+    struct sweep_measured *measured = &sweep->measured[sweep->measured_count];
+    measured->file = file;
+    if (!measured_read(file, &measured->set, &fault))
+        argp_error(state, "--measured: %s", fault.text);
+    sweep->measured_count++;
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -73,6 +93,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_PLOT:
         plot_check(text, state);
         sweep->plot = text;
+        return 0;
+    case KEY_MEASURED:
+        read_measured(text, sweep, state);
         return 0;
     case ARGP_KEY_END:
         check(sweep, state);
@@ -251,7 +274,9 @@ static int print(const struct sweep *sweep, const struct run *runs, size_t count
         curves[k] = (struct sweep_curve){
             runs[k].scene.b, percuss_contact_model_name(runs[k].scene.options.contact_model),
             runs[k].replies};
-    struct sweep_points points = {sweep->scene.a, sweep->count, speeds, count, curves, &tally};
+    struct sweep_points points = {
+        sweep->scene.a, sweep->count,          speeds,         count, curves,
+        &tally,         sweep->measured_count, sweep->measured};
     /* first, or a reader that closes the output early would leave no picture */
     int code = sweep->plot ? sweep_plot(sweep->plot, &points) : EXIT_ANSWERED;
     if (sweep->common->json)
@@ -318,5 +343,7 @@ int command_sweep(int argc, char **argv, struct common *common)
         return code;
     code = run_sweep(&sweep, client);
     percuss_client_free(client);
+    for (size_t k = 0; k < sweep.measured_count; k++)
+        measured_set_free(&sweep.measured[k].set);
     return code;
 }

@@ -137,6 +137,32 @@ static void write_data(const struct plot *plot, const struct sweep_points *point
     }
 }
 
+/* Restitutions that were measured; what is known by its impulse alone is no point here. */
+static void write_measured(const struct plot *plot, const struct sweep_points *points)
+{
+    for (size_t k = 0; k < points->measured_count; k++) {
+        const struct measured_set *set = &points->measured[k].set;
+        fprintf(plot->script, "$measured%zu << EOD\nnan nan nan\n", k);
+        for (size_t i = 0; i < set->count; i++)
+            fprintf(plot->script, "%.9g %.9g %.9g\n", set->impacts[i].speed,
+                    set->impacts[i].restitution, set->impacts[i].sub_impacts);
+        fputs("EOD\n", plot->script);
+    }
+}
+
+/* Points of every measured set, column 2 or 3 over the speed. */
+static void plot_measured(const struct plot *plot, const struct sweep_points *points, int column)
+{
+    for (size_t k = 0; k < points->measured_count; k++) {
+        const char *slash = strrchr(points->measured[k].file, '/');
+        fprintf(plot->script, ", $measured%zu using 1:%d with points pt %zu ps 1 lc rgb 'black' ",
+                k, column, k % 2 ? 6 + 2 * k : 4 + 2 * k);
+        fputs(column == 2 ? "title " : "notitle", plot->script);
+        if (column == 2)
+            plot_text(plot, slash ? slash + 1 : points->measured[k].file);
+    }
+}
+
 /* What tells the curves apart: the bodies, the models or both. */
 static void write_title(const struct plot *plot, const struct sweep_points *points, size_t k)
 {
@@ -162,6 +188,7 @@ int sweep_plot(const char *file, const struct sweep_points *points)
     if (code != EXIT_ANSWERED)
         return code;
     write_data(&plot, points);
+    write_measured(&plot, points);
     snprintf(title, sizeof title, "%s on %s%s", points->a, points->curves[0].b,
              points->curve_count == 1 ? "" : " and others");
     fputs("set multiplot title ", plot.script);
@@ -177,6 +204,7 @@ int sweep_plot(const char *file, const struct sweep_points *points)
                 k ? ", " : "", k, k + 1, k, k + 1);
         write_title(&plot, points, k);
     }
+    plot_measured(&plot, points, 2);
     /* below, numbers of sub-impacts */
     fputs("\nset origin 0,0\nset size 1,0.33\nset key top left\nset ylabel 'sub-impacts'\n"
           "set xlabel 'speed / (m/s)'\nset yrange [0:*]\nset offsets 0,0,0.5,0\nset ytics 1\nplot ",
@@ -187,6 +215,7 @@ int sweep_plot(const char *file, const struct sweep_points *points)
                 "$curve%zu using 1:5 with points lt %zu pt 7 ps 0.4 %s",
                 k ? ", " : "", k, k + 1, k ? "notitle" : "title 'all'", k, k + 1,
                 k ? "notitle" : "title 'without negligible ones'");
+    plot_measured(&plot, points, 3);
     fputs("\nunset multiplot\n", plot.script);
     return plot_end(&plot);
 }

@@ -9,12 +9,19 @@
 
 #include <percuss/reply.h>
 
+#include "impact.h"
 #include "tally.h"
 
 struct sweep_curve {
     const char *b;
     const char *contact_model;     /* asked for */
     struct percuss_reply *replies; /* one a speed */
+};
+
+/* Measured restitutions, laid over the picture. */
+struct sweep_measured {
+    const char *file;
+    struct measured_set set;
 };
 
 struct sweep_points {
@@ -24,6 +31,8 @@ struct sweep_points {
     size_t curve_count;
     const struct sweep_curve *curves;
     const struct tally *warnings; /* of all points */
+    size_t measured_count;
+    const struct sweep_measured *measured;
 };
 
 /* On standard output. */

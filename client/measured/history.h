@@ -44,4 +44,19 @@ struct history_impacts {
 bool history_find(const struct history *history, struct history_impacts *impacts,
                   struct measured_fault *fault);
 
+/* A history as a simulated one goes: time from the start of the first sub-impact, A approaching
+ * with a negative velocity, displacements from that instant on. Arrays of `count`. */
+struct history_motion {
+    size_t count;
+    double *time;
+    double *velocity[2], *displacement[2]; /* of A, of B; B's NULL: not measured */
+};
+
+/* From what history_find said of it; displacements are the velocities' integrals. False: out of
+ * memory. */
+bool history_align(const struct history *history, const struct history_impacts *impacts,
+                   struct history_motion *motion);
+
+void history_motion_free(struct history_motion *motion);
+
 #endif

@@ -26,6 +26,16 @@ expect 0 percuss compare "$data/histories.csv" $pair --csv
 awk -F, 'NR > 1 { i = $6 / $12 - 1; d = $7 / $13 - 1; bad += i * i > 1e-4 || d * d > 1e-2 }
     END { exit bad }' "$out" || fail "the first sub-impacts differ"
 
+say "measurements laid over pictures"
+expect 0 percuss query $pair --speed 0.276 --measured "$data/history-1.csv" --plot "$work/over.svg"
+grep -q measured "$work/over.svg" || fail "no measured history in the picture"
+expect 0 percuss sweep $pair --speed 0.1:0.4:7 --measured "$data/beam.csv" --plot "$work/points.svg"
+grep -q beam.csv "$work/points.svg" || fail "no measured points in the picture"
+expect 2 percuss query $pair --speed 0.276 --measured "$data/history-1.csv"
+says "--plot FILE is needed"
+expect 2 percuss query $pair --speed 0.276 --measured "$data/beam.csv" --plot "$work/over.svg"
+says "column 'time': missing"
+
 say "Young's modulus within its interval, damping not determined"
 expect 0 percuss calibrate "$data/beam.csv" $pair --fit young:al-beam --json
 low=$(field low)

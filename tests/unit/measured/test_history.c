@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/measured/history.c, impact.c and table.c: sub-impacts of known start, length and
- * jump are found again in noisy readings, and bad files are refused by line. */
+/* Tests client/measured/history.c, history_align.c, impact.c and table.c: sub-impacts of known
+ * start, length and jump are found again in noisy readings, and bad files are refused by line. */
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -92,6 +92,35 @@ static void finds_sub_impacts(void **state)
                      1e-4 + 10.0 * noises[n]);
         }
     }
+}
+
+/* Turned round and late by a second, on a moving body B: from the touch on all is as it was. */
+static void lays_the_first_touch_on_zero(void **state)
+{
+    (void)state;
+    struct history history = make(pulses, 3, 1e6, 0.0, 7);
+    static double moving[MOST];
+    struct history_impacts found;
+    struct history_motion motion;
+    struct measured_fault fault;
+    for (size_t i = 0; i < history.count; i++) {
+        history.time[i] += 1.0;
+        moving[i] = 0.1;
+        history.velocity_a[i] = 0.1 - history.velocity_a[i];
+    }
+    history.velocity_b = moving;
+    assert_true(history_find(&history, &found, &fault));
+    assert_true(history_align(&history, &found, &motion));
+    assert_int_equal(motion.count, history.count);
+    /* the start is known to 5 % of the first contact's 180 us, and a reading's microsecond */
+    measured("time", motion.time[0], -1e-3, 1e-5);
+    measured("approach", motion.velocity[0][0] - motion.velocity[1][0], -0.3, 1e-12);
+    /* before the touch it came with -0.4 m/s, B with -0.1 */
+    measured("A's way", motion.displacement[0][0], 0.4e-3, 0.4 * 1e-5);
+    measured("B's way", motion.displacement[1][history.count - 1],
+             -0.1 * motion.time[history.count - 1], 1e-9);
+    history_motion_free(&motion);
+    assert_null(motion.time);
 }
 
 /* Grazes below the noise are not found, and none is invented; 60 seeds. */
@@ -231,8 +260,11 @@ static int remove_folder(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(finds_sub_impacts),           cmocka_unit_test(invents_nothing),
-        cmocka_unit_test(takes_what_instruments_give), cmocka_unit_test(reads_tables),
+        cmocka_unit_test(lays_the_first_touch_on_zero),
+        cmocka_unit_test(finds_sub_impacts),
+        cmocka_unit_test(invents_nothing),
+        cmocka_unit_test(takes_what_instruments_give),
+        cmocka_unit_test(reads_tables),
         cmocka_unit_test(refuses_bad_tables),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
