@@ -1,0 +1,37 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A curved face of 6, 8 or 9 nodes, in the order of enum surface_face_type (mesh/surface.h): three
+ * corners, then the mid nodes of edges 01 12 20; or four corners, the mid nodes of 01 12 23 30, and
+ * the middle. Local coordinates: a triangle's corners are (0, 0) (1, 0) (0, 1); a quadrilateral's
+ * (-1, -1) (1, -1) (1, 1) (-1, 1). */
+#ifndef PERCUSS_MODEL_FACET_H
+#define PERCUSS_MODEL_FACET_H
+
+#include <stdbool.h>
+
+enum { FACET_MOST_NODES = 9 };
+
+/* The point of a face that is nearest to a given one. */
+struct facet_foot {
+    double u, v;
+    double point[3];
+    double distance; /* >= 0 */
+    bool at_rim;     /* it lies on an edge of the face: a neighbour may be nearer */
+};
+
+/* Shape functions and their derivatives, [count] each; du and dv may be NULL. */
+void facet_shape(int count, double u, double v, double *n, double *du, double *dv);
+
+/* Local coordinates of a node. */
+void facet_node(int count, int node, double *u, double *v);
+
+/* Point and the vector du x dv, which points outwards and is as long as the face's area grows by
+ * du dv. Either may be NULL. */
+void facet_place(int count, const double (*points)[3], double u, double v, double point[3],
+                 double area[3]);
+
+/* The nearest point of the face, by Newton's method. */
+struct facet_foot facet_closest(int count, const double (*points)[3], const double p[3]);
+
+#endif
