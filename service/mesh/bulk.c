@@ -1,0 +1,100 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "mesh/bulk.h"
+
+#include <math.h>
+
+#include "mesh/element.h"
+#include "model/vector.h"
+
+/* Natural volume of a tetrahedron and of a hexahedron. */
+static double natural_volume(enum element_type type)
+{
+    return type == ELEMENT_TET10 ? 1.0 / 6.0 : 8.0;
+}
+
+/* det J at the nodes, where a curved element folds first. */
+static double smallest_at_nodes(enum element_type type, double (*points)[3])
+{
+    double smallest = INFINITY;
+    for (size_t n = 0; n < element_node_count(type); n++) {
+        double at[3], shape[ELEMENT_MOST_NODES], gradient[ELEMENT_MOST_NODES][3];
+        struct element_point here;
+        element_node(type, n, at);
+        element_shapes(type, at, shape, gradient);
+        element_map(element_node_count(type), points, shape, gradient, &here);
+        smallest = fmin(smallest, here.volume);
+    }
+    return smallest;
+}
+
+/* Adds one element's volume, first and second moments of mass about the origin. */
+static double add_element(const struct element_rule *rule, double (*points)[3], double density,
+                          struct bulk *bulk, double *smallest)
+{
+    double volume = 0.0;
+    for (size_t p = 0; p < rule->point_count; p++) {
+        struct element_point here;
+        element_at(rule, p, points, &here);
+        double mass = density * here.volume;
+        volume += here.volume;
+        *smallest = fmin(*smallest, here.volume / rule->weight[p]);
+        add_scaled3(mass, here.position, bulk->centre);
+        double square = dot3(here.position, here.position);
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                bulk->inertia[3 * i + j] +=
+                    mass * ((i == j ? square : 0.0) - here.position[i] * here.position[j]);
+    }
+    bulk->mass += density * volume;
+    bulk->volume += volume;
+    return volume;
+}
+
+double bulk_element_det(const struct solid_mesh *mesh, size_t element, double *volume)
+{
+    enum element_type type = mesh->types[element];
+    struct element_rule rule;
+    struct bulk none = {0};
+    double points[ELEMENT_MOST_NODES][3];
+    element_rule_make(type, &rule);
+    element_points(mesh, element, points);
+    double smallest = smallest_at_nodes(type, points);
+    *volume = add_element(&rule, points, 0.0, &none, &smallest);
+    return smallest * natural_volume(type) / fabs(*volume);
+}
+
+void bulk_of(const struct solid_mesh *mesh, struct bulk *bulk)
+{
+    static const enum element_type types[] = {ELEMENT_TET10, ELEMENT_HEX20, ELEMENT_HEX27};
+    *bulk = (struct bulk){.smallest_det = INFINITY, .smallest_volume = INFINITY};
+    /* type by type, each with its rule */
+    for (int t = 0; t < 3; t++) {
+        struct element_rule rule;
+        element_rule_make(types[t], &rule);
+        for (size_t e = 0; e < mesh->element_count; e++) {
+            if (mesh->types[e] != types[t])
+                continue;
+            double points[ELEMENT_MOST_NODES][3];
+            element_points(mesh, e, points);
+            double smallest = smallest_at_nodes(types[t], points);
+            double density = mesh->part[mesh->parts[e]].material.density;
+            double volume = add_element(&rule, points, density, bulk, &smallest);
+            smallest *= natural_volume(types[t]) / fabs(volume);
+            if (smallest < bulk->smallest_det) {
+                bulk->smallest_det = smallest;
+                bulk->smallest_at = e;
+            }
+            bulk->smallest_volume = fmin(bulk->smallest_volume, volume);
+            bulk->largest_volume = fmax(bulk->largest_volume, volume);
+        }
+    }
+    /* to the centre of mass (Steiner) */
+    scale3(1.0 / bulk->mass, bulk->centre, bulk->centre);
+    double square = dot3(bulk->centre, bulk->centre);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            bulk->inertia[3 * i + j] -=
+                bulk->mass * ((i == j ? square : 0.0) - bulk->centre[i] * bulk->centre[j]);
+}
