@@ -1,0 +1,285 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "mesh/matrices.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesh/element.h"
+#include "model/vector.h"
+
+/* Which nodes an element joins: of each node, those of its elements from itself on, ascending. */
+struct joints {
+    size_t *start; /* [node_count + 1] */
+    uint32_t *node;
+};
+
+static void joints_free(struct joints *joints)
+{
+    free(joints->start);
+    free(joints->node);
+}
+
+/* Elements of each node: a list `element` that `start` cuts. */
+static bool list_elements(const struct solid_mesh *mesh, size_t *start, size_t **element)
+{
+    size_t total = mesh->first[mesh->element_count];
+    *element = malloc((total + 1) * sizeof **element);
+    if (!*element)
+        return false;
+    memset(start, 0, (mesh->node_count + 2) * sizeof *start);
+    for (size_t i = 0; i < total; i++)
+        start[mesh->nodes[i] + 2]++;
+    for (size_t i = 0; i < mesh->node_count; i++)
+        start[i + 2] += start[i + 1];
+    for (size_t e = 0; e < mesh->element_count; e++)
+        for (size_t i = mesh->first[e]; i < mesh->first[e + 1]; i++)
+            (*element)[start[mesh->nodes[i] + 1]++] = e;
+    return true;
+}
+
+static int by_number(const void *left, const void *right)
+{
+    uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+    return a < b ? -1 : a > b;
+}
+
+/* The neighbours of one node, gathered in `found`, each once; `mark` says who is in. */
+static size_t gather(const struct solid_mesh *mesh, uint32_t node, const size_t *elements,
+                     size_t count, uint32_t *mark, uint32_t *found)
+{
+    size_t total = 0;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = mesh->first[elements[i]]; k < mesh->first[elements[i] + 1]; k++) {
+            size_t other = mesh->nodes[k];
+            if (other < node || mark[other] == node + 1)
+                continue;
+            mark[other] = node + 1;
+            found[total++] = (uint32_t)other;
+        }
+    qsort(found, total, sizeof *found, by_number);
+    return total;
+}
+
+static bool joints_make(const struct solid_mesh *mesh, struct joints *joints)
+{
+    size_t nodes = mesh->node_count, *element = NULL, room = 40 * nodes + 1000, filled = 0;
+    size_t *of_node = malloc((nodes + 2) * sizeof *of_node);
+    uint32_t *mark = calloc(nodes + 1, sizeof *mark);
+    uint32_t *found = malloc((nodes + 1) * sizeof *found);
+    joints->start = calloc(nodes + 1, sizeof *joints->start);
+    joints->node = malloc(room * sizeof *joints->node);
+    bool fine = of_node && mark && found && joints->start && joints->node &&
+                list_elements(mesh, of_node, &element);
+    for (size_t i = 0; fine && i < nodes; i++) {
+        size_t count = gather(mesh, (uint32_t)i, element + of_node[i], of_node[i + 1] - of_node[i],
+                              mark, found);
+        /* more room where elements have many neighbours */
+        if (filled + count > room) {
+            room = 2 * (filled + count);
+            uint32_t *more = realloc(joints->node, room * sizeof *more);
+            fine = more != NULL;
+            joints->node = more ? more : joints->node;
+        }
+        if (fine)
+            memcpy(joints->node + filled, found, count * sizeof *found);
+        filled += fine ? count : 0;
+        joints->start[i + 1] = filled;
+    }
+    free(of_node);
+    free(mark);
+    free(found);
+    free(element);
+    return fine;
+}
+
+/* The place of `other` among the joints of `node`; it is there. */
+static size_t place_of(const struct joints *joints, size_t node, size_t other)
+{
+    size_t low = joints->start[node], high = joints->start[node + 1] - 1;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (joints->node[middle] < other)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low - joints->start[node];
+}
+
+static bool sparse_reserve(struct sparse *matrix, size_t n, size_t entries)
+{
+    *matrix = (struct sparse){.n = n, .start = calloc(n + 1, sizeof *matrix->start)};
+    matrix->column = malloc((entries + 1) * sizeof *matrix->column);
+    matrix->value = calloc(entries + 1, sizeof *matrix->value);
+    return matrix->start && matrix->column && matrix->value;
+}
+
+/* Rows of three: all directions of a neighbour for the stiffness, its own for the mass, which joins
+ * equal directions alone. */
+static bool lay_out(const struct joints *joints, size_t nodes, struct matrices *matrices)
+{
+    size_t pairs = joints->start[nodes];
+    if (!sparse_reserve(&matrices->stiffness, 3 * nodes, 9 * pairs - 3 * nodes) ||
+        !sparse_reserve(&matrices->mass, 3 * nodes, 3 * pairs))
+        return false;
+    size_t filled = 0, massive = 0;
+    for (size_t i = 0; i < nodes; i++)
+        for (size_t k = 0; k < 3; k++) {
+            for (size_t p = joints->start[i]; p < joints->start[i + 1]; p++) {
+                uint32_t other = 3 * joints->node[p];
+                for (size_t m = other == 3 * i ? k : 0; m < 3; m++)
+                    matrices->stiffness.column[filled++] = other + (uint32_t)m;
+                matrices->mass.column[massive++] = other + (uint32_t)k;
+            }
+            matrices->stiffness.start[3 * i + k + 1] = filled;
+            matrices->mass.start[3 * i + k + 1] = massive;
+        }
+    return true;
+}
+
+/* One element's stiffness by blocks of three and its mass, upper triangle of nodes. */
+struct element_matrices {
+    double stiffness[ELEMENT_MOST_NODES][ELEMENT_MOST_NODES][9];
+    double mass[ELEMENT_MOST_NODES][ELEMENT_MOST_NODES];
+};
+
+/* K_ab = lambda g_a g_b^T + mu g_b g_a^T + mu (g_a . g_b) I with gradients g of shape functions N,
+ * M_ab = rho N_a N_b: both integrated over the element. */
+static void integrate(const struct element_rule *rule, double (*points)[3],
+                      const struct material *material, struct element_matrices *result)
+{
+    double nu = material->poisson, mu = material_shear_modulus(material);
+    double lambda = 2.0 * mu * nu / (1.0 - 2.0 * nu);
+    memset(result, 0, sizeof *result);
+    for (size_t p = 0; p < rule->point_count; p++) {
+        struct element_point here;
+        element_at(rule, p, points, &here);
+        double l = lambda * here.volume, m = mu * here.volume, r = material->density * here.volume;
+        for (size_t a = 0; a < rule->node_count; a++)
+            for (size_t b = a; b < rule->node_count; b++) {
+                const double *g = here.gradient[a], *h = here.gradient[b];
+                double *block = result->stiffness[a][b], both = m * dot3(g, h);
+                for (int i = 0; i < 3; i++) {
+                    for (int j = 0; j < 3; j++)
+                        block[3 * i + j] += l * g[i] * h[j] + m * h[i] * g[j];
+                    block[4 * i] += both;
+                }
+                result->mass[a][b] += r * rule->shape[p][a] * rule->shape[p][b];
+            }
+    }
+}
+
+/* Adds one pair of nodes, the first not above the second; `turned`: the block is of the other
+ * order.
+ */
+static void add_pair(const struct joints *joints, const size_t pair[2], const double block[9],
+                     bool turned, struct sparse *stiffness)
+{
+    size_t place = place_of(joints, pair[0], pair[1]);
+    for (size_t i = 0; i < 3; i++) {
+        double *row = stiffness->value + stiffness->start[3 * pair[0] + i];
+        for (size_t j = place == 0 ? i : 0; j < 3; j++)
+            row[3 * place + j - i] += turned ? block[3 * j + i] : block[3 * i + j];
+    }
+}
+
+static void add_element(const struct joints *joints, const size_t *nodes, size_t count,
+                        const struct element_matrices *element, struct matrices *matrices)
+{
+    for (size_t a = 0; a < count; a++)
+        for (size_t b = a; b < count; b++) {
+            bool turned = nodes[a] > nodes[b];
+            size_t pair[2] = {nodes[turned ? b : a], nodes[turned ? a : b]};
+            add_pair(joints, pair, element->stiffness[a][b], turned, &matrices->stiffness);
+            size_t place = place_of(joints, pair[0], pair[1]);
+            for (size_t k = 0; k < 3; k++)
+                matrices->mass.value[matrices->mass.start[3 * pair[0] + k] + place] +=
+                    element->mass[a][b];
+        }
+}
+
+static void add_type(const struct solid_mesh *mesh, enum element_type type,
+                     const struct joints *joints, struct element_matrices *element,
+                     struct matrices *matrices)
+{
+    struct element_rule rule;
+    element_rule_make(type, &rule);
+    for (size_t e = 0; e < mesh->element_count; e++) {
+        if (mesh->types[e] != type)
+            continue;
+        double points[ELEMENT_MOST_NODES][3];
+        element_points(mesh, e, points);
+        integrate(&rule, points, &mesh->part[mesh->parts[e]].material, element);
+        add_element(joints, mesh->nodes + mesh->first[e], rule.node_count, element, matrices);
+    }
+}
+
+/* Numbers of rows are 32 bits wide, and MUMPS counts with a sign. */
+static const size_t MOST_NODES = 700000000;
+
+static enum percuss_status check_nodes(const struct solid_mesh *mesh, struct fault *fault)
+{
+    if (mesh->node_count > MOST_NODES)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "%zu nodes: must be at most %zu",
+                         mesh->node_count, MOST_NODES);
+    bool *used = calloc(mesh->node_count + 1, sizeof *used);
+    if (!used)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    for (size_t i = 0; i < mesh->first[mesh->element_count]; i++)
+        used[mesh->nodes[i]] = true;
+    size_t i = 0;
+    while (i < mesh->node_count && used[i])
+        i++;
+    free(used);
+    return i == mesh->node_count
+               ? PERCUSS_OK
+               : fault_set(fault, PERCUSS_BAD_REQUEST, "node %zu: belongs to no element",
+                           mesh->labels ? mesh->labels[i] : i);
+}
+
+enum percuss_status matrices_make(const struct solid_mesh *mesh, struct matrices *matrices,
+                                  struct fault *fault)
+{
+    memset(matrices, 0, sizeof *matrices);
+    enum percuss_status status = check_nodes(mesh, fault);
+    if (status)
+        return status;
+    struct joints joints = {0};
+    struct element_matrices *element = malloc(sizeof *element);
+    if (element && joints_make(mesh, &joints) && lay_out(&joints, mesh->node_count, matrices)) {
+        add_type(mesh, ELEMENT_TET10, &joints, element, matrices);
+        add_type(mesh, ELEMENT_HEX20, &joints, element, matrices);
+        add_type(mesh, ELEMENT_HEX27, &joints, element, matrices);
+    } else {
+        status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+        matrices_free(matrices);
+    }
+    joints_free(&joints);
+    free(element);
+    return status;
+}
+
+enum percuss_status matrices_hold(struct matrices *matrices, const struct mesh_set *set,
+                                  struct fault *fault)
+{
+    if (!matrices->held)
+        matrices->held = calloc(matrices->stiffness.n, sizeof *matrices->held);
+    if (!matrices->held)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    for (size_t i = 0; i < set->count; i++)
+        for (size_t k = 0; k < 3; k++)
+            matrices->held[3 * set->nodes[i] + k] = true;
+    sparse_hold(&matrices->stiffness, matrices->held, true);
+    sparse_hold(&matrices->mass, matrices->held, false);
+    return PERCUSS_OK;
+}
+
+void matrices_free(struct matrices *matrices)
+{
+    sparse_free(&matrices->stiffness);
+    sparse_free(&matrices->mass);
+    free(matrices->held);
+    matrices->held = NULL;
+}
