@@ -24,6 +24,7 @@ allowed() {
     store) echo "base numeric model fe contact store" ;;
     endpoint) echo "base numeric model contact impact solve ensemble endpoint" ;;
     tables) echo "base model fe contact catalogue store tables" ;;
+    reduce) echo "base numeric model mesh catalogue reduce" ;;
     daemon) echo "base numeric model fe contact impact solve ensemble catalogue store endpoint daemon" ;;
     esac
 }
@@ -101,12 +102,14 @@ only() {
 }
 only 'cvode|arkode|sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol' 'service/numeric'
 only 'lapacke|Random123' 'service/numeric'
+only 'cblas' 'service/numeric'
+only 'dmumps' 'service/reduce'
 only 'cminpack' 'client/measured'
 only 'yaml' 'service/catalogue|service/daemon'
 only 'jansson' 'client/cli|service/store'
 only 'sqlite3' 'service/store'
 only 'dds/' 'service/endpoint|service/daemon|client/lib'
-only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|client/lib|client/cli'
+only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/lib|client/cli'
 
 # clients do not look into the service; the slow scale is built with its complementarity solver
 found=$(grep -nE '^ *# *include *"(base|numeric|model|fe|contact|impact|solve|ensemble|store|catalogue|endpoint|daemon)/' client/*/*.[ch] |
