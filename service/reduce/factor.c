@@ -11,6 +11,7 @@
 enum { ERRORS = 1, DIAGNOSTICS = 2, GLOBAL = 3, LEVEL = 4 };
 enum { PERMUTATION = 6, ORDERING = 7, PIVOTS = 12, RELAXATION = 14 };
 enum { INITIALISE = -1, FINISH = -2, ANALYSE = 1, FACTOR = 2, SOLVE = 3 };
+enum { SCOTCH = 3 };
 enum { ANY_PROCESS = -987654, OFF = -1 };
 
 struct factor {
@@ -103,6 +104,7 @@ enum percuss_status factor_analyse(const struct matrices *matrices, enum factor_
     *control(made, ERRORS) = *control(made, DIAGNOSTICS) = *control(made, GLOBAL) = OFF;
     *control(made, LEVEL) = 0;
     *control(made, PERMUTATION) = 0;
+    *control(made, ORDERING) = SCOTCH;
     *control(made, PIVOTS) = 1;
     if (!status && !place_entries(made))
         status = no_memory(fault);

@@ -1,0 +1,51 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The lowest modes of a mesh, their number confirmed by Sylvester's law of inertia. */
+#ifndef PERCUSS_REDUCE_MODES_H
+#define PERCUSS_REDUCE_MODES_H
+
+#include "base/watch.h"
+#include "numeric/dense.h"
+#include "reduce/factor.h"
+
+/* Owns its arrays. */
+struct modes {
+    size_t n;       /* degrees of freedom, see mesh/matrices.h */
+    size_t count;   /* elastic modes */
+    double *omega;  /* [count], rad/s, ascending */
+    double *shapes; /* [count][n], M-orthonormal, orthogonal to rigid motions */
+    double shift;   /* 1/s^2 */
+    double doubt;   /* largest |x^T M y - (1 if x is y)| of all rigid motions and modes */
+    /* by inertia so many modes, of which these are the first, lie below this frequency */
+    size_t confirmed;
+    double confirmed_below; /* rad/s */
+};
+
+/* What is sought, and of what. All is borrowed. */
+struct modes_task {
+    const struct matrices *matrices;
+    struct dense rigid;        /* M-orthonormal, see rigid_modes_make */
+    double scale;              /* 1/s^2, about the square of the first frequency */
+    double below;              /* rad/s: all modes below; INFINITY: no limit ... */
+    size_t most;               /* ... but at most so many */
+    const struct watch *watch; /* told the part done; NULL: nobody asks */
+};
+
+/* What it takes, known from the order of unknowns alone. */
+struct modes_cost {
+    double memory;  /* bytes at the peak */
+    double seconds; /* on one core of some 2020: to a factor of two or so */
+};
+struct modes_cost modes_cost(const struct factor *factor, size_t n, size_t count);
+
+/* `factor` becomes that of K + shift M, for what comes after: the caller's to free. `rigid` stays
+ * NULL: it is the task's. PERCUSS_TIMEOUT: the watch stopped it; PERCUSS_BAD_REQUEST: the mesh has
+ * fewer modes, or its matrices are not those of a body; PERCUSS_INTERNAL without memory, or when
+ * the number of modes is not confirmed however often they are sought. */
+enum percuss_status modes_find(const struct modes_task *task, struct modes *modes,
+                               struct factor **factor, struct fault *fault);
+
+void modes_free(struct modes *modes);
+
+#endif

@@ -1,0 +1,171 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/reduce/modes.c, lanczos.c and rigid_modes.c. */
+#include <string.h>
+
+#include "unit/reduce/solve_mesh.h"
+
+static const struct material STEEL = {"steel", 210e9, 0.3, 7800.0, INFINITY, 0.0};
+
+/* A x - t x with A = (K + s M)^-1 M, t = 1/(w^2 + s), in the norm of M over t. */
+static double residual(struct solved *solved, size_t mode)
+{
+    size_t n = solved->modes.n;
+    struct fault fault;
+    const double *shape = solved->modes.shapes + mode * n;
+    double *x = calloc(n, sizeof *x), omega = solved->modes.omega[mode];
+    double t = 1.0 / (omega * omega + solved->modes.shift);
+    sparse_multiply(&solved->matrices.mass, 1, shape, x);
+    assert_int_equal(factor_solve(solved->factor, 1, x, &fault), PERCUSS_OK);
+    for (size_t i = 0; i < n; i++)
+        x[i] -= t * shape[i];
+    double norm = sqrt(sparse_product(&solved->matrices.mass, x, x)) / t;
+    free(x);
+    return norm;
+}
+
+/* A square bar has each bending frequency twice: both copies are found, the count is confirmed,
+ * every residual is what is promised, and K's energy is the frequency's square. */
+static void test_square_bar(void **state)
+{
+    (void)state;
+    struct solid_mesh mesh;
+    struct solved solved;
+    solid_shape_block(ELEMENT_HEX20, (double[3]){0.5, 0.02, 0.02}, (size_t[3]){20, 2, 2}, &STEEL,
+                      &mesh);
+    solve_mesh(&mesh, 0, INFINITY, 40, &solved);
+    assert_int_equal(solved.rigid_count, 6);
+    assert_int_equal(solved.modes.count, 40);
+    assert_true(solved.modes.confirmed >= 40);
+    near(solved.modes.doubt, 0.0, 1e-12);
+    for (size_t i = 0; i < 6; i += 2)
+        near_relative(solved.modes.omega[i + 1], solved.modes.omega[i], 1e-9);
+    for (size_t i = 0; i < 40; i++) {
+        const double *shape = solved.modes.shapes + i * solved.modes.n;
+        assert_true(residual(&solved, i) < 2.0 * 1e-8);
+        near_relative(sqrt(sparse_product(&solved.matrices.stiffness, shape, shape)),
+                      solved.modes.omega[i], 1e-9);
+    }
+    solved_free(&solved);
+    solid_mesh_free(&mesh);
+}
+
+/* The same modes by their number and by a frequency between two of them; same bits each time. */
+static void test_by_frequency(void **state)
+{
+    (void)state;
+    struct solid_mesh mesh;
+    struct solved by_number, by_frequency, again;
+    solid_shape_block(ELEMENT_TET10, (double[3]){0.1, 0.03, 0.02}, (size_t[3]){4, 1, 1}, &STEEL,
+                      &mesh);
+    solve_mesh(&mesh, 0, INFINITY, 12, &by_number);
+    double hertz = 0.25 / M_PI * (by_number.modes.omega[8] + by_number.modes.omega[9]);
+    solve_mesh(&mesh, 0, hertz, 100, &by_frequency);
+    solve_mesh(&mesh, 0, hertz, 100, &again);
+    assert_int_equal(by_frequency.modes.count, 9);
+    assert_int_equal(by_frequency.modes.confirmed, 9);
+    for (size_t i = 0; i < 9; i++)
+        near_relative(by_frequency.modes.omega[i], by_number.modes.omega[i], 1e-10);
+    assert_memory_equal(by_frequency.modes.shapes, again.modes.shapes,
+                        9 * again.modes.n * sizeof(double));
+    solved_free(&by_number);
+    solved_free(&by_frequency);
+    solved_free(&again);
+    solid_mesh_free(&mesh);
+}
+
+/* A bar without lateral contraction held at one end: its longitudinal frequencies are (2k - 1) c/4L
+ * in three dimensions too. Held at a corner alone it can turn about it. */
+static void test_supports(void **state)
+{
+    (void)state;
+    struct material cork = STEEL;
+    struct solid_mesh mesh;
+    struct solved solved;
+    cork.poisson = 0.0;
+    solid_shape_block(ELEMENT_HEX20, (double[3]){0.2, 0.1, 0.1}, (size_t[3]){8, 2, 2}, &cork,
+                      &mesh);
+    solve_mesh(&mesh, 1, INFINITY, 12, &solved);
+    assert_int_equal(solved.rigid_count, 0);
+    double expected = 0.5 * M_PI * sqrt(210e9 / 7800.0) / 0.2, nearest = INFINITY;
+    for (size_t i = 0; i < 12; i++)
+        nearest = fmin(nearest, fabs(solved.modes.omega[i] / expected - 1.0));
+    /* quadratic elements of length h give (k h)^4/1440 too much at wave number k */
+    double excess = pow(2.0 * M_PI / 32.0, 4.0) / 1440.0;
+    near(nearest, excess, 0.05 * excess);
+    for (size_t i = 0; i < mesh.set[0].count; i++)
+        near(solved.modes.shapes[3 * mesh.set[0].nodes[i]], 0.0, 0.0);
+    solved_free(&solved);
+    mesh.set[0].count = 1;
+    solve_mesh(&mesh, 1, INFINITY, 4, &solved);
+    assert_int_equal(solved.rigid_count, 3);
+    solved_free(&solved);
+    solid_mesh_free(&mesh);
+}
+
+/* All modes of one element but a few, and more than it has. */
+static void test_one_element(void **state)
+{
+    (void)state;
+    struct solid_mesh mesh;
+    struct solved solved;
+    struct fault fault;
+    solid_shape_block(ELEMENT_HEX20, (double[3]){0.1, 0.1, 0.1}, (size_t[3]){1, 1, 1}, &STEEL,
+                      &mesh);
+    solve_mesh(&mesh, 0, INFINITY, 50, &solved);
+    near(solved.modes.doubt, 0.0, 1e-12);
+    struct modes modes;
+    struct factor *factor;
+    struct modes_task task = {.matrices = &solved.matrices,
+                              .rigid = {60, 6, solved.rigid},
+                              .scale = solved.scale,
+                              .below = INFINITY,
+                              .most = 51};
+    assert_int_equal(modes_find(&task, &modes, &factor, &fault), PERCUSS_BAD_REQUEST);
+    assert_non_null(strstr(fault.text, "at most 50"));
+    solved_free(&solved);
+    solid_mesh_free(&mesh);
+}
+
+static bool objects(void *context, double done)
+{
+    *(double *)context = done;
+    return done < 0.5;
+}
+
+static void test_can_be_stopped(void **state)
+{
+    (void)state;
+    struct solid_mesh mesh;
+    struct solved solved;
+    struct fault fault;
+    double told = 0.0;
+    solid_shape_block(ELEMENT_HEX20, (double[3]){0.1, 0.1, 0.1}, (size_t[3]){2, 2, 2}, &STEEL,
+                      &mesh);
+    solve_mesh(&mesh, 0, INFINITY, 10, &solved);
+    struct modes modes;
+    struct factor *factor;
+    struct watch watch = {objects, &told};
+    struct modes_task task = {.matrices = &solved.matrices,
+                              .rigid = {solved.modes.n, 6, solved.rigid},
+                              .scale = solved.scale,
+                              .below = INFINITY,
+                              .most = 20,
+                              .watch = &watch};
+    assert_int_equal(modes_find(&task, &modes, &factor, &fault), PERCUSS_TIMEOUT);
+    assert_true(told >= 0.5 && told < 1.0);
+    assert_null(factor);
+    solved_free(&solved);
+    solid_mesh_free(&mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_square_bar),     cmocka_unit_test(test_by_frequency),
+        cmocka_unit_test(test_supports),       cmocka_unit_test(test_one_element),
+        cmocka_unit_test(test_can_be_stopped),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
