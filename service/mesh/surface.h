@@ -7,16 +7,20 @@
 
 #include <stddef.h>
 
+#include "mesh/solid_mesh.h"
+#include "model/facet.h"
+
 /* Three corners, then the mid nodes of edges 01 12 20; or four corners, mid nodes of 01 12 23 30,
  * and the middle. Corners run anticlockwise seen from outside. */
 enum surface_face_type { FACE_TRIANGLE6 = 6, FACE_QUAD8 = 8, FACE_QUAD9 = 9 };
-enum { FACE_MOST_NODES = 9 };
+enum { FACE_MOST_NODES = FACET_MOST_NODES };
 
 /* What the surface is like at one node of one face: faces that meet in a sharp edge differ. */
 struct surface_point {
     double normal[3];    /* outward, unit */
     double curvature[9]; /* symmetric tensor, 1/m, > 0 where convex; as of struct site */
-    double doubt;        /* how far a fit differs from the nodes' normals: rad */
+    double doubt;        /* how far the normal may be off, rad: fits of two orders and the faces'
+                          * own normals compared */
 };
 
 struct surface_face {
@@ -31,7 +35,39 @@ struct surface {
     size_t face_count, patch_count;
     struct surface_face *faces;
     struct surface_point (*points)[FACE_MOST_NODES]; /* [face_count]; NULL before surface_fit */
-    double size;                                     /* median length of the edges, m */
+    double size;                                     /* median distance of corners, m */
+    size_t straight;                                 /* edges on curved ground whose mid node is in
+                                                      * their middle (surface_fit) */
+    size_t edges;                                    /* edges on curved ground (surface_fit) */
 };
+
+/* A place on the surface. */
+struct surface_place {
+    size_t face;
+    struct facet_foot foot;
+    double normal[3]; /* outward, of the face itself */
+};
+
+/* Faces that belong to one element only, outward where the element's det J > 0, in patches that end
+ * where normals turn by more than 35 degrees at an edge. PERCUSS_BAD_REQUEST: faces that three
+ * elements share, or two with other mid nodes. Free what it makes with surface_free. */
+enum percuss_status surface_make(const struct solid_mesh *mesh, struct surface *surface,
+                                 struct fault *fault);
+
+/* Normal and curvatures at every node of every face: polynomials of fourth order through the nodes
+ * of the same patch that are within 2.5 to 4 edges, without mid nodes of straight edges on curved
+ * ground. PERCUSS_INTERNAL: out of memory. */
+enum percuss_status surface_fit(const struct solid_mesh *mesh, struct surface *surface,
+                                struct fault *fault);
+
+/* The place nearest to p (m, the mesh's frame). There is at least one face. */
+struct surface_place surface_near(const struct solid_mesh *mesh, const struct surface *surface,
+                                  const double p[3]);
+
+/* Points of a face's nodes. */
+void surface_face_points(const struct solid_mesh *mesh, const struct surface_face *face,
+                         double points[FACE_MOST_NODES][3]);
+
+void surface_free(struct surface *surface);
 
 #endif
