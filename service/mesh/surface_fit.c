@@ -1,0 +1,275 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesh/net.h"
+#include "mesh/surface.h"
+#include "model/vector.h"
+
+enum {
+    MOST_TERMS = 15,    /* of a polynomial of fourth order in two variables */
+    MOST_SAMPLES = 400, /* within 4 edges there are some 200 in an even mesh */
+    MOST_ORDER = 4
+};
+
+/* radii to try, in distances of nodes; the first with samples enough: some 1.25 to 2 edges of an
+ * element, 2.5 to 4 where mid nodes are left out */
+static const double RADII[] = {2.5, 3.0, 3.5, 4.0};
+static const size_t ENOUGH = 24;
+/* as many samples as this for each term, or the order is lowered */
+static const double SAMPLES_PER_TERM = 1.4;
+/* exponent of the weight at the radius: near samples tell more of the node */
+static const double WEIGHT_FALL = 4.0;
+/* ground that has turned by more is no function of the tangent plane's coordinates: cos 60 degrees
+ */
+static const double STEEPEST_COSINE = 0.5;
+/* pivots of the normal equations against their diagonals. Those of the slopes, which come last, say
+ * how much of a slope the higher terms cannot imitate: .1 inside, .001 where the samples are on
+ * one side only and the slope would be an extrapolation */
+static const double LEAST_PIVOT = 1e-9, LEAST_SLOPE_PIVOT = 1e-2;
+
+/* what a fit has to look at */
+struct fit {
+    double frame[3][3]; /* two tangents and the normal to start with */
+    double radius;      /* m */
+    bool through;       /* the surface goes through the node itself */
+    size_t count;
+    double at[MOST_SAMPLES][3]; /* in the frame, by radius */
+};
+
+/* the walk over the net, kept from vertex to vertex */
+struct walk {
+    const struct solid_mesh *mesh;
+    const struct net *net;
+    size_t *stamps, stamp; /* [vertex_count] */
+    size_t *queue;         /* [vertex_count] */
+};
+
+/* slopes and second derivatives in the frame, at its origin */
+struct shape {
+    double slope[2], bend[3]; /* xx, xy, yy; by radius */
+};
+
+static void make_frame(const double normal[3], double frame[3][3])
+{
+    int least = fabs(normal[0]) < fabs(normal[1]) ? 0 : 1;
+    least = fabs(normal[2]) < fabs(normal[least]) ? 2 : least;
+    double axis[3] = {0.0, 0.0, 0.0};
+    axis[least] = 1.0;
+    memcpy(frame[2], normal, sizeof frame[2]);
+    cross3(normal, axis, frame[0]);
+    scale3(1.0 / norm3(frame[0]), frame[0], frame[0]);
+    cross3(normal, frame[0], frame[1]);
+}
+
+/* collects the vertices within `radius` of the first, from neighbour to neighbour */
+static void gather(struct walk *walk, size_t start, double radius, struct fit *fit)
+{
+    const struct net *net = walk->net;
+    const double *origin = walk->mesh->points[net->nodes[start]];
+    size_t head = 0, tail = 0;
+    fit->count = 0;
+    fit->radius = radius;
+    fit->through = !net->left_out[start];
+    walk->stamps[start] = ++walk->stamp;
+    walk->queue[tail++] = start;
+    while (head < tail && fit->count < MOST_SAMPLES) {
+        size_t vertex = walk->queue[head++];
+        double way[3];
+        sub3(walk->mesh->points[net->nodes[vertex]], origin, way);
+        if (!net->left_out[vertex]) {
+            double *at = fit->at[fit->count++];
+            for (int k = 0; k < 3; k++)
+                at[k] = dot3(fit->frame[k], way) / radius;
+        }
+
+        /* its neighbours that are near and not steep */
+        for (size_t i = net->first[vertex]; i < net->first[vertex + 1]; i++)
+            for (int k = 0; k < FACE_MOST_NODES; k++) {
+                size_t next = net->vertices[net->faces[i]][k];
+                if (next == SIZE_MAX || walk->stamps[next] == walk->stamp)
+                    continue;
+                sub3(walk->mesh->points[net->nodes[next]], origin, way);
+                if (norm3(way) > radius ||
+                    dot3(net->normals[next], fit->frame[2]) < STEEPEST_COSINE)
+                    continue;
+                walk->stamps[next] = walk->stamp;
+                walk->queue[tail++] = next;
+            }
+    }
+}
+
+/* by falling degree, slopes last; 1 comes first where the surface misses the node */
+static int terms(bool through, int order, double x, double y, double *term)
+{
+    int count = 0;
+    if (!through)
+        term[count++] = 1.0;
+    for (int degree = order; degree >= 1; degree--)
+        for (int i = 0; i <= degree; i++) {
+            double value = 1.0;
+            for (int k = 0; k < degree - i; k++)
+                value *= x;
+            for (int k = 0; k < i; k++)
+                value *= y;
+            term[count++] = value;
+        }
+    return count;
+}
+
+/* Cholesky's decomposition of the normal equations and the solution in b; false: they are singular
+ */
+static bool solve(int n, double (*a)[MOST_TERMS], double *b)
+{
+    for (int i = 0; i < n; i++) {
+        double diagonal = a[i][i];
+        for (int j = 0; j <= i; j++) {
+            for (int k = 0; k < j; k++)
+                a[i][j] -= a[i][k] * a[j][k];
+            if (j < i)
+                a[i][j] /= a[j][j];
+        }
+        if (!(a[i][i] > (i >= n - 2 ? LEAST_SLOPE_PIVOT : LEAST_PIVOT) * diagonal))
+            return false;
+        a[i][i] = sqrt(a[i][i]);
+    }
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < i; k++)
+            b[i] -= a[i][k] * b[k];
+        b[i] /= a[i][i];
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        for (int k = i + 1; k < n; k++)
+            b[i] -= a[k][i] * b[k];
+        b[i] /= a[i][i];
+    }
+    return true;
+}
+
+/* least squares, near samples weighing more */
+static bool fit_order(const struct fit *fit, int order, struct shape *shape)
+{
+    double a[MOST_TERMS][MOST_TERMS] = {{0}}, b[MOST_TERMS] = {0}, term[MOST_TERMS];
+    int n = terms(fit->through, order, 0.0, 0.0, term);
+    if ((double)fit->count < SAMPLES_PER_TERM * n)
+        return false;
+    for (size_t i = 0; i < fit->count; i++) {
+        const double *at = fit->at[i];
+        double weight = exp(-WEIGHT_FALL * dot3(at, at));
+        terms(fit->through, order, at[0], at[1], term);
+        for (int j = 0; j < n; j++) {
+            for (int k = 0; k <= j; k++)
+                a[j][k] += weight * term[j] * term[k];
+            b[j] += weight * term[j] * at[2];
+        }
+    }
+    if (!solve(n, a, b))
+        return false;
+    *shape = (struct shape){{b[n - 2], b[n - 1]}, {0}};
+    if (order >= 2)
+        memcpy(shape->bend, (double[]){2.0 * b[n - 5], b[n - 4], 2.0 * b[n - 3]},
+               sizeof shape->bend);
+    return true;
+}
+
+/* normal and curvature tensor of z(x, y): II/sqrt(1 + z_x^2 + z_y^2) on the dual of the tangents,
+ * convex where z bends down (do Carmo, Differential Geometry of Curves and Surfaces, 3.3) */
+static void place_shape(const struct fit *fit, const struct shape *shape,
+                        struct surface_point *point)
+{
+    double p = shape->slope[0], q = shape->slope[1], g = 1.0 + p * p + q * q;
+    for (int k = 0; k < 3; k++)
+        point->normal[k] =
+            (fit->frame[2][k] - p * fit->frame[0][k] - q * fit->frame[1][k]) / sqrt(g);
+
+    /* tangents, their dual vectors */
+    double x[3], y[3], dual[2][3];
+    for (int k = 0; k < 3; k++) {
+        x[k] = fit->frame[0][k] + p * fit->frame[2][k];
+        y[k] = fit->frame[1][k] + q * fit->frame[2][k];
+        dual[0][k] = ((1.0 + q * q) * x[k] - p * q * y[k]) / g;
+        dual[1][k] = ((1.0 + p * p) * y[k] - p * q * x[k]) / g;
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            point->curvature[3 * i + j] =
+                -(shape->bend[0] * dual[0][i] * dual[0][j] +
+                  shape->bend[1] * (dual[0][i] * dual[1][j] + dual[1][i] * dual[0][j]) +
+                  shape->bend[2] * dual[1][i] * dual[1][j]) /
+                (sqrt(g) * fit->radius);
+}
+
+static double angle_between(const double a[3], const double b[3])
+{
+    double cross[3];
+    cross3(a, b, cross);
+    return atan2(norm3(cross), dot3(a, b));
+}
+
+/* the highest order that the samples bear, and how much the next lower one differs */
+static void fit_vertex(struct walk *walk, size_t vertex, struct fit *fit,
+                       struct surface_point *point)
+{
+    const struct net *net = walk->net;
+    const double *normal = net->normals[vertex];
+    *point = (struct surface_point){.doubt = M_PI};
+    memcpy(point->normal, normal, sizeof point->normal);
+    if (!(norm3(normal) > 0.0))
+        return;
+    make_frame(normal, fit->frame);
+    for (size_t r = 0; r < sizeof RADII / sizeof *RADII; r++) {
+        gather(walk, vertex, RADII[r] * net->spacing[vertex], fit);
+        if (fit->count >= ENOUGH)
+            break;
+    }
+    struct shape shape, lower;
+    int order = MOST_ORDER;
+    while (order > 0 && !fit_order(fit, order, &shape))
+        order--;
+    if (order == 0)
+        return;
+    place_shape(fit, &shape, point);
+    if (order > 1 && fit_order(fit, order - 1, &lower)) {
+        struct surface_point other;
+        place_shape(fit, &lower, &other);
+        point->doubt = angle_between(point->normal, other.normal);
+    }
+}
+
+enum percuss_status surface_fit(const struct solid_mesh *mesh, struct surface *surface,
+                                struct fault *fault)
+{
+    struct net net;
+    if (!net_make(mesh, surface, &net))
+        return fault_set(fault, PERCUSS_INTERNAL, "surface of %zu faces: out of memory",
+                         surface->face_count);
+    struct walk walk = {mesh, &net, calloc(net.vertex_count, sizeof *walk.stamps), 0,
+                        malloc(net.vertex_count * sizeof *walk.queue)};
+    struct surface_point *points = malloc(net.vertex_count * sizeof *points);
+    struct fit *fit = malloc(sizeof *fit);
+    free(surface->points);
+    surface->points = calloc(surface->face_count, sizeof *surface->points);
+    enum percuss_status status = PERCUSS_OK;
+    if (walk.stamps && walk.queue && points && fit && surface->points) {
+        for (size_t i = 0; i < net.vertex_count; i++)
+            fit_vertex(&walk, i, fit, &points[i]);
+        for (size_t f = 0; f < surface->face_count; f++)
+            for (int i = 0; i < surface->faces[f].count; i++)
+                surface->points[f][i] = points[net.vertices[f][i]];
+    } else {
+        status = fault_set(fault, PERCUSS_INTERNAL, "surface of %zu faces: out of memory",
+                           surface->face_count);
+        free(surface->points);
+        surface->points = NULL;
+    }
+    free(walk.stamps);
+    free(walk.queue);
+    free(points);
+    free(fit);
+    net_free(&net);
+    return status;
+}
