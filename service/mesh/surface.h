@@ -7,27 +7,14 @@
 
 #include <stddef.h>
 
-#include "mesh/solid_mesh.h"
+#include "mesh/boundary.h"
 #include "model/facet.h"
-
-/* Three corners, then the mid nodes of edges 01 12 20; or four corners, mid nodes of 01 12 23 30,
- * and the middle. Corners run anticlockwise seen from outside. */
-enum surface_face_type { FACE_TRIANGLE6 = 6, FACE_QUAD8 = 8, FACE_QUAD9 = 9 };
-enum { FACE_MOST_NODES = FACET_MOST_NODES };
 
 /* What the surface is like at one node of one face: faces that meet in a sharp edge differ. */
 struct surface_point {
     double normal[3];    /* outward, unit */
     double curvature[9]; /* symmetric tensor, 1/m, > 0 where convex; as of struct site */
-    double doubt;        /* how far the normal may be off, rad: fits of two orders and the faces'
-                          * own normals compared */
-};
-
-struct surface_face {
-    unsigned char count;           /* enum surface_face_type */
-    size_t nodes[FACE_MOST_NODES]; /* of the mesh */
-    size_t element, part;          /* the element and part below it */
-    size_t patch;                  /* faces of one patch meet smoothly */
+    double doubt;        /* how far fits of two orders differ in the normal, rad */
 };
 
 /* Owns its arrays. */
