@@ -108,6 +108,7 @@ only 'cminpack' 'client/measured'
 only 'yaml' 'service/catalogue|service/daemon'
 only 'jansson' 'client/cli|service/store'
 only 'sqlite3' 'service/store'
+only 'hdf5' 'service/mesh'
 only 'dds/' 'service/endpoint|service/daemon|client/lib'
 only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/lib|client/cli'
 

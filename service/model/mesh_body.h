@@ -32,38 +32,65 @@ struct mesh_body_face {
     double flexibility_slope[MESH_BODY_FACE_NODES];
 };
 
+/* A box about faces, or about the two boxes [first] and [first + 1]. */
+struct mesh_box {
+    float low[3], high[3];
+    unsigned first, count; /* count > 0: faces order[first] .. */
+};
+
+/* A piece of a sharp edge. */
+struct mesh_rim {
+    float from[3], to[3];
+};
+
 struct mesh_body {
     /* provenance */
-    char hash[65];         /* SHA-256 of what it was made from: mesh, materials, supports, settings */
-    char source[256];      /* file's name, version of percuss-reduce, date */
-    double unit;           /* m of one unit of the mesh's file */
-    double centre[3];      /* centre of mass in the mesh's frame, m */
-    double volume;         /* m^3 */
-    double mass;           /* kg */
-    double inertia[9];     /* about the centre of mass, kg m^2, row-major */
-    bool supported;        /* nodes are held: it does not move as a whole */
-    char supports[128];    /* names of the held sets */
-    double element_size;   /* median edge of the surface, m */
-    double cut;            /* contact radius that flexibilities are stated for, m */
+    char hash[65];       /* SHA-256 of what it was made from: mesh, materials, supports, settings */
+    char source[256];    /* file's name, version of percuss-reduce, date */
+    double unit;         /* m of one unit of the mesh's file */
+    double centre[3];    /* centre of mass in the mesh's frame, m */
+    double volume;       /* m^3 */
+    double mass;         /* kg */
+    double inertia[9];   /* about the centre of mass, kg m^2, row-major */
+    bool supported;      /* nodes are held: it does not move as a whole */
+    char supports[128];  /* names of the held sets */
+    double element_size; /* median edge of the surface, m */
+    double cut;          /* contact radius that flexibilities are stated for, m */
     size_t material_count;
     struct material *materials;
     /* vibration */
-    size_t mode_count;     /* elastic modes, ascending */
-    double *omega;         /* [mode_count], rad/s */
-    size_t removed;        /* modes without which flexibilities are stated */
+    size_t mode_count; /* elastic modes, ascending */
+    double *omega;     /* [mode_count], rad/s */
+    size_t removed;    /* modes without which flexibilities are stated */
     /* surface */
     size_t node_count;
-    double (*points)[3];   /* [node_count], m, from the centre of mass */
-    float *shapes;         /* [node_count][3][mode_count], 1/sqrt(kg) */
+    double (*points)[3]; /* [node_count], m, from the centre of mass */
+    float *shapes;       /* [node_count][3][mode_count], 1/sqrt(kg) */
     size_t face_count;
     struct mesh_body_face *faces;
     /* flexibility between places, for several contacts: the response at one surface site to a
      * unit normal force at another, without the first `removed` modes, m/N; good from `near` on */
     size_t site_count;
-    unsigned *site_face;   /* [site_count] */
+    unsigned *site_face;                        /* [site_count] */
     double (*site_point)[3], (*site_normal)[3]; /* [site_count] */
-    float *between;        /* [site_count][site_count]; NULL: not computed */
-    double near;           /* m */
+    float *between;                             /* [site_count][site_count]; NULL: not computed */
+    double near;                                /* m */
+    /* how to find a place on the surface: mesh_surface_prepare makes it of the faces */
+    size_t box_count;
+    struct mesh_box *boxes; /* a tree */
+    unsigned *order;        /* [face_count]: faces as its leaves have them */
+    size_t patch_count;
+    size_t *rim_first; /* [patch_count + 1]: a patch's sharp edges are rims[rim_first[p]] .. */
+    struct mesh_rim *rims;
+    double area;            /* of the surface, m^2 */
+    double low[3], high[3]; /* extent from the centre of mass, m */
 };
+
+/* Whether what a file says of a body makes sense as a whole: PERCUSS_OK, or PERCUSS_BAD_REQUEST
+ * with the dataset and what is allowed. Single numbers are checked by whoever reads them. */
+enum percuss_status mesh_body_check(const struct mesh_body *body, struct fault *fault);
+
+/* Frees a body and its arrays, all of which came from malloc; NULL is allowed. */
+void mesh_body_free(struct mesh_body *body);
 
 #endif

@@ -1,0 +1,127 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "model/mesh_body.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "model/limits.h"
+
+/* What rounding may leave of a tensor's symmetry, and of a unit vector's length in float. */
+static const double ASYMMETRY = 1e-6;
+static const double UNIT_LENGTH = 1e-4;
+
+static enum percuss_status check_inertia(const struct mesh_body *body, struct fault *fault)
+{
+    const double *j = body->inertia;
+    double trace = j[0] + j[4] + j[8];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < i; k++)
+            if (!(fabs(j[3 * i + k] - j[3 * k + i]) <= ASYMMETRY * trace))
+                return fault_set(fault, PERCUSS_BAD_REQUEST, "inertia: must be symmetric");
+    /* leading minors (Sylvester); no moment exceeds the sum of the others */
+    double two = j[0] * j[4] - j[1] * j[3];
+    double three = j[0] * (j[4] * j[8] - j[5] * j[7]) - j[1] * (j[3] * j[8] - j[5] * j[6]) +
+                   j[2] * (j[3] * j[7] - j[4] * j[6]);
+    if (!(j[0] > 0.0 && two > 0.0 && three > 0.0))
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "inertia: must be positive definite");
+    return PERCUSS_OK;
+}
+
+static enum percuss_status check_materials(const struct mesh_body *body, struct fault *fault)
+{
+    struct fault inner = {{0}};
+    if (body->material_count == 0)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "materials: none: must be one at least");
+    for (size_t i = 0; i < body->material_count; i++)
+        if (material_check(&body->materials[i], &inner))
+            return fault_set(fault, PERCUSS_BAD_REQUEST, "materials[%zu].%s", i, inner.text);
+    return PERCUSS_OK;
+}
+
+static enum percuss_status check_modes(const struct mesh_body *body, struct fault *fault)
+{
+    if (body->mode_count > LIMIT_MODES)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "modes: %zu: must be at most %d",
+                         body->mode_count, LIMIT_MODES);
+    if (body->removed > body->mode_count)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "modes/removed: %zu: must be at most the number of modes, %zu",
+                         body->removed, body->mode_count);
+    for (size_t k = 1; k < body->mode_count; k++)
+        if (!(body->omega[k] >= body->omega[k - 1]))
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "modes/omega: number %zu is below the one before it: must ascend",
+                             k + 1);
+    return PERCUSS_OK;
+}
+
+static enum percuss_status check_face(const struct mesh_body *body, size_t f, struct fault *fault)
+{
+    const struct mesh_body_face *face = &body->faces[f];
+    if (face->count != 6 && face->count != 8 && face->count != 9)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "faces/count: %u at face %zu: must be 6, 8 or 9", face->count, f);
+    if (face->material >= body->material_count)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "faces/material: %u at face %zu: must be below the number of materials, "
+                         "%zu",
+                         face->material, f, body->material_count);
+    if (face->patch >= body->face_count)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "faces/patch: %u at face %zu: must be below the number of faces, %zu",
+                         face->patch, f, body->face_count);
+    for (int i = 0; i < face->count; i++) {
+        const float *n = face->normal[i];
+        double length = sqrt((double)n[0] * n[0] + (double)n[1] * n[1] + (double)n[2] * n[2]);
+        if (face->nodes[i] >= body->node_count)
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "faces/nodes: %u at face %zu: must be below the number of nodes, %zu",
+                             face->nodes[i], f, body->node_count);
+        if (!(fabs(length - 1.0) <= UNIT_LENGTH))
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "faces/normal: of length %g at face %zu: must be a unit vector",
+                             length, f);
+    }
+    return PERCUSS_OK;
+}
+
+enum percuss_status mesh_body_check(const struct mesh_body *body, struct fault *fault)
+{
+    enum percuss_status status = check_inertia(body, fault);
+    if (!status)
+        status = check_materials(body, fault);
+    if (!status)
+        status = check_modes(body, fault);
+    if (!status && body->face_count == 0)
+        status = fault_set(fault, PERCUSS_BAD_REQUEST, "faces: none: must be one at least");
+    for (size_t f = 0; !status && f < body->face_count; f++)
+        status = check_face(body, f, fault);
+    for (size_t s = 0; !status && s < body->site_count; s++)
+        if (body->site_face[s] >= body->face_count)
+            status = fault_set(fault, PERCUSS_BAD_REQUEST,
+                               "sites/face: %u: must be below the number of faces, %zu",
+                               body->site_face[s], body->face_count);
+    return status;
+}
+
+void mesh_body_free(struct mesh_body *body)
+{
+    if (!body)
+        return;
+    free(body->materials);
+    free(body->omega);
+    free(body->points);
+    free(body->shapes);
+    free(body->faces);
+    free(body->site_face);
+    free(body->site_point);
+    free(body->site_normal);
+    free(body->between);
+    free(body->boxes);
+    free(body->order);
+    free(body->rim_first);
+    free(body->rims);
+    free(body);
+}

@@ -1,0 +1,41 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Places on the surface of a reduced body: the nearest to a point, and what the surface is like
+ * there. In the frame and size of the file. */
+#ifndef PERCUSS_MODEL_MESH_SURFACE_H
+#define PERCUSS_MODEL_MESH_SURFACE_H
+
+#include <stdbool.h>
+
+#include "model/mesh_body.h"
+
+/* The nearest place of one patch. */
+struct mesh_place {
+    unsigned face;
+    double u, v;     /* on it, see facet.h */
+    double point[3]; /* m */
+    double distance; /* of the point that was asked about, >= 0, m */
+    double to_rim;   /* from the patch's nearest sharp edge, m; INFINITY: it has none */
+};
+
+/* What the surface is like at a place, interpolated between the nodes of its face. */
+struct mesh_spot {
+    double normal[3];    /* outward, unit */
+    double curvature[9]; /* symmetric, across the normal, 1/m */
+    double doubt;        /* of the normal, rad */
+    double flexibility;  /* m/N, see struct mesh_body_face; NAN: not known */
+    double slope;
+};
+
+/* Makes what the search needs. False: out of memory. */
+bool mesh_surface_prepare(struct mesh_body *body);
+
+/* The nearest place, and the nearest ones of other patches within `beside` of it where it is no
+ * farther than that from an edge; by distance. Their number, at most `most`. */
+int mesh_surface_find(const struct mesh_body *body, const double p[3], double beside,
+                      struct mesh_place *places, int most);
+
+struct mesh_spot mesh_surface_at(const struct mesh_body *body, unsigned face, double u, double v);
+
+#endif

@@ -1,0 +1,263 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* mesh/body_file: a body as it was written, and files that are none. */
+#include "mesh/body_file.h"
+
+#include <hdf5.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "bodies/made_mesh.h"
+#include "check.h"
+#include "model/mesh_surface.h"
+
+static struct body make_rod(void)
+{
+    struct body rod = {.id = "rod",
+                       .kind = &rod_kind,
+                       .radius = 0.01,
+                       .length = 0.3,
+                       .tip_radius = INFINITY,
+                       .material = {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0}};
+    struct fault fault;
+    assert_int_equal(body_complete(&rod, &fault), PERCUSS_OK);
+    return rod;
+}
+
+static struct mesh_body *make_body(void)
+{
+    struct body rod = make_rod();
+    struct mesh_body *body = made_mesh_bar(
+        &(struct made_mesh){.bar = &rod, .modes = 12, .removed = 4, .around = 8, .along = 6});
+    assert_non_null(body);
+    return body;
+}
+
+static void name_file(char path[64])
+{
+    snprintf(path, 64, "/tmp/test_body_file_%d.h5", (int)getpid());
+}
+
+static struct mesh_body *read_back(const char *path)
+{
+    struct mesh_body *body;
+    struct fault fault = {""};
+    if (body_file_read(path, &body, &fault))
+        fail_msg("%s", fault.text);
+    return body;
+}
+
+/* Every array of it, bit for bit. */
+static void expect_same(const struct mesh_body *a, const struct mesh_body *b)
+{
+    size_t shapes = a->node_count * 3 * a->mode_count;
+    assert_string_equal(a->hash, b->hash);
+    assert_string_equal(a->source, b->source);
+    assert_true(a->mass == b->mass && a->unit == b->unit && a->volume == b->volume);
+    assert_true(a->removed == b->removed && a->supported == b->supported);
+    assert_memory_equal(a->inertia, b->inertia, sizeof a->inertia);
+    assert_int_equal(a->mode_count, b->mode_count);
+    assert_int_equal(a->node_count, b->node_count);
+    assert_int_equal(a->face_count, b->face_count);
+    assert_int_equal(a->material_count, b->material_count);
+    assert_int_equal(a->site_count, b->site_count);
+    assert_memory_equal(a->omega, b->omega, a->mode_count * sizeof *a->omega);
+    assert_memory_equal(a->points, b->points, a->node_count * sizeof *a->points);
+    assert_memory_equal(a->shapes, b->shapes, shapes * sizeof *a->shapes);
+    for (size_t f = 0; f < a->face_count; f++) {
+        const struct mesh_body_face *x = &a->faces[f], *y = &b->faces[f];
+        assert_true(x->count == y->count && x->patch == y->patch && x->material == y->material);
+        assert_memory_equal(x->nodes, y->nodes, sizeof x->nodes);
+        assert_memory_equal(x->normal, y->normal, sizeof x->normal);
+        assert_memory_equal(x->curvature, y->curvature, sizeof x->curvature);
+        assert_memory_equal(x->flexibility, y->flexibility, sizeof x->flexibility);
+    }
+    assert_string_equal(a->materials[0].name, b->materials[0].name);
+    assert_true(a->materials[0].yield == b->materials[0].yield);
+}
+
+static void comes_back_as_written(void **state)
+{
+    (void)state;
+    struct mesh_body *body = make_body(), *other;
+    struct fault fault = {""};
+    char path[64];
+    name_file(path);
+    /* with an unknown flexibility, and sites */
+    body->faces[3].flexibility[2] = NAN;
+    body->site_count = 2;
+    body->site_face = calloc(2, sizeof *body->site_face);
+    body->site_point = calloc(2, sizeof *body->site_point);
+    body->site_normal = calloc(2, sizeof *body->site_normal);
+    body->between = calloc(4, sizeof *body->between);
+    body->site_point[1][2] = 0.5;
+    body->between[2] = 3e-9f;
+    assert_int_equal(body_file_write(path, body, &fault), PERCUSS_OK);
+    other = read_back(path);
+    expect_same(body, other);
+    assert_memory_equal(body->site_point, other->site_point, 2 * sizeof *body->site_point);
+    assert_memory_equal(body->between, other->between, 4 * sizeof *body->between);
+    mesh_body_free(other);
+    /* and without sites, in its place */
+    body->site_count = 0;
+    assert_int_equal(body_file_write(path, body, &fault), PERCUSS_OK);
+    other = read_back(path);
+    assert_true(other->site_count == 0 && !other->between);
+    mesh_body_free(other);
+    mesh_body_free(body);
+    remove(path);
+}
+
+static void expect_refused(const char *path, const char *words)
+{
+    struct mesh_body *body;
+    struct fault fault = {""};
+    assert_int_equal(body_file_read(path, &body, &fault), PERCUSS_BAD_REQUEST);
+    assert_null(body);
+    if (!strstr(fault.text, words) || !strstr(fault.text, path))
+        fail_msg("'%s' does not say '%s'", fault.text, words);
+}
+
+/* Writes the body with one thing wrong. */
+static void write_wrong(const char *path, const struct mesh_body *body)
+{
+    struct fault fault;
+    assert_int_equal(body_file_write(path, body, &fault), PERCUSS_OK);
+}
+
+static void refuses_wrong_numbers(void **state)
+{
+    (void)state;
+    struct mesh_body *body = make_body();
+    char path[64];
+    name_file(path);
+    /* one after the other, each put right again */
+    float shape = body->shapes[100];
+    body->shapes[100] = NAN;
+    write_wrong(path, body);
+    expect_refused(path, "surface/shapes: number 101");
+    body->shapes[100] = shape;
+    body->mass = -1.0;
+    write_wrong(path, body);
+    expect_refused(path, "mass: number 1 is none that is allowed: must be finite and > 0");
+    body->mass = 1.0;
+    body->faces[5].nodes[3] = 4000000000u;
+    write_wrong(path, body);
+    expect_refused(path, "faces/nodes: 4000000000 at face 5");
+    body->faces[5].nodes[3] = 0;
+    body->faces[2].count = 7;
+    write_wrong(path, body);
+    expect_refused(path, "faces/count: 7 at face 2: must be 6, 8 or 9");
+    body->faces[2].count = 9;
+    body->faces[2].normal[0][1] += 0.1f;
+    write_wrong(path, body);
+    expect_refused(path, "faces/normal");
+    body->faces[2].normal[0][1] -= 0.1f;
+    body->omega[5] = 2.0 * body->omega[6];
+    write_wrong(path, body);
+    expect_refused(path, "modes/omega: number 7 is below");
+    body->omega[5] = body->omega[6];
+    body->inertia[1] = 1.0;
+    write_wrong(path, body);
+    expect_refused(path, "inertia: must be symmetric");
+    body->inertia[1] = 0.0;
+    body->materials[0].poisson = 0.7;
+    write_wrong(path, body);
+    expect_refused(path, "materials[0].poisson");
+    mesh_body_free(body);
+    remove(path);
+}
+
+static void refuses_files_that_are_none(void **state)
+{
+    (void)state;
+    char path[64];
+    name_file(path);
+    remove(path);
+    expect_refused(path, "cannot be opened: No such file");
+    FILE *file = fopen(path, "w");
+    fputs("$MeshFormat\n4.1 0 8\n", file);
+    fclose(file);
+    expect_refused(path, "cannot be opened");
+    /* another program's */
+    hid_t id = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    H5Fclose(id);
+    expect_refused(path, "is no body file");
+    /* cut short, dataset after dataset taken away, and one of another length */
+    struct mesh_body *body = make_body();
+    write_wrong(path, body);
+    assert_int_equal(truncate(path, 30000), 0);
+    expect_refused(path, "");
+    const char *names[] = {"mass", "inertia", "modes/omega", "surface/shapes", "faces/doubt"};
+    for (size_t i = 0; i < COUNT(names); i++) {
+        write_wrong(path, body);
+        id = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+        H5Ldelete(id, names[i], H5P_DEFAULT);
+        if (i == 1) {
+            const hsize_t eight = 8;
+            hid_t space = H5Screate_simple(1, &eight, NULL);
+            H5Dclose(H5Dcreate2(id, names[i], H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT,
+                                H5P_DEFAULT));
+            H5Sclose(space);
+        }
+        H5Fclose(id);
+        char words[64];
+        snprintf(words, sizeof words, i == 1 ? "%s: is 8 long" : "%s: is missing", names[i]);
+        expect_refused(path, words);
+    }
+    mesh_body_free(body);
+    remove(path);
+}
+
+/* No byte of a file may do worse than make a message. */
+static void bears_any_damage(void **state)
+{
+    (void)state;
+    struct mesh_body *body = make_body();
+    char path[64];
+    name_file(path);
+    write_wrong(path, body);
+    mesh_body_free(body);
+    for (unsigned i = 0; i < 400; i++) {
+        FILE *file = fopen(path, "r+b");
+        fseek(file, 0, SEEK_END);
+        long at = (long)((i * 2654435761u) % (unsigned long)ftell(file));
+        fseek(file, at, SEEK_SET);
+        int octet = fgetc(file);
+        fseek(file, at, SEEK_SET);
+        fputc(octet ^ (1 << i % 8), file);
+        fclose(file);
+        struct fault fault = {""};
+        if (!body_file_read(path, &body, &fault)) {
+            assert_true(mesh_surface_prepare(body));
+            mesh_body_free(body);
+        }
+        file = fopen(path, "r+b");
+        fseek(file, at, SEEK_SET);
+        fputc(octet, file);
+        fclose(file);
+    }
+    remove(path);
+}
+
+static void says_where_it_cannot_write(void **state)
+{
+    (void)state;
+    struct mesh_body *body = make_body();
+    struct fault fault = {""};
+    assert_int_equal(body_file_write("/nowhere/body.h5", body, &fault), PERCUSS_BAD_REQUEST);
+    assert_non_null(strstr(fault.text, "/nowhere/body.h5: cannot be created"));
+    mesh_body_free(body);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(comes_back_as_written),       cmocka_unit_test(refuses_wrong_numbers),
+        cmocka_unit_test(refuses_files_that_are_none), cmocka_unit_test(bears_any_damage),
+        cmocka_unit_test(says_where_it_cannot_write),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
