@@ -52,9 +52,8 @@ static bool tell(const struct modes_task *task, double done)
     return !watch || !watch->proceed || watch->proceed(watch->context, done);
 }
 
-/* Elastic modes below a frequency. */
-static enum percuss_status count_below(const struct modes_task *task, double omega, size_t *count,
-                                       struct fault *fault)
+enum percuss_status modes_count(const struct modes_task *task, double omega, size_t *count,
+                                struct fault *fault)
 {
     struct factor *factor;
     enum percuss_status status = factor_analyse(task->matrices, FACTOR_INDEFINITE, &factor, fault);
@@ -141,7 +140,7 @@ static enum percuss_status find_most(const struct modes_task *task, struct modes
         *factor = NULL;
         modes->confirmed =
             widest_gap(modes->omega, task->most, task->most + SPARE, &modes->confirmed_below);
-        status = count_below(task, modes->confirmed_below, &counted, fault);
+        status = modes_count(task, modes->confirmed_below, &counted, fault);
         if (status)
             return status;
         modes->count = task->most;
@@ -201,12 +200,12 @@ static enum percuss_status measure(const struct modes_task *task, struct modes *
 enum percuss_status modes_find(const struct modes_task *task, struct modes *modes,
                                struct factor **factor, struct fault *fault)
 {
-    size_t count = SIZE_MAX;
+    size_t count = task->known;
     *modes = (struct modes){.n = task->matrices->stiffness.n, .shift = task->scale};
     *factor = NULL;
     enum percuss_status status = PERCUSS_OK;
-    if (isfinite(task->below))
-        status = count_below(task, task->below, &count, fault);
+    if (isfinite(task->below) && count == SIZE_MAX)
+        status = modes_count(task, task->below, &count, fault);
     if (!status && !tell(task, COUNTED))
         status = fault_set(fault, PERCUSS_TIMEOUT, "stopped");
     if (!status)

@@ -5,6 +5,8 @@
 #ifndef PERCUSS_REDUCE_MODES_H
 #define PERCUSS_REDUCE_MODES_H
 
+#include <stdint.h>
+
 #include "base/watch.h"
 #include "numeric/dense.h"
 #include "reduce/factor.h"
@@ -29,6 +31,7 @@ struct modes_task {
     double scale;              /* 1/s^2, about the square of the first frequency */
     double below;              /* rad/s: all modes below; INFINITY: no limit ... */
     size_t most;               /* ... but at most so many */
+    size_t known;              /* modes below, once modes_count has counted; SIZE_MAX: it has not */
     const struct watch *watch; /* told the part done; NULL: nobody asks */
 };
 
@@ -39,8 +42,12 @@ struct modes_cost {
 };
 struct modes_cost modes_cost(const struct factor *factor, size_t n, size_t count);
 
-/* `factor` becomes that of K + shift M, for what comes after: the caller's to free. `rigid` stays
- * NULL: it is the task's. PERCUSS_TIMEOUT: the watch stopped it; PERCUSS_BAD_REQUEST: the mesh has
+/* Elastic modes below a frequency (rad/s), by inertia: takes a factor. Errors as below. */
+enum percuss_status modes_count(const struct modes_task *task, double omega, size_t *count,
+                                struct fault *fault);
+
+/* `factor` becomes that of K + shift M, for what comes after: the caller's to free.
+ * PERCUSS_TIMEOUT: the watch stopped it; PERCUSS_BAD_REQUEST: the mesh has
  * fewer modes, or its matrices are not those of a body; PERCUSS_INTERNAL without memory, or when
  * the number of modes is not confirmed however often they are sought. */
 enum percuss_status modes_find(const struct modes_task *task, struct modes *modes,

@@ -39,7 +39,8 @@ static inline void solve_mesh(const struct solid_mesh *mesh, size_t held, double
         .rigid = {solved->matrices.stiffness.n, solved->rigid_count, solved->rigid},
         .scale = solved->scale,
         .below = 2.0 * M_PI * hertz,
-        .most = most};
+        .most = most,
+        .known = SIZE_MAX};
     if (modes_find(&task, &solved->modes, &solved->factor, &fault) != PERCUSS_OK) {
         print_error("%s\n", fault.text);
         fail();

@@ -121,7 +121,8 @@ static void test_one_element(void **state)
                               .rigid = {60, 6, solved.rigid},
                               .scale = solved.scale,
                               .below = INFINITY,
-                              .most = 51};
+                              .most = 51,
+                              .known = SIZE_MAX};
     assert_int_equal(modes_find(&task, &modes, &factor, &fault), PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(fault.text, "at most 50"));
     solved_free(&solved);
@@ -152,6 +153,7 @@ static void test_can_be_stopped(void **state)
                               .scale = solved.scale,
                               .below = INFINITY,
                               .most = 20,
+                              .known = SIZE_MAX,
                               .watch = &watch};
     assert_int_equal(modes_find(&task, &modes, &factor, &fault), PERCUSS_TIMEOUT);
     assert_true(told >= 0.5 && told < 1.0);
