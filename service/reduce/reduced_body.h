@@ -1,0 +1,31 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Puts together what a body's file holds, but for the flexibility of its surface. */
+#ifndef PERCUSS_REDUCE_REDUCED_BODY_H
+#define PERCUSS_REDUCE_REDUCED_BODY_H
+
+#include "mesh/bulk.h"
+#include "mesh/surface.h"
+#include "model/mesh_body.h"
+#include "reduce/modes.h"
+
+/* All borrowed. `surface` has normals and curvatures. */
+struct reduced_parts {
+    const struct solid_mesh *mesh;
+    const struct surface *surface;
+    const struct bulk *bulk;
+    const struct modes *modes;
+    const bool *held; /* degrees of freedom; NULL: none */
+    const char *source, *supports;
+};
+
+/* Faces stand in the order of the surface's, their flexibility unknown (NAN). For mesh_body_free.
+ * PERCUSS_BAD_REQUEST: more than 256 parts; PERCUSS_INTERNAL without memory. */
+enum percuss_status reduced_body_make(const struct reduced_parts *parts, struct mesh_body **body,
+                                      struct fault *fault);
+
+/* By the divergence theorem: the integral of x.n/3 over the surface, m^3. */
+double reduced_body_enclosed(const struct solid_mesh *mesh, const struct surface *surface);
+
+#endif
