@@ -1,0 +1,227 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "mesh/mesh_check.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesh/bulk.h"
+#include "model/vector.h"
+
+/* nodes nearer than this part of an edge are one place */
+static const double SAME_PLACE = 1e-5;
+/* a direction in which no plane of a mesh is likely to lie: nodes sorted along it are well apart */
+static const double SORTING[3] = {0.61803398874989485, 0.54030230586813977, 0.57107655817564230};
+/* elements below this are worth a remark: .2 is common in meshes of Gmsh */
+static const double POOR_JACOBIAN = 0.05;
+/* bodies of such sizes are rare, and wrong units common, m */
+static const double SMALLEST_BODY = 1e-3, LARGEST_BODY = 20.0;
+/* faces that turn by more than 50 degrees: normals and curvatures are poor */
+static const double COARSE_COSINE = 0.64278760968653933;
+
+struct sorted_node {
+    double along;
+    size_t node;
+};
+
+static void remark(struct mesh_findings *findings, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static void remark(struct mesh_findings *findings, const char *format, ...)
+{
+    if (findings->remark_count == MESH_REMARKS)
+        return;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(findings->remarks[findings->remark_count++], MESH_REMARK_SIZE, format, args);
+    va_end(args);
+}
+
+/* det J of all elements */
+static enum percuss_status check_shapes(const struct solid_mesh *mesh,
+                                        struct mesh_findings *findings, struct fault *fault)
+{
+    size_t bad = 0, first = 0, reversed = 0;
+    double volume, first_ratio = 0.0;
+    findings->least_jacobian = INFINITY;
+    for (size_t e = 0; e < mesh->element_count; e++) {
+        double ratio = bulk_element_det(mesh, e, &volume);
+        bool inside_out = !(ratio > 0.0) || !(volume > 0.0);
+        if (inside_out && bad++ == 0) {
+            first = mesh->element_labels[e];
+            first_ratio = ratio;
+        }
+        reversed += volume < 0.0;
+        findings->volume += volume;
+        if (ratio < findings->least_jacobian) {
+            findings->least_jacobian = ratio;
+            findings->least_element = mesh->element_labels[e];
+        }
+    }
+    if (reversed > 0 && 2 * reversed > mesh->element_count)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "%zu of %zu elements have a negative volume (element %zu first): their "
+                         "nodes run the wrong way round, as in a mirrored mesh: turn them over",
+                         reversed, mesh->element_count, first);
+    if (bad > 0)
+        return fault_set(
+            fault, PERCUSS_BAD_REQUEST,
+            "%zu of %zu elements are turned inside out (det J <= 0; element %zu: %.2g of its "
+            "mean): "
+            "curved elements must be smaller at round places, or their edges straight (Gmsh: "
+            "Mesh.HighOrderOptimize=2, or Mesh.SecondOrderLinear = 1)",
+            bad, mesh->element_count, first, first_ratio);
+    if (findings->least_jacobian < POOR_JACOBIAN)
+        remark(findings, "element %zu is badly shaped: least det J %.2g of its mean",
+               findings->least_element, findings->least_jacobian);
+    return PERCUSS_OK;
+}
+
+static int compare(const void *left, const void *right)
+{
+    const struct sorted_node *a = left, *b = right;
+    if (a->along != b->along)
+        return a->along < b->along ? -1 : 1;
+    return a->node < b->node ? -1 : a->node > b->node;
+}
+
+/* pairs of nodes in one place: the body is cut there */
+static enum percuss_status check_places(const struct solid_mesh *mesh, double size,
+                                        struct fault *fault)
+{
+    struct sorted_node *nodes = malloc(mesh->node_count * sizeof *nodes);
+    size_t pairs = 0, one = 0, other = 0;
+    if (!nodes)
+        return fault_set(fault, PERCUSS_INTERNAL, "%zu nodes: out of memory", mesh->node_count);
+    for (size_t i = 0; i < mesh->node_count; i++)
+        nodes[i] = (struct sorted_node){dot3(SORTING, mesh->points[i]), i};
+    qsort(nodes, mesh->node_count, sizeof *nodes, compare);
+    double near = SAME_PLACE * size;
+    for (size_t i = 0; i < mesh->node_count; i++)
+        for (size_t j = i + 1; j < mesh->node_count && nodes[j].along - nodes[i].along <= near;
+             j++) {
+            double way[3];
+            sub3(mesh->points[nodes[i].node], mesh->points[nodes[j].node], way);
+            if (norm3(way) <= near && pairs++ == 0) {
+                one = mesh->labels[nodes[i].node];
+                other = mesh->labels[nodes[j].node];
+            }
+        }
+    free(nodes);
+    if (pairs == 0)
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "%zu pairs of nodes are in one place (nodes %zu and %zu): elements must share "
+                     "their nodes, else the body is cut there; merge them (Gmsh: Coherence Mesh)",
+                     pairs, one, other);
+}
+
+static size_t root_of(size_t *parent, size_t node)
+{
+    while (parent[node] != node)
+        node = parent[node] = parent[parent[node]];
+    return node;
+}
+
+/* elements that hang together by shared nodes are one piece */
+static enum percuss_status check_pieces(const struct solid_mesh *mesh, struct fault *fault)
+{
+    size_t *parent = malloc((mesh->node_count + 1) * sizeof *parent);
+    if (!parent)
+        return fault_set(fault, PERCUSS_INTERNAL, "%zu nodes: out of memory", mesh->node_count);
+    for (size_t i = 0; i < mesh->node_count; i++)
+        parent[i] = i;
+    for (size_t e = 0; e < mesh->element_count; e++)
+        for (size_t i = mesh->first[e] + 1; i < mesh->first[e + 1]; i++) {
+            size_t a = root_of(parent, mesh->nodes[mesh->first[e]]);
+            size_t b = root_of(parent, mesh->nodes[i]);
+            parent[a < b ? b : a] = a < b ? a : b;
+        }
+
+    /* how many, and how much does not hang at the first one */
+    size_t pieces = 0, apart = 0, example = 0, whole = root_of(parent, mesh->nodes[0]);
+    for (size_t i = 0; i < mesh->node_count; i++)
+        pieces += parent[i] == i;
+    for (size_t e = 0; e < mesh->element_count; e++)
+        if (root_of(parent, mesh->nodes[mesh->first[e]]) != whole && apart++ == 0)
+            example = mesh->element_labels[e];
+    free(parent);
+    if (apart == 0)
+        return PERCUSS_OK;
+    return fault_set(
+        fault, PERCUSS_BAD_REQUEST,
+        "%zu pieces that do not hang together: %zu elements (element %zu first) share "
+        "no node with the other %zu: must be one body; in CAD unite the parts, in Gmsh "
+        "BooleanFragments, or mesh one of them",
+        pieces, apart, example, mesh->element_count - apart);
+}
+
+static void check_extent(const struct solid_mesh *mesh, struct mesh_findings *findings)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < mesh->node_count; i++)
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], mesh->points[i][k]);
+            high[k] = fmax(high[k], mesh->points[i][k]);
+        }
+    sub3(high, low, findings->extent);
+    double most = fmax(findings->extent[0], fmax(findings->extent[1], findings->extent[2]));
+    if (most > LARGEST_BODY || most < SMALLEST_BODY)
+        remark(findings,
+               "extends %.3g m, one unit of the file being %g m: is the unit of length "
+               "right (mm)?",
+               most, mesh->unit);
+}
+
+/* the largest angle between normals at two corners of a face, as a cosine */
+static double turn_cosine(const struct surface_face *face, const struct surface_point *points)
+{
+    int corners = face->count == FACE_TRIANGLE6 ? 3 : 4;
+    double least = 1.0;
+    for (int i = 0; i < corners; i++)
+        for (int j = 0; j < i; j++)
+            least = fmin(least, dot3(points[i].normal, points[j].normal));
+    return least;
+}
+
+/* how the surface is cut */
+static void check_surface(const struct surface *surface, struct mesh_findings *findings)
+{
+    size_t coarse = 0;
+    if (!surface->points)
+        return;
+    if (2 * surface->straight > surface->edges && surface->edges > 0)
+        remark(findings,
+               "elements are straight-sided on round ground (%zu of %zu edges): curvatures come "
+               "from their corners alone; second order with the geometry (gmsh -order 2) is better",
+               surface->straight, surface->edges);
+    for (size_t f = 0; f < surface->face_count; f++)
+        coarse += turn_cosine(&surface->faces[f], surface->points[f]) < COARSE_COSINE;
+    if (coarse > 0)
+        remark(findings,
+               "%zu of %zu faces turn by more than 50 degrees: elements must be smaller there for "
+               "normals and curvatures to be good",
+               coarse, surface->face_count);
+}
+
+enum percuss_status mesh_check(const struct solid_mesh *mesh, const struct surface *surface,
+                               struct mesh_findings *findings, struct fault *fault)
+{
+    memset(findings, 0, sizeof *findings);
+    if (mesh->element_count == 0)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "elements: 0: a mesh must have some");
+    enum percuss_status status = check_shapes(mesh, findings, fault);
+    if (status == PERCUSS_OK)
+        status = check_places(mesh, surface->size, fault);
+    if (status == PERCUSS_OK)
+        status = check_pieces(mesh, fault);
+    if (status != PERCUSS_OK)
+        return status;
+    check_extent(mesh, findings);
+    check_surface(surface, findings);
+    return PERCUSS_OK;
+}
