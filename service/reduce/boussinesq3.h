@@ -1,0 +1,44 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Half-space under a point load of 1 N on its surface, along its inward normal (Boussinesq;
+ * Johnson, Contact Mechanics, section 3.4), in any place and direction.
+ *
+ * With x from the point, e inward, z = x.e, R = |x|, mu the shear modulus
+ *
+ *     4 pi mu u = z x / R^3 + (3 - 4 nu) e / R - (1 - 2 nu) grad ln(R + z).
+ *
+ * The field holds in all space but on the line that leaves the point outwards, where R + z is 0. A
+ * concave body crosses that line. A `reach` L takes it off beyond the distance L: the gradient of
+ * ln(R' + z') with R', z' from the point x = -L e is added, which is in equilibrium by itself and
+ * regular wherever the body is. Tractions of the order 1 / L^2 are left on the half-space's
+ * surface.
+ */
+#ifndef PERCUSS_REDUCE_BOUSSINESQ3_H
+#define PERCUSS_REDUCE_BOUSSINESQ3_H
+
+struct boussinesq3 {
+    double point[3], inward[3]; /* m, unit */
+    double young, poisson;
+    double reach; /* m, INFINITY: the half-space's own field */
+};
+
+/* Displacement (m/N) and stress (xx yy zz xy yz zx, 1/m^2) at x off that line; NULL: not wanted. */
+void boussinesq3_field(const struct boussinesq3 *load, const double x[3], double displacement[3],
+                       double stress[6]);
+
+/* Stress of the part that the reach adds, alone; 0 where it is infinite. */
+void boussinesq3_added_stress(const struct boussinesq3 *load, const double x[3], double stress[6]);
+
+/* What the reach adds to the displacement of the point itself along the load, m/N. */
+double boussinesq3_added_displacement(const struct boussinesq3 *load);
+
+/* t = s n */
+static inline void boussinesq3_traction(const double s[6], const double n[3], double t[3])
+{
+    t[0] = s[0] * n[0] + s[3] * n[1] + s[5] * n[2];
+    t[1] = s[3] * n[0] + s[1] * n[1] + s[4] * n[2];
+    t[2] = s[5] * n[0] + s[4] * n[1] + s[2] * n[2];
+}
+
+#endif

@@ -1,0 +1,126 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/reduce/boussinesq3.c: the axisymmetric field of fe/boussinesq.c in another frame;
+ * stress from displacement by Hooke's law, in equilibrium, with and without a reach. */
+#include "check.h"
+#include "fe/boussinesq.h"
+#include "model/vector.h"
+#include "reduce/boussinesq3.h"
+
+/* a load in general position */
+static const struct boussinesq3 LOAD = {
+    {0.3, -0.2, 0.1}, {2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0}, 70.0, 0.33, INFINITY};
+static const double ALONG[3] = {1.0 / 3.0, -2.0 / 3.0, -2.0 / 3.0}; /* in the surface */
+
+/* depths and distances from the axis; negative depths are what a concave body has */
+static const double PLACES[][2] = {{0.3, 0.7}, {1.1, 0.2}, {0.0, 1.3}, {-0.4, 0.8}, {-0.9, 0.5}};
+
+static void place(double depth, double aside, double x[3])
+{
+    for (int i = 0; i < 3; i++)
+        x[i] = LOAD.point[i] + depth * LOAD.inward[i] + aside * ALONG[i];
+}
+
+static void is_the_axisymmetric_field_turned(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        double depth = PLACES[i][0], aside = PLACES[i][1];
+        double x[3], u[3], s[6], expected[2], stress[4], on_depth[3], on_side[3];
+        place(depth, aside, x);
+        boussinesq3_field(&LOAD, x, u, s);
+        boussinesq_displacement(LOAD.young, LOAD.poisson, aside, -depth, expected);
+        boussinesq_stress(LOAD.poisson, aside, -depth, stress);
+        /* two ways to write one formula: rounding */
+        near(dot3(u, ALONG), expected[0], 1e-14);
+        near(-dot3(u, LOAD.inward), expected[1], 1e-14);
+        boussinesq3_traction(s, LOAD.inward, on_depth);
+        boussinesq3_traction(s, ALONG, on_side);
+        near(dot3(on_side, ALONG), stress[0], 1e-13);
+        near(dot3(on_depth, LOAD.inward), stress[1], 1e-13);
+        near(-dot3(on_depth, ALONG), stress[3], 1e-13);
+        near(s[0] + s[1] + s[2], stress[0] + stress[1] + stress[2], 1e-13);
+    }
+}
+
+/* derivatives by central differences; their error is of the order (step / distance)^2 */
+static void stress_follows_displacement_in_equilibrium(void **state)
+{
+    (void)state;
+    static const double STEP = 1e-4;
+    static const int INDEX[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int with_reach = 0; with_reach < 2; with_reach++) {
+        struct boussinesq3 load = LOAD;
+        load.reach = with_reach ? 0.6 : INFINITY;
+        for (size_t p = 0; p < COUNT(PLACES); p++) {
+            double x[3], s[6], gradient[3][3], force[3] = {0.0, 0.0, 0.0};
+            place(PLACES[p][0], PLACES[p][1], x);
+            boussinesq3_field(&load, x, NULL, s);
+            for (int j = 0; j < 3; j++) {
+                double up[3] = {x[0], x[1], x[2]}, down[3] = {x[0], x[1], x[2]};
+                double u_up[3], u_down[3], s_up[6], s_down[6];
+                up[j] += STEP;
+                down[j] -= STEP;
+                boussinesq3_field(&load, up, u_up, s_up);
+                boussinesq3_field(&load, down, u_down, s_down);
+                for (int i = 0; i < 3; i++) {
+                    gradient[i][j] = (u_up[i] - u_down[i]) / (2.0 * STEP);
+                    force[i] += (s_up[INDEX[i][j]] - s_down[INDEX[i][j]]) / (2.0 * STEP);
+                }
+            }
+            double shear = load.young / (2.0 * (1.0 + load.poisson));
+            double lame = 2.0 * shear * load.poisson / (1.0 - 2.0 * load.poisson);
+            double dilatation = gradient[0][0] + gradient[1][1] + gradient[2][2];
+            for (int i = 0; i < 3; i++)
+                for (int j = i; j < 3; j++)
+                    near(s[INDEX[i][j]],
+                         shear * (gradient[i][j] + gradient[j][i]) +
+                             (i == j ? lame * dilatation : 0.0),
+                         2e-6);
+            near(norm3(force), 0.0, 2e-5);
+        }
+    }
+}
+
+/* on the outward line the field itself is infinite, with a reach it is not beyond it; the load is
+ * the same, and the half-space's surface has tractions of 1/reach^2 */
+static void reach_ends_the_singular_line(void **state)
+{
+    (void)state;
+    struct boussinesq3 load = LOAD;
+    load.reach = 0.5;
+    double x[3], u[3], s[6], added[6], near_point[3], own[3], t[3];
+    place(-2.0, 1e-7, x);
+    boussinesq3_field(&load, x, u, s);
+    assert_true(norm3(u) < 0.1 && fabs(s[0]) < 1.0);
+    boussinesq3_field(&LOAD, x, NULL, s);
+    assert_true(fabs(s[0]) + fabs(s[1]) + fabs(s[2]) > 1e6);
+
+    /* near the point it differs from the half-space's by what is said to be added */
+    place(1e-4, 1e-4, x);
+    boussinesq3_field(&load, x, near_point, NULL);
+    boussinesq3_field(&LOAD, x, own, NULL);
+    sub3(near_point, own, near_point);
+    /* linear in the distance over the reach: 3e-4 */
+    near_relative(dot3(near_point, load.inward), boussinesq3_added_displacement(&load), 1e-3);
+
+    /* the surface is free but for the added part */
+    place(0.0, 0.7, x);
+    boussinesq3_field(&load, x, NULL, s);
+    boussinesq3_added_stress(&load, x, added);
+    for (int k = 0; k < 6; k++)
+        s[k] -= added[k];
+    boussinesq3_traction(s, load.inward, t);
+    near(norm3(t), 0.0, 1e-14);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(is_the_axisymmetric_field_turned),
+        cmocka_unit_test(stress_follows_displacement_in_equilibrium),
+        cmocka_unit_test(reach_ends_the_singular_line),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
