@@ -1,0 +1,78 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The regular static flexibility of a meshed body: what a force of 1 N at a place of its surface
+ * moves that place, beyond the half-space's own local indentation and without rigid motion and the
+ * first modes.
+ *
+ * The half-space's field u_B of the force (boussinesq3.h) is split off; the smooth rest w = x -
+ * Psi g is solved for on the mesh, which needs no refinement about the place. With t the field's
+ * tractions on the surface, f = -integral of N^T t, Psi the rigid and the removed modes, p = Psi^T
+ * N^T(place) e, g = Psi^T integral of rho N^T u_B, and x orthogonal to Psi,
+ *
+ *     K x = f - M Psi Psi^T f,    C = f.x - integral of t.u_B - sum (2 p_k g_k - w_k^2 g_k^2),
+ *
+ * no difference of large numbers. At held nodes w is -u_B.
+ *
+ * On a surface of mean curvature H > 0 the integral of t.u_B grows like a logarithm as the radius r
+ * that it begins at shrinks: C(r) = C(r') + slope ln(r' / r), slope = (1 + nu)(1 - 2 nu)^2 H / (2
+ * pi E). The same r is the distance of two points that a force and its displacement are at; a
+ * contact's is the mean over pairs of its points. */
+#ifndef PERCUSS_REDUCE_FLEXIBILITY_H
+#define PERCUSS_REDUCE_FLEXIBILITY_H
+
+#include "base/fault.h"
+#include "mesh/matrices.h"
+#include "reduce/factor.h"
+#include "reduce/flexibility_place.h"
+
+enum { FLEXIBILITY_BLOCK = 32 };
+
+/* All borrowed. The mesh has elements of the surface's faces and a material for each part. */
+struct flexibility_body {
+    const struct solid_mesh *mesh;
+    const struct surface *surface;
+    const struct matrices *matrices;
+    struct factor *factor; /* of K + shift M */
+    double shift;          /* 1/s^2, of the order of the first elastic eigenvalue */
+    size_t rigid_count, removed;
+    const double *rigid;  /* [rigid_count][3 node_count], M-orthonormal */
+    const double *shapes; /* [removed][3 node_count], M-orthonormal; the first ones */
+    const double *omega;  /* [removed], rad/s */
+};
+
+struct flexibility_answer {
+    double value;     /* C at `radius`, m/N */
+    double radius;    /* m; of no meaning where the surface is plane */
+    double imbalance; /* of the nodal forces, over the force: round-off where all is well */
+};
+
+struct flexibility;
+
+/* NULL: no memory. */
+struct flexibility *flexibility_make(const struct flexibility_body *body);
+void flexibility_free(struct flexibility *flexibility);
+
+/* What the body's surface is like. */
+const struct surface_rule *flexibility_rule(const struct flexibility *flexibility);
+const struct flexibility_edges *flexibility_edges(const struct flexibility *flexibility);
+
+/* Flexibility at up to FLEXIBILITY_BLOCK places, solved for together. */
+enum percuss_status flexibility_solve(struct flexibility *flexibility, size_t count,
+                                      const struct flexibility_place *places,
+                                      struct flexibility_answer *answers, struct fault *fault);
+
+/* Change of a flexibility with the logarithm of its radius, m/N: C(r) = C(r') + slope ln(r' / r).
+ */
+double flexibility_slope(double young, double poisson, double mean_curvature);
+
+/* What a contact of the radius a has more than C(a): its pressure is Hertz's, a mean of ln r, and
+ * normal to the surface everywhere, which tilts it, m/N. */
+double flexibility_of_contact(double young, double poisson, double mean_curvature);
+
+/* What the force at places[solved] of the last flexibility_solve moves another place along its own
+ * inward normal, the half-space's field included, without rigid motion and removed modes, m/N. */
+double flexibility_response(const struct flexibility *flexibility, size_t solved,
+                            const struct flexibility_place *other);
+
+#endif

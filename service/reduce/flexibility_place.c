@@ -1,0 +1,295 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "reduce/flexibility_place.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/facet.h"
+#include "model/vector.h"
+
+/* A face is plane if its nodes lie in a plane to this part of its size: tilts of this order change
+ * the flexibility by as much over E h. */
+static const double PLANE = 1e-5;
+/* least distance from the rim of a curved face, in local coordinates (0 to 1): the kink there is
+ * felt as its angle over E times the distance */
+static const double OFF_RIM = 0.15;
+/* of a curved face's radius: within it the surface's bend is its curvature alone */
+static const double CUT = 0.02;
+
+/* ---- sharp edges ---- */
+
+struct half_edge {
+    size_t ends[2], middle; /* nodes, ends[0] < ends[1] */
+    size_t patch;
+};
+
+static int half_edge_compare(const void *a, const void *b)
+{
+    const struct half_edge *p = a, *q = b;
+    for (int i = 0; i < 2; i++)
+        if (p->ends[i] != q->ends[i])
+            return p->ends[i] < q->ends[i] ? -1 : 1;
+    return p->patch < q->patch ? -1 : p->patch > q->patch;
+}
+
+static size_t collect(const struct surface *surface, struct half_edge *all)
+{
+    size_t count = 0;
+    for (size_t f = 0; f < surface->face_count; f++) {
+        const struct surface_face *face = &surface->faces[f];
+        size_t corners = face->count == FACE_TRIANGLE6 ? 3 : 4;
+        for (size_t i = 0; i < corners; i++) {
+            size_t a = face->nodes[i], b = face->nodes[(i + 1) % corners];
+            all[count++] = (struct half_edge){
+                {a < b ? a : b, a < b ? b : a}, face->nodes[corners + i], face->patch};
+        }
+    }
+    return count;
+}
+
+/* all nodes in the plane of the first three corners */
+static bool is_flat(int count, const double (*nodes)[3], double radius)
+{
+    double a[3], b[3], normal[3];
+    sub3(nodes[1], nodes[0], a);
+    sub3(nodes[2], nodes[0], b);
+    cross3(a, b, normal);
+    scale3(1.0 / norm3(normal), normal, normal);
+    for (int i = 3; i < count; i++) {
+        sub3(nodes[i], nodes[0], a);
+        if (fabs(dot3(a, normal)) > PLANE * radius)
+            return false;
+    }
+    return true;
+}
+
+/* patches whose points all lie in the tangent plane of the first */
+static void find_planes(const struct surface_rule *rule, bool *plane)
+{
+    const struct surface *surface = rule->surface;
+    for (size_t patch = 0; patch < surface->patch_count; patch++) {
+        const double *origin = NULL, *area = NULL;
+        plane[patch] = true;
+        for (size_t f = 0; f < surface->face_count && plane[patch]; f++) {
+            if (surface->faces[f].patch != patch)
+                continue;
+            size_t first = rule->first[f];
+            origin = origin ? origin : rule->points[first];
+            area = area ? area : rule->areas[first];
+            for (size_t i = first; i < rule->first[f + 1]; i++) {
+                double offset[3];
+                sub3(rule->points[i], origin, offset);
+                if (fabs(dot3(offset, area)) > PLANE * surface->size * norm3(area))
+                    plane[patch] = false;
+            }
+        }
+    }
+}
+
+bool flexibility_edges_make(struct flexibility_edges *edges, const struct surface_rule *rule)
+{
+    *edges = (struct flexibility_edges){0};
+    struct half_edge *all = malloc(4 * rule->surface->face_count * sizeof *all);
+    if (!all)
+        return false;
+    size_t count = collect(rule->surface, all);
+    qsort(all, count, sizeof *all, half_edge_compare);
+
+    /* an edge of two faces of one patch is none; what is left moves to the front */
+    size_t kept = 0;
+    for (size_t i = 0; i < count;) {
+        size_t next = i + 1;
+        while (next < count && half_edge_compare(&all[i], &all[next]) == 0)
+            next++;
+        if (next == i + 1)
+            all[kept++] = all[i];
+        i = next;
+    }
+
+    edges->points = malloc((kept ? kept : 1) * sizeof *edges->points);
+    edges->patches = malloc((kept ? kept : 1) * sizeof *edges->patches);
+    edges->plane = malloc(rule->surface->patch_count * sizeof *edges->plane);
+    if (!edges->points || !edges->patches || !edges->plane) {
+        free(all);
+        flexibility_edges_free(edges);
+        return false;
+    }
+    find_planes(rule, edges->plane);
+    edges->count = kept;
+    for (size_t i = 0; i < kept; i++) {
+        const size_t nodes[3] = {all[i].ends[0], all[i].middle, all[i].ends[1]};
+        for (int n = 0; n < 3; n++)
+            memcpy(edges->points[i][n], rule->mesh->points[nodes[n]], sizeof edges->points[i][n]);
+        edges->patches[i] = all[i].patch;
+    }
+    free(all);
+    return true;
+}
+
+void flexibility_edges_free(struct flexibility_edges *edges)
+{
+    free(edges->points);
+    free(edges->patches);
+    free(edges->plane);
+    *edges = (struct flexibility_edges){0};
+}
+
+static double segment_distance(const double a[3], const double b[3], const double x[3])
+{
+    double along[3], offset[3];
+    sub3(b, a, along);
+    sub3(x, a, offset);
+    double square = dot3(along, along);
+    double t = square > 0.0 ? dot3(offset, along) / square : 0.0;
+    add_scaled3(-fmin(fmax(t, 0.0), 1.0), along, offset);
+    return norm3(offset);
+}
+
+double flexibility_edges_distance(const struct flexibility_edges *edges, size_t patch,
+                                  const double x[3])
+{
+    double nearest = INFINITY;
+    for (size_t i = 0; i < edges->count; i++) {
+        if (edges->patches[i] != patch)
+            continue;
+        const double(*p)[3] = edges->points[i];
+        nearest =
+            fmin(nearest, fmin(segment_distance(p[0], p[1], x), segment_distance(p[1], p[2], x)));
+    }
+    return nearest;
+}
+
+/* ---- one place ---- */
+
+static void unit_normal(int count, const double (*nodes)[3], double u, double v, double normal[3])
+{
+    double area[3];
+    facet_place(count, nodes, u, v, NULL, area);
+    scale3(1.0 / norm3(area), area, normal);
+}
+
+static void move_off_rim(int count, double *u, double *v)
+{
+    if (count == FACE_TRIANGLE6) {
+        /* towards the middle until the least of the three coordinates is far enough */
+        double least = fmin(fmin(*u, *v), 1.0 - *u - *v);
+        double way = least < OFF_RIM ? (OFF_RIM - least) / (1.0 / 3.0 - least) : 0.0;
+        *u += way * (1.0 / 3.0 - *u);
+        *v += way * (1.0 / 3.0 - *v);
+        return;
+    }
+    double most = 1.0 - 2.0 * OFF_RIM;
+    *u = fmin(fmax(*u, -most), most);
+    *v = fmin(fmax(*v, -most), most);
+}
+
+/* derivatives of the position by differences, exact for these faces: u, v, uu, uv, vv */
+static void differentiate(int count, const double (*nodes)[3], double u, double v,
+                          double derivative[5][3])
+{
+    double at[3][3][3];
+    for (int i = -1; i <= 1; i++)
+        for (int j = -1; j <= 1; j++)
+            facet_place(count, nodes, u + 0.1 * i, v + 0.1 * j, at[i + 1][j + 1], NULL);
+    for (int k = 0; k < 3; k++) {
+        derivative[0][k] = 5.0 * (at[2][1][k] - at[0][1][k]);
+        derivative[1][k] = 5.0 * (at[1][2][k] - at[1][0][k]);
+        derivative[2][k] = 100.0 * (at[2][1][k] - 2.0 * at[1][1][k] + at[0][1][k]);
+        derivative[3][k] = 25.0 * (at[2][2][k] - at[2][0][k] - at[0][2][k] + at[0][0][k]);
+        derivative[4][k] = 100.0 * (at[1][2][k] - 2.0 * at[1][1][k] + at[1][0][k]);
+    }
+}
+
+/* half the trace of the second fundamental form in the metric of the first */
+static double mean_curvature(double derivative[5][3], const double normal[3])
+{
+    const double *a = derivative[0], *b = derivative[1];
+    double e = dot3(a, a), f = dot3(a, b), g = dot3(b, b);
+    double l = dot3(derivative[2], normal), m = dot3(derivative[3], normal);
+    double n = dot3(derivative[4], normal);
+    return -0.5 * (e * n - 2.0 * f * m + g * l) / (e * g - f * f);
+}
+
+/* Least radius, and the mean of the radius' logarithm over the angle, of the face's rim as seen
+ * from the point, its edges being straight in local coordinates. */
+static void measure_rim(int count, double derivative[5][3], double u, double v, double *least,
+                        double *mean)
+{
+    enum { STEPS = 64 };
+    int corners = count == FACE_TRIANGLE6 ? 3 : 4;
+    double angle = 0.0, sum = 0.0;
+    *least = INFINITY;
+    for (int i = 0; i < corners; i++) {
+        double from[2], to[2];
+        facet_node(count, i, &from[0], &from[1]);
+        facet_node(count, (i + 1) % corners, &to[0], &to[1]);
+        for (int s = 0; s < STEPS; s++) {
+            double t = (s + 0.5) / STEPS, radius[3] = {0.0}, step[3] = {0.0}, across[3];
+            add_scaled3(from[0] + t * (to[0] - from[0]) - u, derivative[0], radius);
+            add_scaled3(from[1] + t * (to[1] - from[1]) - v, derivative[1], radius);
+            add_scaled3((to[0] - from[0]) / STEPS, derivative[0], step);
+            add_scaled3((to[1] - from[1]) / STEPS, derivative[1], step);
+            cross3(radius, step, across);
+            double turn = norm3(across) / dot3(radius, radius);
+            angle += turn;
+            sum += turn * log(norm3(radius));
+            *least = fmin(*least, norm3(radius));
+        }
+    }
+    *mean = exp(sum / angle);
+}
+
+/* Half the height above the tangent plane of the lowest surface that is seen from the point within
+ * 45 degrees of its normal. Nodes may miss what is nearer than their distance from each other:
+ * within it the cone is a cylinder, which starts above the waves of a coarse mesh. */
+static double find_reach(const struct surface_rule *rule, const struct boussinesq3 *load)
+{
+    double size = rule->surface->size, lowest = INFINITY;
+    for (size_t i = 0; i < rule->first[rule->surface->face_count]; i++) {
+        double r[3];
+        sub3(rule->points[i], load->point, r);
+        double height = -dot3(r, load->inward);
+        if (height <= 0.3 * size || height >= lowest)
+            continue;
+        double aside = sqrt(fmax(dot3(r, r) - height * height, 0.0));
+        if (aside < fmax(height, 0.6 * size))
+            lowest = height;
+    }
+    return 0.5 * lowest;
+}
+
+struct flexibility_place flexibility_place_make(const struct surface_rule *rule,
+                                                const struct flexibility_edges *edges, size_t face,
+                                                double u, double v)
+{
+    const struct surface_face *f = &rule->surface->faces[face];
+    double nodes[FACE_MOST_NODES][3], derivative[5][3], normal[3], least;
+    surface_rule_nodes(rule, face, nodes);
+    struct flexibility_place place = {.face = face, .part = f->part};
+    place.flat = is_flat(f->count, nodes, rule->radii[face]);
+    if (!edges->plane[f->patch])
+        move_off_rim(f->count, &u, &v);
+    place.u = u;
+    place.v = v;
+
+    /* the load */
+    const struct material *material = &rule->mesh->part[f->part].material;
+    facet_place(f->count, nodes, u, v, place.load.point, NULL);
+    unit_normal(f->count, nodes, u, v, normal);
+    scale3(-1.0, normal, place.load.inward);
+    place.load.young = material->young;
+    place.load.poisson = material->poisson;
+    place.load.reach = find_reach(rule, &place.load);
+
+    /* the face about it */
+    differentiate(f->count, nodes, u, v, derivative);
+    place.bend = place.flat ? 0.0 : mean_curvature(derivative, normal);
+    measure_rim(f->count, derivative, u, v, &least, &place.rim);
+    place.cut = place.flat ? 0.0 : CUT * least;
+    place.edge = flexibility_edges_distance(edges, f->patch, place.load.point);
+    return place;
+}

@@ -1,0 +1,49 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A place on the surface of a mesh where a force of 1 N presses, and the half-space's field that is
+ * split off there. */
+#ifndef PERCUSS_REDUCE_FLEXIBILITY_PLACE_H
+#define PERCUSS_REDUCE_FLEXIBILITY_PLACE_H
+
+#include <stdbool.h>
+
+#include "reduce/boussinesq3.h"
+#include "reduce/surface_rule.h"
+
+struct flexibility_place {
+    size_t face;
+    double u, v;             /* local coordinates */
+    struct boussinesq3 load; /* along the inward normal of the mesh's own face */
+    size_t part;             /* of the mesh: whose material the load has */
+    bool flat;               /* the face is plane */
+    double bend;             /* mean curvature of the mesh's face, > 0 where convex, 1/m */
+    double rim;              /* the face's radius about the point: mean of its logarithm, m */
+    double cut;              /* curved: no energy is counted within this radius, m */
+    double edge;             /* distance to the nearest sharp edge, INFINITY: none, m */
+};
+
+/* What the patches of a surface are like. Sharp edges are those that a patch has alone. Owns its
+ * arrays. */
+struct flexibility_edges {
+    size_t count;
+    double (*points)[3][3]; /* [count]: end, middle, end, m */
+    size_t *patches;        /* [count] */
+    bool *plane;            /* [patch_count]: the patch is plane */
+};
+
+/* False: no memory. */
+bool flexibility_edges_make(struct flexibility_edges *edges, const struct surface_rule *rule);
+void flexibility_edges_free(struct flexibility_edges *edges);
+
+/* Distance from x to the nearest edge of the patch, INFINITY: it has none. */
+double flexibility_edges_distance(const struct flexibility_edges *edges, size_t patch,
+                                  const double x[3]);
+
+/* The place at (u, v) of a face. On a patch that is not plane it is moved off the face's rim, where
+ * the mesh's surface has a kink. */
+struct flexibility_place flexibility_place_make(const struct surface_rule *rule,
+                                                const struct flexibility_edges *edges, size_t face,
+                                                double u, double v);
+
+#endif

@@ -1,0 +1,286 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/reduce/flexibility.c: against solutions for cylinders and spheres by other
+ * methods (fe/matched.h), a uniform load, reciprocity. */
+#include "fe/matched.h"
+#include "unit/mesh/blocks.h"
+#include "unit/reduce/flexed.h"
+#include "unit/reduce/solve_mesh.h"
+
+static const double RADIUS = 0.01, YOUNG = 73e9;
+
+static struct material metal(double poisson)
+{
+    return (struct material){"metal", YOUNG, poisson, 2700.0, INFINITY, 0.0};
+}
+
+/* square of a circular frequency: c / length */
+static double shift_for(double length)
+{
+    return YOUNG / 2700.0 / (length * length);
+}
+
+static void cylinder(struct flexed *flexed, enum element_type type, double poisson, double length,
+                     size_t along, bool held)
+{
+    struct solid_mesh mesh;
+    const struct material material = metal(poisson);
+    const double size[2] = {RADIUS, length};
+    const size_t cells[3] = {2, 2, along};
+    solid_shape_cylinder(type, size, cells, &material, &mesh);
+    flexed_make(flexed, &mesh, shift_for(length), held);
+}
+
+/* in the middle of the end of a short cylinder and of a rod, where an axisymmetric solution is
+ * known, which elements of 4 mm on a radius of 10 mm meet to 2e-4 */
+static void end_is_that_of_the_axisymmetric_solution(void **state)
+{
+    (void)state;
+    static const struct {
+        enum element_type type;
+        double poisson, slenderness;
+        size_t along;
+    } CASES[] = {{ELEMENT_HEX27, 0.3, 2.0, 6},
+                 {ELEMENT_HEX20, 0.33, 10.0, 24},
+                 {ELEMENT_TET10, 0.0, 3.0, 6}};
+    for (size_t i = 0; i < COUNT(CASES); i++) {
+        struct flexed flexed;
+        double expected;
+        cylinder(&flexed, CASES[i].type, CASES[i].poisson, CASES[i].slenderness * RADIUS,
+                 CASES[i].along, false);
+        assert_true(matched_cylinder(CASES[i].poisson, CASES[i].slenderness, &expected));
+        struct flexibility_place place = flexed_place(&flexed, 0.0, 0.0, 0.0);
+        struct flexibility_answer answer = flexed_solve(&flexed, &place);
+        measured("end of a cylinder, E b C", answer.value * YOUNG * RADIUS, expected, 0.001);
+        /* quadrature; refused from 1e-6 on */
+        assert_true(answer.imbalance < 3e-7);
+        flexed_free(&flexed);
+    }
+}
+
+static void ball(const double cube[3], double point[3])
+{
+    double x[3], square[3];
+    for (int k = 0; k < 3; k++) {
+        x[k] = 2.0 * cube[k] - 1.0;
+        square[k] = x[k] * x[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        double a = square[(k + 1) % 3], b = square[(k + 2) % 3];
+        point[k] = RADIUS * x[k] * sqrt(fmax(1.0 - 0.5 * (a + b) + a * b / 3.0, 0.0));
+    }
+}
+
+/* A contact of a hundredth of the radius anywhere on a sphere against the sum of harmonics. The
+ * solved field has a logarithm at the place, which elements of a fifth of the radius catch to .005,
+ * falling with their size; the curvature of the mesh's faces moves it by .002. */
+static void sphere_is_that_of_harmonics(void **state)
+{
+    (void)state;
+    static const double POISSON = 0.3, CONTACT = 0.01;
+    static const double WAYS[3][3] = {{0.05, 0.02, 1.0}, {0.3, 0.35, 0.8}, {-0.6, 0.1, 0.2}};
+    struct block block = {ELEMENT_HEX27, {8, 8, 8}, ball, false};
+    struct solid_mesh mesh = block_make(&block);
+    struct flexed flexed;
+    mesh.part[0].material = metal(POISSON);
+    flexed_make(&flexed, &mesh, shift_for(RADIUS), false);
+    for (size_t i = 0; i < COUNT(WAYS); i++) {
+        double scale = RADIUS / norm3(WAYS[i]);
+        struct flexibility_place place =
+            flexed_place(&flexed, scale * WAYS[i][0], scale * WAYS[i][1], scale * WAYS[i][2]);
+        struct flexibility_answer answer = flexed_solve(&flexed, &place);
+        double curvature = 1.0 / RADIUS;
+        double value =
+            answer.value + flexibility_of_contact(YOUNG, POISSON, curvature) +
+            flexibility_slope(YOUNG, POISSON, curvature) * log(answer.radius / (CONTACT * RADIUS));
+        measured("sphere, E R C", value * YOUNG * RADIUS, matched_sphere(POISSON, CONTACT), 0.004);
+    }
+    flexed_free(&flexed);
+}
+
+/* displacement of the far end of a held cylinder under a uniform load of 1 N there */
+static double uniform_pull(struct flexed *flexed, double shift)
+{
+    size_t n = flexed->matrices.stiffness.n;
+    double *u = calloc(n, sizeof *u), *force = calloc(n, sizeof *force),
+           *image = malloc(n * sizeof *u);
+    struct fault fault;
+    assert_true(u && force && image);
+    const struct surface_rule *rule = flexibility_rule(flexed->flexibility);
+    double area = 0.0, end = flexed->mesh.points[flexed->mesh.set[1].nodes[0]][0], mean = 0.0;
+    for (size_t f = 0; f < flexed->surface.face_count; f++) {
+        const struct surface_face *face = &flexed->surface.faces[f];
+        if (fabs(rule->centres[f][0] - end) > 1e-9)
+            continue;
+        for (size_t i = rule->first[f]; i < rule->first[f + 1]; i++) {
+            area += rule->areas[i][0];
+            for (size_t k = 0; k < face->count; k++)
+                force[3 * face->nodes[k]] +=
+                    rule->areas[i][0] * rule->shapes[face->count][i - rule->first[f]][k];
+        }
+    }
+    for (size_t i = 0; i < n; i++)
+        force[i] /= area;
+    /* (K + s M) u = f + s M u, until nothing changes: 1e-9 */
+    for (int step = 0; step < 40; step++) {
+        sparse_multiply(&flexed->matrices.mass, 1, u, image);
+        for (size_t i = 0; i < n; i++)
+            u[i] = force[i] + shift * image[i];
+        assert_int_equal(factor_solve(flexed->factor, 1, u, &fault), PERCUSS_OK);
+    }
+    for (size_t i = 0; i < n; i++)
+        mean += force[i] * u[i];
+    free(u);
+    free(force);
+    free(image);
+    return mean;
+}
+
+/* Held at one end, of one material and of two: far from the end a load in its middle is as good as
+ * a uniform one, and what it has more is what a long free rod has more than L / (3 E A). That of a
+ * rod of the length L falls like 1/L to its limit. */
+static void held_rod_differs_from_a_free_one_by_its_stretch(void **state)
+{
+    (void)state;
+    for (int materials = 1; materials <= 2; materials++) {
+        struct flexed flexed;
+        struct solid_mesh mesh;
+        const struct material material = metal(0.3);
+        const double size[2] = {RADIUS, 8.0 * RADIUS};
+        const size_t cells[3] = {2, 2, 20};
+        double longer, long_rod, shift = 0.1 * shift_for(size[1]);
+        solid_shape_cylinder(ELEMENT_HEX20, size, cells, &material, &mesh);
+        if (materials == 2) {
+            /* the held half is softer, and bulges otherwise */
+            mesh.part_count = 2;
+            mesh.part = realloc(mesh.part, 2 * sizeof *mesh.part);
+            mesh.part[1] = mesh.part[0];
+            mesh.part[1].material.young = 0.3 * YOUNG;
+            mesh.part[1].material.poisson = 0.4;
+            for (size_t e = 0; e < mesh.element_count; e++)
+                mesh.parts[e] = mesh.points[mesh.nodes[mesh.first[e] + 6]][0] < 0.51 * size[1];
+        }
+        flexed_make(&flexed, &mesh, shift, true);
+        struct flexibility_place place = flexed_place(&flexed, size[1], 0.0, 0.0);
+        struct flexibility_answer answer = flexed_solve(&flexed, &place);
+        double stretch = uniform_pull(&flexed, shift);
+        assert_true(matched_cylinder(0.3, 96.0, &longer) && matched_cylinder(0.3, 48.0, &long_rod));
+        longer -= 96.0 / (3.0 * M_PI);
+        long_rod -= 48.0 / (3.0 * M_PI);
+        measured("held rod, E b (C - stretch)", (answer.value - stretch) * YOUNG * RADIUS,
+                 2.0 * longer - long_rod, 0.001);
+        flexed_free(&flexed);
+    }
+}
+
+/* How far out the singular line goes does not matter, on convex bodies and inside a ring, which
+ * crosses it: what is left is how well the mesh takes tractions of the reach's size. */
+static void ring(const double cube[3], double point[3])
+{
+    double r = 0.02 + 0.01 * cube[0], angle = 5.0 * cube[1];
+    point[0] = r * cos(angle);
+    point[1] = r * sin(angle);
+    point[2] = 0.01 * cube[2];
+}
+
+static void reach_does_not_matter(void **state)
+{
+    (void)state;
+    struct flexed flexed;
+    cylinder(&flexed, ELEMENT_HEX20, 0.3, 3.0 * RADIUS, 8, false);
+    struct flexibility_place place = flexed_place(&flexed, 0.015, RADIUS, 0.0);
+    assert_true(isinf(place.load.reach));
+    double whole = flexed_solve(&flexed, &place).value;
+    place.load.reach = 0.7 * RADIUS;
+    measured("side of a cylinder", flexed_solve(&flexed, &place).value * YOUNG * RADIUS,
+             whole * YOUNG * RADIUS, 1e-3);
+    flexed_free(&flexed);
+
+    struct block block = {ELEMENT_HEX20, {2, 20, 2}, ring, false};
+    struct solid_mesh mesh = block_make(&block);
+    mesh.part[0].material = metal(0.3);
+    flexed_make(&flexed, &mesh, shift_for(0.2), false);
+    place = flexed_place(&flexed, 0.02 * cos(2.5), 0.02 * sin(2.5), 0.005);
+    /* half the height where a cone of 45 degrees meets a circle: half its radius */
+    near_relative(place.load.reach, 0.01, 0.1);
+    double inside = flexed_solve(&flexed, &place).value;
+    place.load.reach = 0.005;
+    measured("inside a ring", flexed_solve(&flexed, &place).value * YOUNG * RADIUS,
+             inside * YOUNG * RADIUS, 2e-3);
+    flexed_free(&flexed);
+}
+
+/* What one force does at another's place is what that one does at this: two different fields are
+ * split off, and the mesh makes the difference. */
+static void responses_are_reciprocal(void **state)
+{
+    (void)state;
+    struct flexed flexed;
+    struct fault fault;
+    struct flexibility_answer answers[3];
+    cylinder(&flexed, ELEMENT_HEX27, 0.3, 3.0 * RADIUS, 9, false);
+    struct flexibility_place places[3] = {flexed_place(&flexed, 0.0, 0.0, 0.0),
+                                          flexed_place(&flexed, 0.015, RADIUS, 0.0),
+                                          flexed_place(&flexed, 0.0, 0.0, 0.3 * RADIUS)};
+    assert_int_equal(flexibility_solve(flexed.flexibility, 3, places, answers, &fault), PERCUSS_OK);
+    double to = flexibility_response(flexed.flexibility, 0, &places[1]);
+    double from = flexibility_response(flexed.flexibility, 1, &places[0]);
+    measured("end and side", to * YOUNG * RADIUS, from * YOUNG * RADIUS, 1e-3);
+
+    /* solved alone or together is the same */
+    struct flexibility_answer alone = flexed_solve(&flexed, &places[1]);
+    near_relative(alone.value, answers[1].value, 1e-9);
+    flexed_free(&flexed);
+}
+
+/* A mode more that is removed takes phi^2 / w^2 with it, however many there are. The mesh's own
+ * mode obeys the field's equations to its discretisation's error: .0001 for elements of 3 mm. */
+static void modes_take_their_part(void **state)
+{
+    (void)state;
+    static const size_t COUNTS[] = {4, 12, 24};
+    struct flexed flexed;
+    struct solved solved;
+    cylinder(&flexed, ELEMENT_HEX27, 0.3, 3.0 * RADIUS, 9, false);
+    solve_mesh(&flexed.mesh, 0, INFINITY, 24, &solved);
+    struct flexibility_place places[2] = {flexed_place(&flexed, 0.0, 0.0, 0.4 * RADIUS),
+                                          flexed_place(&flexed, 0.012, RADIUS, 0.0)};
+    double whole[2];
+    size_t n = flexed.matrices.stiffness.n;
+    for (size_t i = 0; i < 2; i++)
+        whole[i] = flexed_solve(&flexed, &places[i]).value;
+    for (size_t c = 0; c < COUNT(COUNTS); c++) {
+        flexibility_free(flexed.flexibility);
+        flexed.body.removed = COUNTS[c];
+        flexed.body.shapes = solved.modes.shapes;
+        flexed.body.omega = solved.modes.omega;
+        flexed.flexibility = flexibility_make(&flexed.body);
+        assert_non_null(flexed.flexibility);
+        for (size_t i = 0; i < 2; i++) {
+            double taken = 0.0;
+            for (size_t k = 0; k < COUNTS[c]; k++) {
+                double p = flexed_shape(&flexed, &places[i], solved.modes.shapes + k * n);
+                taken += p * p / (solved.modes.omega[k] * solved.modes.omega[k]);
+            }
+            measured("without modes, E b C",
+                     flexed_solve(&flexed, &places[i]).value * YOUNG * RADIUS,
+                     (whole[i] - taken) * YOUNG * RADIUS, 3e-4);
+        }
+    }
+    solved_free(&solved);
+    flexed_free(&flexed);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(end_is_that_of_the_axisymmetric_solution),
+        cmocka_unit_test(sphere_is_that_of_harmonics),
+        cmocka_unit_test(held_rod_differs_from_a_free_one_by_its_stretch),
+        cmocka_unit_test(reach_does_not_matter),
+        cmocka_unit_test(responses_are_reciprocal),
+        cmocka_unit_test(modes_take_their_part),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
