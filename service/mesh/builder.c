@@ -1,0 +1,329 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "mesh/builder.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesh/element.h"
+#include "mesh/grow.h"
+
+/* a node's label and its place in the list of nodes */
+struct label {
+    size_t label, index;
+};
+
+/* nodes found by label, and their numbers in the mesh (SIZE_MAX: in no element) */
+struct index {
+    size_t count;
+    struct label *labels; /* ascending */
+    size_t *numbers;      /* [count], by place in the list of nodes */
+};
+
+bool builder_append(struct builder_list *list, size_t value)
+{
+    if (!GROW(list->values, list->count, list->room))
+        return false;
+    list->values[list->count++] = value;
+    return true;
+}
+
+bool builder_add_node(struct builder *builder, size_t label, const double point[3])
+{
+    if (!GROW(builder->nodes, builder->node_count, builder->node_room))
+        return false;
+    struct builder_node *node = &builder->nodes[builder->node_count++];
+    node->label = label;
+    memcpy(node->point, point, sizeof node->point);
+    return true;
+}
+
+bool builder_add_element(struct builder *builder, enum element_type type, size_t label, size_t part,
+                         const size_t *nodes)
+{
+    size_t first = builder->connectivity.count;
+    if (!GROW(builder->elements, builder->element_count, builder->element_room))
+        return false;
+    for (size_t i = 0; i < element_node_count(type); i++)
+        if (!builder_append(&builder->connectivity, nodes[i]))
+            return false;
+    builder->elements[builder->element_count++] =
+        (struct builder_element){label, first, part, (unsigned char)type};
+    return true;
+}
+
+static void copy_name(char to[MESH_NAME_SIZE], const char *from)
+{
+    snprintf(to, MESH_NAME_SIZE, "%s", from);
+}
+
+size_t builder_part(struct builder *builder, const char *name)
+{
+    char cut[MESH_NAME_SIZE];
+    copy_name(cut, name);
+    for (size_t i = 0; i < builder->part_count; i++)
+        if (strcmp(builder->parts[i].name, cut) == 0)
+            return i;
+    if (!GROW(builder->parts, builder->part_count, builder->part_room))
+        return SIZE_MAX;
+    struct mesh_part *part = &builder->parts[builder->part_count];
+    memset(part, 0, sizeof *part);
+    memcpy(part->name, cut, sizeof cut);
+    return builder->part_count++;
+}
+
+size_t builder_set(struct builder *builder, const char *name)
+{
+    char cut[MESH_NAME_SIZE];
+    copy_name(cut, name);
+    for (size_t i = 0; i < builder->set_count; i++)
+        if (strcmp(builder->sets[i].name, cut) == 0)
+            return i;
+    if (!GROW(builder->sets, builder->set_count, builder->set_room))
+        return SIZE_MAX;
+    struct builder_set *set = &builder->sets[builder->set_count];
+    memset(set, 0, sizeof *set);
+    memcpy(set->name, cut, sizeof cut);
+    return builder->set_count++;
+}
+
+static int compare_labels(const void *left, const void *right)
+{
+    const struct label *a = left, *b = right;
+    if (a->label != b->label)
+        return a->label < b->label ? -1 : 1;
+    return a->index < b->index ? -1 : a->index > b->index;
+}
+
+static int compare_numbers(const void *left, const void *right)
+{
+    size_t a = *(const size_t *)left, b = *(const size_t *)right;
+    return a < b ? -1 : a > b;
+}
+
+/* the place of a label among the nodes; SIZE_MAX: there is none */
+static size_t find(const struct index *index, size_t label)
+{
+    size_t low = 0, high = index->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (index->labels[middle].label < label)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < index->count && index->labels[low].label == label ? index->labels[low].index
+                                                                   : SIZE_MAX;
+}
+
+static enum percuss_status out_of_memory(const char *file, struct fault *fault)
+{
+    return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", file);
+}
+
+static enum percuss_status make_index(const struct builder *builder, const char *file,
+                                      struct index *index, struct fault *fault)
+{
+    index->count = builder->node_count;
+    index->labels = malloc((index->count + 1) * sizeof *index->labels);
+    index->numbers = malloc((index->count + 1) * sizeof *index->numbers);
+    if (!index->labels || !index->numbers)
+        return out_of_memory(file, fault);
+    for (size_t i = 0; i < index->count; i++) {
+        index->labels[i] = (struct label){builder->nodes[i].label, i};
+        index->numbers[i] = SIZE_MAX;
+    }
+    qsort(index->labels, index->count, sizeof *index->labels, compare_labels);
+    for (size_t i = 1; i < index->count; i++)
+        if (index->labels[i].label == index->labels[i - 1].label)
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "%s: node %zu: is there twice: each must have a number of its own",
+                             file, index->labels[i].label);
+    return PERCUSS_OK;
+}
+
+/* no number for two elements; they may come in any order */
+static enum percuss_status check_elements(const struct builder *builder, const char *file,
+                                          struct fault *fault)
+{
+    size_t count = builder->element_count, *labels = malloc((count + 1) * sizeof *labels);
+    if (!labels)
+        return out_of_memory(file, fault);
+    for (size_t i = 0; i < count; i++)
+        labels[i] = builder->elements[i].label;
+    qsort(labels, count, sizeof *labels, compare_numbers);
+    enum percuss_status status = PERCUSS_OK;
+    for (size_t i = 1; i < count && status == PERCUSS_OK; i++)
+        if (labels[i] == labels[i - 1])
+            status =
+                fault_set(fault, PERCUSS_BAD_REQUEST,
+                          "%s: element %zu: is there twice: each must have a number of its own",
+                          file, labels[i]);
+    free(labels);
+    return status;
+}
+
+static enum percuss_status take_memory(const struct builder *builder, const char *file,
+                                       struct solid_mesh *mesh, struct fault *fault)
+{
+    size_t elements = builder->element_count, nodes = builder->connectivity.count;
+    mesh->points = malloc((builder->node_count + 1) * sizeof *mesh->points);
+    mesh->labels = malloc((builder->node_count + 1) * sizeof *mesh->labels);
+    mesh->types = malloc(elements + 1);
+    mesh->first = malloc((elements + 1) * sizeof *mesh->first);
+    mesh->nodes = malloc((nodes + 1) * sizeof *mesh->nodes);
+    mesh->parts = malloc((elements + 1) * sizeof *mesh->parts);
+    mesh->element_labels = malloc((elements + 1) * sizeof *mesh->element_labels);
+    mesh->part = calloc(builder->part_count + 1, sizeof *mesh->part);
+    mesh->set = calloc(builder->set_count + 1, sizeof *mesh->set);
+    return mesh->points && mesh->labels && mesh->types && mesh->first && mesh->nodes &&
+                   mesh->parts && mesh->element_labels && mesh->part && mesh->set
+               ? PERCUSS_OK
+               : out_of_memory(file, fault);
+}
+
+/* elements in the order of the file, nodes in the order of their first use */
+static enum percuss_status place_elements(const struct builder *builder, const char *file,
+                                          struct index *index, struct solid_mesh *mesh,
+                                          struct fault *fault)
+{
+    for (size_t e = 0; e < builder->element_count; e++) {
+        const struct builder_element *element = &builder->elements[e];
+        size_t count = element_node_count(element->type);
+        mesh->types[e] = element->type;
+        mesh->first[e] = element->first;
+        mesh->parts[e] = element->part;
+        mesh->element_labels[e] = element->label;
+        for (size_t i = element->first; i < element->first + count; i++) {
+            size_t at = find(index, builder->connectivity.values[i]);
+            if (at == SIZE_MAX)
+                return fault_set(fault, PERCUSS_BAD_REQUEST,
+                                 "%s: element %zu: node %zu: must be one of the file's nodes", file,
+                                 element->label, builder->connectivity.values[i]);
+            if (index->numbers[at] == SIZE_MAX)
+                index->numbers[at] = mesh->node_count++;
+            mesh->nodes[i] = index->numbers[at];
+        }
+        mesh->element_count++;
+        mesh->first[e + 1] = element->first + count;
+    }
+    return PERCUSS_OK;
+}
+
+static enum percuss_status place_nodes(const struct builder *builder, const char *file,
+                                       const struct index *index, struct solid_mesh *mesh,
+                                       struct fault *fault)
+{
+    for (size_t i = 0; i < builder->node_count; i++) {
+        const struct builder_node *node = &builder->nodes[i];
+        size_t number = index->numbers[i];
+        if (number == SIZE_MAX)
+            continue;
+        mesh->labels[number] = node->label;
+        for (int k = 0; k < 3; k++) {
+            mesh->points[number][k] = mesh->unit * node->point[k];
+            if (!isfinite(mesh->points[number][k]))
+                return fault_set(fault, PERCUSS_BAD_REQUEST,
+                                 "%s: node %zu: %g: coordinates must be finite numbers", file,
+                                 node->label, node->point[k]);
+        }
+    }
+    return PERCUSS_OK;
+}
+
+/* parts that have elements, numbered anew */
+static bool place_parts(const struct builder *builder, struct solid_mesh *mesh)
+{
+    size_t *numbers = malloc((builder->part_count + 1) * sizeof *numbers);
+    if (!numbers)
+        return false;
+    for (size_t i = 0; i < builder->part_count; i++)
+        numbers[i] = SIZE_MAX;
+    for (size_t e = 0; e < mesh->element_count; e++) {
+        size_t old = mesh->parts[e];
+        if (numbers[old] == SIZE_MAX) {
+            numbers[old] = mesh->part_count;
+            mesh->part[mesh->part_count++] = builder->parts[old];
+        }
+        mesh->parts[e] = numbers[old];
+    }
+    free(numbers);
+    return true;
+}
+
+/* nodes of elements, ascending and once each; sets without any are dropped */
+static bool place_sets(const struct builder *builder, const struct index *index,
+                       struct solid_mesh *mesh)
+{
+    for (size_t s = 0; s < builder->set_count; s++) {
+        const struct builder_list *labels = &builder->sets[s].labels;
+        struct mesh_set *set = &mesh->set[mesh->set_count];
+        size_t *nodes = malloc((labels->count + 1) * sizeof *nodes), count = 0;
+        if (!nodes)
+            return false;
+        for (size_t i = 0; i < labels->count; i++) {
+            size_t at = find(index, labels->values[i]);
+            if (at != SIZE_MAX && index->numbers[at] != SIZE_MAX)
+                nodes[count++] = index->numbers[at];
+        }
+        qsort(nodes, count, sizeof *nodes, compare_numbers);
+        for (size_t i = 0; i < count; i++)
+            if (i == 0 || nodes[i] != nodes[i - 1])
+                nodes[set->count++] = nodes[i];
+        if (set->count == 0) {
+            free(nodes);
+            continue;
+        }
+        set->nodes = nodes;
+        memcpy(set->name, builder->sets[s].name, sizeof set->name);
+        mesh->set_count++;
+    }
+    return true;
+}
+
+enum percuss_status builder_finish(const struct builder *builder, const char *file, double unit,
+                                   struct solid_mesh *mesh, struct fault *fault)
+{
+    struct index index = {0};
+    memset(mesh, 0, sizeof *mesh);
+    mesh->unit = unit;
+    enum percuss_status status = PERCUSS_OK;
+    if (builder->element_count == 0)
+        status = fault_set(fault, PERCUSS_BAD_REQUEST,
+                           "%s: no solid elements: must have 10-node tetrahedra, 20- or 27-node "
+                           "hexahedra (does the file hold the surface only?)",
+                           file);
+    if (status == PERCUSS_OK)
+        status = make_index(builder, file, &index, fault);
+    if (status == PERCUSS_OK)
+        status = check_elements(builder, file, fault);
+    if (status == PERCUSS_OK)
+        status = take_memory(builder, file, mesh, fault);
+    if (status == PERCUSS_OK)
+        status = place_elements(builder, file, &index, mesh, fault);
+    if (status == PERCUSS_OK)
+        status = place_nodes(builder, file, &index, mesh, fault);
+    if (status == PERCUSS_OK && !(place_parts(builder, mesh) && place_sets(builder, &index, mesh)))
+        status = out_of_memory(file, fault);
+    free(index.labels);
+    free(index.numbers);
+    if (status != PERCUSS_OK)
+        solid_mesh_free(mesh);
+    return status;
+}
+
+void builder_free(struct builder *builder)
+{
+    free(builder->nodes);
+    free(builder->elements);
+    free(builder->connectivity.values);
+    free(builder->parts);
+    for (size_t i = 0; i < builder->set_count; i++)
+        free(builder->sets[i].labels.values);
+    free(builder->sets);
+    memset(builder, 0, sizeof *builder);
+}

@@ -1,0 +1,65 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Collects what the file of a mesh says by the file's own numbers, and makes a solid_mesh of it. */
+#ifndef PERCUSS_MESH_BUILDER_H
+#define PERCUSS_MESH_BUILDER_H
+
+#include "mesh/solid_mesh.h"
+
+/* A list that grows. */
+struct builder_list {
+    size_t count, room;
+    size_t *values;
+};
+
+struct builder_node {
+    size_t label;
+    double point[3]; /* in units of the file */
+};
+
+struct builder_element {
+    size_t label, first, part;
+    unsigned char type;
+};
+
+struct builder_set {
+    char name[MESH_NAME_SIZE];
+    struct builder_list labels; /* of nodes */
+};
+
+/* Zeroed to begin with. Whatever adds returns false when it is out of memory. */
+struct builder {
+    size_t node_count, node_room;
+    struct builder_node *nodes;
+    size_t element_count, element_room;
+    struct builder_element *elements;
+    struct builder_list connectivity; /* labels of nodes, element by element, in Gmsh's order */
+    size_t part_count, part_room;
+    struct mesh_part *parts;
+    size_t set_count, set_room;
+    struct builder_set *sets;
+};
+
+bool builder_append(struct builder_list *list, size_t value);
+
+bool builder_add_node(struct builder *builder, size_t label, const double point[3]);
+
+/* `nodes`: labels, element_node_count(type) of them. */
+bool builder_add_element(struct builder *builder, enum element_type type, size_t label, size_t part,
+                         const size_t *nodes);
+
+/* The index of the part or set of a name, made where there is none; SIZE_MAX: out of memory. Names
+ * that are too long are cut. */
+size_t builder_part(struct builder *builder, const char *name);
+size_t builder_set(struct builder *builder, const char *name);
+
+/* Makes the mesh, lengths times `unit`; parts, sets and nodes that no element uses are dropped.
+ * `file` begins messages. PERCUSS_BAD_REQUEST: no elements, labels that are there twice or not at
+ * all, points that are no numbers. */
+enum percuss_status builder_finish(const struct builder *builder, const char *file, double unit,
+                                   struct solid_mesh *mesh, struct fault *fault);
+
+void builder_free(struct builder *builder);
+
+#endif

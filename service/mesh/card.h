@@ -1,0 +1,37 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Lines of an input deck: keyword lines "*NAME, KEY=VALUE, KEY" and data "1, 2.5, text". */
+#ifndef PERCUSS_MESH_CARD_H
+#define PERCUSS_MESH_CARD_H
+
+#include "mesh/scan.h"
+
+enum { CARD_LINE_SIZE = 1024, CARD_MOST_PARAMETERS = 12, CARD_TEXT_SIZE = 256 };
+
+struct card {
+    char name[CARD_TEXT_SIZE]; /* in capitals, without the star */
+    int parameter_count;
+    struct {
+        char key[CARD_TEXT_SIZE], value[CARD_TEXT_SIZE]; /* the key in capitals */
+    } parameters[CARD_MOST_PARAMETERS];
+};
+
+/* The next line that is neither empty nor a comment, keyword lines that end with a comma together
+ * with the next one. False: the file ends, or (with a message) the line is too long. */
+bool card_line(struct scan *scan, char line[CARD_LINE_SIZE], enum percuss_status *status);
+
+/* Takes a keyword line apart, destroying it. */
+void card_parse(char *line, struct card *card);
+
+/* A parameter's value, "" where it has none; NULL: it is not there. */
+const char *card_value(const struct card *card, const char *key);
+
+/* The next field of a line of data without white space around it; NULL: there is none. */
+char *card_field(char **cursor);
+
+/* Numbers in fields; false with a message naming `what`. An empty or missing field is refused. */
+bool card_label(const struct scan *scan, const char *what, const char *field, size_t *value);
+bool card_real(const struct scan *scan, const char *what, const char *field, double *value);
+
+#endif

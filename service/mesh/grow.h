@@ -1,0 +1,28 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Arrays that grow while a file is read, whatever it says of its length. */
+#ifndef PERCUSS_MESH_GROW_H
+#define PERCUSS_MESH_GROW_H
+
+#include <stdbool.h>
+#include <stdlib.h>
+
+/* Room for one more element of `size` bytes after `count`, twice as much each time. False: out of
+ * memory. */
+static inline bool grow(void **array, size_t count, size_t *room, size_t size)
+{
+    if (count < *room)
+        return true;
+    size_t more = *room ? 2 * *room : 16;
+    void *larger = realloc(*array, more * size);
+    if (!larger)
+        return false;
+    *array = larger;
+    *room = more;
+    return true;
+}
+
+#define GROW(array, count, room) grow((void **)&(array), count, &(room), sizeof *(array))
+
+#endif

@@ -1,0 +1,16 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Input decks of Abaqus and CalculiX: nodes, solid elements of second order, sets, sections,
+ * materials, surfaces, up to the first *STEP. */
+#ifndef PERCUSS_MESH_INP_H
+#define PERCUSS_MESH_INP_H
+
+#include "mesh/solid_mesh.h"
+
+/* Element sets with a *SOLID SECTION are the parts, else the ELSETs of *ELEMENT; *NSET, *SURFACE
+ * and sets of shells are sets of nodes. */
+enum percuss_status inp_read(const char *path, double unit, struct solid_mesh *mesh,
+                             struct fault *fault);
+
+#endif
