@@ -27,6 +27,19 @@ static json_t *supports(const struct percuss_body *body)
     return array;
 }
 
+static json_t *sites(const struct percuss_body *body)
+{
+    json_t *array = json_array();
+    for (size_t i = 0; i < body->site_count; i++) {
+        json_t *object = json_object();
+        json_object_set_new(object, "name", json_string(body->sites[i].name));
+        json_object_set_new(object, "point", numbers(body->sites[i].point, 3));
+        json_object_set_new(object, "normal", numbers(body->sites[i].normal, 3));
+        json_array_append_new(array, object);
+    }
+    return array;
+}
+
 static void print_json(const struct percuss_body_list *list)
 {
     json_t *root = json_object(), *array = json_array();
@@ -48,6 +61,9 @@ static void print_json(const struct percuss_body_list *list)
             if (p != PERCUSS_PARAMETER_RADIUS)
                 json_object_set_new(object, percuss_parameter_name(p),
                                     json_number(body->parameters[p]));
+        json_object_set_new(object, "inertia", numbers(body->inertia, 3));
+        json_object_set_new(object, "products", numbers(body->products, 3));
+        json_object_set_new(object, "sites", sites(body));
         json_array_append_new(array, object);
     }
     json_print(root);
@@ -60,6 +76,8 @@ static void print_table(const struct percuss_body_list *list)
         const struct percuss_body *body = &list->bodies[i];
         printf("%-20s %-10s %-12s %12.6g  %s\n", body->id, body->shape, body->material, body->mass,
                body->description);
+        for (size_t s = 0; s < body->site_count; s++)
+            printf("%-20s %s %s\n", "", s ? "     " : "sites", body->sites[s].name);
     }
 }
 

@@ -46,8 +46,8 @@ struct ensemble {
 static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "DIST", 0, "speed of A towards B, m/s: a distribution", 10},
     {"input", KEY_INPUT, "NAME[@ID]=DIST", 0,
-     "another uncertain number: direction; site, young, poisson, density, radius, yield, damping "
-     "of a body (again for more)",
+     "another uncertain number: direction; site, young, poisson, density, radius, yield, damping, "
+     "scale of a body (again for more)",
      11},
     {"correlate", KEY_CORRELATE, "I,J=RHO", 0,
      "inputs I and J (0: the first, in order) are correlated", 11},

@@ -16,13 +16,17 @@ enum scene_key {
     KEY_HORIZON,
     KEY_CONTACT_MODEL,
     KEY_METHOD,
-    KEY_COMPLIANCE
+    KEY_COMPLIANCE,
+    KEY_AT_A,
+    KEY_AT_B
 };
 
 static const struct argp_option scene_options[] = {
     {"a", KEY_A, "ID", 0, "the moving body", 10},
     {"b", KEY_B, "ID", 0, "the body at rest; percuss bodies lists them", 10},
     {"at", KEY_AT, "S", 0, "place of the impact along a beam, 0..1 (default 0.5)", 10},
+    {"at-a", KEY_AT_A, "NAME", 0, "place of the impact on the moving body: a site's name", 10},
+    {"at-b", KEY_AT_B, "NAME", 0, "the same on the body at rest (default: its first site)", 10},
     {"tolerance", KEY_TOLERANCE, "T", 0, "wanted accuracy of the restitution (default 1e-3)", 20},
     {"horizon", KEY_HORIZON, "T", 0, "s; give up watching the bodies after this time", 20},
     {"contact-model", KEY_CONTACT_MODEL, "M", 0,
@@ -101,6 +105,12 @@ static error_t parse_scene(int key, char *text, struct argp_state *state)
     case KEY_AT:
         parse_site(text, scene, state);
         break;
+    case KEY_AT_A:
+        scene->at_a = text;
+        break;
+    case KEY_AT_B:
+        scene->at_b = text;
+        break;
     case KEY_TOLERANCE:
         options->tolerance = parse_positive("tolerance", text, state);
         break;
@@ -154,6 +164,8 @@ int scene_find_bodies(const struct scene *scene, const struct common *common,
     bodies->pair =
         percuss_pair_default(find_or_invent(&bodies->list, scene->a, &bodies->strangers[0]),
                              find_or_invent(&bodies->list, scene->b, &bodies->strangers[1]));
+    bodies->pair.site_a = scene->at_a;
+    bodies->pair.site_b = scene->at_b;
     /* of two beams the one at rest is hit at S */
     bool b_is_beam = !strcmp(bodies->pair.b->shape, "beam");
     if (scene->at_given && !b_is_beam && strcmp(bodies->pair.a->shape, "beam") != 0)

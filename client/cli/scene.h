@@ -17,7 +17,8 @@ struct scene {
     size_t b_count, model_count;
     double at;
     bool at_given;
-    bool given; /* any flag */
+    const char *at_a, *at_b; /* names of sites; NULL: not given */
+    bool given;              /* any flag */
     struct percuss_options options;
 };
 

@@ -20,8 +20,18 @@ static void convert_body(const percuss_v1_Body *wire, struct percuss_body *body)
     memcpy(body->shape, wire->shape, sizeof body->shape);
     memcpy(body->material, wire->material, sizeof body->material);
     memcpy(body->description, wire->description, sizeof body->description);
-    _Static_assert(sizeof body->parameters == sizeof wire->parameters, "as many as on the wire");
-    memcpy(body->parameters, wire->parameters, sizeof body->parameters);
+    _Static_assert(sizeof body->parameters == sizeof wire->parameters + sizeof wire->scale,
+                   "as many as on the wire");
+    memcpy(body->parameters, wire->parameters, sizeof wire->parameters);
+    body->parameters[PERCUSS_PARAMETER_SCALE] = wire->scale;
+    memcpy(body->inertia, wire->inertia, sizeof body->inertia);
+    memcpy(body->products, wire->products, sizeof body->products);
+    for (uint32_t i = 0; i < wire->sites._length && i < PERCUSS_MAX_SITES; i++) {
+        struct percuss_site *site = &body->sites[body->site_count++];
+        memcpy(site->name, wire->sites._buffer[i].name, sizeof site->name);
+        memcpy(site->point, wire->sites._buffer[i].point, sizeof site->point);
+        memcpy(site->normal, wire->sites._buffer[i].normal, sizeof site->normal);
+    }
     memcpy(body->half_extents, wire->half_extents, sizeof body->half_extents);
 }
 

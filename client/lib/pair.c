@@ -2,10 +2,11 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Places two bodies so that they touch at their default sites. All site normals are axes of the
- * body, so every rotation is a quarter or a half turn. */
+ * body but for sites with names, so every other rotation is a quarter or a half turn. */
 
 #include <math.h>
 #include <percuss/server.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "error.h"
@@ -28,6 +29,30 @@ static struct site face_site(const struct percuss_body *body, int axis, double s
     site.point[axis] = side * body->half_extents[axis];
     site.normal[axis] = side;
     return site;
+}
+
+/* The site of that name, or the first one. */
+static enum percuss_result named_site(const struct percuss_body *body, const char *name,
+                                      struct site *site)
+{
+    char known[400] = "";
+    for (size_t i = 0; i < body->site_count; i++) {
+        const struct percuss_site *one = &body->sites[i];
+        size_t length = strlen(known);
+        if (!name || strcmp(name, one->name) == 0) {
+            memcpy(site->point, one->point, sizeof site->point);
+            memcpy(site->normal, one->normal, sizeof site->normal);
+            return PERCUSS_RESULT_OK;
+        }
+        snprintf(known + length, sizeof known - length, "%s%s", i ? ", " : "", one->name);
+    }
+    if (name && body->site_count > 0)
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "site: '%s': %s has the sites %s", name,
+                         body->id, known);
+    return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                     "%s: a body of shape '%s' has no sites with names: declare some in the "
+                     "catalogue, or send a whole request",
+                     body->id, body->shape);
 }
 
 /* The default site in the body frame; false for an unknown shape. */
@@ -73,11 +98,39 @@ static void rotate(const double q[4], const double v[3], double result[3])
         result[i] = v[i] + 2.0 * (q[0] * once[i] + twice[i]);
 }
 
-/* The smallest rotation that takes `from` to `to`, both along axes. Of the half turns it takes the
- * one about x for +-z and the one about y for +-x. */
+static bool is_axis(const double v[3])
+{
+    return fabs(v[0]) == 1.0 || fabs(v[1]) == 1.0 || fabs(v[2]) == 1.0;
+}
+
+/* Between any unit vectors: half way between no turn (1, 0) and twice the turn (cosine, sine). Of
+ * the half turns one about an axis across `from`. */
+static void any_rotation(const double from[3], const double to[3], double q[4])
+{
+    const double least = 1e-12; /* of 1 + cosine: a half turn but for rounding */
+    double sine[3], share = 1.0 + dot(from, to);
+    cross(from, to, sine);
+    if (share < least) {
+        double axis[3] = {0.0, 0.0, 0.0};
+        axis[fabs(from[0]) < 0.6 ? 0 : 1] = 1.0;
+        cross(from, axis, sine);
+        share = 0.0;
+    }
+    double length = sqrt(share * share + dot(sine, sine));
+    q[0] = share / length;
+    for (int i = 0; i < 3; i++)
+        q[1 + i] = sine[i] / length;
+}
+
+/* The smallest rotation that takes `from` to `to`, exact where both are axes. Of the half turns it
+ * takes the one about x for +-z and the one about y for +-x. */
 static void smallest_rotation(const double from[3], const double to[3], double q[4])
 {
     double cosine = dot(from, to), sine[3];
+    if (!is_axis(from) || !is_axis(to)) {
+        any_rotation(from, to, q);
+        return;
+    }
     cross(from, to, sine);
     if (cosine > 0.5) {
         q[0] = 1.0;
@@ -111,8 +164,11 @@ static enum percuss_result check_pair(const struct percuss_pair *pair)
     return PERCUSS_RESULT_OK;
 }
 
-static enum percuss_result find_site(const struct percuss_body *body, double at, struct site *site)
+static enum percuss_result find_site(const struct percuss_body *body, double at, const char *name,
+                                     struct site *site)
 {
+    if (name || !strcmp(body->shape, "mesh"))
+        return named_site(body, name, site);
     if (default_site(body, at, site))
         return PERCUSS_RESULT_OK;
     return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
@@ -127,9 +183,9 @@ enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
     /* where each of them is hit, in its own axes */
     enum percuss_result result = check_pair(pair);
     if (result == PERCUSS_RESULT_OK)
-        result = find_site(pair->a, pair->at_a, &site_a);
+        result = find_site(pair->a, pair->at_a, pair->site_a, &site_a);
     if (result == PERCUSS_RESULT_OK)
-        result = find_site(pair->b, pair->at_b, &site_b);
+        result = find_site(pair->b, pair->at_b, pair->site_b, &site_b);
     if (result != PERCUSS_RESULT_OK)
         return result;
 

@@ -39,7 +39,8 @@
     F(NUMBER, deadline, 0.0, 1e9, "s; from the arrival until the server gives up; 0: none")
 
 #define PERCUSS_INPUT_FIELDS(F, L)                                                                 \
-    F(TEXT, name, "speed, direction; site, young, poisson, density, radius, yield, damping")       \
+    F(TEXT, name,                                                                                  \
+      "speed, direction; site, young, poisson, density, radius, yield, damping, scale")            \
     F(TEXT, body, "its id; empty: the contact's")                                                  \
     F(CHOICE, distribution, distribution, PERCUSS_DISTRIBUTION_COUNT, "of the values")             \
     F(VALUE, first, "the value, the lowest one or the mean")                                       \

@@ -59,7 +59,8 @@
     X(YIELD, "yield")                                                                              \
     X(TANGENT, "tangent")                                                                          \
     X(DAMPING, "damping")                                                                          \
-    X(RADIUS, "radius")
+    X(RADIUS, "radius")                                                                            \
+    X(SCALE, "scale")
 
 #define PERCUSS_STATUS_MEMBER(name, text)     PERCUSS_##name,
 #define PERCUSS_END_MEMBER(name, text)        PERCUSS_END_##name,
@@ -91,6 +92,7 @@ enum {
     PERCUSS_MAX_BODIES = 64,
     PERCUSS_MAX_CONTACTS = 64,
     PERCUSS_MAX_SUB_IMPACTS = 256,
+    PERCUSS_MAX_SITES = 32,
     PERCUSS_MAX_BATCH = 256
 };
 

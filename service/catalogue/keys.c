@@ -139,6 +139,12 @@ enum percuss_status keys_read_value(struct reader *reader, const yaml_node_t *va
         return read_ends(reader, value, key, field);
     case KEY_SECTION:
         return keys_read(reader, (struct entry){value, value}, key->nested, object);
+    case KEY_TEXT:
+        good = value->type == YAML_SCALAR_NODE && value->data.scalar.length > 0;
+        break;
+    case KEY_LIST:
+        good = value->type == YAML_SEQUENCE_NODE;
+        break;
     case KEY_CALLER:
         good = value->type == YAML_MAPPING_NODE;
         break;

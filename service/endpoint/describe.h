@@ -8,7 +8,8 @@
 #include "model/body.h"
 #include "wire.h"
 
-/* Fills everything but the server. */
-void describe_body(const struct body *body, percuss_v1_Body *wire);
+/* Fills everything but the server; `sites` is room for what the sample points to. */
+void describe_body(const struct body *body, percuss_v1_Body *wire,
+                   percuss_v1_BodySite sites[BODY_MOST_SITES]);
 
 #endif

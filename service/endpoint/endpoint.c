@@ -276,15 +276,16 @@ bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *
 {
     bool good = true;
     percuss_v1_Body body;
+    percuss_v1_BodySite sites[BODY_MOST_SITES];
     for (size_t i = 0; before && i < before->count; i++) {
         if (body_set_find(set, before->bodies[i].id))
             continue;
-        describe_body(&before->bodies[i], &body);
+        describe_body(&before->bodies[i], &body, sites);
         memcpy(body.server, endpoint->server, sizeof body.server);
         dds_dispose(endpoint->body_writer, &body);
     }
     for (size_t i = 0; i < set->count; i++) {
-        describe_body(&set->bodies[i], &body);
+        describe_body(&set->bodies[i], &body, sites);
         memcpy(body.server, endpoint->server, sizeof body.server);
         good = write_patiently(endpoint->body_writer, &body) && good;
     }

@@ -32,7 +32,7 @@ static const struct limit *limit_of(enum input_quantity quantity)
         [INPUT_SITE] = &limit_site,       [INPUT_YOUNG] = &limit_young,
         [INPUT_POISSON] = &limit_poisson, [INPUT_DENSITY] = &limit_density,
         [INPUT_RADIUS] = &limit_length,   [INPUT_YIELD] = &limit_yield,
-        [INPUT_DAMPING] = &limit_damping,
+        [INPUT_DAMPING] = &limit_damping, [INPUT_SCALE] = &limit_scale,
     };
     return limits[quantity];
 }

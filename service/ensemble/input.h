@@ -11,7 +11,8 @@
 #include "base/fault.h"
 
 /* speed: at which the contact approaches, m/s. direction: angle of the approach from the contact's
- * normal, rad. site: place of the contact along a rod or beam, 0 .. 1. The others: of a body. */
+ * normal, rad. site: place of the contact along a rod or beam, 0 .. 1. The others: of a body;
+ * scale: of a mesh. */
 #define INPUT_QUANTITY_LIST(X)                                                                     \
     X(SPEED, "speed")                                                                              \
     X(DIRECTION, "direction")                                                                      \
@@ -21,7 +22,8 @@
     X(DENSITY, "density")                                                                          \
     X(RADIUS, "radius")                                                                            \
     X(YIELD, "yield")                                                                              \
-    X(DAMPING, "damping")
+    X(DAMPING, "damping")                                                                          \
+    X(SCALE, "scale")
 #define INPUT_QUANTITY_MEMBER(name, text) INPUT_##name,
 enum input_quantity { INPUT_QUANTITY_LIST(INPUT_QUANTITY_MEMBER) INPUT_QUANTITY_COUNT };
 

@@ -147,7 +147,8 @@ static enum percuss_status check_input(const struct ensemble_spec *spec, size_t 
                          "inputs[%zu].body: %s: must have no state token: its vibration is that of "
                          "the catalogue's %s",
                          i, spec->request->bodies[input->body].id, name);
-    bool moves = input->quantity == INPUT_SITE || input->quantity == INPUT_RADIUS;
+    bool moves = input->quantity == INPUT_SITE || input->quantity == INPUT_RADIUS ||
+                 input->quantity == INPUT_SCALE;
     if (moves && spec->request->contact_count > 1)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "inputs[%zu].name: %s: must be another one where there are %zu contacts: "

@@ -83,6 +83,17 @@ static enum percuss_status check_damping(const struct variation *variation, size
                      index, id);
 }
 
+static enum percuss_status check_scale(const struct variation *variation, size_t index,
+                                       struct fault *fault)
+{
+    const struct ensemble_spec *spec = variation->spec;
+    const char *id = spec->request->bodies[spec->inputs[index].body].id;
+    if (body_set_find(spec->catalogue, id)->mesh)
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "inputs[%zu].body: %s: must be a mesh for the quantity scale", index, id);
+}
+
 enum percuss_status variation_create(struct variation *variation, const struct ensemble_spec *spec,
                                      struct fault *fault)
 {
@@ -101,6 +112,8 @@ enum percuss_status variation_create(struct variation *variation, const struct e
             status = check_radius(variation, i, fault);
         else if (quantity == INPUT_DAMPING)
             status = check_damping(variation, i, fault);
+        else if (quantity == INPUT_SCALE)
+            status = check_scale(variation, i, fault);
         else if (quantity == INPUT_SPEED && !(variation->gap_rate < 0.0))
             status = fault_set(fault, PERCUSS_BAD_REQUEST,
                                "inputs[%zu].name: speed: contacts[%zu] must approach (its gap rate "
@@ -139,6 +152,20 @@ static void keep_touching(struct variation *variation, const char *id, double gr
     }
 }
 
+/* A body that grows about its centre of mass is moved so that the place that is hit stays. */
+static void keep_place(struct variation *variation, const char *id, double growth)
+{
+    struct solve_request *request = &variation->request;
+    const struct solve_contact *contact = &request->contacts[0];
+    for (int side = 0; side < 2; side++) {
+        struct solve_body *body = &request->bodies[side == 0 ? contact->a : contact->b];
+        double arm[3];
+        sub3(contact->point, body->position, arm);
+        if (strcmp(body->id, id) == 0)
+            move(body->position, arm, -growth);
+    }
+}
+
 static void change_body(struct variation *variation, const struct ensemble_input *input,
                         double value)
 {
@@ -168,6 +195,10 @@ static void change_body(struct variation *variation, const struct ensemble_input
     case INPUT_RADIUS:
         keep_touching(variation, id, value - body_set_find(variation->spec->catalogue, id)->radius);
         body->radius = value;
+        break;
+    case INPUT_SCALE:
+        keep_place(variation, id, value / body->scale - 1.0);
+        body->scale = value;
         break;
     default:
         break;

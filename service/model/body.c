@@ -87,6 +87,7 @@ enum percuss_status body_complete(struct body *body, struct fault *fault)
     if (status)
         return status;
     body->area = 0.0;
+    memset(body->products, 0, sizeof body->products);
     for (int plane = 0; plane < 2; plane++) {
         body->second_moment[plane] = 0.0;
         body->shear_factor[plane] = NAN;
@@ -96,7 +97,7 @@ enum percuss_status body_complete(struct body *body, struct fault *fault)
 
 bool body_is_flexible(const struct body *body)
 {
-    return body->kind->family_count > 0;
+    return body->kind->family_count > 0 && !body->rigid;
 }
 
 bool body_bends(const struct body *body)
@@ -119,7 +120,7 @@ struct solid body_solid(const struct body *body)
 
 const char *body_theory(const struct body *body)
 {
-    return body->kind->theory ? body->kind->theory(body) : "rigid";
+    return body->kind->theory && !body->rigid ? body->kind->theory(body) : "rigid";
 }
 
 const struct body *body_set_find(const struct body_set *set, const char *id)
@@ -130,9 +131,39 @@ const struct body *body_set_find(const struct body_set *set, const char *id)
     return NULL;
 }
 
+struct material body_material_at(const struct body *body, const struct site *site)
+{
+    return body->kind->material_at ? body->kind->material_at(body, site) : body->material;
+}
+
+const struct body_site *body_find_site(const struct body *body, const char *name)
+{
+    for (size_t i = 0; i < body->site_count; i++)
+        if (strcmp(body->sites[i].name, name) == 0)
+            return &body->sites[i];
+    return NULL;
+}
+
+void body_site_point(const struct body *body, const struct body_site *site, double point[3])
+{
+    for (int k = 0; k < 3; k++)
+        point[k] = body->scale * (site->point[k] * body->mesh->unit - body->mesh->centre[k]);
+}
+
+void body_set_clear(struct body_set *set)
+{
+    for (size_t i = 0; i < set->count; i++)
+        free(set->bodies[i].sites);
+    for (size_t i = 0; i < set->mesh_count; i++)
+        mesh_body_free(set->meshes[i]);
+    free(set->meshes);
+    free(set->bodies);
+    *set = (struct body_set){0};
+}
+
 void body_set_free(struct body_set *set)
 {
     if (set)
-        free(set->bodies);
+        body_set_clear(set);
     free(set);
 }

@@ -12,6 +12,8 @@
 #include "base/fault.h"
 #include "model/body_kind.h"
 #include "model/material.h"
+#include "model/mesh_body.h"
+#include "model/named_site.h"
 
 enum support { SUPPORT_FREE, SUPPORT_PINNED, SUPPORT_CLAMPED }; /* a rod's `fixed` is CLAMPED */
 enum beam_theory { THEORY_TIMOSHENKO, THEORY_EULER_BERNOULLI };
@@ -31,17 +33,22 @@ struct body {
     bool lateral_inertia; /* rod: Rayleigh-Love */
     enum beam_theory theory;
     enum shear_rule shear_rule;
-    double shear_number;      /* SHEAR_NUMBER: the factor */
-    enum support supports[2]; /* rod, beam: at x = -length/2, +length/2 */
-    double damping;           /* modal damping ratio, [0, 1) */
-    unsigned modes;           /* fixed number of modes a family; 0: from the tolerance */
-    bool varied;              /* by body_vary */
+    double shear_number;          /* SHEAR_NUMBER: the factor */
+    enum support supports[2];     /* rod, beam: at x = -length/2, +length/2 */
+    double damping;               /* modal damping ratio, [0, 1) */
+    unsigned modes;               /* fixed number of modes a family; 0: from the tolerance */
+    bool varied;                  /* by body_vary */
+    const struct mesh_body *mesh; /* mesh: borrowed from the set */
+    double scale;                 /* mesh: its size over the file's; 0: not stated, 1 */
+    bool rigid;                   /* mesh: its vibration is left out */
+    struct body_site *sites;      /* mesh: [site_count], borrowed from the set */
+    size_t site_count;
 
     /* Set by body_complete. */
-    double mass; /* kg; INFINITY: half-space */
-    double
-        inertia[3]; /* principal, about the centre of mass; a Timoshenko beam's M(L^2/12 + r^2/4) */
-    double area;    /* rod, beam: of the section */
+    double mass;             /* kg; INFINITY: half-space */
+    double inertia[3];       /* about the centre of mass; a Timoshenko beam's M(L^2/12 + r^2/4) */
+    double products[3];      /* mesh: yz, zx, xy of the same tensor */
+    double area;             /* rod, beam: of the section */
     double second_moment[2]; /* beam: of the section for bending along y, along z */
     double torsion_constant; /* beam: of the section, m^4 */
     double warping_constant; /* beam: of the section, m^6 */
@@ -49,8 +56,7 @@ struct body {
 };
 
 /* Computes what follows from the dimensions and the material. PERCUSS_OK, or PERCUSS_BAD_REQUEST
- * with the field, its value and what is allowed (sizes > 0 and finite, poisson in (-1, 0.5), ...).
- */
+ * with the field, its value and what is allowed. */
 enum percuss_status body_complete(struct body *body, struct fault *fault);
 
 /* A parameter that a request changes. */
@@ -77,6 +83,13 @@ bool body_is_flexible(const struct body *body);
 /* Whether it can be hit on its side anywhere along x and bends then: a beam. */
 bool body_bends(const struct body *body);
 
+/* The material of its surface at a site: of a mesh of several, one of them. */
+struct material body_material_at(const struct body *body, const struct site *site);
+
+/* The place of that name, NULL: it has none; and a place's point, body frame, m. */
+const struct body_site *body_find_site(const struct body *body, const char *name);
+void body_site_point(const struct body *body, const struct body_site *site, double point[3]);
+
 /* The smallest dimension that curves or bounds its surface: radius, half the thickness, tip;
  * INFINITY for a half-space. */
 double body_smallest_radius(const struct body *body);
@@ -91,6 +104,8 @@ const char *body_theory(const struct body *body);
 struct body_set {
     struct body *bodies;
     size_t count;
+    struct mesh_body **meshes; /* of the bodies, each once */
+    size_t mesh_count;
     enum percuss_compliance compliance; /* HALF_SPACE; MATCHED: where it is known */
     char revision[PERCUSS_ID_SIZE];     /* hash of everything that can change an answer */
 };
@@ -98,7 +113,10 @@ struct body_set {
 /* The body of that id, or NULL. */
 const struct body *body_set_find(const struct body_set *set, const char *id);
 
-/* Frees a set whose arrays came from malloc; NULL is allowed. */
+/* Frees what a set holds, which came from malloc, and leaves it empty. */
+void body_set_clear(struct body_set *set);
+
+/* Frees the set too; NULL is allowed. */
 void body_set_free(struct body_set *set);
 
 #endif

@@ -10,6 +10,7 @@
 #include <stddef.h>
 
 #include "base/fault.h"
+#include "model/material.h"
 
 struct body;
 struct body_description;
@@ -43,6 +44,8 @@ struct body_kind {
     const struct key *keys;
     size_t key_count;
 
+    bool own_material; /* a file brings it: the catalogue need not name one */
+
     /* What no single key's limit tells; NULL: nothing. PERCUSS_OK or PERCUSS_BAD_REQUEST. */
     enum percuss_status (*check)(const struct body *body, struct fault *fault);
 
@@ -71,6 +74,9 @@ struct body_kind {
      * body's axis into the plane of a load (roll.h); NULL: none are. */
     bool (*alike)(const struct body *body, size_t *first);
 
+    /* The material at a site; NULL: the body's. */
+    struct material (*material_at)(const struct body *body, const struct site *site);
+
     /* NULL: none. */
     struct solid (*solid)(const struct body *body);
 
@@ -83,7 +89,7 @@ struct body_kind {
 
 /* All kinds, in an order that catalogue revisions depend on: new ones go to the end. */
 #define BODY_KINDS(KIND)                                                                           \
-    KIND(sphere) KIND(rod) KIND(beam) KIND(cylinder) KIND(block) KIND(half_space)
+    KIND(sphere) KIND(rod) KIND(beam) KIND(cylinder) KIND(block) KIND(half_space) KIND(mesh)
 
 #define BODY_KIND_DECLARE(kind) extern const struct body_kind kind##_kind;
 BODY_KINDS(BODY_KIND_DECLARE)

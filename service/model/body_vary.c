@@ -25,6 +25,8 @@ static double *find_parameter(struct body *body, unsigned parameter)
         return body_is_flexible(body) ? &body->damping : NULL;
     case PERCUSS_PARAMETER_RADIUS:
         return body->radius > 0.0 ? &body->radius : NULL;
+    case PERCUSS_PARAMETER_SCALE:
+        return body->mesh ? &body->scale : NULL;
     default:
         return NULL;
     }
@@ -64,5 +66,5 @@ bool body_same_modes(const struct body *a, const struct body *b)
     return strcmp(a->id, b->id) == 0 && a->material.young == b->material.young &&
            a->material.poisson == b->material.poisson &&
            a->material.density == b->material.density && a->radius == b->radius &&
-           a->damping == b->damping;
+           a->damping == b->damping && a->scale == b->scale;
 }

@@ -5,10 +5,24 @@
 #ifndef PERCUSS_MODEL_FACE_H
 #define PERCUSS_MODEL_FACE_H
 
+#include <stdbool.h>
+
 enum site_face {
     SITE_ROUND,     /* sphere, side of a cylinder, plane of a half-space or block */
     SITE_BEAM_SIDE, /* lateral surface of a rod or beam */
     SITE_END        /* end face or tip of a rod, beam or cylinder */
+};
+
+/* Where on a mesh's surface; all zero on other bodies. */
+struct face_spot {
+    bool on_mesh;
+    unsigned facet, material;
+    double u, v;        /* on the facet */
+    double edge;        /* distance from the nearest sharp edge of its patch, m; INFINITY: none */
+    double doubt;       /* of the normal and the curvature, rad; 0 where they are declared */
+    double flexibility; /* regular, m/N, see struct mesh_body_face; NAN: not known */
+    double slope;
+    const char *remark; /* of the named site there; NULL: none */
 };
 
 struct face {
@@ -16,6 +30,7 @@ struct face {
     double outward[3];
     double curvature[9]; /* symmetric tensor, 1/m; 0 where flat */
     double distance;     /* of the point, along the outward normal */
+    struct face_spot spot;
     double beyond; /* how far the foot of the point lies beyond the face's edge; <= 0: on it */
 };
 

@@ -106,6 +106,12 @@ struct key_text key_allowed(const struct key *key)
         grow(&growing, "a mapping of ", "");
         grow_keys(&growing, key->nested);
         break;
+    case KEY_TEXT:
+        grow(&growing, "", "a name that is not empty");
+        break;
+    case KEY_LIST:
+        grow(&growing, "", "a list");
+        break;
     case KEY_CALLER:
         grow(&growing, "", "a mapping of ids");
         break;

@@ -22,6 +22,8 @@ enum key_type {
     KEY_KIND,    /* struct body's kind */
     KEY_NAME,    /* char[PERCUSS_ID_SIZE]; the caller looks it up */
     KEY_SECTION, /* a mapping of `nested` keys into the same struct */
+    KEY_TEXT,    /* not empty; the caller reads it */
+    KEY_LIST,    /* a list the caller reads */
     KEY_CALLER   /* a mapping the caller reads */
 };
 

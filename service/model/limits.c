@@ -18,6 +18,7 @@ const struct limit limit_tangent = {0.0, 1e13, false, false,
                                     "a finite modulus >= 0 Pa and below young"};
 const struct limit limit_damping = {0.0, 1.0, false, true, "a ratio >= 0 and < 1"};
 const struct limit limit_shear_factor = {1e-3, 2.0, false, false, "a number > 0 (1e-3 to 2)"};
+const struct limit limit_scale = {1e-6, 1e6, false, false, "a number > 0 (1e-6 to 1e6)"};
 const struct limit limit_modes = {1.0, LIMIT_MODES, false, false,
                                   "a whole number, 1 to 5000; absent: from the tolerance"};
 

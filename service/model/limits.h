@@ -26,6 +26,7 @@ extern const struct limit limit_yield;        /* Pa */
 extern const struct limit limit_tangent;      /* Pa */
 extern const struct limit limit_damping;      /* ratio; 1 would no longer oscillate */
 extern const struct limit limit_shear_factor; /* of a Timoshenko beam */
+extern const struct limit limit_scale;        /* of a mesh's size */
 extern const struct limit limit_modes;        /* a whole number */
 
 /* False for NAN and the infinities too. */

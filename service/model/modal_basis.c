@@ -4,6 +4,7 @@
 #include "model/modal_basis.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 
 struct site_load site_load_make(const struct body *body, const struct site *site,
@@ -68,6 +69,19 @@ double modal_compliance(const struct body *body, size_t family, const struct fam
     if (!i->acts || !j->acts)
         return 0.0;
     return body->kind->families[family]->compliance(body, family, i, j);
+}
+
+size_t modal_family_most(const struct body *body, size_t family)
+{
+    const struct mode_family *kind = body->kind->families[family];
+    return kind->most ? kind->most(body) : SIZE_MAX;
+}
+
+double modal_beyond(const struct body *body, const struct modal_family *modes, size_t first,
+                    const struct family_load *load, double left)
+{
+    const struct mode_family *kind = body->kind->families[modes->family];
+    return kind->beyond ? kind->beyond(body, modes, first, load) : left;
 }
 
 double modal_remainder_frequency(const struct body *body, const struct modal_family *modes,

@@ -10,11 +10,22 @@
 #include "model/mode_family.h"
 #include "model/site.h"
 
+/* A force on a face of a mesh. */
+struct mesh_load {
+    unsigned face;
+    int count;                          /* nodes of the face */
+    double share[MESH_BODY_FACE_NODES]; /* shape functions */
+    double direction[3];                /* unit */
+    double point[3];                    /* mesh's frame and size, m */
+    double flexibility;                 /* regular, of the body's own size and material, m/N */
+};
+
 /* What one newton at a contact does to one family of a body. Kinds that are no bars keep what they
  * need beside `bar`. */
 struct family_load {
     bool acts;
     struct beam_load bar;
+    struct mesh_load mesh;
 };
 
 struct site_load {
@@ -30,6 +41,9 @@ struct site_load site_load_make(const struct body *body, const struct site *site
 struct modal_family *modal_family_create(const struct body *body, size_t family, size_t count);
 void modal_family_free(struct modal_family *modes);
 
+/* How many modes a family has at most; SIZE_MAX: any number. */
+size_t modal_family_most(const struct body *body, size_t family);
+
 /* Displacement of mode k at the load, along it, for unit modal coordinate, 1/sqrt(kg). */
 double modal_participation(const struct body *body, const struct modal_family *modes, size_t k,
                            const struct family_load *load);
@@ -43,6 +57,11 @@ void modal_participations(const struct body *body, const struct modal_family *mo
  * is free): the sum of participation_i participation_j / omega^2 over all modes. */
 double modal_compliance(const struct body *body, size_t family, const struct family_load *i,
                         const struct family_load *j);
+
+/* What the modes from `first` on leave of a load's compliance where nothing says so but what the
+ * others hold, `left`; see mode_family.h. */
+double modal_beyond(const struct body *body, const struct modal_family *modes, size_t first,
+                    const struct family_load *load, double left);
 
 /* Frequency (rad/s) of one oscillator that stands for all modes from index `first` on (below
  * modes->count): with their compliance C it has their inertia sum phi^2/omega^4 = C/omega^2. Evenly

@@ -25,6 +25,9 @@ struct mode_family {
     /* Slow transverse waves: a body hit so comes back, and sub-impacts follow each other. */
     bool bends;
 
+    /* It may do so in other ways: sequences of sub-impacts are expected. */
+    bool returns;
+
     size_t shape_size; /* bytes of modal_family's shapes, each */
 
     /* Fills in the modes. */
@@ -39,6 +42,16 @@ struct mode_family {
     /* Exact static compliance between two loads that act, see modal_compliance. */
     double (*compliance)(const struct body *body, size_t family, const struct family_load *i,
                          const struct family_load *j);
+
+    /* How many modes there are; NULL: any number. `find` leaves in modes->omega[modes->count] a
+     * frequency that those which are left out do not go below. */
+    size_t (*most)(const struct body *body);
+
+    /* What the modes from `first` on do to a load, as a compliance at the frequency of that one
+     * with their inertia, m/N: omega^2 sum participation^2 / omega_k^4. NULL: what the modes before
+     * leave of the static compliance. */
+    double (*beyond)(const struct body *body, const struct modal_family *modes, size_t first,
+                     const struct family_load *load);
 
     /* Whether frequencies crowd below a limit; NULL: evenly spaced. */
     bool (*crowds)(const struct body *body);

@@ -9,17 +9,49 @@
 struct mobility {
     double inverse_mass;
     double inverse_inertia[3];
+    double inverse_products[3]; /* yz, zx, xy of the inverse tensor */
     double centre[3];
 };
+
+/* The inverse of a symmetric tensor with products of inertia, by cofactors. */
+static void invert_tensor(const struct body *body, struct mobility *mobility)
+{
+    const double *j = body->inertia, *p = body->products;
+    double yz = p[1] * p[2] - j[0] * p[0];
+    double zx = p[2] * p[0] - j[1] * p[1];
+    double xy = p[0] * p[1] - j[2] * p[2];
+    double xx = j[1] * j[2] - p[0] * p[0];
+    double share = 1.0 / (j[0] * xx + p[2] * xy + p[1] * zx);
+    const double inverse[3] = {xx, j[2] * j[0] - p[1] * p[1], j[0] * j[1] - p[2] * p[2]};
+    scale3(share, inverse, mobility->inverse_inertia);
+    scale3(share, (const double[3]){yz, zx, xy}, mobility->inverse_products);
+}
+
+/* What a moment turns. */
+static void turn_by(const struct mobility *mobility, const double moment[3], double turn[3])
+{
+    const double *p = mobility->inverse_products;
+    for (int k = 0; k < 3; k++)
+        turn[k] = mobility->inverse_inertia[k] * moment[k];
+    if (p[0] == 0.0 && p[1] == 0.0 && p[2] == 0.0)
+        return;
+    turn[0] += p[2] * moment[1] + p[1] * moment[2];
+    turn[1] += p[2] * moment[0] + p[0] * moment[2];
+    turn[2] += p[1] * moment[0] + p[0] * moment[1];
+}
 
 static struct mobility mobility_of(const struct body *body)
 {
     struct mobility mobility = {0};
+    if (body->mesh && body->mesh->supported)
+        return mobility;
     bool free[2] = {body->supports[0] == SUPPORT_FREE, body->supports[1] == SUPPORT_FREE};
     if (free[0] && free[1]) {
         mobility.inverse_mass = 1.0 / body->mass;
         for (int i = 0; i < 3; i++)
             mobility.inverse_inertia[i] = 1.0 / body->inertia[i];
+        if (body->products[0] != 0.0 || body->products[1] != 0.0 || body->products[2] != 0.0)
+            invert_tensor(body, &mobility);
         return mobility;
     }
     int held = free[0] ? 1 : 0;
@@ -50,6 +82,11 @@ double rigid_inverse_mass(const struct body *body, const double point_i[3],
     moment_about(&mobility, point_i, direction_i, moment_i);
     moment_about(&mobility, point_j, direction_j, moment_j);
     double sum = mobility.inverse_mass * dot3(direction_i, direction_j);
+    if (body->mesh) {
+        double turn[3];
+        turn_by(&mobility, moment_j, turn);
+        return sum + dot3(moment_i, turn);
+    }
     for (int k = 0; k < 3; k++)
         sum += mobility.inverse_inertia[k] * moment_i[k] * moment_j[k];
     return sum;
@@ -64,8 +101,7 @@ void rigid_apply_impulse(const struct body *body, const double point[3], const d
     double to_centre_of_mass[3];
     double carried[3];
     moment_about(&mobility, point, impulse, moment);
-    for (int k = 0; k < 3; k++)
-        turn[k] = mobility.inverse_inertia[k] * moment[k];
+    turn_by(&mobility, moment, turn);
     scale3(-1.0, mobility.centre, to_centre_of_mass);
     cross3(turn, to_centre_of_mass, carried);
     for (int k = 0; k < 3; k++) {

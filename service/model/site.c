@@ -93,9 +93,14 @@ enum percuss_status site_locate(const struct body *body, const struct pose *pose
     memcpy(site->outward, face->outward, sizeof site->outward);
     memcpy(site->curvature, face->curvature, sizeof site->curvature);
     site->distance = face->distance;
+    site->spot = face->spot;
     site->at_edge = face->beyond > -allowed;
 
     const char *why = body->kind->why_not ? body->kind->why_not(body, site) : NULL;
+    if (why && site->spot.on_mesh)
+        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+                         "%s.point: on %s %s, %.3g m from an edge: %s", field, body->kind->name,
+                         body->id, site->spot.edge, why);
     if (why)
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY, "%s.point: on %s %s: %s", field,
                          body->kind->name, body->id, why);

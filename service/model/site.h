@@ -24,7 +24,8 @@ struct site {
     double outward[3];   /* the surface's normal, body frame */
     double curvature[9]; /* symmetric tensor, body frame, 1/m; 0 where flat */
     double distance;     /* of the stated point from the surface, > 0 outside */
-    bool at_edge;        /* within the allowed distance of the surface's edge */
+    struct face_spot spot;
+    bool at_edge; /* within the allowed distance of the surface's edge */
 };
 
 /* Finds the face of `body` that has `point` (world) within `allowed` metres and the surface normal

@@ -137,6 +137,7 @@ static void add_omitted(const struct addition *add, size_t first)
         for (size_t g = first; g < assembly->scene.groups; g++)
             left -= held_compliance(&assembly->groups[g], i, i);
         left = fmax(left, 0.0);
+        left = modal_beyond(body, add->prepared->modes, add->count, load, left);
         /* the sums of struct omitted as integrals, shapes alike and frequencies evenly spaced:
          * phi^2/omega^2 adds up to left, 2 damping phi^2/omega^3 to damping left/omega */
         assembly->omitted[i].inertia += left / (stand_in * stand_in);
@@ -220,7 +221,8 @@ static size_t wanted(const struct addition *add, const struct scene *rigid,
         fixed ? fixed : mode_choice_count(choice, add->problem, rigid, add->body, add->family);
     if (add->state && add->state->count[add->family] > count)
         count = add->state->count[add->family];
-    return count;
+    size_t most = modal_family_most(add->problem->bodies[add->body], add->family);
+    return count < most ? count : most;
 }
 
 static bool create(struct assembly *assembly, const struct problem *problem)
@@ -268,7 +270,8 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
             if (add.count > MODE_CHOICE_MOST)
                 return false;
             assembly->adjustable = assembly->adjustable || body->modes == 0;
-            assembly->capped = assembly->capped || add.count == choice->most;
+            assembly->capped = assembly->capped || add.count == choice->most ||
+                               add.count == modal_family_most(body, f);
             add.prepared = prepared_family_get(problem->cache, body, add.family, add.count + 1);
             if (!add.prepared || !add_family(&add, residual))
                 return false;

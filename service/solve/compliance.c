@@ -40,12 +40,29 @@ static bool is_central(const struct body *body, const double point[3])
     return off <= CENTRAL * body->radius && length > END * body->length;
 }
 
+/* A mesh's static compliance is the real body's beyond the half-space. */
+static bool is_matched_by_nature(const struct body *body)
+{
+    return body->mesh && body_is_flexible(body);
+}
+
 /* The correction of one side of a contact, m/N. NAN: none is known. False: out of memory. */
 static bool side_compliance(struct problem *problem, size_t c, int which, double *compliance)
 {
     const struct contact_side *side = &problem->sides[c][which];
     const struct body *body = problem->bodies[side->body];
     enum solid_form form = body_solid(body).form;
+    /* the family holds it, for one contact radius */
+    if (is_matched_by_nature(body)) {
+        const struct face_spot *spot = &side->site.spot;
+        *compliance = 0.0;
+        if (spot->slope != 0.0 && body->mesh->cut > 0.0) {
+            problem->compliance.by_speed = true;
+            *compliance =
+                spot->slope * log(body->scale * body->mesh->cut / patch_radius(problem, c));
+        }
+        return true;
+    }
     *compliance = NAN;
     if (form == SOLID_CYLINDER && !is_central(body, side->site.point))
         return true;
@@ -71,6 +88,14 @@ static bool any_flexible(const struct problem *problem, size_t c)
 {
     for (int which = 0; which < 2; which++)
         if (body_is_flexible(problem->bodies[problem->sides[c][which].body]))
+            return true;
+    return false;
+}
+
+static bool any_mesh(const struct problem *problem)
+{
+    for (size_t i = 0; i < 2 * problem->contact_count; i++)
+        if (is_matched_by_nature(problem_body(problem, i / 2, i % 2)))
             return true;
     return false;
 }
@@ -113,7 +138,9 @@ enum percuss_status compliance_choose(struct problem *problem, enum percuss_comp
     if (!compliance->series || !compliance->sides)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     enum percuss_compliance asked = problem->request->options.compliance;
-    enum percuss_compliance wanted = asked == PERCUSS_COMPLIANCE_DEFAULT ? otherwise : asked;
+    enum percuss_compliance wanted = asked;
+    if (asked == PERCUSS_COMPLIANCE_DEFAULT)
+        wanted = any_mesh(problem) ? PERCUSS_COMPLIANCE_MATCHED : otherwise;
     if (wanted == PERCUSS_COMPLIANCE_HALF_SPACE)
         use_half_space(problem, "");
     else

@@ -66,7 +66,7 @@ static enum percuss_status solve_on(const struct refinement *refinement, size_t 
     const struct problem *problem = refinement->problem;
     struct concurrent_settings settings = refinement->settings;
     struct region_input input = {
-        .materials = {problem_body(problem, 0, 0)->material, problem_body(problem, 0, 1)->material},
+        .materials = {*problem_material(problem, 0, 0), *problem_material(problem, 0, 1)},
         .radius = closed_form_radius(&problem->hertz[0]),
         .resolution = resolution,
     };

@@ -73,8 +73,9 @@ static enum percuss_status find_table(struct problem *problem,
     const struct body *a = problem_body(problem, c, 0);
     const struct body *b = problem_body(problem, c, 1);
     /* looked up, for the contact's curvature */
-    struct contact_pair pair = {
-        &a->material, &b->material, {hertz->curvature[0], hertz->curvature[1]}};
+    struct contact_pair pair = {problem_material(problem, c, 0),
+                                problem_material(problem, c, 1),
+                                {hertz->curvature[0], hertz->curvature[1]}};
     const struct contact_curves *curves = tables ? tables->find(tables->context, &pair) : NULL;
     struct contact_law law;
     if (curves)
@@ -101,8 +102,8 @@ static bool find_family(struct problem *problem, const struct contact_family *fa
 {
     struct contact_choice *choice = &problem->contact_model.choices[c];
     /* the curves at the place of these materials */
-    const struct material *a = &problem_body(problem, c, 0)->material;
-    const struct material *b = &problem_body(problem, c, 1)->material;
+    const struct material *a = problem_material(problem, c, 0);
+    const struct material *b = problem_material(problem, c, 1);
     struct contact_family_place place = contact_family_place(a, b);
     const struct contact_curves *curves = contact_family_curves(family, &place, problem->arena);
     if (!curves)
@@ -127,13 +128,13 @@ static enum percuss_status find_law(struct problem *problem,
 {
     struct contact_choice *choice = &problem->contact_model.choices[c];
     const struct hertz_contact *hertz = &problem->hertz[c];
-    const struct body *a = problem_body(problem, c, 0);
-    const struct body *b = problem_body(problem, c, 1);
+    const struct material *a = problem_material(problem, c, 0);
+    const struct material *b = problem_material(problem, c, 1);
     const struct contact_law_operations *asked = asked_of(problem);
     /* the law itself, or what stands for it */
-    choice->side = closed_form_softer(&a->material, &b->material);
-    choice->yield = closed_form_yield(hertz, &a->material, &b->material);
-    choice->plastic = asked->make(hertz, &a->material, &b->material);
+    choice->side = closed_form_softer(a, b);
+    choice->yield = closed_form_yield(hertz, a, b);
+    choice->plastic = asked->make(hertz, a, b);
     /* a table of these materials in its place */
     bool may = asked->tables != CONTACT_TABLES_NONE;
     if (may && choice->side >= 0) {

@@ -68,6 +68,43 @@ static bool suffices(const struct body *body, const struct modal_family *modes, 
     return true;
 }
 
+/* Of a family of so many modes and no more: all at once, what those from each on do being sums from
+ * the last back. */
+static size_t count_of_few(const struct mode_choice *choice, const struct problem *problem,
+                           const struct body *body, const struct modal_family *modes,
+                           const struct demand *demands, size_t loads)
+{
+    size_t most = modes->count < choice->most ? modes->count : choice->most;
+    size_t enough = 0;
+    double *row = arena_take(problem->arena, modes->count + 1, sizeof *row);
+    size_t *which = arena_take(problem->arena, modes->count + 1, sizeof *which);
+    if (!row || !which)
+        return MODE_CHOICE_MOST + 1;
+    for (size_t k = 0; k < modes->count; k++)
+        which[k] = k;
+    for (size_t i = 0; i < loads; i++) {
+        const double *omega = modes->omega;
+        double end = omega[modes->count];
+        modal_participations(body, modes, which, modes->count, demands[i].load, row);
+        /* those that the family does not have, then back to the last that matters */
+        double inertia =
+            modal_beyond(body, modes, modes->count, demands[i].load, 0.0) / (end * end);
+        size_t k = modes->count;
+        for (; k > enough; k--) {
+            double square = omega[k - 1] * omega[k - 1];
+            double with = inertia + row[k - 1] * row[k - 1] / (square * square);
+            double viscosity = body->damping * with * omega[k - 1];
+            if (!((with + viscosity * demands[i].delay) * demands[i].weight <= choice->allowed))
+                break;
+            inertia = with;
+        }
+        enough = k;
+    }
+    while (enough > 0 && modes->omega[enough - 1] > choice->cut)
+        enough--;
+    return enough < most ? enough : most;
+}
+
 size_t mode_choice_count(const struct mode_choice *choice, const struct problem *problem,
                          const struct scene *scene, size_t body, size_t family)
 {
@@ -75,6 +112,12 @@ size_t mode_choice_count(const struct mode_choice *choice, const struct problem 
     struct demand demands[PERCUSS_MAX_CONTACTS];
     const struct body *owner = problem->bodies[body];
     size_t loads = find_demands(problem, scene, body, family, demands);
+    if (modal_family_most(owner, family) <= MODE_CHOICE_MOST) {
+        const struct prepared_family *all =
+            prepared_family_get(problem->cache, owner, family, MODE_CHOICE_MOST);
+        return all ? count_of_few(choice, problem, owner, all->modes, demands, loads)
+                   : MODE_CHOICE_MOST + 1;
+    }
     /* mode after mode, until the others do not matter */
     const struct modal_family *modes = NULL;
     for (size_t k = 0; k < choice->most; k++) {

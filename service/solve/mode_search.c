@@ -79,7 +79,8 @@ bool mode_search_expects_sequence(const struct problem *problem)
             const struct contact_side *side = &problem->sides[c][which];
             const struct body_kind *kind = problem->bodies[side->body]->kind;
             for (size_t f = 0; f < kind->family_count; f++)
-                if (side->load.family[f].acts && kind->families[f]->bends)
+                if (side->load.family[f].acts &&
+                    (kind->families[f]->bends || kind->families[f]->returns))
                     return true;
         }
     return false;

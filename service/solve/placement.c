@@ -85,6 +85,7 @@ static enum percuss_status place_side(struct problem *problem, const struct solv
         site_locate(body, pose, contact->point, outward, allowed, field, &side->site, fault);
     if (status)
         return status;
+    side->material = body_material_at(body, &side->site);
     rotate_back3(pose->rotation, push, side->direction);
     side->load = site_load_make(body, &side->site, side->direction);
     return PERCUSS_OK;
@@ -120,8 +121,10 @@ static enum percuss_status place_contact(struct problem *problem, size_t index, 
             "%.3g 1/m): only a point contact of two smooth surfaces is supported",
             index, a->id, b->id, curvature[1] > 0.0 ? "line" : "face", 2.0 * curvature[0],
             2.0 * curvature[1]);
-    problem->hertz[index] = hertz_contact_make(hertz_effective_modulus(&a->material, &b->material),
-                                               curvature[0], curvature[1]);
+    problem->hertz[index] =
+        hertz_contact_make(hertz_effective_modulus(problem_material(problem, index, 0),
+                                                   problem_material(problem, index, 1)),
+                           curvature[0], curvature[1]);
     return PERCUSS_OK;
 }
 

@@ -214,6 +214,9 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
         return NULL;
     /* families that are alike share theirs */
     family = roll_common_family(body, family);
+    size_t most = modal_family_most(body, family);
+    if (count > most)
+        count = most;
     struct prepared_family *known = entry->families[family];
     if (known && known->modes->count >= count)
         return known;

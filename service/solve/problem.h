@@ -20,7 +20,8 @@ struct contact_choice; /* contact_model.h */
 struct contact_side {
     size_t body; /* index into the request's bodies */
     struct site site;
-    double direction[3]; /* of the force on the body per newton, body frame */
+    struct material material; /* of the surface there */
+    double direction[3];      /* of the force on the body per newton, body frame */
     struct site_load load;
 };
 
@@ -76,6 +77,13 @@ static inline const struct body *problem_body(const struct problem *problem, siz
                                               int side)
 {
     return problem->bodies[problem->sides[contact][side].body];
+}
+
+/* Its material there. */
+static inline const struct material *problem_material(const struct problem *problem, size_t contact,
+                                                      int side)
+{
+    return &problem->sides[contact][side].material;
 }
 
 /* Speed of the contact that closes fastest, m/s; 0: none does. */

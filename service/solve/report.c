@@ -170,6 +170,16 @@ static void fill_model(const struct problem *problem, const struct solution *sol
                     unmodelled, problem->tolerance);
 }
 
+/* Whether every mode that a file holds of some body takes part. */
+static bool all_of_a_file(const struct problem *problem, const struct assembly *assembly)
+{
+    for (size_t b = 0; b < problem->body_count; b++)
+        if (problem->bodies[b]->mesh && assembly->modes[b] > 0 &&
+            assembly->modes[b] == problem->bodies[b]->mesh->mode_count)
+            return true;
+    return false;
+}
+
 /* Why the estimated error is no smaller: of its larger part what ended the search, or else what
  * makes a small difference large. */
 static const char *reason_of_error(const struct problem *problem, const struct solution *solution)
@@ -184,6 +194,8 @@ static const char *reason_of_error(const struct problem *problem, const struct s
     if (!solution->steps.energy_closes)
         return "the shortest steps allowed do not keep the energy";
     /* what limits the modes, or amplifies what they leave out */
+    if (modes && omitted && all_of_a_file(problem, assembly))
+        return "the modes in the body's file are too few: reduce its mesh to a higher frequency";
     if (modes && omitted && assembly->capped)
         return sequence ? "the most modes that are tried of a body are too few for what the "
                           "sequence of sub-impacts makes of the others"

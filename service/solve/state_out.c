@@ -31,7 +31,7 @@ static void move_freely(const struct body *body, size_t family, const struct bod
     struct modal_family *modes = modal_family_create(body, family, count);
     arena->lacks = arena->lacks || !modes;
     memcpy(pairs, body_state_family(before, family), 2 * count * sizeof *pairs);
-    for (size_t k = 0; modes && k < count; k++)
+    for (size_t k = 0; modes && k < count && k < modes->count; k++)
         oscillator_advance(modes->omega[k], body->damping, time, &pairs[2 * k], &pairs[2 * k + 1]);
     modal_family_free(modes);
 }

@@ -33,6 +33,9 @@ static const double WRONG_LAW = 0.05;
 /* A coefficient of friction as of dry metals, to say how much it may be about. */
 static const double FRICTION = 0.3;
 
+/* Of a fitted normal, rad: 2 degrees, as for what is declared. */
+static const double DOUBT = 2.0 * M_PI / 180.0;
+
 static double wave_speed(const struct body *body)
 {
     return sqrt(body->material.young / body->material.density);
@@ -61,12 +64,13 @@ static void find_yield(const struct problem *problem, size_t c, double pressure,
 {
     for (unsigned which = 0; which < 2; which++) {
         const struct body *body = problem_body(problem, c, which);
-        if (pressure > FIRST_YIELD * body->material.yield)
+        double yield = problem_material(problem, c, (int)which)->yield;
+        if (pressure > FIRST_YIELD * yield)
             warnings_add(warnings, WARNING_YIELD + which,
                          "contacts[%zu]: the elastic peak pressure of %.3g MPa exceeds 1.6 times "
                          "the yield stress of %s (%.3g MPa): Hertz's law leaves no dent, the true "
                          "restitution is lower (contact_model auto or closed-form)",
-                         c, pressure / 1e6, body->id, body->material.yield / 1e6);
+                         c, pressure / 1e6, body->id, yield / 1e6);
     }
 }
 
@@ -92,12 +96,45 @@ static void find_size(const struct problem *problem, const struct impact_outcome
     }
 }
 
+/* On a mesh: a contact wider than half its distance from an edge, or nearer to it than its elements
+ * are long (service/reduce), and a site whose surface is declared otherwise than it is or is not
+ * well known. */
+static void find_mesh_place(const struct problem *problem, size_t c, unsigned which,
+                            double half_axis, struct warnings *warnings)
+{
+    const struct face_spot *spot = &problem->sides[c][which].site.spot;
+    const struct body *body = problem_body(problem, c, which);
+    double element = body->scale * body->mesh->element_size;
+    if (half_axis > 0.5 * spot->edge)
+        warnings_add(warnings, WARNING_EDGE + which,
+                     "contacts[%zu]: %.3g m from an edge of %s, with a half-axis of %.3g m: the "
+                     "contact law assumes material on all sides",
+                     c, spot->edge, body->id, half_axis);
+    else if (element > spot->edge && body_is_flexible(body))
+        warnings_add(
+            warnings, WARNING_EDGE + which,
+            "contacts[%zu]: %.3g m from an edge of %s, whose elements are %.3g m long: its "
+            "flexibility there is uncertain",
+            c, spot->edge, body->id, element);
+    if (spot->remark)
+        warnings_add(warnings, WARNING_EDGE + which, "contacts[%zu]: on %s: %s", c, body->id,
+                     spot->remark);
+    if (spot->doubt > DOUBT)
+        warnings_add(
+            warnings, WARNING_EDGE + which,
+            "contacts[%zu]: the surface's normal on %s is uncertain by %.2g degrees there: "
+            "a declared site or a finer mesh says more",
+            c, body->id, spot->doubt * 180.0 / M_PI);
+}
+
 static void find_place(const struct problem *problem, const struct impact_outcome *outcome,
-                       size_t c, struct warnings *warnings)
+                       size_t c, double half_axis, struct warnings *warnings)
 {
     /* near an edge */
     for (unsigned which = 0; which < 2; which++)
-        if (problem->sides[c][which].site.at_edge)
+        if (problem_body(problem, c, which)->mesh)
+            find_mesh_place(problem, c, which, half_axis, warnings);
+        else if (problem->sides[c][which].site.at_edge)
             warnings_add(warnings, WARNING_EDGE + which,
                          "contacts[%zu]: within 10 %% of the radius of an edge of %s: the contact "
                          "law assumes material on all sides",
@@ -184,7 +221,7 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     if (!contact_model_used(problem)->curve)
         find_yield(problem, c, hertz_peak_pressure(hertz, force), warnings);
     find_size(problem, outcome, c, axes[0], warnings);
-    find_place(problem, outcome, c, warnings);
+    find_place(problem, outcome, c, axes[0], warnings);
     find_sliding(problem, outcome, c, approach, warnings);
 }
 

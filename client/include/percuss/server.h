@@ -9,10 +9,17 @@
 
 enum percuss_support { PERCUSS_SUPPORT_FREE, PERCUSS_SUPPORT_PINNED, PERCUSS_SUPPORT_CLAMPED };
 
+/* A place on a body that has a name. */
+struct percuss_site {
+    char name[PERCUSS_ID_SIZE];
+    double point[3];  /* body frame, m */
+    double normal[3]; /* outward, unit, body frame */
+};
+
 /* A body of the catalogue. */
 struct percuss_body {
     char id[PERCUSS_ID_SIZE];
-    char shape[32]; /* sphere, rod, beam, cylinder, block, half-space */
+    char shape[32]; /* sphere, rod, beam, cylinder, block, half-space, mesh */
     char material[PERCUSS_ID_SIZE];
     double mass;                      /* kg; INFINITY: half-space */
     char description[256];            /* dimensions, theory and ends in words */
@@ -22,6 +29,10 @@ struct percuss_body {
     enum percuss_support supports[2]; /* rod, beam: at its ends at -x and +x */
     double parameters[PERCUSS_PARAMETER_COUNT]; /* what a request may override; NAN: it has none;
                                                    infinite yield: stays elastic */
+    double inertia[3];  /* diagonal of the tensor about the centre of mass, kg m^2 */
+    double products[3]; /* its elements yz, zx, xy; 0: the axes are principal */
+    size_t site_count;  /* places with names: mesh */
+    struct percuss_site sites[PERCUSS_MAX_SITES];
 };
 
 struct percuss_body_list {
@@ -59,6 +70,7 @@ struct percuss_pair {
     const struct percuss_body *a, *b;
     double speed;
     double at_a, at_b; /* beams: where along the length the site is, 0 (end at -x) .. 1 (at +x) */
+    const char *site_a, *site_b; /* the name of a site; NULL: the default one */
 };
 
 #ifdef __cplusplus
@@ -73,10 +85,11 @@ PERCUSS_API struct percuss_pair percuss_pair_default(const struct percuss_body *
  *
  * Default sites: sphere and block: top (+z); half-space: origin; cylinder: end at +x; rod: end at
  * +x if that is free, else at -x; beam: +z side. B stands unrotated at the origin, n is the outward
- * normal of its site. A is turned by the smallest rotation that makes the outward normal of its
- * site -n (half a turn: about its x axis, or y for rods and cylinders); a beam on a beam is also
- * turned about n so that they cross at a right angle. INVALID_ARGUMENT for a shape that it cannot
- * place, a speed that is not positive and finite or a fraction outside 0..1. Needs no client. */
+ * normal of its site; a mesh: its first site with a name. A is turned by the smallest rotation that
+ * makes the outward normal of its site -n (half a turn: about its x axis, or y for rods and
+ * cylinders); a beam on a beam is also turned about n so that they cross at a right angle.
+ * INVALID_ARGUMENT for a shape that it cannot place, a speed that is not positive and finite or a
+ * fraction outside 0..1. Needs no client. */
 PERCUSS_API enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
                                                      struct percuss_request *request);
 

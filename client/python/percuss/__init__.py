@@ -44,7 +44,7 @@ from .reply import (
     force_centres,
 )
 from .request import BodyMotion, Contact, Options, Request
-from .server import Body, Dent, Server, Specimen, contact_pair
+from .server import Body, Dent, Server, Site, Specimen, contact_pair
 from .vocabulary import (
     MAX_BATCH,
     MAX_BODIES,
@@ -100,6 +100,7 @@ __all__ = [
     "Request",
     "Result",
     "Server",
+    "Site",
     "Specimen",
     "Status",
     "Support",

@@ -8,7 +8,7 @@ from ctypes import c_uint, c_uint8, c_uint32, c_uint64, c_void_p
 from typing import Any
 
 from ._library import load
-from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS, Parameter
+from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS, MAX_SITES, Parameter
 
 _Id = c_char * ID_SIZE
 _Octets = c_uint8 * 16
@@ -202,6 +202,10 @@ class Reply(ctypes.Structure):
     ]
 
 
+class Site(ctypes.Structure):
+    _fields_ = [("name", _Id), ("point", _Vector), ("normal", _Vector)]
+
+
 class Body(ctypes.Structure):
     _fields_ = [
         ("id", _Id),
@@ -214,6 +218,10 @@ class Body(ctypes.Structure):
         ("tip_radius", c_double),
         ("supports", c_uint * 2),
         ("parameters", c_double * len(Parameter)),
+        ("inertia", _Vector),
+        ("products", _Vector),
+        ("site_count", c_size_t),
+        ("sites", Site * MAX_SITES),
     ]
 
 
@@ -298,6 +306,8 @@ class Pair(ctypes.Structure):
         ("speed", c_double),
         ("at_a", c_double),
         ("at_b", c_double),
+        ("site_a", c_char_p),
+        ("site_b", c_char_p),
     ]
 
 
@@ -320,6 +330,7 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "percuss_timing": Timing,
     "percuss_reply": Reply,
     "percuss_body": Body,
+    "percuss_site": Site,
     "percuss_body_list": BodyList,
     "percuss_server": Server,
     "percuss_server_list": ServerList,

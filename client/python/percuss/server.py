@@ -16,12 +16,23 @@ from .vocabulary import Parameter, Support
 
 
 @dataclass(frozen=True)
+class Site:
+    """A place on a body that has a name."""
+
+    name: str
+    point: FloatArray
+    """Body frame, m."""
+    normal: FloatArray
+    """Outward, unit, body frame."""
+
+
+@dataclass(frozen=True)
 class Body:
     """A body of the catalogue."""
 
     id: str
     shape: str
-    """sphere, rod, beam, cylinder, block, half-space."""
+    """sphere, rod, beam, cylinder, block, half-space, mesh."""
     material: str
     mass: float
     """kg; inf: half-space."""
@@ -37,6 +48,12 @@ class Body:
     """Of a rod or beam at its ends at -x and +x."""
     parameters: dict[Parameter, float]
     """What a request may override; inf: a yield stress that it never reaches."""
+    inertia: FloatArray
+    """Diagonal of the tensor about the centre of mass, kg m^2."""
+    products: FloatArray
+    """Its elements yz, zx, xy; 0: the axes are principal."""
+    sites: tuple[Site, ...]
+    """Places with names: mesh."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +116,8 @@ def read_body(source: Any) -> Body:
     """Copies a C body."""
     first, second = source.supports
     parameters = {one: source.parameters[one] for one in Parameter if not np.isnan(source.parameters[one])}
-    return read(source, Body, supports=(Support(first), Support(second)), parameters=parameters)
+    sites = tuple(read(site, Site) for site in source.sites[: source.site_count])
+    return read(source, Body, supports=(Support(first), Support(second)), parameters=parameters, sites=sites)
 
 
 def _write_body(body: Body) -> _abi.Body:
@@ -114,20 +132,33 @@ def _write_body(body: Body) -> _abi.Body:
         body.tip_radius,
         body.supports,
         tuple(body.parameters.get(one, np.nan) for one in Parameter),
+        tuple(body.inertia.tolist()),
+        tuple(body.products.tolist()),
+        len(body.sites),
+        tuple((site.name.encode(), tuple(site.point.tolist()), tuple(site.normal.tolist())) for site in body.sites),
     )
 
 
-def contact_pair(a: Body, b: Body, speed: float, at_a: float = 0.5, at_b: float = 0.5) -> Request:
+def contact_pair(
+    a: Body,
+    b: Body,
+    speed: float,
+    at_a: float = 0.5,
+    at_b: float = 0.5,
+    site_a: str | None = None,
+    site_b: str | None = None,
+) -> Request:
     """A request in which two bodies touch at their default sites; a moves with `speed` (m/s, > 0)
     straight at b, and all else is at rest. at_a, at_b: where along a beam its site is, 0 (end at -x)
-    to 1 (end at +x).
+    to 1 (end at +x). site_a, site_b: the name of a site.
 
     Default sites: sphere and block: top (+z); half-space: origin; cylinder: end at +x; rod: end at +x if
-    that is free, else at -x; beam: +z side. b stands unrotated at the origin, the normal is the outward
+    that is free, else at -x; beam: +z side; mesh: its first site with a name. b stands unrotated at the origin, the normal is the outward
     one of its site. InvalidArgument for a shape that cannot be placed, or a number out of range.
     """
     first, second = _write_body(a), _write_body(b)
     pair = _abi.Pair(ctypes.pointer(first), ctypes.pointer(second), speed, at_a, at_b)
+    pair.site_a, pair.site_b = (None if name is None else name.encode() for name in (site_a, site_b))
     request = _abi.Request()
     check(_abi.library.percuss_contact_pair(ctypes.byref(pair), ctypes.byref(request)))
     return read_scene(request)

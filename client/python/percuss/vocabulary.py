@@ -97,6 +97,7 @@ class Parameter(Choice):
     TANGENT = 4
     DAMPING = 5
     RADIUS = 6
+    SCALE = 7
 
 
 class DelassusSource(Choice):
@@ -135,3 +136,4 @@ MAX_BODIES = 64
 MAX_CONTACTS = 64
 MAX_SUB_IMPACTS = 256
 MAX_BATCH = 256
+MAX_SITES = 32

@@ -63,7 +63,7 @@ static void converts_overrides(void **state)
     overrides[0].parameter = PERCUSS_PARAMETER_COUNT;
     assert_int_equal(decode_request(&sample.wire, &request, &fault), PERCUSS_BAD_REQUEST);
     assert_non_null(
-        strstr(fault.text, "bodies[1].overrides.parameter: 7: must be one of 0 (young)"));
+        strstr(fault.text, "bodies[1].overrides.parameter: 8: must be one of 0 (young)"));
 }
 
 static void takes_zeros_for_defaults(void **state)

@@ -12,7 +12,8 @@ static void described(const struct body *body, const char *shape, const char *de
                       const double half_extents[3])
 {
     percuss_v1_Body wire;
-    describe_body(body, &wire);
+    percuss_v1_BodySite sites[BODY_MOST_SITES];
+    describe_body(body, &wire, sites);
     assert_string_equal(wire.id, body->id);
     assert_string_equal(wire.shape, shape);
     assert_string_equal(wire.material, "steel");

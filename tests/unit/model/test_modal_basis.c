@@ -69,8 +69,8 @@ static void rods_have_closed_forms(void **state)
     for (int held = 0; held < 2; held++) {
         struct body rod = bar(&rod_kind, held ? SUPPORT_CLAMPED : SUPPORT_FREE, SUPPORT_FREE);
         struct modal_family *modes = modal_family_create(&rod, BAR_LONGITUDINAL, 50);
-        struct family_load right = {true, {.x = 0.5, .force = 1.0}};
-        struct family_load left = {true, {.x = -0.5, .force = 1.0}};
+        struct family_load right = {.acts = true, .bar = {.x = 0.5, .force = 1.0}};
+        struct family_load left = {.acts = true, .bar = {.x = -0.5, .force = 1.0}};
         assert_non_null(modes);
         for (size_t k = 0; k < 50; k++) {
             double number = (double)k + (held ? 0.5 : 1.0);
@@ -101,7 +101,7 @@ static void lateral_inertia_slows_waves(void **state)
         double wave = (double)(k + 1) * M_PI;
         double share = 0.33 * 0.33 * wave * wave * 0.5e-4;
         near(modes->omega[k], wave * c / sqrt(1.0 + share), 1e-13 * wave * c);
-        struct family_load load = {true, {.x = 0.5, .force = 1.0}};
+        struct family_load load = {.acts = true, .bar = {.x = 0.5, .force = 1.0}};
         double phi = modal_participation(&rod, modes, k, &load);
         near(phi * phi, 2.0 / (rod.mass * (1.0 + share)), 1e-13 / rod.mass);
     }
@@ -133,8 +133,8 @@ static void compliances_complete_the_modal_sums(void **state)
             struct body rod = bar(&rod_kind, ends[s][0], ends[s][1]);
             rod.lateral_inertia = love;
             double end = ends[s][1] == SUPPORT_FREE ? 0.5 : -0.5;
-            struct family_load i = {true, {.x = end, .force = 0.9}};
-            struct family_load j = {true, {.x = end, .force = -0.7}};
+            struct family_load i = {.acts = true, .bar = {.x = end, .force = 0.9}};
+            struct family_load j = {.acts = true, .bar = {.x = end, .force = -0.7}};
             double exact = modal_compliance(&rod, BAR_LONGITUDINAL, &i, &j);
             /* the terms left out: 2 L/(EA pi^2) sum 1/k^2 = 1/N of it */
             near(modal_sum(&rod, BAR_LONGITUDINAL, 4000, &i, &j), exact, 3e-4 * fabs(exact));
@@ -159,12 +159,12 @@ static void compliances_of_the_notes(void **state)
     beam.shear_rule = SHEAR_COWPER;
     assert_int_equal(body_complete(&beam, NULL), PERCUSS_OK);
     for (int i = 0; i < 2; i++) {
-        struct family_load load = {true, {.x = rows[i][0], .force = 1.0}};
+        struct family_load load = {.acts = true, .bar = {.x = rows[i][0], .force = 1.0}};
         near(modal_compliance(&beam, BAR_BENDING_Z, &load, &load), rows[i][1], 6e-13);
         load.acts = false;
         near(modal_compliance(&beam, BAR_BENDING_Z, &load, &load), 0.0, 0.0);
     }
-    struct family_load end = {true, {.x = 0.5, .force = 1.0}};
+    struct family_load end = {.acts = true, .bar = {.x = 0.5, .force = 1.0}};
     near(modal_compliance(&rod, BAR_LONGITUDINAL, &end, &end), 1.0 / (3.0 * 70e9 * M_PI * 1e-4),
          1e-20);
 }
@@ -183,7 +183,7 @@ static void planes_and_parities(void **state)
     assert_true(wide && thin);
     /* Euler-Bernoulli's ratio of 4, less a few percent of shear in the stiffer plane */
     near(wide->omega[0] / thin->omega[0], 4.0, 0.05);
-    struct family_load centre = {true, {.force = 1.0}};
+    struct family_load centre = {.acts = true, .bar = {.force = 1.0}};
     for (size_t k = 0; k < 6; k++) {
         assert_int_equal(thin->odd[k], k % 2);
         double phi = modal_participation(&flat, thin, k, &centre);

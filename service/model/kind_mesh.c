@@ -1,0 +1,301 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "model/body.h"
+#include "model/describe.h"
+#include "model/face.h"
+#include "model/facet.h"
+#include "model/key.h"
+#include "model/mesh_family.h"
+#include "model/mesh_surface.h"
+#include "model/modal_basis.h"
+#include "model/site.h"
+#include "model/vector.h"
+
+/* Poisson's ratios that are one but for the digits of a catalogue. */
+static const double SAME_POISSON = 1e-9;
+/* How far from a named place what is declared of it holds, in smallest radii. */
+static const double NAMED = 0.1;
+/* How far from its edge a point looks for faces beside, in smallest radii: more than a point may
+ * lie off the surface (solve/placement.c). */
+static const double BESIDE = 0.15;
+/* Doubt of a normal from which on nothing is known of the surface: as far as a stated normal may be
+ * off it. */
+static const double MOST_DOUBT = SITE_MAX_ANGLE_DEGREES * M_PI / 180.0;
+
+/* What is declared of a site may differ from the fit by as much before it is said: degrees, parts.
+ */
+static const double MUCH_ASKEW = 2.0;
+static const double MUCH_BENT = 0.1;
+
+static const struct key keys[] = {
+    {"file", KEY_TEXT, .required = true},
+    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping)},
+    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes)},
+    {"rigid", KEY_FLAG, KEY_OF(body, rigid)},
+    {"scale", KEY_NUMBER, &limit_scale, KEY_OF(body, scale), .absent = 0.0},
+    {"sites", KEY_CALLER, .required = false},
+};
+
+static const struct mode_family *const families[] = {&mesh_family};
+
+static enum percuss_status check(const struct body *body, struct fault *fault)
+{
+    if (!body->mesh)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "file: must be a body file of percuss-reduce");
+    double poisson = body->mesh->materials[0].poisson;
+    if (!(fabs(body->material.poisson - poisson) <= SAME_POISSON))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "poisson: %.9g: must be %.9g, with which the mesh was reduced: reduce it "
+                         "again for another one",
+                         body->material.poisson, poisson);
+    return PERCUSS_OK;
+}
+
+/* Mesh's frame: the file's own place of a body's point. */
+static void to_mesh(const struct body *body, const double point[3], double p[3])
+{
+    scale3(1.0 / body->scale, point, p);
+}
+
+/* How far what is declared of a site differs from the surface's own, where that is much. */
+static void compare_site(const struct mesh_spot *spot, struct body_site *site)
+{
+    double across[3];
+    cross3(site->normal, spot->normal, across);
+    double angle = atan2(norm3(across), dot3(site->normal, spot->normal)) * 180.0 / M_PI;
+    double difference = 0.0, size = 0.0;
+    for (int k = 0; k < 9; k++) {
+        difference = fmax(difference, fabs(site->curvature[k] - spot->curvature[k]));
+        size = fmax(size, fmax(fabs(site->curvature[k]), fabs(spot->curvature[k])));
+    }
+    site->remark[0] = '\0';
+    if (site->has_normal && angle > MUCH_ASKEW)
+        snprintf(site->remark, sizeof site->remark,
+                 "its declared normal is %.2g degrees off the surface's", angle);
+    else if (site->has_curvature && difference > MUCH_BENT * size)
+        snprintf(site->remark, sizeof site->remark,
+                 "its declared curvature is off the surface's by %.2g of %.2g 1/m", difference,
+                 size);
+}
+
+/* Finds the face of a named site, and what is not declared of it. */
+static enum percuss_status complete_site(const struct body *body, struct body_site *site,
+                                         struct fault *fault)
+{
+    struct mesh_place place;
+    double point[3];
+    double p[3];
+    body_site_point(body, site, point);
+    to_mesh(body, point, p);
+    double allowed = NAMED * body->mesh->volume / body->mesh->area;
+    if (mesh_surface_find(body->mesh, p, 0.0, &place, 1) == 0 || !(place.distance <= allowed))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "sites.%s.point: lies %.3g m off the surface: at most %.3g m is allowed; "
+                         "points are in the mesh's own frame and unit (%g m)",
+                         site->name, place.distance, allowed, body->mesh->unit);
+    struct mesh_spot spot = mesh_surface_at(body->mesh, place.face, place.u, place.v);
+    site->face = place.face;
+    if (!site->has_normal)
+        memcpy(site->normal, spot.normal, sizeof site->normal);
+    if (!site->has_curvature)
+        memcpy(site->curvature, spot.curvature, sizeof site->curvature);
+    compare_site(&spot, site);
+    site->placed = true;
+    return PERCUSS_OK;
+}
+
+static enum percuss_status complete(struct body *body, struct fault *fault)
+{
+    enum percuss_status status = PERCUSS_OK;
+    const struct mesh_body *mesh = body->mesh;
+    if (body->scale == 0.0)
+        body->scale = 1.0;
+    /* mass grows with the cube of the size, inertia with its fifth power */
+    struct mesh_ratio ratio = mesh_ratio_of(body);
+    double square = ratio.size * ratio.size;
+    double factor = ratio.density * ratio.size * square;
+    body->mass = factor * mesh->mass;
+    for (int k = 0; k < 3; k++)
+        body->inertia[k] = factor * square * mesh->inertia[4 * k];
+    body->products[0] = factor * square * mesh->inertia[5];
+    body->products[1] = factor * square * mesh->inertia[6];
+    body->products[2] = factor * square * mesh->inertia[1];
+    for (size_t i = 0; !status && i < body->site_count; i++)
+        if (!body->sites[i].placed)
+            status = complete_site(body, &body->sites[i], fault);
+    return status;
+}
+
+/* Half the thickness of a plate. */
+static double smallest_radius(const struct body *body)
+{
+    return body->scale * body->mesh->volume / body->mesh->area;
+}
+
+/* The named site that a place belongs to, or NULL. */
+static const struct body_site *site_near(const struct body *body, const struct mesh_place *place)
+{
+    const struct mesh_body_face *faces = body->mesh->faces;
+    for (size_t i = 0; i < body->site_count; i++) {
+        const struct body_site *site = &body->sites[i];
+        double point[3];
+        double apart[3];
+        body_site_point(body, site, point);
+        for (int k = 0; k < 3; k++)
+            apart[k] = point[k] - body->scale * place->point[k];
+        if (faces[site->face].patch == faces[place->face].patch &&
+            norm3(apart) <= NAMED * smallest_radius(body))
+            return site;
+    }
+    return NULL;
+}
+
+static struct face face_at(const struct body *body, const struct mesh_place *place,
+                           const double point[3])
+{
+    struct mesh_spot spot = mesh_surface_at(body->mesh, place->face, place->u, place->v);
+    const struct body_site *site = site_near(body, place);
+    double away[3];
+    struct face face = {.kind = SITE_ROUND};
+    /* what is declared there wins */
+    bool normal = site && site->has_normal, curvature = site && site->has_curvature;
+    memcpy(face.outward, normal ? site->normal : spot.normal, sizeof face.outward);
+    memcpy(face.curvature, curvature ? site->curvature : spot.curvature, sizeof face.curvature);
+    for (int k = 0; k < 9; k++)
+        face.curvature[k] /= body->scale;
+    /* along the normal, and beyond the edge */
+    for (int k = 0; k < 3; k++)
+        away[k] = point[k] - body->scale * place->point[k];
+    face.distance = dot3(away, face.outward);
+    double aside = sqrt(fmax(dot3(away, away) - face.distance * face.distance, 0.0));
+    double edge = body->scale * place->to_rim;
+    bool over = place->to_rim <= 1e-6 * body->mesh->element_size;
+    face.beyond = over ? aside : -edge;
+    face.spot = (struct face_spot){
+        .on_mesh = true,
+        .facet = place->face,
+        .material = body->mesh->faces[place->face].material,
+        .u = place->u,
+        .v = place->v,
+        .edge = edge,
+        .doubt = normal && curvature ? 0.0 : spot.doubt,
+        .flexibility = spot.flexibility * mesh_ratio_flexibility(body),
+        .slope = spot.slope * mesh_ratio_flexibility(body),
+        .remark = site && site->remark[0] ? site->remark : NULL,
+    };
+    return face;
+}
+
+static int find_faces(const struct body *body, const double p[3], struct face *faces)
+{
+    struct mesh_place places[BODY_MOST_FACES];
+    double point[3];
+    to_mesh(body, p, point);
+    double beside = BESIDE * body->mesh->volume / body->mesh->area;
+    int count = mesh_surface_find(body->mesh, point, beside, places, BODY_MOST_FACES);
+    for (int i = 0; i < count; i++)
+        faces[i] = face_at(body, &places[i], p);
+    return count;
+}
+
+static const char *why_not(const struct body *body, const struct site *site)
+{
+    if (site->spot.doubt > MOST_DOUBT)
+        return "the surface's normal and curvature are not known there within 5 degrees: declare a "
+               "site with point, normal and curvatures, or refine the mesh";
+    if (!body->rigid && body->mesh->mode_count > 0 && isnan(site->spot.flexibility))
+        return "the body's flexibility is not known there: the mesh is too coarse so near to an "
+               "edge, or the body too concave";
+    return NULL;
+}
+
+static void load_family(const struct body *body, const struct site *site, const double direction[3],
+                        struct site_load *load)
+{
+    struct family_load *family = &load->family[0];
+    const struct mesh_body_face *face = &body->mesh->faces[site->spot.facet];
+    if (body->rigid || body->mesh->mode_count == 0)
+        return;
+    family->acts = true;
+    family->mesh.face = site->spot.facet;
+    family->mesh.count = face->count;
+    family->mesh.flexibility = site->spot.flexibility;
+    facet_shape(face->count, site->spot.u, site->spot.v, family->mesh.share, NULL, NULL);
+    memcpy(family->mesh.direction, direction, sizeof family->mesh.direction);
+    to_mesh(body, site->point, family->mesh.point);
+}
+
+/* Moduli and densities of all by the factors of the first. */
+static struct material material_at(const struct body *body, const struct site *site)
+{
+    unsigned which = site->spot.on_mesh ? site->spot.material : 0;
+    if (which == 0)
+        return body->material;
+    struct material material = body->mesh->materials[which];
+    struct mesh_ratio ratio = mesh_ratio_of(body);
+    material.young *= ratio.young;
+    material.density *= ratio.density;
+    return material;
+}
+
+static const char *theory(const struct body *body)
+{
+    return body->mesh->mode_count > 0 ? "mesh" : "rigid";
+}
+
+static void describe(const struct body *body, struct body_description *description)
+{
+    const struct mesh_body *mesh = body->mesh;
+    double half[3];
+    double size[3];
+    for (int k = 0; k < 3; k++) {
+        half[k] = body->scale * fmax(mesh->high[k], -mesh->low[k]);
+        size[k] = body->scale * (mesh->high[k] - mesh->low[k]);
+    }
+    describe_extents(description, half[0], half[1], half[2]);
+    describe_add(description, "%.4g m x %.4g m x %.4g m", size[0], size[1], size[2]);
+    /* its frame */
+    describe_add(description, "centre of mass at (%.6g, %.6g, %.6g) of the mesh's frame",
+                 mesh->centre[0] / mesh->unit, mesh->centre[1] / mesh->unit,
+                 mesh->centre[2] / mesh->unit);
+    describe_add(description, "in units of %g m", mesh->unit);
+    if (body->scale != 1.0)
+        describe_add(description, "%g times its size", body->scale);
+    if (mesh->supported)
+        describe_add(description, "held by %s", mesh->supports[0] ? mesh->supports : "its nodes");
+    /* its vibration */
+    if (body->rigid || mesh->mode_count == 0)
+        describe_add(description, "rigid");
+    else
+        describe_add(description, "%zu modes up to %.4g Hz", mesh->mode_count,
+                     mesh->omega[mesh->mode_count - 1] *
+                         sqrt(mesh_ratio_of(body).young / mesh_ratio_of(body).density) /
+                         (body->scale * 2.0 * M_PI));
+    if (body->damping > 0.0)
+        describe_add(description, "modal damping ratio %g", body->damping);
+    if (body->modes > 0)
+        describe_add(description, "%u of them taking part", body->modes);
+}
+
+const struct body_kind mesh_kind = {
+    .name = "mesh",
+    .keys = keys,
+    .key_count = sizeof keys / sizeof *keys,
+    .own_material = true,
+    .check = check,
+    .complete = complete,
+    .smallest_radius = smallest_radius,
+    .faces = find_faces,
+    .why_not = why_not,
+    .families = families,
+    .family_count = sizeof families / sizeof *families,
+    .load = load_family,
+    .material_at = material_at,
+    .theory = theory,
+    .describe = describe,
+};

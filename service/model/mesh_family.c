@@ -1,0 +1,186 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "model/mesh_family.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/vector_clones.h"
+#include "model/modal_basis.h"
+#include "model/vector.h"
+
+/* Modes beyond the file's: sum phi^2/omega^4 of an octave falls with the frequency as omega^-p,
+ * p = 3 where modes are evenly spaced (bars), 2 for waves in a plate, 1 in a compact solid, whose
+ * quickest part is the contact law's own field. With 2 the octaves to come add up to this share of
+ * the last one. */
+static const double TAIL = 1.0 / 3.0;
+static const double OCTAVE = 0.5;
+
+struct mesh_ratio mesh_ratio_of(const struct body *body)
+{
+    const struct material *file = &body->mesh->materials[0];
+    return (struct mesh_ratio){body->material.young / file->young,
+                               body->material.density / file->density, body->scale};
+}
+
+double mesh_ratio_flexibility(const struct body *body)
+{
+    struct mesh_ratio ratio = mesh_ratio_of(body);
+    return 1.0 / (ratio.young * ratio.size);
+}
+
+static size_t most(const struct body *body)
+{
+    return body->mesh->mode_count;
+}
+
+/* Lengths grow by s, moduli by e, densities by d: omega by sqrt(e/d)/s. */
+static void find(const struct body *body, struct modal_family *modes)
+{
+    struct mesh_ratio ratio = mesh_ratio_of(body);
+    double factor = sqrt(ratio.young / ratio.density) / ratio.size;
+    size_t all = body->mesh->mode_count;
+    if (modes->count > all)
+        modes->count = all;
+    for (size_t k = 0; k < modes->count; k++)
+        modes->omega[k] = factor * body->mesh->omega[k];
+    /* the next one: of the file, or no lower than its last */
+    size_t next = modes->count < all ? modes->count : all - 1;
+    modes->omega[modes->count] = all > 0 ? factor * body->mesh->omega[next] : INFINITY;
+}
+
+/* row += share shape, mode by mode: the same bits for any vector unit. */
+VECTOR_CLONES static void add_row(size_t count, double share, const float *shape, double *row)
+{
+    for (size_t k = 0; k < count; k++)
+        row[k] += share * (double)shape[k];
+}
+
+/* The first `count` modes at a load; shapes go with the inverse root of mass. */
+static void fill_row(const struct body *body, size_t count, const struct family_load *load,
+                     double *row)
+{
+    const struct mesh_body *mesh = body->mesh;
+    const struct mesh_load *at = &load->mesh;
+    struct mesh_ratio ratio = mesh_ratio_of(body);
+    double factor = 1.0 / sqrt(ratio.density * ratio.size * ratio.size * ratio.size);
+    memset(row, 0, count * sizeof *row);
+    for (int i = 0; i < at->count; i++) {
+        size_t node = mesh->faces[at->face].nodes[i];
+        for (int axis = 0; axis < 3; axis++) {
+            double share = factor * at->share[i] * at->direction[axis];
+            if (share != 0.0)
+                add_row(count, share, mesh->shapes + (3 * node + axis) * mesh->mode_count, row);
+        }
+    }
+}
+
+/* One mode at a load. */
+static double shape_at(const struct body *body, size_t mode, const struct family_load *load)
+{
+    const struct mesh_body *mesh = body->mesh;
+    const struct mesh_load *at = &load->mesh;
+    struct mesh_ratio ratio = mesh_ratio_of(body);
+    double factor = 1.0 / sqrt(ratio.density * ratio.size * ratio.size * ratio.size);
+    double sum = 0.0;
+    for (int i = 0; i < at->count; i++) {
+        size_t node = mesh->faces[at->face].nodes[i];
+        for (int axis = 0; axis < 3; axis++) {
+            double share = factor * at->share[i] * at->direction[axis];
+            if (share != 0.0)
+                sum += share * (double)mesh->shapes[(3 * node + axis) * mesh->mode_count + mode];
+        }
+    }
+    return sum;
+}
+
+static void participations(const struct body *body, const struct modal_family *modes,
+                           const size_t *which, size_t count, const struct family_load *load,
+                           double *row)
+{
+    (void)modes;
+    /* as a rule the first ones */
+    if (count > 0 && which[0] == 0 && which[count - 1] == count - 1)
+        fill_row(body, count, load, row);
+    else
+        for (size_t i = 0; i < count; i++)
+            row[i] = shape_at(body, which[i], load);
+}
+
+/* The sum of participation_i participation_j / omega^2 over modes from, ... to - 1, small terms
+ * first. */
+static double held_by(const struct body *body, size_t from, size_t to, const struct family_load *i,
+                      const struct family_load *j)
+{
+    struct mesh_ratio ratio = mesh_ratio_of(body);
+    double factor = ratio.young / (ratio.density * ratio.size * ratio.size);
+    double sum = 0.0;
+    for (size_t k = to; k-- > from;) {
+        double omega = body->mesh->omega[k];
+        double a = shape_at(body, k, i);
+        sum += a * (i == j ? a : shape_at(body, k, j)) / (omega * omega);
+    }
+    return sum / factor;
+}
+
+/* At one place: the regular flexibility with what the removed modes hold. Between two: the modes'
+ * sum, which converges there as no field is singular; near each other, where it does not, the
+ * half-space's displacement (1 - nu^2)/(pi E r) beside the regular part. */
+static double compliance(const struct body *body, size_t family, const struct family_load *i,
+                         const struct family_load *j)
+{
+    (void)family;
+    const struct mesh_body *mesh = body->mesh;
+    double removed = held_by(body, 0, mesh->removed, i, j);
+    if (i == j)
+        return i->mesh.flexibility + removed;
+    double apart[3];
+    sub3(i->mesh.point, j->mesh.point, apart);
+    double distance = norm3(apart);
+    const struct mesh_body_face *on = &mesh->faces[i->mesh.face];
+    if (distance >= 2.0 * mesh->element_size || on->patch != mesh->faces[j->mesh.face].patch)
+        return removed + held_by(body, mesh->removed, mesh->mode_count, i, j);
+    const struct material *material = &mesh->materials[on->material];
+    double stiffness = material->young / (1.0 - material->poisson * material->poisson);
+    double field = 1.0 / (M_PI * stiffness * fmax(distance, 0.1 * mesh->element_size));
+    return 0.5 * (i->mesh.flexibility + j->mesh.flexibility) + removed +
+           field * mesh_ratio_flexibility(body) * dot3(i->mesh.direction, j->mesh.direction);
+}
+
+static double beyond(const struct body *body, const struct modal_family *modes, size_t first,
+                     const struct family_load *load)
+{
+    size_t all = body->mesh->mode_count;
+    struct mesh_ratio ratio = mesh_ratio_of(body);
+    double factor = sqrt(ratio.young / ratio.density) / ratio.size;
+    double last = all > 0 ? factor * body->mesh->omega[all - 1] : 0.0;
+    double sum = 0.0, octave = 0.0;
+    for (size_t k = all; k-- > 0;) {
+        double omega = factor * body->mesh->omega[k];
+        if (k < first && omega < OCTAVE * last)
+            break;
+        double shape = shape_at(body, k, load);
+        double inertia = shape * shape / (omega * omega * omega * omega);
+        sum += k >= first ? inertia : 0.0;
+        octave += omega >= OCTAVE * last ? inertia : 0.0;
+    }
+    double square = modes->omega[first] * modes->omega[first];
+    return (sum + TAIL * octave) * square;
+}
+
+static bool crowds(const struct body *body)
+{
+    (void)body;
+    return true;
+}
+
+const struct mode_family mesh_family = {
+    .returns = true,
+    .find = find,
+    .participations = participations,
+    .compliance = compliance,
+    .most = most,
+    .beyond = beyond,
+    .crowds = crowds,
+};

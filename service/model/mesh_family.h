@@ -1,0 +1,22 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The elastic modes of a body that was reduced from a mesh, with the static compliance that they do
+ * not hold: one family, of as many modes as its file has. */
+#ifndef PERCUSS_MODEL_MESH_FAMILY_H
+#define PERCUSS_MODEL_MESH_FAMILY_H
+
+#include "model/mode_family.h"
+
+extern const struct mode_family mesh_family;
+
+/* What a body is of the one in its file: young, density and size over its own. */
+struct mesh_ratio {
+    double young, density, size;
+};
+struct mesh_ratio mesh_ratio_of(const struct body *body);
+
+/* Flexibilities over those of the file: 1/(E L). */
+double mesh_ratio_flexibility(const struct body *body);
+
+#endif
