@@ -20,7 +20,7 @@ allowed() {
     impact) echo "base numeric model fe contact impact" ;;
     solve) echo "base numeric model fe contact impact solve" ;;
     ensemble) echo "base numeric model fe contact impact solve ensemble" ;;
-    catalogue) echo "base numeric model catalogue" ;;
+    catalogue) echo "base numeric model mesh catalogue" ;;
     store) echo "base numeric model fe contact store" ;;
     endpoint) echo "base numeric model contact impact solve ensemble endpoint" ;;
     tables) echo "base model fe contact catalogue store tables" ;;

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "catalogue/keys.h"
+#include "catalogue/mesh_entry.h"
 #include "catalogue/names.h"
 
 struct materials {
@@ -105,10 +106,23 @@ static enum percuss_status find_material(struct reader *reader, struct entry ent
                          reader_excerpt(value).text, names_list(&materials->names).text);
 }
 
-static enum percuss_status read_body(struct reader *reader, struct entry entry,
-                                     const struct materials *materials, struct body *body)
+/* What its keys do not say: the material's numbers, and a file with all that follows. */
+static enum percuss_status read_rest(struct reader *reader, struct entry entry,
+                                     const struct materials *materials, struct mesh_files *files,
+                                     struct body_set *set, struct body *body)
 {
-    *body = (struct body){.tip_radius = INFINITY};
+    enum percuss_status status = PERCUSS_OK;
+    if (!body->kind->own_material || reader_find(reader, entry.value, "material").value)
+        status = find_material(reader, entry, materials, body);
+    if (!status && body->kind->own_material)
+        status = mesh_entry_read(reader, entry, files, set, body);
+    return status;
+}
+
+static enum percuss_status read_body(struct reader *reader, struct entry entry,
+                                     const struct materials *materials, struct mesh_files *files,
+                                     struct body_set *set, struct body *body)
+{
     memcpy(body->id, entry.key->data.scalar.value, entry.key->data.scalar.length);
     size_t mark = reader_enter(reader, body->id);
     /* its kind first, which says what other keys there are */
@@ -116,10 +130,10 @@ static enum percuss_status read_body(struct reader *reader, struct entry entry,
     if (status)
         return status;
     const struct key_table keys = {body->kind->name, body->kind->keys, body->kind->key_count,
-                                   &keys_body};
+                                   body->kind->own_material ? &keys_own : &keys_body};
     status = keys_read(reader, entry, &keys, body);
     if (!status)
-        status = find_material(reader, entry, materials, body);
+        status = read_rest(reader, entry, materials, files, set, body);
     if (status)
         return status;
     /* what follows from them, if they make a body */
@@ -138,13 +152,19 @@ static enum percuss_status read_bodies(struct reader *reader, const yaml_node_t 
     enum percuss_status status = names_read(reader, mapping, &names);
     if (status)
         return status;
-    set->count = names.count;
+    size_t count = names.count;
     names_free(&names);
-    set->bodies = malloc(set->count * sizeof *set->bodies);
+    set->bodies = malloc(count * sizeof *set->bodies);
     if (!set->bodies)
         return out_of_memory(reader);
-    for (size_t i = 0; !status && i < set->count; i++)
-        status = read_body(reader, reader_entry(reader, mapping, i), materials, &set->bodies[i]);
+    struct mesh_files files = {NULL};
+    for (size_t i = 0; !status && i < count; i++) {
+        /* counted with what it owns, whether it is accepted or not */
+        set->bodies[set->count++] = (struct body){.tip_radius = INFINITY};
+        status = read_body(reader, reader_entry(reader, mapping, i), materials, &files, set,
+                           &set->bodies[i]);
+    }
+    mesh_files_free(&files, set);
     if (!status)
         reader_leave(reader, mark);
     return status;
@@ -161,9 +181,7 @@ enum percuss_status content_read(struct reader *reader, struct body_set *set)
     if (!status)
         status = read_bodies(reader, reader_find(reader, root, "bodies").value, &materials, set);
     materials_free(&materials);
-    if (status) {
-        free(set->bodies);
-        *set = (struct body_set){0};
-    }
+    if (status)
+        body_set_clear(set);
     return status;
 }

@@ -36,3 +36,9 @@ static const struct key body[] = {
     {"material", KEY_NAME, .required = true, KEY_OF(body, material.name)},
 };
 const struct key_table keys_body = {NULL, TABLE(body)};
+
+static const struct key own[] = {
+    {"shape", KEY_KIND, .required = true, KEY_OF(body, kind)},
+    {"material", KEY_NAME, .required = false, KEY_OF(body, material.name)},
+};
+const struct key_table keys_own = {NULL, TABLE(own)};

@@ -54,6 +54,31 @@ static void hash_material(struct hash *hash, const struct material *material)
     hash_double(hash, material->tangent);
 }
 
+static void hash_doubles(struct hash *hash, const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        hash_double(hash, values[i]);
+}
+
+/* A file by what it was made from, and what the catalogue says of it. */
+static void hash_mesh(struct hash *hash, const struct body *body)
+{
+    hash_text(hash, body->mesh->hash);
+    hash_text(hash, body->mesh->source);
+    hash_double(hash, body->scale);
+    hash_number(hash, body->rigid);
+    hash_number(hash, body->site_count);
+    for (size_t i = 0; i < body->site_count; i++) {
+        const struct body_site *site = &body->sites[i];
+        hash_text(hash, site->name);
+        hash_doubles(hash, site->point, 3);
+        hash_doubles(hash, site->normal, 3);
+        hash_doubles(hash, site->curvature, 9);
+        hash_number(hash, site->has_normal);
+        hash_number(hash, site->has_curvature);
+    }
+}
+
 static void hash_body(struct hash *hash, const struct body *body)
 {
     const double dimensions[] = {
@@ -73,6 +98,8 @@ static void hash_body(struct hash *hash, const struct body *body)
     /* the factors themselves: they are NAN where the rule has no effect */
     for (int plane = 0; plane < 2 && !isnan(body->shear_factor[plane]); plane++)
         hash_double(hash, body->shear_factor[plane]);
+    if (body->mesh)
+        hash_mesh(hash, body);
 }
 
 static int by_id(const void *a, const void *b)

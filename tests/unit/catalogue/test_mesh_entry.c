@@ -1,0 +1,206 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* catalogue/mesh_entry: bodies from files, with places that have names. */
+#include "catalogue/mesh_entry.h"
+
+#include <stdarg.h>
+#include <unistd.h>
+
+#include "bodies/made_mesh.h"
+#include "mesh/body_file.h"
+#include "unit/catalogue/parse.h"
+
+static char folder[64];
+
+/* A rod's file in millimetres, whose frame has its origin at the left end. */
+static int make_file(void **state)
+{
+    (void)state;
+    struct body rod = {.id = "rod",
+                       .kind = &rod_kind,
+                       .radius = 0.01,
+                       .length = 0.3,
+                       .tip_radius = INFINITY,
+                       .material = {"aluminium", 70e9, 0.33, 2700.0, INFINITY, 0.0}};
+    struct fault fault = {""};
+    char path[96];
+    snprintf(folder, sizeof folder, "/tmp/test_mesh_entry_%d", (int)getpid());
+    snprintf(path, sizeof path, "mkdir -p %s", folder);
+    if (system(path) || body_complete(&rod, &fault))
+        return -1;
+    struct mesh_body *body = made_mesh_bar(
+        &(struct made_mesh){.bar = &rod, .modes = 8, .removed = 4, .around = 16, .along = 12});
+    if (!body)
+        return -1;
+    body->unit = 1e-3;
+    body->centre[0] = 0.15;
+    snprintf(path, sizeof path, "%s/rod.h5", folder);
+    int failed = body_file_write(path, body, &fault);
+    mesh_body_free(body);
+    return failed;
+}
+
+static int remove_file(void **state)
+{
+    (void)state;
+    char path[96];
+    snprintf(path, sizeof path, "%s/rod.h5", folder);
+    remove(path);
+    return rmdir(folder);
+}
+
+/* The catalogue with these lines of one body, as if it stood in the folder. */
+static enum percuss_status parse(struct body_set **set, struct fault *fault, const char *lines)
+{
+    char text[2000], name[96];
+    snprintf(name, sizeof name, "%s/catalogue.yaml", folder);
+    snprintf(text, sizeof text,
+             "materials:\n"
+             "  alloy: {young: 75e9, poisson: 0.33, density: 2800, yield: 300e6}\n"
+             "  other: {young: 75e9, poisson: 0.30, density: 2800}\n"
+             "bodies:\n"
+             "  part: %s\n",
+             lines);
+    return catalogue_parse(text, strlen(text), name, set, fault);
+}
+
+static struct body_set *good(const char *lines)
+{
+    struct body_set *set;
+    struct fault fault = {""};
+    if (parse(&set, &fault, lines))
+        fail_msg("%s", fault.text);
+    return set;
+}
+
+static void bad(const char *lines, const char *words)
+{
+    struct body_set *set;
+    struct fault fault = {""};
+    assert_int_equal(parse(&set, &fault, lines), PERCUSS_BAD_REQUEST);
+    assert_null(set);
+    if (!strstr(fault.text, words))
+        fail_msg("'%s' does not say '%s'", fault.text, words);
+}
+
+static void a_file_is_a_body(void **state)
+{
+    (void)state;
+    struct body_set *set = good("{shape: mesh, file: rod.h5, damping: 0.002}");
+    const struct body *part = body_set_find(set, "part");
+    assert_ptr_equal(part->kind, &mesh_kind);
+    assert_int_equal(set->mesh_count, 1);
+    assert_string_equal(part->material.name, "aluminium");
+    near_relative(part->mass, 2700.0 * M_PI * 1e-4 * 0.3, 1e-14);
+    assert_true(part->damping == 0.002 && part->scale == 1.0 && body_is_flexible(part));
+    body_set_free(set);
+    /* of another material and size, and rigid */
+    set = good("{shape: mesh, file: rod.h5, material: alloy, scale: 2, rigid: true}");
+    part = body_set_find(set, "part");
+    near_relative(part->mass, 2800.0 * M_PI * 1e-4 * 0.3 * 8.0, 1e-14);
+    assert_true(part->material.yield == 300e6 && !body_is_flexible(part));
+    assert_string_equal(body_theory(part), "rigid");
+    body_set_free(set);
+    /* one file for several bodies is read once */
+    set = good("{shape: mesh, file: rod.h5}\n  twin: {shape: mesh, file: rod.h5, modes: 4}");
+    assert_int_equal(set->mesh_count, 1);
+    assert_ptr_equal(body_set_find(set, "part")->mesh, body_set_find(set, "twin")->mesh);
+    body_set_free(set);
+}
+
+static void sites_stand_in_the_mesh_s_frame(void **state)
+{
+    (void)state;
+    struct body_set *set =
+        good("{shape: mesh, file: rod.h5, sites: {tip: {point: [300, 0, 0]}, side: {point: [150, "
+             "0, 10], normal: [0, 0, 2], curvatures: [0, 100], directions: [1, 0, 0]}}}");
+    const struct body *part = body_set_find(set, "part");
+    const struct body_site *tip = body_find_site(part, "tip"), *side = body_find_site(part, "side");
+    double point[3];
+    assert_true(part->site_count == 2 && tip && side && !body_find_site(part, "none"));
+    body_site_point(part, tip, point);
+    near(point[0], 0.15, 1e-15);
+    near(tip->normal[0], 1.0, 1e-6);
+    body_site_point(part, side, point);
+    near(point[2], 0.010, 1e-15);
+    near(side->normal[2], 1.0, 0.0);
+    /* 1/r about y, none along x */
+    near(side->curvature[4], 100.0, 1e-12);
+    near(side->curvature[0], 0.0, 1e-12);
+    assert_string_equal(side->remark, "");
+    body_set_free(set);
+    /* what differs from the surface is remarked */
+    set = good("{shape: mesh, file: rod.h5, sites: {side: {point: [150, 0, 10], normal: [0, 0.1, "
+               "1]}}}");
+    part = body_set_find(set, "part");
+    assert_non_null(strstr(part->sites[0].remark, "5.7 degrees"));
+    body_set_free(set);
+    set = good("{shape: mesh, file: rod.h5, sites: {side: {point: [150, 0, 10], normal: [0, 0, 1], "
+               "curvatures: [50, 50]}}}");
+    part = body_set_find(set, "part");
+    assert_non_null(strstr(part->sites[0].remark, "curvature"));
+    body_set_free(set);
+}
+
+static void revisions_follow_what_is_said(void **state)
+{
+    (void)state;
+    const char *const texts[] = {
+        "{shape: mesh, file: rod.h5}",
+        "{shape: mesh, file: rod.h5, scale: 1.5}",
+        "{shape: mesh, file: rod.h5, rigid: true}",
+        "{shape: mesh, file: rod.h5, sites: {tip: {point: [300, 0, 0]}}}",
+        "{shape: mesh, file: rod.h5, sites: {end: {point: [300, 0, 0]}}}",
+    };
+    char revisions[COUNT(texts)][PERCUSS_ID_SIZE];
+    for (size_t i = 0; i < COUNT(texts); i++) {
+        struct body_set *set = good(texts[i]);
+        memcpy(revisions[i], set->revision, sizeof revisions[i]);
+        body_set_free(set);
+        for (size_t j = 0; j < i; j++)
+            assert_string_not_equal(revisions[i], revisions[j]);
+    }
+    struct body_set *set = good(texts[1]);
+    assert_string_equal(set->revision, revisions[1]);
+    body_set_free(set);
+}
+
+static void says_what_is_wrong(void **state)
+{
+    (void)state;
+    bad("{shape: mesh}", "bodies.part.file: missing");
+    bad("{shape: mesh, file: none.h5}", "none.h5: cannot be opened: No such file");
+    bad("{shape: mesh, file: catalogue.yaml}", "catalogue.yaml: cannot be opened");
+    bad("{shape: mesh, file: rod.h5, radius: 1}", "radius: unknown key; the keys of mesh are");
+    bad("{shape: mesh, file: rod.h5, material: none}", "none: unknown material");
+    bad("{shape: mesh, file: rod.h5, material: other}",
+        "poisson: 0.3: must be 0.33, with which the mesh was reduced");
+    bad("{shape: mesh, file: rod.h5, scale: 0}", "scale: 0: must be a number > 0");
+    bad("{shape: mesh, file: rod.h5, sites: {tip: {}}}", "sites.tip.point: missing");
+    bad("{shape: mesh, file: rod.h5, sites: {tip: {point: [150, 0, 0]}}}",
+        "bodies.part.sites.tip.point: lies");
+    bad("{shape: mesh, file: rod.h5, sites: {a: {point: [300, 0, 0], normal: [0, 0, 0]}}}",
+        "normal: must not be zero");
+    bad("{shape: mesh, file: rod.h5, sites: {a: {point: [300, 0, 0], curvatures: [1, 2]}}}",
+        "curvatures: must stand beside normal");
+    bad("{shape: mesh, file: rod.h5, sites: {a: {point: [300, 0, 0], normal: [1, 0, 0], curvatures:"
+        " [1, 2]}}}",
+        "directions: missing");
+    bad("{shape: mesh, file: rod.h5, sites: {a: {point: [300, 0, 0], normal: [1, 0, 0], curvatures:"
+        " [1, 2], directions: [1, 0, 0]}}}",
+        "directions: must be one direction");
+    bad("{shape: rod, file: rod.h5}", "file: unknown key");
+    bad("{shape: sphere, radius: 1}", "bodies.part.material: missing");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_is_a_body),
+        cmocka_unit_test(sites_stand_in_the_mesh_s_frame),
+        cmocka_unit_test(revisions_follow_what_is_said),
+        cmocka_unit_test(says_what_is_wrong),
+    };
+    return cmocka_run_group_tests(tests, make_file, remove_file);
+}
