@@ -33,8 +33,23 @@ static enum percuss_status load_document(const char *text, size_t size, const ch
     return loaded ? PERCUSS_OK : out_of_memory(name, fault);
 }
 
+/* What is made of a document. */
+struct product {
+    struct body_set *set;
+    const char *name; /* of the material wanted; NULL: the whole set is */
+    struct material *material;
+};
+
+static enum percuss_status read_product(struct reader *reader, const struct product *product)
+{
+    if (product->name)
+        return content_read_material(reader, product->name, product->material);
+    enum percuss_status status = content_read(reader, product->set);
+    return status ? status : revision_write(product->set, reader->fault);
+}
+
 static enum percuss_status parse(const char *text, size_t size, const char *name,
-                                 struct body_set *set, struct fault *fault)
+                                 const struct product *product, struct fault *fault)
 {
     yaml_document_t document;
     enum percuss_status status = guard_check(text, size, name, fault);
@@ -43,40 +58,42 @@ static enum percuss_status parse(const char *text, size_t size, const char *name
     if (status)
         return status;
     struct reader reader = {.document = &document, .name = name, .fault = fault};
-    status = content_read(&reader, set);
-    if (!status)
-        status = revision_write(set, fault);
+    status = read_product(&reader, product);
     yaml_document_delete(&document);
+    return status;
+}
+
+/* Numbers have a point in every country, in the file and in messages. */
+static enum percuss_status parse_plainly(const char *text, size_t size, const char *name,
+                                         const struct product *product, struct fault *fault)
+{
+    if (size > CATALOGUE_MAX_BYTES)
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: too long: must be at most %d bytes",
+                         reader_short_name(name), CATALOGUE_MAX_BYTES);
+    locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
+    if (!plain)
+        return out_of_memory(name, fault);
+    locale_t caller = uselocale(plain);
+    enum percuss_status status = parse(text ? text : "", text ? size : 0, name, product, fault);
+    uselocale(caller);
+    freelocale(plain);
     return status;
 }
 
 enum percuss_status catalogue_parse(const char *text, size_t size, const char *name,
                                     struct body_set **set, struct fault *fault)
 {
-    *set = NULL;
-    if (size > CATALOGUE_MAX_BYTES)
-        return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: too long: must be at most %d bytes",
-                         reader_short_name(name), CATALOGUE_MAX_BYTES);
-    enum percuss_status status = PERCUSS_INTERNAL;
-    /* numbers have a point in every country, in the file and in messages */
-    locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-    if (!plain)
-        return out_of_memory(name, fault);
-    locale_t caller = uselocale(plain);
     /* the caller gets a whole set or none */
     struct body_set *fresh = calloc(1, sizeof *fresh);
-    if (!fresh) {
-        out_of_memory(name, fault);
-        goto restore;
-    }
-    status = parse(text ? text : "", text ? size : 0, name, fresh, fault);
+    *set = NULL;
+    if (!fresh)
+        return out_of_memory(name, fault);
+    const struct product product = {.set = fresh};
+    enum percuss_status status = parse_plainly(text, size, name, &product, fault);
     if (status)
         body_set_free(fresh);
     else
         *set = fresh;
-restore:
-    uselocale(caller);
-    freelocale(plain);
     return status;
 }
 
@@ -86,25 +103,56 @@ static enum percuss_status unreadable(const char *path, struct fault *fault)
                      strerror(errno));
 }
 
-enum percuss_status catalogue_load(const char *path, struct body_set **set, struct fault *fault)
+/* The text of a file, for free(). */
+static enum percuss_status read_file(const char *path, char **text, size_t *size,
+                                     struct fault *fault)
 {
-    enum percuss_status status;
-    size_t size = 0, got;
-    *set = NULL;
+    enum percuss_status status = PERCUSS_OK;
+    size_t got;
+    *size = 0;
     FILE *file = fopen(path, "rbe");
     if (!file)
         return unreadable(path, fault);
     /* one byte more than allowed tells a file that is too long */
-    char *text = malloc(CATALOGUE_MAX_BYTES + 1);
-    if (!text) {
+    *text = malloc(CATALOGUE_MAX_BYTES + 1);
+    if (!*text) {
         status = out_of_memory(path, fault);
         goto close;
     }
-    while ((got = fread(text + size, 1, CATALOGUE_MAX_BYTES + 1 - size, file)) > 0)
-        size += got;
-    status = ferror(file) ? unreadable(path, fault) : catalogue_parse(text, size, path, set, fault);
-    free(text);
+    while ((got = fread(*text + *size, 1, CATALOGUE_MAX_BYTES + 1 - *size, file)) > 0)
+        *size += got;
+    if (ferror(file)) {
+        status = unreadable(path, fault);
+        free(*text);
+    }
 close:
     fclose(file);
+    return status;
+}
+
+enum percuss_status catalogue_load(const char *path, struct body_set **set, struct fault *fault)
+{
+    char *text;
+    size_t size;
+    *set = NULL;
+    enum percuss_status status = read_file(path, &text, &size, fault);
+    if (status)
+        return status;
+    status = catalogue_parse(text, size, path, set, fault);
+    free(text);
+    return status;
+}
+
+enum percuss_status catalogue_material(const char *path, const char *name,
+                                       struct material *material, struct fault *fault)
+{
+    char *text;
+    size_t size;
+    const struct product product = {.name = name, .material = material};
+    enum percuss_status status = read_file(path, &text, &size, fault);
+    if (status)
+        return status;
+    status = parse_plainly(text, size, path, &product, fault);
+    free(text);
     return status;
 }

@@ -24,4 +24,9 @@ enum percuss_status catalogue_load(const char *path, struct body_set **set, stru
 enum percuss_status catalogue_parse(const char *text, size_t size, const char *name,
                                     struct body_set **set, struct fault *fault);
 
+/* A material of a catalogue's file, whether or not a body is of it; nothing else of the file need
+ * be good. PERCUSS_BAD_REQUEST names those that there are. */
+enum percuss_status catalogue_material(const char *path, const char *name,
+                                       struct material *material, struct fault *fault);
+
 #endif

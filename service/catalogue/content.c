@@ -185,3 +185,23 @@ enum percuss_status content_read(struct reader *reader, struct body_set *set)
         body_set_clear(set);
     return status;
 }
+
+enum percuss_status content_read_material(struct reader *reader, const char *name,
+                                          struct material *material)
+{
+    struct materials materials = {0};
+    const yaml_node_t *root = yaml_document_get_root_node(reader->document);
+    struct entry mapping = reader_find(reader, root, "materials");
+    if (!mapping.value || mapping.value->type != YAML_MAPPING_NODE)
+        return reader_refuse(reader, root, "materials: missing: must be a mapping of names");
+    enum percuss_status status = read_materials(reader, mapping.value, &materials);
+    size_t position = status ? 0 : names_find(&materials.names, name);
+    if (!status && position < materials.names.count)
+        *material = materials.list[position];
+    else if (!status)
+        status = reader_refuse(reader, mapping.key,
+                               "materials: %.63s: unknown material; must be one of %s", name,
+                               names_list(&materials.names).text);
+    materials_free(&materials);
+    return status;
+}

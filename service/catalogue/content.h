@@ -11,4 +11,8 @@
  * left to the caller. After a failure the set holds nothing. */
 enum percuss_status content_read(struct reader *reader, struct body_set *set);
 
+/* Reads its materials alone, and takes the one of that name. */
+enum percuss_status content_read_material(struct reader *reader, const char *name,
+                                          struct material *material);
+
 #endif

@@ -166,6 +166,26 @@ static void revisions_follow_what_is_said(void **state)
     body_set_free(set);
 }
 
+static void a_material_is_found_by_its_name(void **state)
+{
+    (void)state;
+    struct material material;
+    struct fault fault = {""};
+    char path[96];
+    snprintf(path, sizeof path, "%s/materials.yaml", folder);
+    FILE *file = fopen(path, "w");
+    /* nothing but materials need be good */
+    fputs("materials: {alloy: {young: 75e9, poisson: 0.33, density: 2800}}\nbodies: none\n", file);
+    fclose(file);
+    assert_int_equal(catalogue_material(path, "alloy", &material, &fault), PERCUSS_OK);
+    assert_true(material.young == 75e9 && isinf(material.yield));
+    assert_int_equal(catalogue_material(path, "other", &material, &fault), PERCUSS_BAD_REQUEST);
+    assert_non_null(strstr(fault.text, "other: unknown material; must be one of alloy"));
+    remove(path);
+    assert_int_equal(catalogue_material(path, "alloy", &material, &fault), PERCUSS_BAD_REQUEST);
+    assert_non_null(strstr(fault.text, "cannot be read"));
+}
+
 static void says_what_is_wrong(void **state)
 {
     (void)state;
@@ -200,6 +220,7 @@ int main(void)
         cmocka_unit_test(a_file_is_a_body),
         cmocka_unit_test(sites_stand_in_the_mesh_s_frame),
         cmocka_unit_test(revisions_follow_what_is_said),
+        cmocka_unit_test(a_material_is_found_by_its_name),
         cmocka_unit_test(says_what_is_wrong),
     };
     return cmocka_run_group_tests(tests, make_file, remove_file);
