@@ -259,6 +259,32 @@ static void contacts_on_one_body_feel_each_other(void **state)
     twins_free(&twins);
 }
 
+/* Two of them across each other, each in its turn below. */
+static void meshes_hit_each_other(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct twins twins = make_twins(make_bar(&beam_kind, ALUMINIUM, 0.010, 1.0), MODES, 0.0);
+    double e[3];
+    struct body copies[2] = {*twins.bar, *twins.mesh};
+    lab_add(twins.lab, "bar 2", copies[0]);
+    lab_add(twins.lab, "mesh 2", copies[1]);
+    const char *ids[3][2] = {{"bar", "bar 2"}, {"mesh", "mesh 2"}, {"bar", "mesh"}};
+    for (int i = 0; i < 3; i++) {
+        struct spot above = side_spot(ids[i][0], 0.15, 0.010, 0.0);
+        above.roll = M_PI_2;
+        struct solve_request request = strike(above, side_spot(ids[i][1], 0.0, 0.010, 0.0), 0.1);
+        request.options.tolerance = 1e-6;
+        request.options.compliance = PERCUSS_COMPLIANCE_HALF_SPACE;
+        lab_solve(twins.lab, &request, &result);
+        e[i] = result.contacts[0].restitution;
+    }
+    /* sequences amplify what floats leave */
+    measured("both meshes", e[1], e[0], 20.0 * FLOATS);
+    measured("a beam on a mesh", e[2], e[0], 20.0 * FLOATS);
+    twins_free(&twins);
+}
+
 static void a_rigid_mesh_is_a_rigid_body(void **state)
 {
     (void)state;
@@ -344,6 +370,7 @@ int main(void)
         cmocka_unit_test(parameters_scale_it),
         cmocka_unit_test(the_end_of_the_file_is_said),
         cmocka_unit_test(contacts_on_one_body_feel_each_other),
+        cmocka_unit_test(meshes_hit_each_other),
         cmocka_unit_test(a_rigid_mesh_is_a_rigid_body),
         cmocka_unit_test(ensembles_vary_it),
         cmocka_unit_test(edges_are_refused_by_distance),
