@@ -27,6 +27,10 @@ static const double BESIDE = 0.15;
  * off it. */
 static const double MOST_DOUBT = SITE_MAX_ANGLE_DEGREES * M_PI / 180.0;
 
+/* How far the chords that stand for a curved edge are off it at most, in elements; and how far a
+ * point lies beside its foot, in smallest radii, to show that it is beyond the edge. */
+static const double OVER = 0.1;
+static const double ASIDE = 0.01;
 /* What is declared of a site may differ from the fit by as much before it is said: degrees, parts.
  */
 static const double MUCH_ASKEW = 2.0;
@@ -174,8 +178,9 @@ static struct face face_at(const struct body *body, const struct mesh_place *pla
     face.distance = dot3(away, face.outward);
     double aside = sqrt(fmax(dot3(away, away) - face.distance * face.distance, 0.0));
     double edge = body->scale * place->to_rim;
-    bool over = place->to_rim <= 1e-6 * body->mesh->element_size;
-    face.beyond = over ? aside : -edge;
+    /* from an inner foot the point is along the normal, but for kinks between faces */
+    bool near_rim = edge < OVER * body->scale * body->mesh->element_size;
+    face.beyond = near_rim && aside > ASIDE * smallest_radius(body) ? aside : -edge;
     face.spot = (struct face_spot){
         .on_mesh = true,
         .facet = place->face,

@@ -11,6 +11,11 @@
 
 /* Deep enough for 2^40 faces. */
 enum { MOST_DEPTH = 64 };
+/* Close to a face: within a tenth of its size, where the nearest place is the only foot but on
+ * faces as round as they are long. Converged to what is left of a micrometre on a metre. */
+enum { QUICK_STEPS = 8 };
+static const double QUICK_NEAR = 0.01;
+static const double QUICK_SETTLED = 1e-10;
 /* Share of a face's shape function below which a node does not count. */
 static const double NO_SHARE = 1e-9;
 
@@ -31,10 +36,61 @@ static void face_points(const struct mesh_body *body, const struct mesh_body_fac
         memcpy(points[i], body->points[face->nodes[i]], sizeof points[i]);
 }
 
+/* What the face's points and derivatives add up to. */
+static void combine(int count, double points[FACET_MOST_NODES][3], const double *weights,
+                    double sum[3])
+{
+    sum[0] = sum[1] = sum[2] = 0.0;
+    for (int i = 0; i < count; i++)
+        add_scaled3(weights[i], points[i], sum);
+}
+
+static bool is_well_inside(int count, double u, double v)
+{
+    const double margin = 1e-3;
+    if (count == 6)
+        return u > margin && v > margin && u + v < 1.0 - margin;
+    return fabs(u) < 1.0 - margin && fabs(v) < 1.0 - margin;
+}
+
+/* The foot of a point that is close to a face and above its inside, as most are: Gauss and Newton
+ * from its middle. False: it is none such, or the steps do not settle. */
+static bool find_quickly(int count, double points[FACET_MOST_NODES][3], const double p[3],
+                         struct facet_foot *foot)
+{
+    double n[FACET_MOST_NODES], du[FACET_MOST_NODES], dv[FACET_MOST_NODES];
+    double r[3], xu[3], xv[3];
+    foot->u = foot->v = count == 6 ? 1.0 / 3.0 : 0.0;
+    for (int step = 0; step < QUICK_STEPS; step++) {
+        facet_shape(count, foot->u, foot->v, n, du, dv);
+        combine(count, points, n, foot->point);
+        combine(count, points, du, xu);
+        combine(count, points, dv, xv);
+        sub3(p, foot->point, r);
+        double a = dot3(xu, xu), b = dot3(xu, xv), c = dot3(xv, xv);
+        double gu = dot3(r, xu), gv = dot3(r, xv), share = 1.0 / (a * c - b * b);
+        double su = share * (c * gu - b * gv), sv = share * (a * gv - b * gu);
+        if (fabs(su) + fabs(sv) < QUICK_SETTLED) {
+            foot->distance = norm3(r);
+            foot->at_rim = false;
+            return foot->distance * foot->distance < QUICK_NEAR * (a + c) &&
+                   is_well_inside(count, foot->u, foot->v);
+        }
+        foot->u += su;
+        foot->v += sv;
+        if (!(fabs(foot->u) < 2.0 && fabs(foot->v) < 2.0))
+            return false;
+    }
+    return false;
+}
+
 static struct facet_foot foot_on(const struct mesh_body *body, unsigned face, const double p[3])
 {
     double points[FACET_MOST_NODES][3];
+    struct facet_foot foot;
     face_points(body, &body->faces[face], points);
+    if (find_quickly(body->faces[face].count, points, p, &foot))
+        return foot;
     return facet_closest(body->faces[face].count, (const double(*)[3])points, p);
 }
 

@@ -10,11 +10,7 @@
 #include "model/mesh_surface.h"
 #include "model/vector.h"
 
-enum { LEAF_FACES = 4 };
-/* How far a curved face may stand out of the box of its nodes, in diagonals of that: a quadratic
- * edge whose mid node lies within its middle half overshoots an end by 1/8 of its length at most.
- */
-static const double BULGE = 0.15;
+enum { LEAF_FACES = 1 };
 
 /* Two of the nodes that bound a face, and the third between them. */
 struct edge {
@@ -23,22 +19,55 @@ struct edge {
     unsigned patch;
 };
 
+/* The control points of a quadratic curve a, m, b: it stays within the box of a, b and 2 m - (a +
+ * b)/2 (Bernstein's form, a convex combination). */
+static void control(const double a[3], const double m[3], const double b[3], double c[3])
+{
+    for (int k = 0; k < 3; k++)
+        c[k] = 2.0 * m[k] - 0.5 * (a[k] + b[k]);
+}
+
+/* Control points of the face: corners, of the edges, and of a quadrilateral's middle, which comes
+ * of its two middle lines' as those of its edges do. */
+static int controls_of(const struct mesh_body *body, const struct mesh_body_face *face,
+                       double points[FACET_MOST_NODES][3])
+{
+    int corners = face->count == 6 ? 3 : 4;
+    double nodes[FACET_MOST_NODES][3];
+    for (int i = 0; i < face->count; i++)
+        memcpy(nodes[i], body->points[face->nodes[i]], sizeof nodes[i]);
+    for (int i = 0; i < corners; i++) {
+        memcpy(points[i], nodes[i], sizeof points[i]);
+        control(nodes[i], nodes[corners + i], nodes[(i + 1) % corners], points[corners + i]);
+    }
+    if (corners == 3)
+        return 6;
+    /* the middle node of eight is what the others make of it */
+    for (int k = 0; face->count == 8 && k < 3; k++)
+        nodes[8][k] = 0.5 * (nodes[4][k] + nodes[5][k] + nodes[6][k] + nodes[7][k]) -
+                      0.25 * (nodes[0][k] + nodes[1][k] + nodes[2][k] + nodes[3][k]);
+    /* along the middle line from edge 3 to edge 1, then across */
+    double middle[3];
+    control(nodes[7], nodes[8], nodes[5], middle);
+    control(points[4], middle, points[6], points[8]);
+    return 9;
+}
+
 static struct mesh_box face_box(const struct mesh_body *body, unsigned f)
 {
-    const struct mesh_body_face *face = &body->faces[f];
-    double low[3] = {INFINITY, INFINITY, INFINITY};
-    double high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double points[FACET_MOST_NODES][3];
+    int count = controls_of(body, &body->faces[f], points);
     struct mesh_box box = {.first = f, .count = 1};
-    for (int i = 0; i < face->count; i++)
-        for (int k = 0; k < 3; k++) {
-            low[k] = fmin(low[k], body->points[face->nodes[i]][k]);
-            high[k] = fmax(high[k], body->points[face->nodes[i]][k]);
-        }
-    double pad = BULGE * sqrt(pow(high[0] - low[0], 2.0) + pow(high[1] - low[1], 2.0) +
-                              pow(high[2] - low[2], 2.0));
     for (int k = 0; k < 3; k++) {
-        box.low[k] = (float)(low[k] - pad);
-        box.high[k] = (float)(high[k] + pad);
+        double low = INFINITY, high = -INFINITY;
+        for (int i = 0; i < count; i++) {
+            low = fmin(low, points[i][k]);
+            high = fmax(high, points[i][k]);
+        }
+        /* what floats leave */
+        double pad = 1e-6 * fmax(fabs(low), fabs(high));
+        box.low[k] = (float)(low - pad);
+        box.high[k] = (float)(high + pad);
     }
     return box;
 }
