@@ -11,7 +11,7 @@
 
 /* an edge bends by L^2/(8R): below this part of its length it is flat ground, or the digits of the
  * file */
-static const double LEAST_BEND = 1e-5;
+static const double LEAST_BEND = 2e-3;
 /* and is straight where its mid node has less than this part of the bend */
 static const double STRAIGHT = 0.1;
 

@@ -16,14 +16,14 @@ enum {
     MOST_ORDER = 4
 };
 
-/* radii to try, in distances of nodes; the first with samples enough: some 1.25 to 2 edges of an
- * element, 2.5 to 4 where mid nodes are left out */
-static const double RADII[] = {2.5, 3.0, 3.5, 4.0};
-static const size_t ENOUGH = 24;
+/* radii to try, in distances of nodes; the first with samples enough: some 1.5 to 2 edges of an
+ * element, 3 to 4 where mid nodes are left out */
+static const double RADII[] = {3.0, 3.5, 4.0};
+static const size_t ENOUGH = 30;
 /* as many samples as this for each term, or the order is lowered */
 static const double SAMPLES_PER_TERM = 1.4;
 /* exponent of the weight at the radius: near samples tell more of the node */
-static const double WEIGHT_FALL = 4.0;
+static const double WEIGHT_FALL = 6.0;
 /* ground that has turned by more is no function of the tangent plane's coordinates: cos 60 degrees
  */
 static const double STEEPEST_COSINE = 0.5;

@@ -177,13 +177,13 @@ static void fits_true_surfaces(void **state)
         fits(&CYLINDER, &(struct block){TYPES[t], {1, 4, 8}, CYLINDER.map, false},
              (double[]){0.02, 0.05, 5.5, 0.8});
         fits(&CYLINDER, &(struct block){TYPES[t], {1, 8, 16}, CYLINDER.map, false},
-             (double[]){0.005, 0.003, 0.6, 0.2});
+             (double[]){0.005, 0.006, 0.6, 0.2});
         fits(&BALL, &(struct block){TYPES[t], {1, 4, 4}, BALL.map, false},
              (double[]){0.02, 0.01, 1.0, 0.2});
         fits(&TORUS, &(struct block){TYPES[t], {1, 4, 8}, TORUS.map, false},
              (double[]){0.3, 0.05, 5.5, 0.8});
         fits(&TORUS, &(struct block){TYPES[t], {1, 8, 16}, TORUS.map, false},
-             (double[]){0.01, 0.004, 0.6, 0.2});
+             (double[]){0.01, 0.006, 0.6, 0.2});
     }
 }
 
@@ -197,7 +197,7 @@ static void fits_straight_sided_meshes(void **state)
         fits(&CYLINDER, &(struct block){TYPES[t], {1, 16, 32}, CYLINDER.map, true},
              (double[]){0.005, 0.018, 0.9, 0.25});
         fits(&TORUS, &(struct block){TYPES[t], {1, 8, 16}, TORUS.map, true},
-             (double[]){0.3, 0.05, 5.5, 0.9});
+             (double[]){0.3, 0.08, 5.5, 0.9});
     }
 }
 
