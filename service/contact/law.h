@@ -72,6 +72,8 @@ struct contact_law_operations {
     /* Indentation at which the loading branch has the force f > 0: a starting value and a scale. */
     double (*indentation)(const struct contact_law *law, double force);
     const struct plastic_curve *curve; /* of a law that yields, see plastic.h; NULL: elastic */
+    /* Makes its forces `force` times as large, and the stress at which it yields `yield` times. */
+    void (*rescale)(struct contact_law *law, double force, double yield);
 };
 
 struct contact_law {

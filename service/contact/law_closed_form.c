@@ -207,6 +207,13 @@ static double branch_work(const struct contact_law *law, double x)
     return 0.4 * x * x * sqrt(x);
 }
 
+/* The depth of yield goes like the square of the stress. */
+static void rescale(struct contact_law *law, double force, double yield)
+{
+    law->parameters[STIFFNESS] *= force;
+    law->parameters[YIELD_DEPTH] *= yield * yield;
+}
+
 static const struct plastic_curve curve = {
     .force = loading_force,
     .work = loading_work,
@@ -227,6 +234,7 @@ const struct contact_law_operations contact_law_CLOSED_FORM = {
     .stored = plastic_stored,
     .indentation = plastic_indentation,
     .curve = &curve,
+    .rescale = rescale,
 };
 
 struct contact_law contact_law_closed_form(const struct hertz_contact *hertz,

@@ -30,6 +30,12 @@ static double hertz_indentation(const struct contact_law *law, double force)
     return root * root;
 }
 
+static void rescale(struct contact_law *law, double force, double yield)
+{
+    (void)yield;
+    law->parameters[0] *= force;
+}
+
 static struct contact_law make(const struct hertz_contact *hertz, const struct material *a,
                                const struct material *b)
 {
@@ -46,6 +52,7 @@ const struct contact_law_operations contact_law_HERTZ = {
     .force = hertz_force,
     .stored = hertz_stored,
     .indentation = hertz_indentation,
+    .rescale = rescale,
 };
 
 struct contact_law contact_law_hertz(double stiffness)

@@ -19,11 +19,18 @@ static double linear_indentation(const struct contact_law *law, double force)
     return force / law->parameters[0];
 }
 
+static void rescale(struct contact_law *law, double force, double yield)
+{
+    (void)yield;
+    law->parameters[0] *= force;
+}
+
 static const struct contact_law_operations operations = {
     .model = PERCUSS_CONTACT_AUTO,
     .force = linear_force,
     .stored = linear_stored,
     .indentation = linear_indentation,
+    .rescale = rescale,
 };
 
 struct contact_law contact_law_linear(double stiffness)

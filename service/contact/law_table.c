@@ -164,6 +164,15 @@ static double branch_work(const struct contact_law *law, double x)
     return sum;
 }
 
+/* Strains scale with the stress of yield, see family.h: depths with its square, forces with its
+ * cube and contact radii with itself, so that Hertz's part stays what it is. */
+static void rescale(struct contact_law *law, double force, double yield)
+{
+    law->parameters[LENGTH] *= yield * yield;
+    law->parameters[FORCE] *= force * yield * yield * yield;
+    law->parameters[RADIUS] *= yield;
+}
+
 static const struct plastic_curve curve = {
     .force = loading_force,
     .work = loading_work,
@@ -185,6 +194,7 @@ const struct contact_law_operations contact_law_TABLE = {
     .stored = plastic_stored,
     .indentation = plastic_indentation,
     .curve = &curve,
+    .rescale = rescale,
 };
 
 struct contact_law contact_law_table_in(const struct contact_curves *curves, double length,

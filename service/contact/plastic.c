@@ -120,3 +120,13 @@ void contact_law_remember(struct contact_law *law, const struct contact_history 
     if (depth > curve->yield(law))
         law->history = history_of(law, depth);
 }
+
+struct contact_law contact_law_rescaled(const struct contact_law *law, double force, double yield)
+{
+    struct contact_law rescaled = *law;
+    struct contact_history history = law->history;
+    history.max_force *= force;
+    law->operations->rescale(&rescaled, force, yield);
+    contact_law_remember(&rescaled, &history);
+    return rescaled;
+}

@@ -54,4 +54,8 @@ double contact_law_yield(struct contact_law *law, double indentation);
  * branch that this law would have after the same force. Elastic laws forget it. */
 void contact_law_remember(struct contact_law *law, const struct contact_history *history);
 
+/* The same law with forces `force` times as large, yielding at `yield` times the stress: a law that
+ * is wrong by so much. What it remembers is the dent of as much larger a force. Any law. */
+struct contact_law contact_law_rescaled(const struct contact_law *law, double force, double yield);
+
 #endif

@@ -169,6 +169,40 @@ static void equal_bodies_are_ones_on_a_rigid_flat(void **state)
 }
 
 /* Outside the axes the answer is still one that a law can follow, and it is said how far out. */
+/* The family knows nothing of the stress of yield: the law of a metal that yields at another one is
+ * the same law rescaled, and so is what it remembers. */
+static void another_yield_is_a_rescaled_law(void **state)
+{
+    (void)state;
+    struct contact_family *family = make();
+    const struct contact_family_place place = {0.01, 0.33, 0.6};
+    struct material pair[2];
+    struct arena arena = {0};
+    pair_at(&place, pair);
+    struct hertz_contact hertz = contact_of(&pair[0], &pair[1], 0.02);
+    const struct contact_curves *curves = contact_family_curves(family, &place, &arena);
+    struct contact_law law = contact_law_family(curves, &hertz, &pair[1], &pair[0]);
+    struct contact_law rescaled = contact_law_rescaled(&law, 1.0, 1.3);
+    pair[0].yield *= 1.3;
+    struct contact_law other = contact_law_family(curves, &hertz, &pair[1], &pair[0]);
+    for (double d = 1e-8; d < 1e-3; d *= 3.1) {
+        double slope[2];
+        near_relative(contact_law_force(&rescaled, d, &slope[0]),
+                      contact_law_force(&other, d, &slope[1]), 1e-12);
+        near_relative(slope[0], slope[1], 1e-12);
+    }
+    contact_law_yield(&rescaled, 1e-4);
+    contact_law_yield(&other, 1e-4);
+    near_relative(rescaled.history.dent, other.history.dent, 1e-11);
+    near_relative(rescaled.history.contact_radius, other.history.contact_radius, 1e-12);
+    /* a dent stays what it is under a law that is stiffer all over */
+    struct contact_law stiffer = contact_law_rescaled(&other, 1.1, 1.0);
+    near_relative(stiffer.history.max_force, 1.1 * other.history.max_force, 1e-15);
+    assert_true(stiffer.history.dent == other.history.dent);
+    arena_release(&arena);
+    contact_family_free(family);
+}
+
 static void outside_it_says_so(void **state)
 {
     (void)state;
@@ -226,6 +260,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_place_between_the_tables_has_its_curves),
         cmocka_unit_test(equal_bodies_are_ones_on_a_rigid_flat),
+        cmocka_unit_test(another_yield_is_a_rescaled_law),
         cmocka_unit_test(outside_it_says_so),
         cmocka_unit_test(bad_families_are_refused),
     };

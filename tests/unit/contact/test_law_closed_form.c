@@ -145,6 +145,29 @@ static void reloading_follows_the_branch_then_the_virgin_curve(void **state)
     near_relative(law.operations->stored(&law, span), 0.4 * law.history.max_force * span, 1e-14);
 }
 
+/* Hertz's part stays what it is where the stress of yield is another one; what stays then is that
+ * of the metal which yields so. */
+static void rescaled_it_yields_later(void **state)
+{
+    (void)state;
+    const double more = 1.3;
+    struct material harder = soft;
+    harder.yield *= more;
+    struct contact_law law = law_on(&soft);
+    struct contact_law rescaled = contact_law_rescaled(&law, 1.0, more);
+    struct contact_law other = law_on(&harder);
+    const struct plastic_curve *curve = law.operations->curve;
+    near_relative(curve->yield(&rescaled), curve->yield(&other), 1e-15);
+    for (double w = 0.1; w < 3000.0; w *= 1.7) {
+        double d = w * curve->yield(&law);
+        near_relative(curve->residual(&rescaled, d) + d, curve->residual(&other, d) + d, 1e-12);
+        /* but for the growth of the radius, whose exponent has 23 yields over E* in it */
+        near_relative(force_at(&rescaled, d), force_at(&other, d), 0.01);
+    }
+    struct contact_law stiffer = contact_law_rescaled(&law, 1.1, 1.0);
+    near_relative(force_at(&stiffer, 1e-5), 1.1 * force_at(&law, 1e-5), 1e-15);
+}
+
 static void what_stays_grows_from_nothing(void **state)
 {
     (void)state;
@@ -219,6 +242,7 @@ int main(void)
         cmocka_unit_test(stored_energy_is_the_area),
         cmocka_unit_test(a_loop_dissipates_its_area),
         cmocka_unit_test(reloading_follows_the_branch_then_the_virgin_curve),
+        cmocka_unit_test(rescaled_it_yields_later),
         cmocka_unit_test(what_stays_grows_from_nothing),
         cmocka_unit_test(the_softer_body_yields),
         cmocka_unit_test(memory_is_carried_to_another_partner_by_its_force),
