@@ -127,6 +127,35 @@ static void find_mesh_place(const struct problem *problem, size_t c, unsigned wh
             c, body->id, spot->doubt * 180.0 / M_PI);
 }
 
+/* A body that yields by a law which is not of its own material, and how that can be mended. Bodies
+ * that only this request has get no table. */
+static void find_table(const struct problem *problem, const struct impact_outcome *outcome,
+                       size_t c, struct warnings *warnings)
+{
+    const struct contact_choice *choice = &problem->contact_model.choices[c];
+    const struct body *a = problem_body(problem, c, 0);
+    const struct body *b = problem_body(problem, c, 1);
+    enum percuss_contact_model asked = problem->request->options.contact_model;
+    bool may = contact_law_asked(asked)->tables == CONTACT_TABLES_IF_ANY;
+    bool own = choice->tabulated && !choice->family;
+    bool can = problem->hertz[c].axis_ratio >= HERTZ_CIRCULAR_RATIO && !a->varied && !b->varied;
+    /* the family's is near enough unless more is asked for */
+    double error = law_error(problem, outcome, c);
+    if (!may || own || !contact_model_yielded(problem, outcome, c) ||
+        (choice->family && !(can && error > problem->tolerance)))
+        return;
+    char how[WARNING_SIZE] = "";
+    if (can)
+        snprintf(how, sizeof how,
+                 ": percuss-tables --catalogue FILE --folder DIR --a %s --b %s makes one", a->id,
+                 b->id);
+    warnings_add(warnings, WARNING_LAW,
+                 "contacts[%zu]: %s yields and there is no table of %s on %s: %s is off by about "
+                 "%.2g of the restitution%s",
+                 c, (choice->side == 0 ? a : b)->id, a->material.name, b->material.name,
+                 choice->family ? "the family of tables" : "the closed form", error, how);
+}
+
 static void find_place(const struct problem *problem, const struct impact_outcome *outcome,
                        size_t c, double half_axis, struct warnings *warnings)
 {
@@ -139,7 +168,8 @@ static void find_place(const struct problem *problem, const struct impact_outcom
                          "contacts[%zu]: within 10 %% of the radius of an edge of %s: the contact "
                          "law assumes material on all sides",
                          c, problem_body(problem, c, which)->id);
-    /* where the law is off */
+    /* without a table of its own, and where the law is far off */
+    find_table(problem, outcome, c, warnings);
     double error = law_error(problem, outcome, c);
     if (error > WRONG_LAW)
         warnings_add(warnings, WARNING_LAW,
