@@ -55,7 +55,10 @@
     F(VALUE, impulse_time, "N s")                                                                  \
     F(VALUE, impulse_modes, "N s")                                                                 \
     F(VALUE, restitution_by_speed, "s/m; d(restitution)/d(speed), with `conditioning`")            \
-    F(FLAG, tolerance_met, "by these estimates")
+    F(FLAG, tolerance_met, "by these estimates of the solution")                                   \
+    F(VALUE, restitution_model, "of the restitution, by the models of contact and bodies")         \
+    F(VALUE, restitution_total, "of the restitution: time, modes and models together")             \
+    F(FLAG, total_met, "the tolerance, by that total")
 
 #define PERCUSS_BODY_MODEL_FIELDS(F, ...)                                                          \
     F(ID, id, "of the body")                                                                       \

@@ -10,6 +10,7 @@
 #include "fe/complete_body.h"
 #include "fe/complete_converge.h"
 #include "model/vector.h"
+#include "solve/model_error.h"
 #include "solve/report.h"
 #include "solve/validity.h"
 
@@ -262,6 +263,7 @@ static void fill_end(const struct complete_result *from, double error, double to
                     "error.tolerance_met: false: the estimated error of the restitution is %.2g on "
                     "the finest mesh allowed",
                     error + result->restitution_time);
+    result->tolerance = tolerance;
     /* what is not answered */
     report_warn(result, "states_after: none: complete-fe keeps neither vibration nor dents");
 }
@@ -284,6 +286,10 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
     fill_bodies(problem, &convergence->result, result);
     fill_model(convergence, problem, result);
     fill_end(&convergence->result, convergence->result_error, problem->tolerance, result);
+    struct model_blow blow = {.duration = convergence->result.end_time};
+    for (size_t i = 0; i < result->contacts[0].sub_impacts_listed; i++)
+        blow.force = fmax(blow.force, result->contacts[0].sub_impacts[i].peak_force);
+    report_model_error(model_error_complete(problem, &blow), result);
     /* where small strains end */
     struct warnings warnings = {0};
     validity_find_speed(problem, &warnings);

@@ -27,6 +27,14 @@ double outcome_restitution(const struct problem *problem, const struct impact_ou
     return compression > 0.0 ? outcome->tracks[contact].impulse / compression - 1.0 : NAN;
 }
 
+double outcome_range(const struct problem *problem, const struct impact_outcome *outcome)
+{
+    double most = 1.0;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        most = fmax(most, outcome_restitution(problem, outcome, c));
+    return 1.0 + most;
+}
+
 /* The sub-impacts of a track that are listed. */
 static size_t listed(const struct track *track)
 {

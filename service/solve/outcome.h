@@ -19,6 +19,10 @@ bool outcome_is_unsolved(const struct problem *problem, const struct impact_outc
 double outcome_restitution(const struct problem *problem, const struct impact_outcome *outcome,
                            size_t contact);
 
+/* The width of what restitutions can be, from no impulse (-1) to a full rebound, or what they are.
+ */
+double outcome_range(const struct problem *problem, const struct impact_outcome *outcome);
+
 /* Largest force (N) and indentation (m) of a contact's listed sub-impacts. */
 double outcome_peak_force(const struct impact_outcome *outcome, size_t contact);
 double outcome_deepest(const struct impact_outcome *outcome, size_t contact);

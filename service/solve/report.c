@@ -254,6 +254,7 @@ static void fill_errors(const struct problem *problem, const struct solution *so
     /* what was cut off for its effort was compared with nothing */
     result->tolerance_met =
         solution->tolerance_met && solution->outcome.end_reason != PERCUSS_END_LIMIT;
+    result->tolerance = problem->tolerance;
     result->energy = solution->outcome.energy;
     result->time_shift = solution->outcome.time_shift;
     result->window = solution->outcome.window;
@@ -267,6 +268,15 @@ static void fill_errors(const struct problem *problem, const struct solution *so
         warn_range(problem, solution, result);
     }
     warn_counts(problem, solution, result);
+}
+
+void report_model_error(double model, struct solve_result *result)
+{
+    double numerical = result->restitution_time + result->restitution_modes;
+    double range = 1.0 + fmax(1.0, largest_restitution(result));
+    result->restitution_model = model;
+    result->restitution_total = fmin(numerical + model, range);
+    result->total_met = result->tolerance_met && result->restitution_total <= result->tolerance;
 }
 
 static void fill_end(const struct solution *solution, struct solve_result *result)

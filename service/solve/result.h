@@ -53,6 +53,9 @@ struct solve_result {
     double restitution_time, restitution_modes, impulse_time, impulse_modes;
     double restitution_by_speed; /* NAN unless asked for */
     bool tolerance_met;
+    double restitution_model, restitution_total; /* of the models; of all that is known */
+    bool total_met;
+    double tolerance; /* on the restitution, as asked for */
     enum percuss_contact_model contact_model;
     enum percuss_compliance compliance;
     enum percuss_method method;

@@ -46,15 +46,6 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
     return PERCUSS_OK;
 }
 
-/* The width of what a restitution can be, from no impulse (-1) to a full rebound, or what it is. */
-static double possible_range(const struct attempt_context *context, const struct attempt *best)
-{
-    double most = 1.0;
-    for (size_t c = 0; c < context->problem->contact_count; c++)
-        most = fmax(most, outcome_restitution(context->problem, &best->outcome, c));
-    return 1.0 + most;
-}
-
 /* An answer that does not meet its tolerance is one of those beside it. What is unknown is no less
  * than the tolerance. */
 static void widen(const struct attempt_context *context, const struct attempt *best, bool unknown,
@@ -101,7 +92,7 @@ static void conclude(const struct attempt_context *context, const struct attempt
     if (!solution->tolerance_met && (attempt_is_sequence(best) || unknown))
         widen(context, best, unknown, solution);
     /* what sequences amplify beyond all bounds */
-    double range = possible_range(context, best);
+    double range = outcome_range(context->problem, &best->outcome);
     double compression = problem_largest_compression(context->problem);
     bound(range, compression, &solution->steps.restitution, &solution->steps.impulse);
     bound(range, compression, &solution->modes.restitution, &solution->modes.impulse);

@@ -10,6 +10,7 @@
 #include "solve/complete.h"
 #include "solve/concurrent.h"
 #include "solve/formulation.h"
+#include "solve/model_error.h"
 #include "solve/report.h"
 #include "solve/tracing.h"
 
@@ -124,8 +125,12 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     if (!status && concurrent)
         status = concurrent_refine(solution, problem, &pace, &effort, &result->fault);
     /* the answer, and its histories */
+    double model = NAN;
+    if (!status)
+        status = pace_fault(&result->fault, model_error_find(problem, solution, &pace, &model));
     if (!status) {
         report_fill(problem, solution, result);
+        report_model_error(model, result);
         if (concurrent)
             concurrent_report(&effort, problem, solution, result);
         status = result->status;

@@ -57,7 +57,10 @@ struct percuss_error_estimate {
     double restitution_time, restitution_modes; /* by the time steps; by the modes left out */
     double impulse_time, impulse_modes;         /* N s */
     double restitution_by_speed;                /* s/m; NAN unless asked for (conditioning) */
-    bool tolerance_met;
+    bool tolerance_met;                         /* by time and modes */
+    double restitution_model;                   /* by the models of contact and bodies */
+    double restitution_total;                   /* all three */
+    bool total_met;                             /* the tolerance, by that */
 };
 
 struct percuss_body_model {

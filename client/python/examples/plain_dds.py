@@ -162,6 +162,9 @@ class ErrorEstimate(IdlStruct, typename="percuss::v1::ErrorEstimate"):
     impulse_modes: float64
     restitution_by_speed: float64
     tolerance_met: bool
+    restitution_model: float64
+    restitution_total: float64
+    total_met: bool
 
 
 @dataclass

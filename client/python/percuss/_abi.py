@@ -143,6 +143,9 @@ class ErrorEstimate(ctypes.Structure):
         ("impulse_modes", c_double),
         ("restitution_by_speed", c_double),
         ("tolerance_met", c_bool),
+        ("restitution_model", c_double),
+        ("restitution_total", c_double),
+        ("total_met", c_bool),
     ]
 
 

@@ -115,6 +115,13 @@ class ErrorEstimate:
     restitution_by_speed: float
     """d(restitution)/d(speed), s/m; nan unless Options.conditioning asked for it."""
     tolerance_met: bool
+    """By time and modes."""
+    restitution_model: float
+    """Of the restitution, by the models of contact and bodies themselves."""
+    restitution_total: float
+    """All three."""
+    total_met: bool
+    """The tolerance, by that total."""
 
 
 @dataclass(frozen=True)

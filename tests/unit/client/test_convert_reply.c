@@ -82,6 +82,8 @@ static void energy_error_and_model(void **state)
     assert_true(reply.error.restitution_time == 35 && reply.error.restitution_modes == 36);
     assert_true(reply.error.impulse_time == 37 && reply.error.impulse_modes == 38);
     assert_true(isnan(reply.error.restitution_by_speed) && reply.error.tolerance_met);
+    assert_true(reply.error.restitution_model == 40 && reply.error.restitution_total == 41);
+    assert_true(reply.error.total_met);
     assert_int_equal(reply.model.body_count, 1);
     assert_string_equal(reply.model.bodies[0].theory, "timoshenko");
     assert_int_equal(reply.model.bodies[0].modes, 24);

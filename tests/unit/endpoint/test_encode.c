@@ -73,6 +73,8 @@ static void all_undefined(const percuss_v1_Reply *reply)
         error->impulse_time,
         error->impulse_modes,
         error->restitution_by_speed,
+        error->restitution_model,
+        error->restitution_total,
         reply->model.omitted_error,
     };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)

@@ -1,0 +1,206 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/model_deviation.h"
+
+#include <math.h>
+
+#include "contact/law_closed_form.h"
+#include "contact/plastic.h"
+#include "solve/contact_model.h"
+#include "solve/law_error.h"
+#include "solve/outcome.h"
+
+/* Regular compliance that is not known, times E and the body's radius: where it is matched, of a
+ * rod's end on a half-space (-0.59 of it), of a beam's side, of the same without shear, and of a
+ * body that is rigid but for its contact (-0.3 of a sphere). */
+static const double MATCHED = 0.03;
+static const double HALF_SPACE = 0.8;
+static const double SIDE = 0.05;
+static const double SIDE_WITHOUT_SHEAR = 1.0;
+static const double COMPACT = 0.3;
+/* Frequencies of a bar's theory, share by (radius / way of a wave during the contact) and its
+ * square: rods without and with lateral inertia, beams with Hutchinson's shear factor (1e-3 at 29
+ * kHz of a bar of 10 mm) and another one (1e-2 there), and without shear. */
+static const double ROD = 1.0;
+static const double RAYLEIGH_LOVE = 0.5;
+static const double HUTCHINSON = 1.0;
+static const double COWPER = 10.0;
+static const double EULER_BERNOULLI = 5.0;
+/* Size and shape of contacts that flow: what is estimated of them (law_error.h) is a mean. */
+static const double ROUND = 1.25;
+/* Mean stiffness of a Hertz contact over peak force / indentation, weighted by its force. */
+static const double STIFFNESS = 1.3;
+/* Duration of a Hertz contact over indentation / speed. */
+static const double DURATION = 2.94;
+
+static double wave_speed(const struct body *body)
+{
+    return sqrt(body->material.young / body->material.density);
+}
+
+/* Longest of the body's dimensions. */
+static double extent(const struct body *body)
+{
+    double longest = fmax(body->length, 2.0 * body->radius);
+    for (int i = 0; i < 3; i++)
+        longest = fmax(longest, body->size[i]);
+    return longest > 0.0 ? longest : cbrt(body->mass / body->material.density);
+}
+
+/* Half the thickness of a bar, or what curves the surface of a compact body. */
+static double scale_of(const struct body *body)
+{
+    return body->radius > 0.0 ? body->radius : body_smallest_radius(body);
+}
+
+static bool without_shear(const struct body *body)
+{
+    return body_bends(body) && body->theory == THEORY_EULER_BERNOULLI;
+}
+
+/* Times E and the radius of the body. */
+static double unknown_compliance(const struct problem *problem, const struct contact_side *side)
+{
+    const struct body *body = problem->bodies[side->body];
+    if (problem->compliance.used == PERCUSS_COMPLIANCE_MATCHED)
+        return MATCHED;
+    if (!body_is_flexible(body))
+        return COMPACT;
+    if (side->site.face == SITE_END)
+        return HALF_SPACE;
+    return without_shear(body) ? SIDE_WITHOUT_SHEAR : SIDE;
+}
+
+/* Of all bodies, or of those that vibrate. */
+static double compliance_of(const struct problem *problem, size_t contact, bool all)
+{
+    double sum = 0.0;
+    for (int which = 0; which < 2; which++) {
+        const struct contact_side *side = &problem->sides[contact][which];
+        const struct body *body = problem->bodies[side->body];
+        double size = scale_of(body);
+        if (isfinite(size) && (all || body_is_flexible(body)))
+            sum += unknown_compliance(problem, side) / (body->material.young * size);
+    }
+    return sum;
+}
+
+/* Of a bar's frequencies that the blow excites: as a stiffness it counts twice. */
+static double theory_of(const struct body *body, const struct site *site, double duration)
+{
+    double ratio = scale_of(body) / (wave_speed(body) * duration);
+    if (!body_is_flexible(body) || !isfinite(ratio))
+        return 0.0;
+    if (site->face == SITE_END)
+        return (body->lateral_inertia ? RAYLEIGH_LOVE : ROD) * ratio * ratio;
+    if (without_shear(body))
+        return EULER_BERNOULLI * ratio;
+    return (body->shear_rule == SHEAR_HUTCHINSON ? HUTCHINSON : COWPER) * ratio * ratio;
+}
+
+static double force_of(const struct problem *problem, size_t contact, const struct model_blow *blow)
+{
+    double axes[2];
+    double sum = 0.0;
+    hertz_ellipse(&problem->hertz[contact], blow->force, axes);
+    for (int which = 0; which < 2; which++) {
+        const struct contact_side *side = &problem->sides[contact][which];
+        const struct body *body = problem->bodies[side->body];
+        double ratio = axes[0] / body_smallest_radius(body);
+        sum = hypot(sum, MODEL_DEVIATION_PATCH * ratio * ratio);
+        sum = hypot(sum, 2.0 * theory_of(body, &side->site, blow->duration));
+    }
+    return fmin(sum, 0.5);
+}
+
+/* Of the law, and of what an unknown compliance stores of the work of unloading: C F^2 / 2 of 0.4 F
+ * times the way back, and half of that in e. That of a compact body is in its size and shape. */
+static double yield_of(const struct problem *problem, size_t contact,
+                       const struct contact_history *history)
+{
+    double parts[2];
+    if (!(history->max_indentation > 0.0))
+        return 0.0;
+    law_error_parts(problem, contact, history, parts);
+    /* a region of finite elements in every step has the shape of the table's, not its error */
+    enum percuss_contact_model asked = problem->request->options.contact_model;
+    if (contact_law_asked(asked)->method == CONTACT_CONCURRENT)
+        parts[1] = 0.0;
+    double back = history->max_indentation - history->dent;
+    double stored = 0.625 * compliance_of(problem, contact, false) * history->max_force / back;
+    return ROUND * parts[0] + parts[1] + stored;
+}
+
+double model_blow_stiffness(const struct model_blow *blow)
+{
+    return blow->indentation > 0.0 ? STIFFNESS * blow->force / blow->indentation : 0.0;
+}
+
+struct model_deviation model_deviation_of(const struct problem *problem, size_t contact,
+                                          const struct model_blow *blow)
+{
+    return (struct model_deviation){
+        .force = force_of(problem, contact, blow),
+        .compliance = compliance_of(problem, contact, true),
+        .yield = yield_of(problem, contact, &blow->history),
+    };
+}
+
+struct model_blow model_blow_of(const struct problem *problem, const struct impact_outcome *outcome,
+                                size_t contact)
+{
+    const struct track *track = &outcome->tracks[contact];
+    struct model_blow blow = {.force = outcome_peak_force(outcome, contact),
+                              .indentation = outcome_deepest(outcome, contact)};
+    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
+        blow.duration = fmax(blow.duration, track->list[i].end - track->list[i].start);
+    if (contact_model_yielded(problem, outcome, contact))
+        blow.history = outcome->laws[contact].history;
+    return blow;
+}
+
+/* The work of the approach, taken up by the contact's law from the beginning. */
+struct model_blow model_blow_expected(const struct problem *problem, size_t contact)
+{
+    /* by Hertz's law */
+    const struct hertz_contact *hertz = &problem->hertz[contact];
+    double speed = fmax(-problem->gap_rate[contact], 0.0);
+    double work = 0.5 * speed * speed / problem->w[contact * (problem->contact_count + 1)];
+    double depth = pow(work / (HERTZ_WORK * hertz->stiffness), 0.4);
+    struct model_blow blow = {.force = hertz->stiffness * depth * sqrt(depth),
+                              .indentation = depth,
+                              .duration = speed > 0.0 ? DURATION * depth / speed : INFINITY};
+    /* by the law that yields, where it does */
+    const struct contact_choice *choice = &problem->contact_model.choices[contact];
+    if (choice->side < 0 || !(depth > choice->yield))
+        return blow;
+    struct contact_law law = choice->plastic;
+    depth = law_error_depth(&law, work);
+    if (!(depth > law.history.max_indentation))
+        return blow;
+    contact_law_yield(&law, depth - law.history.dent);
+    blow.history = law.history;
+    blow.force = law.history.max_force;
+    blow.indentation = law.history.max_indentation;
+    return blow;
+}
+
+/* A longitudinal wave along the longest dimension, excited by a force like half a sine: of the
+ * energy 8 (reduced mass / mass) (way of a wave during the contact / length)^-4 (the envelope of
+ * cos^2(omega T/2) / (1 - (omega T/pi)^2)^2). */
+double model_deviation_ringing(const struct problem *problem, size_t contact,
+                               const struct model_blow *blow)
+{
+    double reduced = 1.0 / problem->w[contact * (problem->contact_count + 1)];
+    double share = 0.0;
+    for (int which = 0; which < 2; which++) {
+        const struct body *body = problem_body(problem, contact, which);
+        if (body_is_flexible(body) || !isfinite(body->mass) || !(blow->duration > 0.0))
+            continue;
+        double ratio = extent(body) / (wave_speed(body) * blow->duration);
+        share += 8.0 * fmin(reduced / body->mass, 1.0) * pow(ratio, 4.0);
+    }
+    /* e^2 = 1 - share */
+    return 1.0 - sqrt(1.0 - fmin(share, 1.0));
+}

@@ -1,0 +1,51 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* How far the models of a contact may be from its bodies: what of it is uncertain, and by how much.
+ * The figures are of complete finite elements and of three-dimensional meshes (docs/accuracy.md).
+ */
+#ifndef PERCUSS_SOLVE_MODEL_DEVIATION_H
+#define PERCUSS_SOLVE_MODEL_DEVIATION_H
+
+#include "impact/impact.h"
+#include "solve/problem.h"
+
+/* Deviations that nineteen of twenty stay below. */
+struct model_deviation {
+    double force;      /* share of the law's force: patches against radii, theories of vibration */
+    double compliance; /* m/N in series: what of the bodies' regular one is not known */
+    double yield;      /* share of what a contact that flows gives back by itself */
+};
+
+/* Hertz's parabolas and half-spaces: share of the force by (half-axis / radius)^2. */
+static const double MODEL_DEVIATION_PATCH = 0.3;
+
+/* Normal deviates are that often within the deviations above. */
+static const double MODEL_DEVIATION_SIGMAS = 2.0;
+
+/* One blow as it is judged by. */
+struct model_blow {
+    double force, indentation;      /* largest, N and m */
+    double duration;                /* of the longest contact, s */
+    struct contact_history history; /* of the law after it; zero where nothing yielded */
+};
+
+/* That of a solution. */
+struct model_blow model_blow_of(const struct problem *problem, const struct impact_outcome *outcome,
+                                size_t contact);
+
+/* That of bodies which would be rigid but for the contact, before anything is solved. */
+struct model_blow model_blow_expected(const struct problem *problem, size_t contact);
+
+struct model_deviation model_deviation_of(const struct problem *problem, size_t contact,
+                                          const struct model_blow *blow);
+
+/* Share of the stiffness that a compliance in series with a contact changes, per m/N. */
+double model_blow_stiffness(const struct model_blow *blow);
+
+/* What a body that is taken as rigid keeps as vibration of its own, as a part of the restitution.
+ */
+double model_deviation_ringing(const struct problem *problem, size_t contact,
+                               const struct model_blow *blow);
+
+#endif

@@ -1,0 +1,249 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/model_error.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "contact/plastic.h"
+#include "solve/attempt.h"
+#include "solve/contact_model.h"
+#include "solve/law_error.h"
+#include "solve/outcome.h"
+#include "solve/validity.h"
+
+/* Change of e by a unit of the stiffness's logarithm, of a single contact: by the share s of the
+ * energy that vibrates, at most LOST s + SWUNG sqrt(s) of 95 in 100 random bars (waves that leave;
+ * a mode that the contact catches in its swing). */
+static const double LOST = 0.3;
+static const double SWUNG = 0.2;
+/* Longest steps of solutions beside a sequence, as accuracy (impact_settings). */
+static const double LONGEST = 1e-3;
+/* Work that one of them may take, in those of the answer. */
+static const double EFFORT = 3.0;
+/* Between the answer and those beside it e need not lie between theirs. */
+static const double BETWEEN = 1.5;
+
+/* The contacts' deviations. */
+struct margin {
+    const struct problem *problem;
+    const struct solution *solution;
+    struct model_blow *blow;           /* [contact] */
+    struct model_deviation *deviation; /* [contact] */
+};
+
+/* Of the stiffness, force and compliance together. */
+static double stiffness_share(const struct margin *margin, size_t c)
+{
+    double by_compliance = margin->deviation[c].compliance * model_blow_stiffness(&margin->blow[c]);
+    return hypot(margin->deviation[c].force, by_compliance);
+}
+
+/* Change of e by the stiffness's logarithm: by the speed it is known exactly for Hertz's law and
+ * bodies that were at rest, twice that by the speed's (k d^1.5 at s times the speed is k sqrt(s)
+ * d^1.5 at the same). */
+static double sensitivity(const struct margin *margin)
+{
+    const struct impact_energy *energy = &margin->solution->outcome.energy;
+    double by_speed = margin->solution->restitution_by_speed * margin->problem->gap_rate[0];
+    bool hertz = !contact_model_used(margin->problem)->curve;
+    if (hertz && isfinite(by_speed))
+        return fabs(2.0 * by_speed);
+    double share = (energy->vibration + energy->damping) / energy->available;
+    share = fmin(fmax(share, 0.0), 1.0); /* NAN: nothing was available */
+    return LOST * share + SWUNG * sqrt(share);
+}
+
+/* Restitution that what follows the largest indentation makes, first of all. */
+static double rebound(const struct margin *margin, size_t c)
+{
+    const struct track *track = &margin->solution->outcome.tracks[c];
+    double back = 0.0;
+    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
+        back += track->list[i].impulse - track->list[i].compression_impulse;
+    double compression = margin->problem->impulse_compression[c];
+    return compression > 0.0 ? fabs(back) / compression : 0.0;
+}
+
+/* As if there were one contact after which the bodies part. */
+static double single(const struct margin *margin)
+{
+    double largest = 0.0;
+    for (size_t c = 0; c < margin->problem->contact_count; c++) {
+        double spring = sensitivity(margin) * stiffness_share(margin, c);
+        double flow = margin->deviation[c].yield * rebound(margin, c);
+        double ringing = model_deviation_ringing(margin->problem, c, &margin->blow[c]);
+        largest = fmax(largest, hypot(hypot(spring, flow), ringing));
+    }
+    return largest + validity_wave_loss(margin->problem);
+}
+
+/* Which deviations a solution beside the answer has: all contacts softer or stiffer, every other
+ * one so, or all yielding later or earlier. */
+struct direction {
+    bool alternate, flow;
+    double sign;
+};
+
+/* The point of the deviations where most of the stiffness changes: each by its own share of it. */
+static void deviate(const struct margin *margin, const struct direction *direction, size_t c,
+                    struct contact_law *law, double *compliance)
+{
+    const struct model_deviation *deviation = &margin->deviation[c];
+    double sign = direction->alternate && c % 2 ? -direction->sign : direction->sign;
+    if (direction->flow) {
+        double depth = margin->blow[c].history.max_indentation;
+        if (!(deviation->yield > 0.0 && law->operations->curve))
+            return;
+        double yield = law_error_yield(law, depth, deviation->yield);
+        *law = contact_law_rescaled(law, 1.0, sign > 0.0 ? yield : 1.0 / yield);
+        return;
+    }
+    double all = stiffness_share(margin, c);
+    if (!(all > 0.0))
+        return;
+    double own = deviation->force / all;
+    double other = deviation->compliance * model_blow_stiffness(&margin->blow[c]) / all;
+    *law = contact_law_rescaled(law, exp(sign * own * deviation->force), 1.0);
+    *compliance -= sign * other * deviation->compliance;
+}
+
+static bool make_scene(const struct margin *margin, const struct direction *direction,
+                       struct scene *scene)
+{
+    size_t n = margin->problem->contact_count;
+    struct arena *arena = margin->problem->arena;
+    struct contact_law *laws = arena_take(arena, n, sizeof *laws);
+    double *residual = arena_take(arena, n * n, sizeof *residual);
+    if (!laws || !residual)
+        return false;
+    memcpy(laws, scene->laws, n * sizeof *laws);
+    memcpy(residual, scene->residual, n * n * sizeof *residual);
+    for (size_t c = 0; c < n; c++)
+        deviate(margin, direction, c, &laws[c], &residual[c * n + c]);
+    scene->laws = laws;
+    scene->residual = residual;
+    return true;
+}
+
+/* Solves a scene beside the answer's, and how far its restitutions are from `answer`; INFINITY:
+ * nobody knows. */
+static enum percuss_status solve_beside(const struct margin *margin, const struct scene *scene,
+                                        struct pace *pace, const struct impact_outcome *answer,
+                                        struct attempt *attempt, double *distance)
+{
+    const struct problem *problem = margin->problem;
+    const struct solution *solution = margin->solution;
+    struct attempt_context context = {
+        .problem = problem,
+        .arena = problem->arena,
+        .pace = pace,
+        .work = fmin(EFFORT * impact_work(solution->scene, &solution->outcome),
+                     attempt_work_allowed(problem->request->options.method)),
+    };
+    *attempt = (struct attempt){.accuracy = fmax(solution->step_accuracy, LONGEST),
+                                .assembly = solution->assembly};
+    enum percuss_status status = attempt_run(&context, attempt, scene);
+    *distance = INFINITY;
+    if (!status && !attempt_is_spent(attempt) && !attempt->outcome.always_overlapped)
+        *distance = answer ? outcome_compare(problem, answer, &attempt->outcome).restitution : 0.0;
+    return status;
+}
+
+/* The larger one of two distances along a direction and against it. */
+static enum percuss_status along(const struct margin *margin, bool flow, struct pace *pace,
+                                 const struct impact_outcome *answer, double *largest)
+{
+    bool group = margin->problem->contact_count > 1;
+    for (int i = 0; i < 2; i++) {
+        struct direction direction = {
+            .alternate = group && i, .flow = flow, .sign = i && !group ? 1.0 : -1.0};
+        struct scene scene = *margin->solution->scene;
+        struct attempt beside;
+        double distance;
+        if (!make_scene(margin, &direction, &scene))
+            return PERCUSS_INTERNAL;
+        enum percuss_status status = solve_beside(margin, &scene, pace, answer, &beside, &distance);
+        if (status)
+            return status;
+        *largest = fmax(*largest, distance);
+    }
+    return PERCUSS_OK;
+}
+
+/* By solutions beside the answer. */
+static enum percuss_status by_sequence(const struct margin *margin, struct pace *pace,
+                                       double *restitution)
+{
+    const struct problem *problem = margin->problem;
+    const struct impact_outcome *answer = &margin->solution->outcome;
+    enum contact_method method = contact_law_asked(problem->request->options.contact_model)->method;
+    struct attempt base;
+    enum percuss_status status = PERCUSS_OK;
+    double known = 0.0;
+    /* by finite elements in the contact: the law's own answer to compare with */
+    if (method == CONTACT_CONCURRENT) {
+        status = solve_beside(margin, margin->solution->scene, pace, NULL, &base, &known);
+        answer = &base.outcome;
+    }
+    /* with other stiffnesses, and where metal flows with other yield stresses */
+    double spring = known;
+    double flow = 0.0;
+    bool flows = false;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        flows = flows || margin->deviation[c].yield > 0.0;
+    if (!status && !isinf(known))
+        status = along(margin, false, pace, answer, &spring);
+    if (!status && !isinf(known) && flows)
+        status = along(margin, true, pace, answer, &flow);
+    *restitution = fmax(*restitution, BETWEEN * hypot(spring, flow));
+    return status;
+}
+
+static bool is_sequence(const struct margin *margin)
+{
+    const struct impact_outcome *outcome = &margin->solution->outcome;
+    return margin->problem->contact_count > 1 || outcome->tracks[0].count > 1;
+}
+
+enum percuss_status model_error_find(const struct problem *problem, const struct solution *solution,
+                                     struct pace *pace, double *restitution)
+{
+    /* what of each contact is uncertain */
+    size_t n = problem->contact_count;
+    struct margin margin = {
+        .problem = problem,
+        .solution = solution,
+        .blow = arena_take(problem->arena, n, sizeof *margin.blow),
+        .deviation = arena_take(problem->arena, n, sizeof *margin.deviation),
+    };
+    if (!margin.blow || !margin.deviation)
+        return PERCUSS_INTERNAL;
+    for (size_t c = 0; c < n; c++) {
+        margin.blow[c] = model_blow_of(problem, &solution->outcome, c);
+        margin.deviation[c] = model_deviation_of(problem, c, &margin.blow[c]);
+    }
+    /* to first order, and as sequences amplify it */
+    enum percuss_status status = PERCUSS_OK;
+    *restitution = single(&margin);
+    if (is_sequence(&margin))
+        status = by_sequence(&margin, pace, restitution);
+    *restitution = fmin(*restitution, outcome_range(problem, &solution->outcome));
+    return status;
+}
+
+double model_error_complete(const struct problem *problem, const struct model_blow *blow)
+{
+    double axes[2];
+    double sum = 0.0;
+    hertz_ellipse(&problem->hertz[0], blow->force, axes);
+    for (int which = 0; which < 2; which++) {
+        const struct body *body = problem_body(problem, 0, which);
+        double ratio = axes[0] / body_smallest_radius(body);
+        sum += (LOST + SWUNG) * MODEL_DEVIATION_PATCH * ratio * ratio;
+        if (body_solid(body).approximate)
+            sum += model_deviation_ringing(problem, 0, blow);
+    }
+    return sum;
+}

@@ -1,0 +1,23 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What the models themselves may be wrong by, beside modes and steps: their deviations
+ * (model_deviation.h), as far as the answer is sensitive to them. Of a single contact by the energy
+ * that it leaves as vibration; a sequence of sub-impacts, which may amplify them, is solved again
+ * with a softer and a stiffer contact. */
+#ifndef PERCUSS_SOLVE_MODEL_ERROR_H
+#define PERCUSS_SOLVE_MODEL_ERROR_H
+
+#include "solve/model_deviation.h"
+#include "solve/solution.h"
+
+/* On the restitution, of the contact where it is largest. PERCUSS_OK, PERCUSS_INTERNAL or
+ * PERCUSS_TIMEOUT. */
+enum percuss_status model_error_find(const struct problem *problem, const struct solution *solution,
+                                     struct pace *pace, double *restitution);
+
+/* The same of complete finite elements, which have neither modes nor a law: strains that are not
+ * small, a block that is taken as round. */
+double model_error_complete(const struct problem *problem, const struct model_blow *blow);
+
+#endif
