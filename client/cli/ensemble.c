@@ -21,6 +21,7 @@
 enum {
     KEY_SPEED = OPTION_OWN,
     KEY_INPUT,
+    KEY_MODEL_ERROR,
     KEY_CORRELATE,
     KEY_SAMPLES,
     KEY_SEED,
@@ -48,6 +49,10 @@ static const struct argp_option options[] = {
     {"input", KEY_INPUT, "NAME[@ID]=DIST", 0,
      "another uncertain number: direction; site, young, poisson, density, radius, yield, damping, "
      "scale of a body (again for more)",
+     11},
+    {"model-error", KEY_MODEL_ERROR, NULL, 0,
+     "what the models themselves may be wrong by is uncertain too: the inputs model-force, "
+     "model-compliance and model-yield, normal, in standard deviations",
      11},
     {"correlate", KEY_CORRELATE, "I,J=RHO", 0,
      "inputs I and J (0: the first, in order) are correlated", 11},
@@ -93,6 +98,14 @@ static void add_input(struct ensemble *ensemble, const char *text, bool speed,
     }
     if (!read)
         argp_error(state, "--%s: %s", speed ? "speed" : "input", fault.text);
+}
+
+static void add_model_error(struct ensemble *ensemble, struct argp_state *state)
+{
+    static const char *const inputs[] = {"model-force=normal:0:1", "model-compliance=normal:0:1",
+                                         "model-yield=normal:0:1"};
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
+        add_input(ensemble, inputs[i], false, state);
 }
 
 static void add_correlation(struct ensemble *ensemble, const char *text, struct argp_state *state)
@@ -176,6 +189,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_INPUT:
         add_input(ensemble, text, false, state);
+        return 0;
+    case KEY_MODEL_ERROR:
+        add_model_error(ensemble, state);
         return 0;
     case KEY_CORRELATE:
         add_correlation(ensemble, text, state);

@@ -152,7 +152,8 @@ enum percuss_status decode_request(const percuss_v1_Request *wire, struct solve_
         check_enter(&check, "contacts", i);
         decode_contact(&check, &wire->contacts._buffer[i], body_count, &request->contacts[i]);
     }
-    /* the scene as a whole */
+    /* the scene as a whole, by the models as they are */
+    memset(request->model_shift, 0, sizeof request->model_shift);
     check_enter(&check, NULL, CHECK_NO_LIST);
     if (wire->delassus._length > 0)
         check_delassus(&check, &wire->delassus, contact_count);

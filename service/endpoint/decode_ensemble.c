@@ -17,8 +17,8 @@ static void decode_owner(struct check *check, const percuss_v1_EnsembleInput *wi
     /* what varies */
     input->quantity = input_quantity_find(wire->name);
     check_that(check, input->quantity < INPUT_QUANTITY_COUNT,
-               "name: '%s': must be one of speed, direction, site, young, poisson, density, "
-               "radius, yield, damping, scale",
+               "name: '%s': must be one of speed, direction, model-force, model-compliance, "
+               "model-yield, site, young, poisson, density, radius, yield, damping, scale",
                wire->name);
     /* a quantity of the contact has no body */
     input->body = 0;

@@ -17,6 +17,7 @@ static const double LEAST_SHARE = 1e-6;
 static const struct limit limit_speed = {1e-6, 1e4, false, false, "1e-6 to 1e4 m/s"};
 static const struct limit limit_direction = {-1.396, 1.396, false, false,
                                              "an angle of -1.396 to 1.396 rad (80 degrees)"};
+static const struct limit limit_model = {-6.0, 6.0, false, false, "-6 to 6 standard deviations"};
 static const struct limit limit_site = {0.0, 1.0, false, false, "a fraction of the length, 0 to 1"};
 
 #define QUANTITY_TEXT(name, text) [INPUT_##name] = (text),
@@ -28,11 +29,13 @@ static const char *const distribution_names[] = {"constant", "uniform", "normal"
 static const struct limit *limit_of(enum input_quantity quantity)
 {
     static const struct limit *const limits[INPUT_QUANTITY_COUNT] = {
-        [INPUT_SPEED] = &limit_speed,     [INPUT_DIRECTION] = &limit_direction,
-        [INPUT_SITE] = &limit_site,       [INPUT_YOUNG] = &limit_young,
-        [INPUT_POISSON] = &limit_poisson, [INPUT_DENSITY] = &limit_density,
-        [INPUT_RADIUS] = &limit_length,   [INPUT_YIELD] = &limit_yield,
-        [INPUT_DAMPING] = &limit_damping, [INPUT_SCALE] = &limit_scale,
+        [INPUT_SPEED] = &limit_speed,       [INPUT_DIRECTION] = &limit_direction,
+        [INPUT_MODEL_FORCE] = &limit_model, [INPUT_MODEL_COMPLIANCE] = &limit_model,
+        [INPUT_MODEL_YIELD] = &limit_model, [INPUT_SITE] = &limit_site,
+        [INPUT_YOUNG] = &limit_young,       [INPUT_POISSON] = &limit_poisson,
+        [INPUT_DENSITY] = &limit_density,   [INPUT_RADIUS] = &limit_length,
+        [INPUT_YIELD] = &limit_yield,       [INPUT_DAMPING] = &limit_damping,
+        [INPUT_SCALE] = &limit_scale,
     };
     return limits[quantity];
 }
@@ -57,7 +60,7 @@ enum input_quantity input_quantity_find(const char *name)
 
 bool input_is_of_body(enum input_quantity quantity)
 {
-    return quantity != INPUT_SPEED && quantity != INPUT_DIRECTION;
+    return quantity != INPUT_SPEED && quantity != INPUT_DIRECTION && !input_is_of_model(quantity);
 }
 
 /* Where values may lie: the stated truncation within the quantity's own limits. */

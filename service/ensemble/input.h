@@ -11,11 +11,15 @@
 #include "base/fault.h"
 
 /* speed: at which the contact approaches, m/s. direction: angle of the approach from the contact's
- * normal, rad. site: place of the contact along a rod or beam, 0 .. 1. The others: of a body;
- * scale: of a mesh. */
+ * normal, rad. model-force, -compliance, -yield: what the models may be wrong by, of all contacts,
+ * in standard deviations (solve/model_deviation.h). site: place of the contact along a rod or beam,
+ * 0 .. 1. The others: of a body; scale: of a mesh. */
 #define INPUT_QUANTITY_LIST(X)                                                                     \
     X(SPEED, "speed")                                                                              \
     X(DIRECTION, "direction")                                                                      \
+    X(MODEL_FORCE, "model-force")                                                                  \
+    X(MODEL_COMPLIANCE, "model-compliance")                                                        \
+    X(MODEL_YIELD, "model-yield")                                                                  \
     X(SITE, "site")                                                                                \
     X(YOUNG, "young")                                                                              \
     X(POISSON, "poisson")                                                                          \
@@ -56,6 +60,13 @@ enum input_quantity input_quantity_find(const char *name);
 
 /* Whether it belongs to a body rather than to the contact. */
 bool input_is_of_body(enum input_quantity quantity);
+
+/* Whether it shifts the models. */
+static inline bool input_is_of_model(enum input_quantity quantity)
+{
+    return quantity == INPUT_MODEL_FORCE || quantity == INPUT_MODEL_COMPLIANCE ||
+           quantity == INPUT_MODEL_YIELD;
+}
 
 /* PERCUSS_OK or BAD_REQUEST, "inputs[index].field: value: must be ...". */
 enum percuss_status input_check(const struct ensemble_input *input, size_t index,

@@ -40,7 +40,8 @@ bool spec_changes_scene(const struct ensemble_spec *spec)
 {
     bool changes = spec_changes_bodies(spec);
     for (size_t i = 0; i < spec->input_count; i++)
-        changes = changes || spec->inputs[i].quantity == INPUT_SITE;
+        changes = changes || spec->inputs[i].quantity == INPUT_SITE ||
+                  input_is_of_model(spec->inputs[i].quantity);
     return changes;
 }
 

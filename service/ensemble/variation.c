@@ -292,6 +292,10 @@ enum percuss_status variation_apply(struct variation *variation, const double *v
             scale_velocities(&variation->request, values[i] / -variation->gap_rate);
         else if (spec->inputs[i].quantity == INPUT_DIRECTION)
             angle = values[i];
+        else if (input_is_of_model(spec->inputs[i].quantity))
+            variation->request
+                .model_shift[spec->inputs[i].quantity - INPUT_MODEL_FORCE + SOLVE_SHIFT_FORCE] =
+                values[i];
     }
     if (angle != 0.0)
         turn_velocities(variation, angle);

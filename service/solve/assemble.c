@@ -252,6 +252,8 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
     /* what is in series with the laws */
     for (size_t c = 0; problem->compliance.series && c < n; c++)
         residual[c * n + c] = problem->compliance.series[c];
+    for (size_t c = 0; problem->shift && c < n; c++)
+        residual[c * n + c] += problem->shift[c];
     assembly->scene.residual = residual;
     const struct scene rigid = assembly->scene;
     /* every loaded family of every body that vibrates */

@@ -5,6 +5,7 @@
 
 #include "solve/compliance.h"
 #include "solve/contact_model.h"
+#include "solve/model_shift.h"
 #include "solve/placement.h"
 
 enum percuss_status formulate(struct problem *problem, const struct solve_means *means,
@@ -15,11 +16,18 @@ enum percuss_status formulate(struct problem *problem, const struct solve_means 
         status = contact_model_choose(problem, means->tables, fault);
     if (!status)
         status = compliance_choose(problem, means->catalogue->compliance, fault);
+    if (!status)
+        status = model_shift_apply(problem, fault);
     return status;
 }
 
 bool formulation_revise(struct problem *problem, const struct scene *scene,
                         const struct impact_outcome *outcome)
 {
-    return contact_model_revise(problem, outcome) || compliance_revise(problem, scene, outcome);
+    struct fault lost; /* of memory: the arena tells */
+    bool laws = contact_model_revise(problem, outcome);
+    bool revised = laws || compliance_revise(problem, scene, outcome);
+    if (laws)
+        model_shift_apply(problem, &lost);
+    return revised;
 }

@@ -66,6 +66,7 @@ struct problem {
     bool from_client;            /* that W */
     struct contact_model contact_model;
     struct compliance compliance;
+    double *shift; /* [contact], m/N: in series besides, of a shifted model; NULL: none */
 };
 
 /* An empty one in the arena, for the request. NULL: out of memory. */

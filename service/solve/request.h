@@ -41,12 +41,17 @@ struct solve_options {
     PERCUSS_OPTION_FIELDS(SOLVE_MEMBER) /* the deadline is for the watch, the solver has no clock */
 };
 
+/* What of a contact's models may be shifted: force, compliance in series, stress of yield. */
+enum { SOLVE_SHIFT_FORCE, SOLVE_SHIFT_COMPLIANCE, SOLVE_SHIFT_YIELD, SOLVE_SHIFTS };
+
 struct solve_request {
     size_t body_count, contact_count;
     struct solve_body bodies[PERCUSS_MAX_BODIES];
     struct solve_contact contacts[PERCUSS_MAX_CONTACTS];
     const double *delassus; /* contact_count^2, row-major; NULL: the service's; borrowed */
     struct solve_options options;
+    double model_shift[SOLVE_SHIFTS]; /* of the models, in standard deviations of what they may be
+                                         wrong by (model_shift.h); 0: as they are */
 };
 
 /* Horizon of who states none, s, or two longest periods where they are more: the sub-impacts of the

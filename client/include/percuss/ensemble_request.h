@@ -32,8 +32,9 @@ enum percuss_distribution {
 enum percuss_sampling { PERCUSS_SAMPLING_LIST(PERCUSS_SAMPLING_MEMBER) PERCUSS_SAMPLING_COUNT };
 
 struct percuss_input {
-    char name[PERCUSS_ID_SIZE]; /* speed, direction; site, young, poisson, density, radius, yield,
-                                   damping of a body */
+    char name[PERCUSS_ID_SIZE]; /* speed, direction; what the models may be wrong by, in standard
+                                   deviations: model-force, model-compliance, model-yield; site,
+                                   young, poisson, density, radius, yield, damping of a body */
     char body[PERCUSS_ID_SIZE]; /* its id; empty: of the contact */
     enum percuss_distribution distribution;
     double first, second; /* constant: value; uniform: range; others: mean and deviation */
