@@ -128,24 +128,22 @@ static void find_mesh_place(const struct problem *problem, size_t c, unsigned wh
 }
 
 /* A body that yields by a law which is not of its own material, and how that can be mended. Bodies
- * that only this request has get no table. */
-static void find_table(const struct problem *problem, const struct impact_outcome *outcome,
-                       size_t c, struct warnings *warnings)
+ * that only this request has get no table. False: nothing to say. */
+static bool find_table(const struct problem *problem, const struct impact_outcome *outcome,
+                       size_t c, double error, struct warnings *warnings)
 {
     const struct contact_choice *choice = &problem->contact_model.choices[c];
     const struct body *a = problem_body(problem, c, 0);
     const struct body *b = problem_body(problem, c, 1);
     enum percuss_contact_model asked = problem->request->options.contact_model;
     bool may = contact_law_asked(asked)->tables == CONTACT_TABLES_IF_ANY;
-    bool own = choice->tabulated && !choice->family;
-    bool can = problem->hertz[c].axis_ratio >= HERTZ_CIRCULAR_RATIO && !a->varied && !b->varied;
-    /* the family's is near enough unless more is asked for */
-    double error = law_error(problem, outcome, c);
-    if (!may || own || !contact_model_yielded(problem, outcome, c) ||
-        (choice->family && !(can && error > problem->tolerance)))
-        return;
+    /* the family's is as good unless these metals are none of it */
+    bool good = choice->tabulated && !(choice->outside > 0.0 || choice->both);
+    if (!may || good || !contact_model_yielded(problem, outcome, c))
+        return false;
+    /* what makes one */
     char how[WARNING_SIZE] = "";
-    if (can)
+    if (problem->hertz[c].axis_ratio >= HERTZ_CIRCULAR_RATIO && !a->varied && !b->varied)
         snprintf(how, sizeof how,
                  ": percuss-tables --catalogue FILE --folder DIR --a %s --b %s makes one", a->id,
                  b->id);
@@ -154,6 +152,7 @@ static void find_table(const struct problem *problem, const struct impact_outcom
                  "%.2g of the restitution%s",
                  c, (choice->side == 0 ? a : b)->id, a->material.name, b->material.name,
                  choice->family ? "the family of tables" : "the closed form", error, how);
+    return true;
 }
 
 static void find_place(const struct problem *problem, const struct impact_outcome *outcome,
@@ -169,9 +168,8 @@ static void find_place(const struct problem *problem, const struct impact_outcom
                          "law assumes material on all sides",
                          c, problem_body(problem, c, which)->id);
     /* without a table of its own, and where the law is far off */
-    find_table(problem, outcome, c, warnings);
     double error = law_error(problem, outcome, c);
-    if (error > WRONG_LAW)
+    if (!find_table(problem, outcome, c, error, warnings) && error > WRONG_LAW)
         warnings_add(warnings, WARNING_LAW,
                      "contacts[%zu]: the contact law itself is estimated to be off by %.2g of the "
                      "restitution: %s",
