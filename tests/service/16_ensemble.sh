@@ -45,6 +45,15 @@ grep -q '</svg>' "$work/one.svg" || fail "no SVG"
 expect 2 ensemble --plot "$work/ensemble.jpg"
 says ".png or .svg"
 
+say "what the models are wrong by: one speed is a distribution where a sequence amplifies it"
+expect 0 percuss ensemble --a steel-sphere --b al-beam --speed 0.287 --model-error --samples 200 --json
+grep -q '"input": "model-compliance"' "$out" || fail "no sensitivity to the compliance"
+awk -v d="$(field standard_deviation)" 'BEGIN { exit !(d > 0.03) }' || fail "deviation $(field standard_deviation)"
+expect 0 percuss ensemble --a steel-sphere --b al-beam --speed 0.2 --model-error --samples 200 --json
+awk -v d="$(field standard_deviation)" 'BEGIN { exit !(d > 0 && d < 0.01) }' || fail "deviation $(field standard_deviation)"
+expect 5 percuss ensemble --a steel-sphere --b al-beam --speed 0.2 --input model-force=9 --samples 10
+says "must be -6 to 6 standard deviations"
+
 say "what does not vary is a value, not a distribution"
 expect 0 percuss ensemble --a steel-sphere --b al-rod-1 --speed 0.3 --samples 16
 grep -q '^  restitution 0\.[0-9]* from each of 16 samples: it does not vary$' "$out" || fail "no value"

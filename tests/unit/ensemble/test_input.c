@@ -165,6 +165,9 @@ static void names(void **state)
     for (unsigned i = 0; i < INPUT_QUANTITY_COUNT; i++)
         assert_int_equal(input_quantity_find(input_quantity_name(i)), i);
     assert_int_equal(input_quantity_find("mass"), INPUT_QUANTITY_COUNT);
+    assert_true(input_is_of_model(input_quantity_find("model-yield")));
+    assert_true(!input_is_of_body(INPUT_MODEL_FORCE) && !input_is_of_body(INPUT_MODEL_YIELD));
+    assert_true(input_is_of_body(INPUT_SITE) && !input_is_of_model(INPUT_SITE));
 }
 
 int main(void)
