@@ -1,0 +1,180 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "reduce/options.h"
+
+#include <argp.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mesh/mesh_read.h"
+#include "model/limits.h"
+
+enum { USAGE = 2, YOUNG = 256, POISSON, DENSITY, SIZE, VTK, JSON };
+
+const char *argp_program_version = "percuss-reduce " PERCUSS_VERSION;
+
+static const struct argp_option list[] = {
+    {"output", 'o', "BODY.h5", 0, "The body's file", 0},
+    {NULL, 0, NULL, 0, "What it is made of, where FILE does not say:", 1},
+    {"material", 'm', "NAME", 0, "A material of the catalogue, for all parts", 1},
+    {"part", 'p', "PART=NAME", 0, "A material of the catalogue for one part", 1},
+    {"catalogue", 'C', "FILE", 0, "Where the materials stand", 1},
+    {"young", YOUNG, "E", 0, "Or by numbers: Young's modulus in Pa,", 1},
+    {"poisson", POISSON, "N", 0, "Poisson's ratio,", 1},
+    {"density", DENSITY, "R", 0, "and density in kg/m^3", 1},
+    {NULL, 0, NULL, 0, "How it is computed:", 2},
+    {"unit", 'u', "UNIT", 0, "Of lengths in FILE: m (default), cm, mm, um, in, ft", 2},
+    {"size", SIZE, "H", 0, "Of the elements that Gmsh makes of a shape, in the unit", 2},
+    {"max-frequency", 'f', "HZ", 0,
+     "All modes below; default: as far as the mesh is good, at most 300 modes", 2},
+    {"modes", 'n', "N", 0, "So many modes instead", 2},
+    {"fixed", 'x', "SET", 0, "Hold the nodes of a set (as often as needed)", 2},
+    {NULL, 0, NULL, 0, "What is told:", 3},
+    {"vtk", VTK, "FILE.vtu", 0, "Also write mesh and modes for ParaView", 3},
+    {"json", JSON, NULL, 0, "The report as one JSON object", 3},
+    {0},
+};
+
+static double parse_number(struct argp_state *state, const char *name, const char *text,
+                           double least, double most)
+{
+    char *end;
+    double number = strtod(text, &end);
+    if (end == text || *end || !(number >= least && number <= most))
+        argp_error(state, "--%s: %s: must be a number, %g to %g", name, text, least, most);
+    return number;
+}
+
+static void check_room(struct argp_state *state, const char *name, size_t count)
+{
+    if (count == OPTIONS_MOST)
+        argp_error(state, "--%s: must be given at most %d times", name, OPTIONS_MOST);
+}
+
+static void add_part(struct argp_state *state, struct options *options, char *text)
+{
+    /* names of parts may have an equals sign, those of materials have none */
+    char *equals = strrchr(text, '=');
+    check_room(state, "part", options->part_count);
+    if (!equals || equals == text || !equals[1])
+        argp_error(state, "--part: %s: must be PART=MATERIAL", text);
+    *equals = '\0';
+    options->parts[options->part_count++] = (struct part_option){text, equals + 1};
+}
+
+static error_t parse_material(int key, char *text, struct argp_state *state)
+{
+    struct options *options = state->input;
+    switch (key) {
+    case 'm':
+        options->material = text;
+        return 0;
+    case 'p':
+        add_part(state, options, text);
+        return 0;
+    case 'C':
+        options->catalogue = text;
+        return 0;
+    case YOUNG:
+        options->young = parse_number(state, "young", text, 1.0, 1e15);
+        return 0;
+    case POISSON:
+        options->poisson = parse_number(state, "poisson", text, -0.99, 0.4999);
+        return 0;
+    case DENSITY:
+        options->density = parse_number(state, "density", text, 1e-3, 1e6);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static error_t parse_method(int key, char *text, struct argp_state *state)
+{
+    struct options *options = state->input;
+    switch (key) {
+    case 'u':
+        options->unit = mesh_read_unit(text);
+        if (!(options->unit > 0.0))
+            argp_error(state, "--unit: %s: must be m, cm, mm, um, in or ft", text);
+        return 0;
+    case SIZE:
+        options->size = parse_number(state, "size", text, 1e-9, 1e9);
+        return 0;
+    case 'f':
+        options->max_frequency = parse_number(state, "max-frequency", text, 1e-3, 1e12);
+        return 0;
+    case 'n':
+        options->modes = (size_t)parse_number(state, "modes", text, 1.0, LIMIT_MODES);
+        return 0;
+    case 'x':
+        check_room(state, "fixed", options->fixed_count);
+        options->fixed[options->fixed_count++] = text;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static void check(struct argp_state *state, const struct options *options)
+{
+    bool numbers = !isnan(options->young) || !isnan(options->poisson) || !isnan(options->density);
+    if (!options->file)
+        argp_error(state, "FILE must be given");
+    if (!options->body)
+        argp_error(state, "-o BODY.h5 must be given");
+    if (numbers && (isnan(options->young) || isnan(options->poisson) || isnan(options->density)))
+        argp_error(state, "--young, --poisson and --density must be given together");
+    if (numbers && options->material)
+        argp_error(state, "--material: must be given without --young, --poisson and --density");
+    if ((options->material || options->part_count) && !options->catalogue)
+        argp_error(state, "--material, --part: need --catalogue FILE");
+    if (options->modes && options->max_frequency > 0.0)
+        argp_error(state, "--modes: must be given without --max-frequency");
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct options *options = state->input;
+    switch (key) {
+    case 'o':
+        options->body = text;
+        return 0;
+    case VTK:
+        options->vtk = text;
+        return 0;
+    case JSON:
+        options->json = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (options->file)
+            argp_error(state, "%s: one FILE alone is reduced", text);
+        options->file = text;
+        return 0;
+    case ARGP_KEY_END:
+        check(state, options);
+        return 0;
+    default:
+        return parse_material(key, text, state) == 0 ? 0 : parse_method(key, text, state);
+    }
+}
+
+struct options options_read(int argc, char **argv)
+{
+    static const struct argp argp = {
+        .options = list,
+        .parser = parse,
+        .args_doc = "FILE",
+        .doc = "Reduces a body that is given as a mesh of second-order elements to its modes of "
+               "vibration and what else an impact needs of it, in a file for the catalogue."
+               "\vFILE is Gmsh's .msh or Abaqus' and CalculiX' .inp; .step, .stl, .bdf, .unv, .vtk "
+               "and more where Gmsh is installed. The report goes to standard output, progress to "
+               "standard error.",
+    };
+    struct options options = {.young = NAN, .poisson = NAN, .density = NAN, .unit = 1.0};
+    argp_err_exit_status = USAGE;
+    argp_parse(&argp, argc, argv, 0, NULL, &options);
+    return options;
+}

@@ -1,0 +1,34 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The command line of percuss-reduce. */
+#ifndef PERCUSS_REDUCE_OPTIONS_H
+#define PERCUSS_REDUCE_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { OPTIONS_MOST = 32, OPTIONS_MODES = 300 };
+
+/* A part of the mesh with the material it is made of. */
+struct part_option {
+    const char *part, *material;
+};
+
+struct options {
+    const char *file, *body, *vtk; /* the mesh, the body's file; NULL: no file for ParaView */
+    const char *catalogue, *material;
+    double young, poisson, density; /* NAN: not given */
+    double unit, size;              /* m; 0: not given */
+    double max_frequency;           /* Hz; 0: from the mesh */
+    size_t modes;                   /* 0: from the frequency */
+    size_t fixed_count, part_count;
+    const char *fixed[OPTIONS_MOST];
+    struct part_option parts[OPTIONS_MOST];
+    bool json;
+};
+
+/* Ends the program for --help, --version and, with exit code 2, wrong usage. */
+struct options options_read(int argc, char **argv);
+
+#endif

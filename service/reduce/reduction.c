@@ -1,0 +1,242 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "reduce/reduction.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "mesh/body_file.h"
+#include "mesh/mesh_read.h"
+#include "model/limits.h"
+#include "reduce/materials.h"
+#include "reduce/rigid_modes.h"
+#include "reduce/vtk.h"
+
+/* Elements of second order for the shortest wave: frequencies are good to 1e-3 then. */
+static const double ELEMENTS_PER_WAVE = 8.0;
+
+/* Of a body that is so compact that no mode lies as far as the mesh is good. */
+enum { LEAST_MODES = 10 };
+
+/* Shares of the time, for the progress. */
+static const double READ = 0.02, MODES = 0.98;
+
+/* The slowest shear wave that the mesh carries. */
+static double frequency_limit(const struct solid_mesh *mesh, double element)
+{
+    double slowest = INFINITY;
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        const struct material *material = &mesh->part[i].material;
+        slowest = fmin(slowest, sqrt(material_shear_modulus(material) / material->density));
+    }
+    return slowest / (ELEMENTS_PER_WAVE * element);
+}
+
+static enum percuss_status read_body(struct reduction *reduction, struct fault *fault)
+{
+    const struct options *options = reduction->options;
+    struct mesh_options how = {options->unit, options->size * options->unit};
+    struct solid_mesh *mesh = &reduction->mesh;
+    enum percuss_status status = mesh_read(options->file, &how, mesh, fault);
+    if (!status)
+        status = materials_assign(options, mesh, fault);
+    if (!status)
+        status = surface_make(mesh, &reduction->surface, fault);
+    if (!status)
+        status = surface_fit(mesh, &reduction->surface, fault);
+    if (!status)
+        status = mesh_check(mesh, &reduction->surface, &reduction->findings, fault);
+    if (status)
+        return status;
+    bulk_of(mesh, &reduction->bulk);
+    reduction->enclosed = reduced_body_enclosed(mesh, &reduction->surface);
+    reduction->good_to = frequency_limit(mesh, reduction->surface.size);
+    for (size_t i = 0; i < reduction->findings.remark_count; i++)
+        fprintf(stderr, "percuss-reduce: warning: %s\n", reduction->findings.remarks[i]);
+    return PERCUSS_OK;
+}
+
+/* Holds the named sets; their names go into the file. */
+static enum percuss_status hold(struct reduction *reduction, struct fault *fault)
+{
+    const struct solid_mesh *mesh = &reduction->mesh;
+    enum percuss_status status = PERCUSS_OK;
+    for (size_t k = 0; k < reduction->options->fixed_count && !status; k++) {
+        const char *name = reduction->options->fixed[k];
+        size_t i = 0, length = strlen(reduction->supports);
+        while (i < mesh->set_count && strcmp(mesh->set[i].name, name) != 0)
+            i++;
+        if (i == mesh->set_count)
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "--fixed: %s: the mesh has %zu named set%s of nodes%s%s", name,
+                             mesh->set_count, mesh->set_count == 1 ? "" : "s",
+                             mesh->set_count ? ", the first is " : "",
+                             mesh->set_count ? mesh->set[0].name : "");
+        status = matrices_hold(&reduction->matrices, &mesh->set[i], fault);
+        snprintf(reduction->supports + length, sizeof reduction->supports - length, "%s%s",
+                 length ? " " : "", name);
+    }
+    return status;
+}
+
+static enum percuss_status assemble(struct reduction *reduction, struct fault *fault)
+{
+    enum percuss_status status = matrices_make(&reduction->mesh, &reduction->matrices, fault);
+    if (!status)
+        status = hold(reduction, fault);
+    if (status)
+        return status;
+    struct modes_task *task = &reduction->task;
+    task->matrices = &reduction->matrices;
+    task->scale = rigid_modes_scale(&reduction->mesh, &reduction->bulk);
+    task->rigid.n = reduction->matrices.stiffness.n;
+    task->known = SIZE_MAX;
+    status = rigid_modes_make(&reduction->mesh, &reduction->matrices, task->scale,
+                              &task->rigid.count, &reduction->rigid, fault);
+    task->rigid.values = reduction->rigid;
+    return status;
+}
+
+/* Memory of the machine that nothing uses, bytes; INFINITY where the system does not say. */
+static double free_memory(void)
+{
+    double kilobytes = INFINITY;
+    char line[128];
+    FILE *file = fopen("/proc/meminfo", "r");
+    while (file && fgets(line, sizeof line, file))
+        if (sscanf(line, "MemAvailable: %lf", &kilobytes) == 1)
+            break;
+    if (file)
+        fclose(file);
+    return 1024.0 * kilobytes;
+}
+
+/* Says what it will take before the first factor, and does not begin what cannot fit. */
+static enum percuss_status estimate(struct reduction *reduction, size_t count, bool counted,
+                                    struct fault *fault)
+{
+    struct factor *factor;
+    size_t n = reduction->task.rigid.n;
+    enum percuss_status status =
+        factor_analyse(&reduction->matrices, FACTOR_POSITIVE, &factor, fault);
+    if (status)
+        return status;
+    reduction->cost = modes_cost(factor, n, count);
+    factor_free(factor);
+    /* and the matrices themselves */
+    reduction->cost.memory += 12.0 * (double)reduction->matrices.stiffness.start[n] +
+                              12.0 * (double)reduction->matrices.mass.start[n];
+    double gigabytes = 1e-9 * reduction->cost.memory, room = 1e-9 * free_memory();
+    progress_clear(&reduction->progress);
+    fprintf(stderr,
+            "percuss-reduce: %zu unknowns, %s%zu modes: about %.2g GB of memory and %.2g s\n", n,
+            counted ? "" : "up to ", count, gigabytes, reduction->cost.seconds);
+    if (gigabytes > room)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "needs %.2g GB of memory, of which %.2g GB are free: fewer modes "
+                         "(--modes) or a coarser mesh",
+                         gigabytes, room);
+    return PERCUSS_OK;
+}
+
+/* Which modes: by number, by frequency, or as far as the mesh is good. */
+static enum percuss_status choose(struct reduction *reduction, struct fault *fault)
+{
+    const struct options *options = reduction->options;
+    struct modes_task *task = &reduction->task;
+    bool asked = options->max_frequency > 0.0;
+    task->most = options->modes ? options->modes : asked ? LIMIT_MODES : OPTIONS_MODES;
+    task->below = INFINITY;
+    enum percuss_status status =
+        estimate(reduction, asked ? OPTIONS_MODES : task->most, options->modes > 0, fault);
+    if (status || options->modes)
+        return status;
+    double hertz = asked ? options->max_frequency : reduction->good_to;
+    size_t count;
+    progress_stage(&reduction->progress, "counting modes", READ, 0.1 * MODES);
+    status = modes_count(task, 2.0 * M_PI * hertz, &count, fault);
+    if (status)
+        return status;
+    if (asked && (count == 0 || count > LIMIT_MODES))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "--max-frequency: %g Hz: there are %zu modes below, must be 1 to %d",
+                         hertz, count, LIMIT_MODES);
+    if (count == 0) {
+        task->most = LEAST_MODES;
+        return PERCUSS_OK;
+    }
+    task->below = 2.0 * M_PI * hertz;
+    task->known = count;
+    return estimate(reduction, count < task->most ? count : task->most, true, fault);
+}
+
+static enum percuss_status find_modes(struct reduction *reduction, struct fault *fault)
+{
+    struct watch watch = {progress_show, &reduction->progress};
+    progress_stage(&reduction->progress, "modes", READ, MODES);
+    reduction->task.watch = &watch;
+    enum percuss_status status =
+        modes_find(&reduction->task, &reduction->modes, &reduction->factor, fault);
+    reduction->task.watch = NULL;
+    return status;
+}
+
+static enum percuss_status make_body(struct reduction *reduction, struct fault *fault)
+{
+    char source[256], date[32] = "";
+    time_t now = time(NULL);
+    struct tm utc;
+    if (gmtime_r(&now, &utc))
+        strftime(date, sizeof date, "%Y-%m-%d", &utc);
+    const char *slash = strrchr(reduction->options->file, '/');
+    snprintf(source, sizeof source, "%.150s, percuss-reduce %s, %s",
+             slash ? slash + 1 : reduction->options->file, PERCUSS_VERSION, date);
+    struct reduced_parts parts = {.mesh = &reduction->mesh,
+                                  .surface = &reduction->surface,
+                                  .bulk = &reduction->bulk,
+                                  .modes = &reduction->modes,
+                                  .held = reduction->matrices.held,
+                                  .source = source,
+                                  .supports = reduction->supports};
+    return reduced_body_make(&parts, &reduction->body, fault);
+}
+
+enum percuss_status reduction_run(const struct options *options, struct reduction *reduction,
+                                  struct fault *fault)
+{
+    *reduction = (struct reduction){.options = options, .progress = progress_begin()};
+    progress_stage(&reduction->progress, "reading", 0.0, READ);
+    enum percuss_status status = read_body(reduction, fault);
+    if (!status)
+        status = assemble(reduction, fault);
+    if (!status)
+        status = choose(reduction, fault);
+    if (!status)
+        status = find_modes(reduction, fault);
+    if (!status)
+        status = make_body(reduction, fault);
+    progress_clear(&reduction->progress);
+    /* files */
+    if (!status)
+        status = body_file_write(options->body, reduction->body, fault);
+    if (!status && options->vtk)
+        status = vtk_write(options->vtk, &reduction->mesh, &reduction->modes, fault);
+    reduction->seconds = progress_seconds(&reduction->progress);
+    return status;
+}
+
+void reduction_free(struct reduction *reduction)
+{
+    mesh_body_free(reduction->body);
+    factor_free(reduction->factor);
+    modes_free(&reduction->modes);
+    free(reduction->rigid);
+    matrices_free(&reduction->matrices);
+    surface_free(&reduction->surface);
+    solid_mesh_free(&reduction->mesh);
+}

@@ -1,0 +1,45 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* One mesh from its file to the body's, step by step, with all that is known on the way. */
+#ifndef PERCUSS_REDUCE_REDUCTION_H
+#define PERCUSS_REDUCE_REDUCTION_H
+
+#include "mesh/mesh_check.h"
+#include "reduce/modes.h"
+#include "reduce/options.h"
+#include "reduce/progress.h"
+#include "reduce/reduced_body.h"
+
+struct reduction {
+    const struct options *options;
+    struct progress progress;
+    /* the mesh */
+    struct solid_mesh mesh;
+    struct surface surface;
+    struct mesh_findings findings;
+    struct bulk bulk;
+    double enclosed; /* by the surface, m^3 */
+    double good_to;  /* Hz: eight elements for a shear wave */
+    char supports[128];
+    /* its vibration */
+    struct matrices matrices;
+    double *rigid;
+    struct modes_task task;
+    struct modes_cost cost;
+    struct modes modes;
+    struct factor *factor;
+    /* what comes of it */
+    struct mesh_body *body;
+    double seconds;
+};
+
+/* Everything up to and with the files that were asked for. What is there is told by the report, or
+ * the fault; reduction_free afterwards in any case. PERCUSS_BAD_REQUEST: what is wrong with the
+ * mesh or the options; PERCUSS_INTERNAL without memory. */
+enum percuss_status reduction_run(const struct options *options, struct reduction *reduction,
+                                  struct fault *fault);
+
+void reduction_free(struct reduction *reduction);
+
+#endif
