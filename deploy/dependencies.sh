@@ -10,7 +10,8 @@ set -eu
 build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-serial-dev
 liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom123-dev libsqlite3-dev
 libmumps-seq-dev libhdf5-dev"
-test="libcmocka-dev python3-venv libmujoco-dev valgrind iproute2 mount gmsh"
+test="libcmocka-dev python3-venv libmujoco-dev valgrind iproute2 mount gmsh libmumps-dev
+libopenmpi-dev openmpi-bin"
 ci="clang mmdebstrap"
 
 case ${1:-build} in
