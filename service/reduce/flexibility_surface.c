@@ -14,7 +14,7 @@
 static const double FAR = 4.0;
 /* Triangles of this part of a face or smaller are not split any more: where the place lies within
  * one the face is plane, t bounded and u like 1/r, and what is wrong is the part of a part. */
-enum { MOST_SPLITS = 8 };
+enum { MOST_SPLITS = 7 };
 
 /* what is summed for one place and face */
 struct surface_sum {
@@ -162,6 +162,10 @@ static void add_near(const struct surface_rule *rule, size_t face, struct surfac
         /* as plane as flexibility_place_make wants a face to be */
         if (fabs(dot3(offset, place->load.inward)) > 1e-5 * rule->radii[face])
             sum->in_plane = false;
+    }
+    if (sum->in_plane && isinf(place->load.reach)) {
+        sum->nodes = NULL; /* free of tractions */
+        return;
     }
     if (face == place->face && !place->flat) {
         add_fan(sum);

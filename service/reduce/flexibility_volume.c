@@ -12,7 +12,7 @@
 /* An element whose distance from the place is less than so many radii is split: its displacements,
  * like 1/r, matter by (h / body)^2 to the whole, and 1e-3 of that is left. */
 static const double FAR = 2.0;
-enum { MOST_SPLITS = 3 };
+enum { MOST_SPLITS = 2 };
 static const int ROW[6] = {0, 1, 2, 0, 1, 2};
 static const int COLUMN[6] = {0, 1, 2, 1, 2, 0};
 
