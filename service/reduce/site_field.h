@@ -1,0 +1,42 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A quantity known at places of a surface, everywhere on it: moving least squares within a patch
+ * and material, cubic in space, and one term that grows towards sharp edges as a flexibility does.
+ */
+#ifndef PERCUSS_REDUCE_SITE_FIELD_H
+#define PERCUSS_REDUCE_SITE_FIELD_H
+
+#include "reduce/flexibility_place.h"
+
+enum { SITE_FIELD_NEIGHBOURS = 32 };
+
+enum { SITE_FIELD_EDGE_TERMS = 2 };
+
+/* Owns its arrays; edges are borrowed. */
+struct site_field {
+    const struct flexibility_edges *edges;
+    double blunt;   /* m: nearer to an edge the field stays as it is there */
+    double spacing; /* m, of the places */
+    size_t count;
+    const struct surface_face **faces; /* [count], borrowed */
+    double (*points)[3], (*normals)[3], *values;
+    double (*edge_terms)[SITE_FIELD_EDGE_TERMS];   /* [count] */
+    double (*coefficients)[SITE_FIELD_EDGE_TERMS]; /* [patch_count] */
+};
+
+/* Values that are NAN count as not known. False: no memory. */
+bool site_field_make(struct site_field *field, const struct surface_rule *rule,
+                     const struct flexibility_edges *edges, size_t count,
+                     const struct flexibility_place *places, const double *values, double spacing);
+void site_field_free(struct site_field *field);
+
+/* The value at x, a point of the face, whose normal there is outward; NAN: no value is known
+ * nearby. */
+double site_field_at(const struct site_field *field, const struct surface_face *face,
+                     const double x[3], const double outward[3]);
+
+/* How far the value at a place is from what the others say; NAN: nothing. */
+double site_field_error(const struct site_field *field, size_t place);
+
+#endif

@@ -1,0 +1,223 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "reduce/sites.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model/vector.h"
+#include "reduce/site_choice.h"
+#include "reduce/site_field.h"
+#include "reduce/sites_spread.h"
+
+/* of the mesh's edges: closer sites gain nothing that the mesh knows, wider ones lose a percent */
+static const double SPACING = 1.4;
+static const double CUT = 0.1;
+/* the surface that comes back over a site nearer than so many edges of the mesh leaves tractions
+ * that the mesh cannot take */
+static const double LEAST_REACH = 0.35;
+/* of the spacing: responses between nearer places rise like 1/distance between sites */
+static const double NEAR = 3.0;
+
+/* what is at work */
+struct sites {
+    const struct sites_task *task;
+    struct flexibility *flexibility;
+    struct flexibility_place *places;
+    size_t count;
+    double *values; /* [count], m/N at the cut; NAN: not known */
+    float *between; /* [count][count], row: who is moved; NULL: not wanted */
+    double cut;
+};
+
+static void sites_free(struct sites *sites)
+{
+    flexibility_free(sites->flexibility);
+    free(sites->places);
+    free(sites->values);
+    free(sites->between);
+}
+
+/* the surface's own, by its fit, at a place */
+static double curvature_at(const struct surface *surface, const struct flexibility_place *place)
+{
+    const struct surface_face *face = &surface->faces[place->face];
+    double shape[FACE_MOST_NODES], sum = 0.0;
+    facet_shape(face->count, place->u, place->v, shape, NULL, NULL);
+    for (size_t n = 0; n < face->count; n++)
+        sum += shape[n] * sites_mean_curvature(&surface->points[place->face][n]);
+    return sum;
+}
+
+/* sites that were asked for, and others between */
+static enum percuss_status choose(struct sites *sites, double *spacing, struct fault *fault)
+{
+    const struct sites_task *task = sites->task;
+    const struct flexibility_body *body = &task->body;
+    const struct surface_rule *rule = flexibility_rule(sites->flexibility);
+    const struct flexibility_edges *edges = flexibility_edges(sites->flexibility);
+    struct flexibility_place *wanted = malloc((task->exact_count + 1) * sizeof *wanted);
+    if (wanted) {
+        for (size_t i = 0; i < task->exact_count; i++) {
+            struct surface_place at = surface_near(body->mesh, body->surface, task->exact[i]);
+            wanted[i] = flexibility_place_make(rule, edges, at.face, at.foot.u, at.foot.v);
+        }
+        struct site_choice choice = {task->spacing > 0.0 ? task->spacing
+                                                         : SPACING * body->surface->size,
+                                     task->most, task->exact_count, wanted};
+        sites->places = site_choice_make(&choice, rule, edges, &sites->count, spacing);
+        free(wanted);
+    }
+    sites->values = malloc((sites->count + 1) * sizeof *sites->values);
+    if (task->between)
+        sites->between = malloc((sites->count * sites->count + 1) * sizeof *sites->between);
+    if (!sites->places || !sites->values || (task->between && !sites->between))
+        return pace_fault(fault, PERCUSS_INTERNAL);
+    return PERCUSS_OK;
+}
+
+/* flexibility for a contact of the radius `cut` from that at the face's own radius */
+static double at_cut(const struct sites *sites, const struct flexibility_place *place,
+                     const struct flexibility_answer *answer)
+{
+    double young = place->load.young, poisson = place->load.poisson;
+    double curvature = curvature_at(sites->task->body.surface, place);
+    return answer->value + flexibility_of_contact(young, poisson, curvature) +
+           flexibility_slope(young, poisson, curvature) * log(answer->radius / sites->cut);
+}
+
+/* all sites, a block at a time */
+static enum percuss_status solve(struct sites *sites, struct sites_report *report,
+                                 struct fault *fault)
+{
+    struct pace pace = {.watch = sites->task->watch};
+    struct flexibility_answer answers[FLEXIBILITY_BLOCK];
+    double least = LEAST_REACH * sites->task->body.surface->size;
+    for (size_t first = 0; first < sites->count; first += FLEXIBILITY_BLOCK) {
+        size_t left = sites->count - first;
+        size_t count = left < FLEXIBILITY_BLOCK ? left : FLEXIBILITY_BLOCK;
+        const struct flexibility_place *places = sites->places + first;
+        if (sites->task->watch && !pace_ask(&pace, (double)first / (double)sites->count))
+            return pace_fault(fault, PERCUSS_TIMEOUT);
+        enum percuss_status status =
+            flexibility_solve(sites->flexibility, count, places, answers, fault);
+        if (status != PERCUSS_OK)
+            return status;
+        for (size_t c = 0; c < count; c++) {
+            double value = at_cut(sites, &places[c], &answers[c]);
+            sites->values[first + c] = places[c].load.reach < least ? NAN : value;
+            report->imbalance = fmax(report->imbalance, answers[c].imbalance);
+            for (size_t i = 0; sites->between && i < sites->count; i++)
+                sites->between[i * sites->count + first + c] =
+                    (float)(i == first + c
+                                ? value
+                                : flexibility_response(sites->flexibility, c, &sites->places[i]));
+        }
+    }
+    return PERCUSS_OK;
+}
+
+/* a response and its reciprocal are one: their mean; the largest difference where they are far
+ * enough from each other to matter */
+static double make_symmetric(struct sites *sites, double near_it)
+{
+    double largest = 0.0;
+    for (size_t i = 0; sites->between && i < sites->count; i++)
+        for (size_t j = 0; j < i; j++) {
+            float *a = &sites->between[i * sites->count + j];
+            float *b = &sites->between[j * sites->count + i];
+            double offset[3];
+            sub3(sites->places[i].load.point, sites->places[j].load.point, offset);
+            if (norm3(offset) >= near_it)
+                largest = fmax(largest, fabs((double)*a - (double)*b));
+            *a = *b = 0.5f * (*a + *b);
+        }
+    return largest;
+}
+
+static void judge(const struct sites *sites, const struct site_field *field,
+                  struct sites_report *report)
+{
+    double sum = 0.0, inside = 0.0;
+    for (size_t i = 0; i < sites->count; i++) {
+        double error = fabs(site_field_error(field, i));
+        report->unknown += isnan(sites->values[i]);
+        if (isnan(error))
+            continue;
+        report->largest_error = fmax(report->largest_error, error);
+        if (sites->places[i].edge > 2.0 * report->spacing) {
+            sum += error * error;
+            inside += 1.0;
+        }
+    }
+    report->usual_error = inside > 0.0 ? sqrt(sum / inside) : report->largest_error;
+}
+
+/* sites and what is between them, which the body takes over */
+static enum percuss_status hand_over(struct sites *sites, struct mesh_body *body,
+                                     struct fault *fault)
+{
+    size_t count = sites->count;
+    body->site_count = count;
+    body->site_face = malloc((count + 1) * sizeof *body->site_face);
+    body->site_point = malloc((count + 1) * sizeof *body->site_point);
+    body->site_normal = malloc((count + 1) * sizeof *body->site_normal);
+    if (!body->site_face || !body->site_point || !body->site_normal)
+        return pace_fault(fault, PERCUSS_INTERNAL);
+    for (size_t i = 0; i < count; i++) {
+        body->site_face[i] = (unsigned)sites->places[i].face;
+        sub3(sites->places[i].load.point, body->centre, body->site_point[i]);
+        scale3(-1.0, sites->places[i].load.inward, body->site_normal[i]);
+    }
+    body->between = sites->between;
+    sites->between = NULL;
+    return PERCUSS_OK;
+}
+
+enum percuss_status sites_find(const struct sites_task *task, struct mesh_body *body,
+                               struct sites_report *report, struct fault *fault)
+{
+    struct sites sites = {.task = task};
+    struct site_field field = {0};
+    *report = (struct sites_report){0};
+    sites.cut = task->cut > 0.0 ? task->cut : CUT * task->body.surface->size;
+    sites.flexibility = flexibility_make(&task->body);
+    enum percuss_status status = PERCUSS_INTERNAL;
+    if (!sites.flexibility) {
+        pace_fault(fault, status);
+        goto done;
+    }
+
+    /* values at the sites */
+    status = choose(&sites, &report->spacing, fault);
+    if (status != PERCUSS_OK)
+        goto done;
+    report->count = sites.count;
+    status = solve(&sites, report, fault);
+    if (status != PERCUSS_OK)
+        goto done;
+    body->near = NEAR * report->spacing;
+    report->asymmetry = make_symmetric(&sites, body->near);
+
+    /* and everywhere */
+    if (!site_field_make(&field, flexibility_rule(sites.flexibility),
+                         flexibility_edges(sites.flexibility), sites.count, sites.places,
+                         sites.values, report->spacing)) {
+        status = pace_fault(fault, PERCUSS_INTERNAL);
+        goto done;
+    }
+    judge(&sites, &field, report);
+    body->cut = sites.cut;
+    body->removed = task->body.removed;
+    status = sites_spread(&field, flexibility_rule(sites.flexibility), body, fault);
+    if (status == PERCUSS_OK)
+        status = hand_over(&sites, body, fault);
+
+done:
+    site_field_free(&field);
+    sites_free(&sites);
+    return status;
+}

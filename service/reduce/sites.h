@@ -1,0 +1,46 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The regular flexibility everywhere on a body's surface, and between places, for several contacts:
+ * solved for at sites and interpolated. */
+#ifndef PERCUSS_REDUCE_SITES_H
+#define PERCUSS_REDUCE_SITES_H
+
+#include "base/watch.h"
+#include "model/mesh_body.h"
+#include "reduce/flexibility.h"
+
+/* All borrowed. */
+struct sites_task {
+    struct flexibility_body body; /* its surface fitted (surface_fit) */
+    double spacing;               /* m between sites; 0: 1.4 edges of the mesh */
+    size_t most;                  /* sites at most; spacing grows instead */
+    double cut;                   /* m, contact radius to state flexibilities for; 0: a tenth of an
+                                   * edge of the mesh */
+    size_t exact_count;
+    const double (*exact)[3];  /* m, the mesh's frame: a site at each, where the surface is plane;
+                                * within a sixth of a face from it where it is not */
+    bool between;              /* wanted */
+    const struct watch *watch; /* told the part done; NULL: nobody asks */
+};
+
+/* How it went, for people. Errors are of leaving a site out: what its own value is from those of
+ * its neighbours; the interpolation between all sites is better. */
+struct sites_report {
+    size_t count;         /* sites */
+    size_t unknown;       /* of these, where nothing could be said: the body comes back within a
+                           * face's size over the surface, or the mesh's forces do not balance */
+    double spacing;       /* reached, m */
+    double usual_error;   /* root of the mean square, m/N, of sites two spacings off the edges */
+    double largest_error; /* of all, m/N */
+    double imbalance;     /* largest, of the forces, over the force */
+    double asymmetry;     /* largest difference of two responses that ought to be one, m/N */
+};
+
+/* Fills of `body`: faces' flexibility and flexibility_slope, cut, removed, sites and between. Its
+ * faces, those of the surface in their order, and its centre are there. PERCUSS_TIMEOUT: the watch
+ * stopped it; PERCUSS_INTERNAL without memory. */
+enum percuss_status sites_find(const struct sites_task *task, struct mesh_body *body,
+                               struct sites_report *report, struct fault *fault);
+
+#endif

@@ -1,0 +1,182 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/reduce/sites.c and what it is made of (site_choice.c, site_field.c,
+ * sites_spread.c): the flexibility that faces interpolate against that solved for in the same
+ * place. */
+#include "reduce/sites.h"
+#include "unit/reduce/flexed.h"
+#include "unit/reduce/solve_mesh.h"
+
+static const double RADIUS = 0.01, YOUNG = 73e9, POISSON = 0.3;
+
+/* a cylinder, 24 modes of it, and a body to be filled */
+struct scene {
+    struct flexed flexed;
+    struct solved solved;
+    struct mesh_body body;
+    struct sites_task task;
+    struct sites_report report;
+};
+
+static void scene_make(struct scene *scene)
+{
+    const struct material material = {"metal", YOUNG, POISSON, 2700.0, INFINITY, 0.0};
+    const double size[2] = {RADIUS, 3.0 * RADIUS};
+    const size_t cells[3] = {2, 2, 8};
+    struct solid_mesh mesh;
+    struct fault fault;
+    memset(scene, 0, sizeof *scene);
+    solid_shape_cylinder(ELEMENT_HEX27, size, cells, &material, &mesh);
+    flexed_make(&scene->flexed, &mesh, 1e10, false);
+    assert_int_equal(surface_fit(&scene->flexed.mesh, &scene->flexed.surface, &fault), PERCUSS_OK);
+    solve_mesh(&scene->flexed.mesh, 0, INFINITY, 24, &scene->solved);
+    struct flexibility_body *body = &scene->flexed.body;
+    body->factor = scene->solved.factor;
+    body->shift = scene->solved.modes.shift;
+    body->removed = scene->solved.modes.count;
+    body->shapes = scene->solved.modes.shapes;
+    body->omega = scene->solved.modes.omega;
+    flexibility_free(scene->flexed.flexibility);
+    scene->flexed.flexibility = flexibility_make(body);
+    assert_non_null(scene->flexed.flexibility);
+    scene->body.face_count = scene->flexed.surface.face_count;
+    scene->body.faces = calloc(scene->body.face_count, sizeof *scene->body.faces);
+    assert_non_null(scene->body.faces);
+    memcpy(scene->body.centre, scene->solved.bulk.centre, sizeof scene->body.centre);
+    scene->task = (struct sites_task){.body = *body, .most = 300, .between = true};
+}
+
+static void scene_free(struct scene *scene)
+{
+    free(scene->body.faces);
+    free(scene->body.site_face);
+    free(scene->body.site_point);
+    free(scene->body.site_normal);
+    free(scene->body.between);
+    solved_free(&scene->solved);
+    flexed_free(&scene->flexed);
+}
+
+/* what the body's face says at a place, and what is solved for there; times E R */
+static double told(const struct scene *scene, const struct flexibility_place *place)
+{
+    const struct mesh_body_face *face = &scene->body.faces[place->face];
+    int count = scene->flexed.surface.faces[place->face].count;
+    double shape[FACE_MOST_NODES], sum = 0.0;
+    facet_shape(count, place->u, place->v, shape, NULL, NULL);
+    for (int n = 0; n < count; n++)
+        sum += shape[n] * face->flexibility[n];
+    return sum * YOUNG * RADIUS;
+}
+
+static double solved_there(struct scene *scene, const struct flexibility_place *place)
+{
+    bool on_end = fabs(place->load.inward[0]) > 0.5;
+    double curvature = on_end ? 0.0 : 0.5 / RADIUS;
+    struct flexibility_answer answer = flexed_solve(&scene->flexed, place);
+    return (answer.value + flexibility_of_contact(YOUNG, POISSON, curvature) +
+            flexibility_slope(YOUNG, POISSON, curvature) * log(answer.radius / scene->body.cut)) *
+           YOUNG * RADIUS;
+}
+
+/* Elements are 3.75 mm. Farther than one of them from the sharp edges what faces say is the
+ * solution to .02/(E R), which moves the restitution of a beam by .004 in the median; from a third
+ * of one on, where it rises by 1/(E R), to a twentieth of that. */
+static void faces_tell_what_is_solved_for(void **state)
+{
+    (void)state;
+    struct scene scene;
+    struct fault fault;
+    scene_make(&scene);
+    assert_int_equal(sites_find(&scene.task, &scene.body, &scene.report, &fault), PERCUSS_OK);
+    assert_int_equal(scene.report.unknown, 0);
+    assert_true(scene.report.imbalance < 1e-6);
+    assert_true(scene.report.usual_error * YOUNG * RADIUS < 0.02);
+    assert_int_equal(scene.body.removed, 24);
+
+    size_t faces = scene.body.face_count;
+    for (size_t i = 0; i < 36; i++) {
+        double u = -0.7 + 0.5 * (double)(i % 3), v = -0.6 + 0.4 * (double)(i % 4);
+        struct flexibility_place place = flexibility_place_make(
+            flexibility_rule(scene.flexed.flexibility), flexibility_edges(scene.flexed.flexibility),
+            i * 7919 % faces, u, v);
+        double edge = place.edge / scene.flexed.surface.size;
+        if (edge < 0.34)
+            continue;
+        double expected = solved_there(&scene, &place);
+        measured(edge < 1.0 ? "near an edge" : "far from edges", told(&scene, &place), expected,
+                 edge < 1.0 ? 0.06 : 0.02);
+    }
+
+    /* the slope is that of the cylinder's curvature, to the fit's own percent, and none on an end
+     */
+    for (size_t f = 0; f < faces; f++) {
+        double on_side = flexibility_slope(YOUNG, POISSON, 0.5 / RADIUS);
+        double x = scene.flexed.mesh.points[scene.flexed.surface.faces[f].nodes[8]][0];
+        bool on_end = x < 1e-9 || x > 3.0 * RADIUS - 1e-9;
+        near_scaled(scene.body.faces[f].flexibility_slope[8], on_end ? 0.0 : on_side, on_side,
+                    0.02);
+    }
+    scene_free(&scene);
+}
+
+/* Sites that were asked for are there, and between them stands what one does to the other. */
+static void sites_know_each_other(void **state)
+{
+    (void)state;
+    struct scene scene;
+    struct fault fault;
+    const double exact[2][3] = {{0.0, 0.0, 0.0}, {3.0 * RADIUS, 0.0, 0.4 * RADIUS}};
+    scene_make(&scene);
+    scene.task.exact_count = 2;
+    scene.task.exact = exact;
+    scene.task.most = 40;
+    assert_int_equal(sites_find(&scene.task, &scene.body, &scene.report, &fault), PERCUSS_OK);
+    assert_int_equal(scene.body.site_count, 40);
+    for (size_t i = 0; i < 2; i++)
+        for (size_t k = 0; k < 3; k++)
+            near(scene.body.site_point[i][k] + scene.body.centre[k], exact[i][k], 1e-9);
+    near(scene.body.site_normal[0][0], -1.0, 1e-9);
+
+    struct flexibility_place places[2] = {
+        flexed_place(&scene.flexed, 0.0, 0.0, 0.0),
+        flexed_place(&scene.flexed, 3.0 * RADIUS, 0.0, 0.4 * RADIUS)};
+    double own = solved_there(&scene, &places[0]);
+    double other = flexibility_response(scene.flexed.flexibility, 0, &places[1]);
+    /* single precision */
+    near_relative(scene.body.between[0] * YOUNG * RADIUS, own, 1e-6);
+    near(scene.body.between[1] * YOUNG * RADIUS, other * YOUNG * RADIUS, 2e-3);
+    assert_true(scene.body.between[1] == scene.body.between[scene.body.site_count]);
+    assert_true(scene.report.asymmetry * YOUNG * RADIUS < 0.01);
+    scene_free(&scene);
+}
+
+static bool refuse(void *context, double done)
+{
+    (void)context;
+    (void)done;
+    return false;
+}
+
+static void a_watch_stops_it(void **state)
+{
+    (void)state;
+    struct scene scene;
+    struct fault fault;
+    const struct watch watch = {refuse, NULL};
+    scene_make(&scene);
+    scene.task.watch = &watch;
+    assert_int_equal(sites_find(&scene.task, &scene.body, &scene.report, &fault), PERCUSS_TIMEOUT);
+    scene_free(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(faces_tell_what_is_solved_for),
+        cmocka_unit_test(sites_know_each_other),
+        cmocka_unit_test(a_watch_stops_it),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
