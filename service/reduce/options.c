@@ -5,13 +5,14 @@
 
 #include <argp.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "mesh/mesh_read.h"
 #include "model/limits.h"
 
-enum { USAGE = 2, YOUNG = 256, POISSON, DENSITY, SIZE, VTK, JSON };
+enum { USAGE = 2, YOUNG = 256, POISSON, DENSITY, SIZE, SITE, VTK, JSON };
 
 const char *argp_program_version = "percuss-reduce " PERCUSS_VERSION;
 
@@ -31,6 +32,7 @@ static const struct argp_option list[] = {
      "All modes below; default: as far as the mesh is good, at most 300 modes", 2},
     {"modes", 'n', "N", 0, "So many modes instead", 2},
     {"fixed", 'x', "SET", 0, "Hold the nodes of a set (as often as needed)", 2},
+    {"site", SITE, "X,Y,Z", 0, "A place that will be hit, in the unit (as often as needed)", 2},
     {NULL, 0, NULL, 0, "What is told:", 3},
     {"vtk", VTK, "FILE.vtu", 0, "Also write mesh and modes for ParaView", 3},
     {"json", JSON, NULL, 0, "The report as one JSON object", 3},
@@ -62,6 +64,17 @@ static void add_part(struct argp_state *state, struct options *options, char *te
         argp_error(state, "--part: %s: must be PART=MATERIAL", text);
     *equals = '\0';
     options->parts[options->part_count++] = (struct part_option){text, equals + 1};
+}
+
+static void add_site(struct argp_state *state, struct options *options, const char *text)
+{
+    double *site = options->sites[options->site_count];
+    int read = 0;
+    check_room(state, "site", options->site_count);
+    if (sscanf(text, "%lf,%lf,%lf%n", &site[0], &site[1], &site[2], &read) != 3 || text[read] ||
+        !isfinite(site[0] + site[1] + site[2]))
+        argp_error(state, "--site: %s: must be three numbers, X,Y,Z", text);
+    options->site_count++;
 }
 
 static error_t parse_material(int key, char *text, struct argp_state *state)
@@ -112,6 +125,9 @@ static error_t parse_method(int key, char *text, struct argp_state *state)
     case 'x':
         check_room(state, "fixed", options->fixed_count);
         options->fixed[options->fixed_count++] = text;
+        return 0;
+    case SITE:
+        add_site(state, options, text);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;

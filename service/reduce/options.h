@@ -22,9 +22,10 @@ struct options {
     double unit, size;              /* m; 0: not given */
     double max_frequency;           /* Hz; 0: from the mesh */
     size_t modes;                   /* 0: from the frequency */
-    size_t fixed_count, part_count;
+    size_t fixed_count, part_count, site_count;
     const char *fixed[OPTIONS_MOST];
     struct part_option parts[OPTIONS_MOST];
+    double sites[OPTIONS_MOST][3]; /* in the unit of the mesh */
     bool json;
 };
 

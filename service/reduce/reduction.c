@@ -23,8 +23,11 @@ static const double ELEMENTS_PER_WAVE = 8.0;
 /* Of a body that is so compact that no mode lies as far as the mesh is good. */
 enum { LEAST_MODES = 10 };
 
+/* Modes without which flexibility is interpolated, and sites that it is computed at. */
+enum { REMOVED = 30, SITES = 1500 };
+
 /* Shares of the time, for the progress. */
-static const double READ = 0.02, MODES = 0.98;
+static const double READ = 0.02, MODES = 0.55;
 
 /* The slowest shear wave that the mesh carries. */
 static double frequency_limit(const struct solid_mesh *mesh, double element)
@@ -206,6 +209,35 @@ static enum percuss_status make_body(struct reduction *reduction, struct fault *
     return reduced_body_make(&parts, &reduction->body, fault);
 }
 
+static enum percuss_status find_flexibility(struct reduction *reduction, struct fault *fault)
+{
+    const struct options *options = reduction->options;
+    const struct modes *modes = &reduction->modes;
+    double exact[OPTIONS_MOST][3];
+    for (size_t i = 0; i < options->site_count; i++)
+        for (int k = 0; k < 3; k++)
+            exact[i][k] = options->unit * options->sites[i][k];
+    struct watch watch = {progress_show, &reduction->progress};
+    struct sites_task task = {.body = {.mesh = &reduction->mesh,
+                                       .surface = &reduction->surface,
+                                       .matrices = &reduction->matrices,
+                                       .factor = reduction->factor,
+                                       .shift = modes->shift,
+                                       .rigid_count = reduction->task.rigid.count,
+                                       .removed = modes->count < REMOVED ? modes->count : REMOVED,
+                                       .rigid = reduction->rigid,
+                                       .shapes = modes->shapes,
+                                       .omega = modes->omega},
+                              .most = SITES,
+                              .exact_count = options->site_count,
+                              .exact = (const double(*)[3])exact,
+                              .between = true,
+                              .watch = &watch};
+    progress_stage(&reduction->progress, "flexibility of the surface", READ + MODES,
+                   1.0 - READ - MODES);
+    return sites_find(&task, reduction->body, &reduction->sites, fault);
+}
+
 enum percuss_status reduction_run(const struct options *options, struct reduction *reduction,
                                   struct fault *fault)
 {
@@ -220,6 +252,8 @@ enum percuss_status reduction_run(const struct options *options, struct reductio
         status = find_modes(reduction, fault);
     if (!status)
         status = make_body(reduction, fault);
+    if (!status)
+        status = find_flexibility(reduction, fault);
     progress_clear(&reduction->progress);
     /* files */
     if (!status)

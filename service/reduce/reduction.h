@@ -10,6 +10,7 @@
 #include "reduce/options.h"
 #include "reduce/progress.h"
 #include "reduce/reduced_body.h"
+#include "reduce/sites.h"
 
 struct reduction {
     const struct options *options;
@@ -31,6 +32,7 @@ struct reduction {
     struct factor *factor;
     /* what comes of it */
     struct mesh_body *body;
+    struct sites_report sites;
     double seconds;
 };
 

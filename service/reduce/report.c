@@ -55,6 +55,18 @@ static void tell_modes(const struct reduction *reduction)
                : "");
 }
 
+static void tell_flexibility(const struct reduction *reduction)
+{
+    const struct sites_report *sites = &reduction->sites;
+    printf(
+        "flexibility     %zu sites %.3g mm apart, error of interpolation %.1e m/N, at most %.1e; "
+        "forces balance to %.1e\n",
+        sites->count, 1e3 * sites->spacing, sites->usual_error, sites->largest_error,
+        sites->imbalance);
+    if (sites->unknown)
+        printf("                unknown at %zu of them\n", sites->unknown);
+}
+
 void report_text(const struct reduction *reduction)
 {
     const struct options *options = reduction->options;
@@ -67,6 +79,7 @@ void report_text(const struct reduction *reduction)
         printf("held            %s; %zu motion%s as a whole left\n", reduction->supports,
                reduction->task.rigid.count, reduction->task.rigid.count == 1 ? "" : "s");
     tell_modes(reduction);
+    tell_flexibility(reduction);
     printf("%s: %.12s, %.1f s\n", options->body, reduction->body->hash, reduction->seconds);
 }
 
@@ -109,6 +122,7 @@ void report_json(const struct reduction *reduction)
 {
     const struct modes *modes = &reduction->modes;
     const struct bulk *bulk = &reduction->bulk;
+    const struct sites_report *sites = &reduction->sites;
     put_text("{\n  \"file\": ", reduction->options->file);
     put_text(",\n  \"body\": ", reduction->options->body);
     put_text(",\n  \"hash\": ", reduction->body->hash);
@@ -135,6 +149,14 @@ void report_json(const struct reduction *reduction)
     put_number("confirmed_below", hertz(modes->confirmed_below));
     put_number("orthonormality_error", modes->doubt);
     put_list("frequencies", modes->count, modes->omega, hertz(1.0));
+    /* its surface */
+    put_count("sites", sites->count);
+    put_count("sites_unknown", sites->unknown);
+    put_number("site_spacing", sites->spacing);
+    put_number("flexibility_error", sites->usual_error);
+    put_number("flexibility_largest_error", sites->largest_error);
+    put_number("force_imbalance", sites->imbalance);
+    put_number("response_asymmetry", sites->asymmetry);
     printf(",\n  \"warnings\": [");
     for (size_t i = 0; i < reduction->findings.remark_count; i++)
         put_text(i ? ", " : "", reduction->findings.remarks[i]);

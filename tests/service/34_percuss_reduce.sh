@@ -12,7 +12,7 @@ reduce() { # reduce ARGUMENT...: of the block
 block 8 3 2 >"$work/block.inp"
 steel="--young 210e9 --poisson 0.3 --density 7800"
 
-say "mass and modes of a block of 40 x 15 x 10 mm"
+say "mass, modes and flexibility of a block of 40 x 15 x 10 mm"
 expect 0 reduce $steel --modes 12
 says '12 modes: about'
 shows '48 elements'
@@ -20,6 +20,7 @@ shows 'mass            0.0468 kg'
 shows 'centre          0.02 0.0075 0.005 m'
 shows 'volume          6e-06 m^3'
 shows 'modes           12; by inertia'
+shows 'flexibility '
 [ -s "$work/block.h5" ] || fail "no file"
 
 say "the same as JSON, with a file for ParaView; the same body has the same name"
@@ -68,4 +69,5 @@ expect 2 reduce --young 210e9
 says 'must be given together'
 expect 2 reduce $steel --modes 5 --max-frequency 100
 expect 2 reduce $steel --unit furlong
+expect 2 reduce $steel --site 1,2
 expect 2 "$bin/percuss-reduce" "$work/block.inp" $steel
