@@ -9,8 +9,8 @@
 
 #include "model/vector.h"
 
-/* an edge bends by L^2/(8R): below this part of its length it is flat ground, or the digits of the
- * file */
+/* an edge bends by L^2/(8R): below this part of its length it is flat ground, or straight on a
+ * cylinder where the normals of faces are off by so much */
 static const double LEAST_BEND = 2e-3;
 /* and is straight where its mid node has less than this part of the bend */
 static const double STRAIGHT = 0.1;
