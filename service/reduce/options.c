@@ -12,7 +12,7 @@
 #include "mesh/mesh_read.h"
 #include "model/limits.h"
 
-enum { USAGE = 2, YOUNG = 256, POISSON, DENSITY, SIZE, SITE, VTK, JSON };
+enum { USAGE = 2, YOUNG = 256, POISSON, DENSITY, SIZE, SITE, STIFFNESS, MASS, FREEDOMS, VTK, JSON };
 
 const char *argp_program_version = "percuss-reduce " PERCUSS_VERSION;
 
@@ -32,6 +32,9 @@ static const struct argp_option list[] = {
      "All modes below; default: as far as the mesh is good, at most 300 modes", 2},
     {"modes", 'n', "N", 0, "So many modes instead", 2},
     {"fixed", 'x', "SET", 0, "Hold the nodes of a set (as often as needed)", 2},
+    {"stiffness", STIFFNESS, "K", 0, "Take it from a file (.mtx, .sti), with", 2},
+    {"mass", MASS, "M", 0, "the mass (.mtx, .mas)", 2},
+    {"freedoms", FREEDOMS, "DOF", 0, "and which row is which direction (.dof)", 2},
     {"site", SITE, "X,Y,Z", 0, "A place that will be hit, in the unit (as often as needed)", 2},
     {NULL, 0, NULL, 0, "What is told:", 3},
     {"vtk", VTK, "FILE.vtu", 0, "Also write mesh and modes for ParaView", 3},
@@ -104,6 +107,24 @@ static error_t parse_material(int key, char *text, struct argp_state *state)
     }
 }
 
+static error_t parse_matrices(int key, char *text, struct argp_state *state)
+{
+    struct options *options = state->input;
+    switch (key) {
+    case STIFFNESS:
+        options->stiffness = text;
+        return 0;
+    case MASS:
+        options->mass = text;
+        return 0;
+    case FREEDOMS:
+        options->freedoms = text;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
 static error_t parse_method(int key, char *text, struct argp_state *state)
 {
     struct options *options = state->input;
@@ -147,6 +168,8 @@ static void check(struct argp_state *state, const struct options *options)
         argp_error(state, "--material: must be given without --young, --poisson and --density");
     if ((options->material || options->part_count) && !options->catalogue)
         argp_error(state, "--material, --part: need --catalogue FILE");
+    if (!options->stiffness != !options->mass || (options->freedoms && !options->mass))
+        argp_error(state, "--stiffness and --mass must be given together");
     if (options->modes && options->max_frequency > 0.0)
         argp_error(state, "--modes: must be given without --max-frequency");
 }
@@ -173,7 +196,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
         check(state, options);
         return 0;
     default:
-        return parse_material(key, text, state) == 0 ? 0 : parse_method(key, text, state);
+        if (parse_material(key, text, state) == 0 || parse_matrices(key, text, state) == 0)
+            return 0;
+        return parse_method(key, text, state);
     }
 }
 

@@ -18,10 +18,11 @@ struct part_option {
 struct options {
     const char *file, *body, *vtk; /* the mesh, the body's file; NULL: no file for ParaView */
     const char *catalogue, *material;
-    double young, poisson, density; /* NAN: not given */
-    double unit, size;              /* m; 0: not given */
-    double max_frequency;           /* Hz; 0: from the mesh */
-    size_t modes;                   /* 0: from the frequency */
+    const char *stiffness, *mass, *freedoms; /* matrices that another program has assembled */
+    double young, poisson, density;          /* NAN: not given */
+    double unit, size;                       /* m; 0: not given */
+    double max_frequency;                    /* Hz; 0: from the mesh */
+    size_t modes;                            /* 0: from the frequency */
     size_t fixed_count, part_count, site_count;
     const char *fixed[OPTIONS_MOST];
     struct part_option parts[OPTIONS_MOST];

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "mesh/body_file.h"
+#include "mesh/matrices_read.h"
 #include "mesh/mesh_read.h"
 #include "model/limits.h"
 #include "reduce/materials.h"
@@ -89,7 +90,13 @@ static enum percuss_status hold(struct reduction *reduction, struct fault *fault
 
 static enum percuss_status assemble(struct reduction *reduction, struct fault *fault)
 {
-    enum percuss_status status = matrices_make(&reduction->mesh, &reduction->matrices, fault);
+    const struct options *options = reduction->options;
+    struct matrices_files files = {options->stiffness, options->mass, options->freedoms};
+    enum percuss_status status =
+        files.stiffness ? matrices_read(&files, &reduction->mesh, &reduction->matrices, fault)
+                        : matrices_make(&reduction->mesh, &reduction->matrices, fault);
+    if (!status && reduction->matrices.held)
+        snprintf(reduction->supports, sizeof reduction->supports, "(matrices)");
     if (!status)
         status = hold(reduction, fault);
     if (status)
