@@ -44,6 +44,12 @@ double reduced_body_enclosed(const struct solid_mesh *mesh, const struct surface
     return volume;
 }
 
+static void name_matrix(const struct sparse *matrix, struct sha256 *hash)
+{
+    sha256_add(hash, matrix->column, matrix->start[matrix->n] * sizeof *matrix->column);
+    sha256_add(hash, matrix->value, matrix->start[matrix->n] * sizeof *matrix->value);
+}
+
 /* What everything in the file follows from. */
 static void name(const struct reduced_parts *parts, char text[SHA256_TEXT])
 {
@@ -64,6 +70,10 @@ static void name(const struct reduced_parts *parts, char text[SHA256_TEXT])
     }
     if (parts->held)
         sha256_add(&hash, parts->held, 3 * mesh->node_count * sizeof *parts->held);
+    if (parts->foreign) {
+        name_matrix(&parts->foreign->stiffness, &hash);
+        name_matrix(&parts->foreign->mass, &hash);
+    }
     sha256_add(&hash, &parts->modes->count, sizeof parts->modes->count);
     sha256_end(&hash, text);
 }

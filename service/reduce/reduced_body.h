@@ -16,7 +16,8 @@ struct reduced_parts {
     const struct surface *surface;
     const struct bulk *bulk;
     const struct modes *modes;
-    const bool *held; /* degrees of freedom; NULL: none */
+    const bool *held;               /* degrees of freedom; NULL: none */
+    const struct matrices *foreign; /* where they are not the mesh's own; else NULL */
     const char *source, *supports;
 };
 

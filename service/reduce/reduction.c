@@ -211,6 +211,8 @@ static enum percuss_status make_body(struct reduction *reduction, struct fault *
                                   .bulk = &reduction->bulk,
                                   .modes = &reduction->modes,
                                   .held = reduction->matrices.held,
+                                  .foreign =
+                                      reduction->options->stiffness ? &reduction->matrices : NULL,
                                   .source = source,
                                   .supports = reduction->supports};
     return reduced_body_make(&parts, &reduction->body, fault);

@@ -37,15 +37,19 @@ static void test_block(void **state)
     struct solid_mesh mesh;
     struct surface surface;
     struct solved solved;
-    struct mesh_body *body, *again, *lighter;
+    struct mesh_body *body, *again, *lighter, *foreign;
     struct fault fault = {""};
     solid_shape_block(ELEMENT_HEX20, (double[3]){0.1, 0.05, 0.02}, (size_t[3]){6, 3, 2}, &STEEL,
                       &mesh);
     solve_mesh(&mesh, 0, INFINITY, 5, &solved);
     assert_int_equal(surface_make(&mesh, &surface, &fault), PERCUSS_OK);
     assert_int_equal(surface_fit(&mesh, &surface, &fault), PERCUSS_OK);
-    struct reduced_parts parts = {
-        &mesh, &surface, &solved.bulk, &solved.modes, solved.matrices.held, "a test", ""};
+    struct reduced_parts parts = {.mesh = &mesh,
+                                  .surface = &surface,
+                                  .bulk = &solved.bulk,
+                                  .modes = &solved.modes,
+                                  .source = "a test",
+                                  .supports = ""};
     assert_int_equal(reduced_body_make(&parts, &body, &fault), PERCUSS_OK);
     assert_int_equal(mesh_body_check(body, &fault), PERCUSS_OK);
     assert_int_equal(body->face_count, 2 * (6 * 3 + 6 * 2 + 3 * 2));
@@ -63,14 +67,19 @@ static void test_block(void **state)
         }
         assert_true(isnan(face->flexibility[i]));
     }
-    /* the same again, and of another density */
+    /* the same again, with matrices of somebody else's, and of another density */
     assert_int_equal(reduced_body_make(&parts, &again, &fault), PERCUSS_OK);
+    parts.foreign = &solved.matrices;
+    assert_int_equal(reduced_body_make(&parts, &foreign, &fault), PERCUSS_OK);
+    parts.foreign = NULL;
     mesh.part[0].material.density *= 0.5;
     assert_int_equal(reduced_body_make(&parts, &lighter, &fault), PERCUSS_OK);
     assert_string_equal(body->hash, again->hash);
+    assert_string_not_equal(body->hash, foreign->hash);
     assert_string_not_equal(body->hash, lighter->hash);
     mesh_body_free(body);
     mesh_body_free(again);
+    mesh_body_free(foreign);
     mesh_body_free(lighter);
     surface_free(&surface);
     solved_free(&solved);
