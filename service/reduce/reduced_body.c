@@ -74,6 +74,7 @@ static void name(const struct reduced_parts *parts, char text[SHA256_TEXT])
         name_matrix(&parts->foreign->stiffness, &hash);
         name_matrix(&parts->foreign->mass, &hash);
     }
+    sha256_add(&hash, parts->sites, parts->site_count * sizeof *parts->sites);
     sha256_add(&hash, &parts->modes->count, sizeof parts->modes->count);
     sha256_end(&hash, text);
 }

@@ -18,6 +18,8 @@ struct reduced_parts {
     const struct modes *modes;
     const bool *held;               /* degrees of freedom; NULL: none */
     const struct matrices *foreign; /* where they are not the mesh's own; else NULL */
+    size_t site_count;              /* places that flexibility is wanted at exactly */
+    const double (*sites)[3];       /* m */
     const char *source, *supports;
 };
 

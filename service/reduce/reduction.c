@@ -27,6 +27,9 @@ enum { LEAST_MODES = 10 };
 /* Modes without which flexibility is interpolated, and sites that it is computed at. */
 enum { REMOVED = 30, SITES = 1500 };
 
+/* Of an element's size: how far a site may be off the surface. */
+static const double OFF_SURFACE = 0.5;
+
 /* Shares of the time, for the progress. */
 static const double READ = 0.02, MODES = 0.55;
 
@@ -39,6 +42,26 @@ static double frequency_limit(const struct solid_mesh *mesh, double element)
         slowest = fmin(slowest, sqrt(material_shear_modulus(material) / material->density));
     }
     return slowest / (ELEMENTS_PER_WAVE * element);
+}
+
+/* Sites in metres, which must lie on the surface but for what a file rounds. */
+static enum percuss_status place_sites(struct reduction *reduction, struct fault *fault)
+{
+    const struct options *options = reduction->options;
+    for (size_t i = 0; i < options->site_count; i++) {
+        double *site = reduction->sites_asked[i];
+        for (int k = 0; k < 3; k++)
+            site[k] = options->unit * options->sites[i][k];
+        struct surface_place place = surface_near(&reduction->mesh, &reduction->surface, site);
+        if (place.foot.distance > OFF_SURFACE * reduction->surface.size)
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "--site: %g,%g,%g: is %.3g mm off the surface, must be on it within "
+                             "%.3g mm",
+                             options->sites[i][0], options->sites[i][1], options->sites[i][2],
+                             1e3 * place.foot.distance,
+                             1e3 * OFF_SURFACE * reduction->surface.size);
+    }
+    return PERCUSS_OK;
 }
 
 static enum percuss_status read_body(struct reduction *reduction, struct fault *fault)
@@ -55,6 +78,8 @@ static enum percuss_status read_body(struct reduction *reduction, struct fault *
         status = surface_fit(mesh, &reduction->surface, fault);
     if (!status)
         status = mesh_check(mesh, &reduction->surface, &reduction->findings, fault);
+    if (!status)
+        status = place_sites(reduction, fault);
     if (status)
         return status;
     bulk_of(mesh, &reduction->bulk);
@@ -213,6 +238,8 @@ static enum percuss_status make_body(struct reduction *reduction, struct fault *
                                   .held = reduction->matrices.held,
                                   .foreign =
                                       reduction->options->stiffness ? &reduction->matrices : NULL,
+                                  .site_count = reduction->options->site_count,
+                                  .sites = (const double(*)[3])reduction->sites_asked,
                                   .source = source,
                                   .supports = reduction->supports};
     return reduced_body_make(&parts, &reduction->body, fault);
@@ -222,10 +249,6 @@ static enum percuss_status find_flexibility(struct reduction *reduction, struct 
 {
     const struct options *options = reduction->options;
     const struct modes *modes = &reduction->modes;
-    double exact[OPTIONS_MOST][3];
-    for (size_t i = 0; i < options->site_count; i++)
-        for (int k = 0; k < 3; k++)
-            exact[i][k] = options->unit * options->sites[i][k];
     struct watch watch = {progress_show, &reduction->progress};
     struct sites_task task = {.body = {.mesh = &reduction->mesh,
                                        .surface = &reduction->surface,
@@ -239,7 +262,7 @@ static enum percuss_status find_flexibility(struct reduction *reduction, struct 
                                        .omega = modes->omega},
                               .most = SITES,
                               .exact_count = options->site_count,
-                              .exact = (const double(*)[3])exact,
+                              .exact = (const double(*)[3])reduction->sites_asked,
                               .between = true,
                               .watch = &watch};
     progress_stage(&reduction->progress, "flexibility of the surface", READ + MODES,

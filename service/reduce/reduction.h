@@ -20,8 +20,9 @@ struct reduction {
     struct surface surface;
     struct mesh_findings findings;
     struct bulk bulk;
-    double enclosed; /* by the surface, m^3 */
-    double good_to;  /* Hz: eight elements for a shear wave */
+    double enclosed;                     /* by the surface, m^3 */
+    double good_to;                      /* Hz: eight elements for a shear wave */
+    double sites_asked[OPTIONS_MOST][3]; /* m */
     char supports[128];
     /* its vibration */
     struct matrices matrices;

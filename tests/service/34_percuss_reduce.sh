@@ -31,6 +31,8 @@ grep -q 'Name="mode 12: ' "$work/block.vtu" || fail "no mode in the file for Par
 first=$(field hash)
 expect 0 reduce $steel --modes 12 --json
 [ "$(field hash)" = "$first" ] || fail "another hash"
+expect 0 reduce $steel --modes 12 --json --site 20,7.5,10
+[ "$(field hash)" != "$first" ] || fail "the same hash with a site"
 
 say "two materials by name, held at one end, all modes below a frequency"
 cat >"$work/catalogue.yaml" <<YAML
@@ -88,6 +90,8 @@ expect 1 reduce --catalogue "$work/catalogue.yaml" --material steal
 says 'steal'
 expect 1 reduce --catalogue "$work/catalogue.yaml" --material steel --part middle=light
 says '--part: middle: the mesh has 2 parts'
+expect 1 reduce $steel --site 20,7.5,11 --site 20,7.5,14
+says '--site: 20,7.5,14: is 4 mm off the surface'
 expect 1 reduce $steel --max-frequency 10
 says 'there are 0 modes below'
 expect 1 reduce $steel --modes 12 -o /proc/block.h5
