@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/vector_clones.h"
+#include "model/mesh_between.h"
 #include "model/modal_basis.h"
 #include "model/vector.h"
 
@@ -124,9 +125,17 @@ static double held_by(const struct body *body, size_t from, size_t to, const str
     return sum / factor;
 }
 
-/* At one place: the regular flexibility with what the removed modes hold. Between two: the modes'
- * sum, which converges there as no field is singular; near each other, where it does not, the
- * half-space's displacement (1 - nu^2)/(pi E r) beside the regular part. */
+/* A load as a push on the file's surface. */
+static struct mesh_push push_of(const struct mesh_load *load)
+{
+    struct mesh_push push = {.face = load->face};
+    memcpy(push.point, load->point, sizeof push.point);
+    memcpy(push.direction, load->direction, sizeof push.direction);
+    return push;
+}
+
+/* At one place: the regular flexibility with what the removed modes hold. Between two: likewise of
+ * the file's sites; without any, the modes' sum, which converges there as no field is singular. */
 static double compliance(const struct body *body, size_t family, const struct family_load *i,
                          const struct family_load *j)
 {
@@ -135,17 +144,10 @@ static double compliance(const struct body *body, size_t family, const struct fa
     double removed = held_by(body, 0, mesh->removed, i, j);
     if (i == j)
         return i->mesh.flexibility + removed;
-    double apart[3];
-    sub3(i->mesh.point, j->mesh.point, apart);
-    double distance = norm3(apart);
-    const struct mesh_body_face *on = &mesh->faces[i->mesh.face];
-    if (distance >= 2.0 * mesh->element_size || on->patch != mesh->faces[j->mesh.face].patch)
-        return removed + held_by(body, mesh->removed, mesh->mode_count, i, j);
-    const struct material *material = &mesh->materials[on->material];
-    double stiffness = material->young / (1.0 - material->poisson * material->poisson);
-    double field = 1.0 / (M_PI * stiffness * fmax(distance, 0.1 * mesh->element_size));
-    return 0.5 * (i->mesh.flexibility + j->mesh.flexibility) + removed +
-           field * mesh_ratio_flexibility(body) * dot3(i->mesh.direction, j->mesh.direction);
+    const struct mesh_push at_i = push_of(&i->mesh), at_j = push_of(&j->mesh);
+    double between = mesh_between(mesh, &at_i, &at_j);
+    return isnan(between) ? removed + held_by(body, mesh->removed, mesh->mode_count, i, j)
+                          : removed + between * mesh_ratio_flexibility(body);
 }
 
 static double beyond(const struct body *body, const struct modal_family *modes, size_t first,
