@@ -219,6 +219,9 @@ static size_t wanted(const struct addition *add, const struct scene *rigid,
     size_t fixed = add->problem->bodies[add->body]->modes;
     size_t count =
         fixed ? fixed : mode_choice_count(choice, add->problem, rigid, add->body, add->family);
+    size_t allowed = add->problem->compliance.most;
+    if (add->problem->bodies[add->body]->mesh && allowed > 0 && count > allowed)
+        count = allowed;
     if (add->state && add->state->count[add->family] > count)
         count = add->state->count[add->family];
     size_t most = modal_family_most(add->problem->bodies[add->body], add->family);
@@ -273,6 +276,7 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
                 return false;
             assembly->adjustable = assembly->adjustable || body->modes == 0;
             assembly->capped = assembly->capped || add.count == choice->most ||
+                               (body->mesh && add.count == problem->compliance.most) ||
                                add.count == modal_family_most(body, f);
             add.prepared = prepared_family_get(problem->cache, body, add.family, add.count + 1);
             if (!add.prepared || !add_family(&add, residual))

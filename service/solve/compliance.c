@@ -16,6 +16,8 @@
 /* A hit counts as central up to this share of the radius: the correction is of second order in it.
  */
 static const double CENTRAL = 0.1;
+/* Fewer modes of a mesh are not tried: they leave its flexibility to one spring. */
+enum { LEAST_MODES = 6 };
 /* And as on an end face from this part of the length on: the rest is its rounding. */
 static const double END = 0.45;
 
@@ -158,12 +160,24 @@ static double largest_stiffness(const struct problem *problem, const struct impa
     return fmax(1.5 * cbrt(k * k * force), contact_law_unloading(&outcome->laws[c]));
 }
 
+/* Most modes of a mesh that take part. */
+static size_t mesh_modes(const struct problem *problem, const struct scene *scene)
+{
+    size_t most = 0;
+    for (size_t g = 0; g < scene->groups; g++)
+        if (problem->bodies[scene->group[g].body]->mesh && scene->group[g].count > most)
+            most = scene->group[g].count;
+    size_t allowed = problem->compliance.most;
+    return allowed > 0 && allowed < most ? allowed : most;
+}
+
 bool compliance_revise(struct problem *problem, const struct scene *scene,
                        const struct impact_outcome *outcome)
 {
     /* nothing else is ever taken back */
     bool radiates = radiation_is_in(problem, scene);
-    if (problem->compliance.used != PERCUSS_COMPLIANCE_MATCHED && !radiates)
+    if (problem->compliance.used != PERCUSS_COMPLIANCE_MATCHED && !radiates &&
+        mesh_modes(problem, scene) <= LEAST_MODES)
         return false;
     /* waves that contacts share may take all of the effort */
     if (outcome->end_reason == PERCUSS_END_LIMIT && radiation_is_shared(problem, scene)) {
@@ -176,6 +190,8 @@ bool compliance_revise(struct problem *problem, const struct scene *scene,
             continue;
         if (radiates)
             problem->compliance.still = true;
+        else if (mesh_modes(problem, scene) > LEAST_MODES)
+            problem->compliance.most = mesh_modes(problem, scene) * 2 / 3;
         else
             use_half_space(problem,
                            "the matched compliance is too negative for so stiff a contact");

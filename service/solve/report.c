@@ -194,6 +194,9 @@ static const char *reason_of_error(const struct problem *problem, const struct s
     if (!solution->steps.energy_closes)
         return "the shortest steps allowed do not keep the energy";
     /* what limits the modes, or amplifies what they leave out */
+    if (modes && omitted && problem->compliance.most > 0)
+        return "more modes of the mesh would leave too negative a compliance for so stiff a "
+               "contact";
     if (modes && omitted && all_of_a_file(problem, assembly))
         return "the modes in the body's file are too few: reduce its mesh to a higher frequency";
     if (modes && omitted && assembly->capped)

@@ -223,6 +223,27 @@ static void the_end_of_the_file_is_said(void **state)
     }
 }
 
+/* Flexibility so far below the half-space's that all modes leave too negative a spring: fewer take
+ * part, and the error says what that costs. */
+static void a_stiff_contact_takes_fewer_modes(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    double stiff = -3.2 / (70e9 * 0.010);
+    struct twins twins = make_twins(make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0), MODES, stiff);
+    struct body free_choice = *twins.mesh;
+    lab_add(twins.lab, "free", free_choice);
+    struct spot spot = end_spot("", 1.0);
+    double gentle = answer(&twins, &spot, "free", 0.02, PERCUSS_COMPLIANCE_DEFAULT, &result);
+    size_t all = result.bodies[1].modes;
+    double fast = answer(&twins, &spot, "free", 3.0, PERCUSS_COMPLIANCE_DEFAULT, &result);
+    assert_true(all == MODES && result.bodies[1].modes < MODES && result.bodies[1].modes > 6);
+    assert_true(gentle > fast && fast > 0.0);
+    assert_false(result.tolerance_met);
+    assert_non_null(strstr(result.warnings[0], "more modes of the mesh would leave too negative"));
+    twins_free(&twins);
+}
+
 /* Two contacts on one body: what one does to the other. */
 static void contacts_on_one_body_feel_each_other(void **state)
 {
@@ -369,6 +390,7 @@ int main(void)
         cmocka_unit_test(all_paths_are_taken),
         cmocka_unit_test(parameters_scale_it),
         cmocka_unit_test(the_end_of_the_file_is_said),
+        cmocka_unit_test(a_stiff_contact_takes_fewer_modes),
         cmocka_unit_test(contacts_on_one_body_feel_each_other),
         cmocka_unit_test(meshes_hit_each_other),
         cmocka_unit_test(a_rigid_mesh_is_a_rigid_body),
