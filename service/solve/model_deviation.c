@@ -54,6 +54,13 @@ static double scale_of(const struct body *body)
     return body->radius > 0.0 ? body->radius : body_smallest_radius(body);
 }
 
+/* A body that vibrates as a rod or beam does; any other one as its mesh says, regular compliance
+ * included. */
+static bool is_bar(const struct body *body)
+{
+    return body_is_flexible(body) && body->length > 0.0;
+}
+
 static bool without_shear(const struct body *body)
 {
     return body_bends(body) && body->theory == THEORY_EULER_BERNOULLI;
@@ -65,8 +72,8 @@ static double unknown_compliance(const struct problem *problem, const struct con
     const struct body *body = problem->bodies[side->body];
     if (problem->compliance.used == PERCUSS_COMPLIANCE_MATCHED)
         return MATCHED;
-    if (!body_is_flexible(body))
-        return COMPACT;
+    if (!is_bar(body))
+        return body_is_flexible(body) ? MATCHED : COMPACT;
     if (side->site.face == SITE_END)
         return HALF_SPACE;
     return without_shear(body) ? SIDE_WITHOUT_SHEAR : SIDE;
@@ -90,7 +97,7 @@ static double compliance_of(const struct problem *problem, size_t contact, bool 
 static double theory_of(const struct body *body, const struct site *site, double duration)
 {
     double ratio = scale_of(body) / (wave_speed(body) * duration);
-    if (!body_is_flexible(body) || !isfinite(ratio))
+    if (!is_bar(body) || !isfinite(ratio))
         return 0.0;
     if (site->face == SITE_END)
         return (body->lateral_inertia ? RAYLEIGH_LOVE : ROD) * ratio * ratio;

@@ -127,44 +127,56 @@ static bool make_scene(const struct margin *margin, const struct direction *dire
     return true;
 }
 
-/* Solves a scene beside the answer's, and how far its restitutions are from `answer`; INFINITY:
- * nobody knows. */
-static enum percuss_status solve_beside(const struct margin *margin, const struct scene *scene,
-                                        struct pace *pace, const struct impact_outcome *answer,
+static bool by_finite_elements(const struct problem *problem)
+{
+    enum percuss_contact_model asked = problem->request->options.contact_model;
+    return contact_law_asked(asked)->method == CONTACT_CONCURRENT;
+}
+
+/* What solutions beside the answer share: what each of them leaves of the effort is the others'. */
+struct beside {
+    const struct margin *margin;
+    struct attempt_context context;
+    const struct impact_outcome *answer; /* that they are compared with */
+};
+
+/* Solves a scene, and how far its restitutions are from the answer's; INFINITY: nobody knows. */
+static enum percuss_status solve_beside(struct beside *beside, const struct scene *scene,
                                         struct attempt *attempt, double *distance)
 {
-    const struct problem *problem = margin->problem;
-    const struct solution *solution = margin->solution;
-    struct attempt_context context = {
-        .problem = problem,
-        .arena = problem->arena,
-        .pace = pace,
-        .work = fmin(EFFORT * impact_work(solution->scene, &solution->outcome),
-                     attempt_work_allowed(problem->request->options.method)),
-    };
-    *attempt = (struct attempt){.accuracy = fmax(solution->step_accuracy, LONGEST),
-                                .assembly = solution->assembly};
-    enum percuss_status status = attempt_run(&context, attempt, scene);
+    const struct solution *solution = beside->margin->solution;
+    double left = beside->context.work;
+    double allowed = EFFORT * impact_work(solution->scene, &solution->outcome);
     *distance = INFINITY;
+    if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
+        return PERCUSS_OK;
+    /* no more than a few times the answer's own effort, where that is of the same kind */
+    allowed = by_finite_elements(beside->margin->problem) ? left : fmin(left, allowed);
+    bool modal = beside->margin->problem->request->options.method == PERCUSS_METHOD_MODAL;
+    *attempt = (struct attempt){.accuracy = fmax(solution->step_accuracy, modal ? LONGEST : 0.0),
+                                .assembly = solution->assembly};
+    beside->context.work = allowed;
+    enum percuss_status status = attempt_run(&beside->context, attempt, scene);
+    beside->context.work += left - allowed;
     if (!status && !attempt_is_spent(attempt) && !attempt->outcome.always_overlapped)
-        *distance = answer ? outcome_compare(problem, answer, &attempt->outcome).restitution : 0.0;
+        *distance =
+            outcome_compare(beside->margin->problem, beside->answer, &attempt->outcome).restitution;
     return status;
 }
 
 /* The larger one of two distances along a direction and against it. */
-static enum percuss_status along(const struct margin *margin, bool flow, struct pace *pace,
-                                 const struct impact_outcome *answer, double *largest)
+static enum percuss_status along(struct beside *beside, bool flow, double *largest)
 {
-    bool group = margin->problem->contact_count > 1;
-    for (int i = 0; i < 2; i++) {
+    bool group = beside->margin->problem->contact_count > 1;
+    for (int i = 0; i < 2 && !isinf(*largest); i++) {
         struct direction direction = {
             .alternate = group && i, .flow = flow, .sign = i && !group ? 1.0 : -1.0};
-        struct scene scene = *margin->solution->scene;
-        struct attempt beside;
+        struct scene scene = *beside->margin->solution->scene;
+        struct attempt attempt;
         double distance;
-        if (!make_scene(margin, &direction, &scene))
+        if (!make_scene(beside->margin, &direction, &scene))
             return PERCUSS_INTERNAL;
-        enum percuss_status status = solve_beside(margin, &scene, pace, answer, &beside, &distance);
+        enum percuss_status status = solve_beside(beside, &scene, &attempt, &distance);
         if (status)
             return status;
         *largest = fmax(*largest, distance);
@@ -177,26 +189,29 @@ static enum percuss_status by_sequence(const struct margin *margin, struct pace 
                                        double *restitution)
 {
     const struct problem *problem = margin->problem;
-    const struct impact_outcome *answer = &margin->solution->outcome;
-    enum contact_method method = contact_law_asked(problem->request->options.contact_model)->method;
-    struct attempt base;
+    const struct solution *solution = margin->solution;
+    struct beside beside = {
+        margin,
+        {.problem = problem, .arena = problem->arena, .pace = pace, .work = solution->work},
+        &solution->outcome};
     enum percuss_status status = PERCUSS_OK;
-    double known = 0.0;
+    double spring = 0.0;
+    double flow = 0.0;
     /* by finite elements in the contact: the law's own answer to compare with */
-    if (method == CONTACT_CONCURRENT) {
-        status = solve_beside(margin, margin->solution->scene, pace, NULL, &base, &known);
-        answer = &base.outcome;
+    struct attempt base;
+    if (by_finite_elements(problem)) {
+        status = solve_beside(&beside, solution->scene, &base, &spring);
+        spring = isinf(spring) ? spring : 0.0;
+        beside.answer = &base.outcome;
     }
     /* with other stiffnesses, and where metal flows with other yield stresses */
-    double spring = known;
-    double flow = 0.0;
     bool flows = false;
     for (size_t c = 0; c < problem->contact_count; c++)
         flows = flows || margin->deviation[c].yield > 0.0;
-    if (!status && !isinf(known))
-        status = along(margin, false, pace, answer, &spring);
-    if (!status && !isinf(known) && flows)
-        status = along(margin, true, pace, answer, &flow);
+    if (!status)
+        status = along(&beside, false, &spring);
+    if (!status && flows && !isinf(spring))
+        status = along(&beside, true, &flow);
     *restitution = fmax(*restitution, BETWEEN * hypot(spring, flow));
     return status;
 }

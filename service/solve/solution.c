@@ -84,6 +84,7 @@ static void conclude(const struct attempt_context *context, const struct attempt
     /* what is cut off for its effort takes all that was left, but for a step */
     double allowed = attempt_work_allowed(context->problem->request->options.method);
     solution->spent = context->work < SPENT * allowed;
+    solution->work = context->work;
     /* what was cut off was compared with nothing */
     bool unknown = solution->modes.unchecked || solution->steps.unchecked || attempt_is_spent(best);
     solution->tolerance_met =

@@ -29,7 +29,8 @@ struct solution {
     struct nearby nearby;        /* the answer, and those that it was compared with */
     double restitution_by_speed; /* NAN unless asked for */
     bool tolerance_met;
-    bool spent; /* the effort allowed ended the search */
+    bool spent;  /* the effort allowed ended the search */
+    double work; /* that it left of it (impact.h) */
 };
 
 /* Solves until the estimated error fits the tolerance or the effort allowed is spent, or once by a
