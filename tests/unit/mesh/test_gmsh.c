@@ -8,7 +8,7 @@
 #include "unit/mesh/files.h"
 
 static const char HEAD[] = "SetFactory(\"OpenCASCADE\");\n";
-static char folder[64], path[128];
+static char folder[64], path[512];
 static struct fault fault;
 
 static int prepare(void **state)
@@ -46,7 +46,7 @@ static void write_part(const char *geometry)
 
 static void convert(const char *options, const char *suffix)
 {
-    char command[512];
+    char command[1024];
     snprintf(command, sizeof command, "timeout 60 gmsh %s %s -o %s/out%s >%s/said 2>&1", path,
              options, folder, suffix, folder);
     assert_int_equal(system(command), 0);
@@ -108,6 +108,27 @@ static void meshes_parts(void **state)
     meshes("Box(1) = {0,0,0, 30,30,20};\nCylinder(2) = {15,15,-1, 0,0,30, 6};\n"
            "BooleanDifference(3) = {Volume{1}; Delete;}{Volume{2}; Delete;};\n",
            18000.0 - 720.0 * M_PI, 7);
+}
+
+/* client/examples/mesh: foot, wall and fillet less the holes; its fillet makes one patch of foot
+ * and wall inside */
+static void meshes_the_example(void **state)
+{
+    (void)state;
+    need_gmsh();
+    struct body body;
+    snprintf(path, sizeof path, "%s/client/examples/mesh/bracket.geo", PERCUSS_SOURCE_DIR);
+    read_body(&body, 0.001, 0.0);
+    double fillet = (16.0 - 4.0 * M_PI) * 40.0, holes = 2.0 * 80.0 * M_PI;
+    near_relative(body.findings.volume, 1e-9 * (12000.0 + 9000.0 + fillet - holes), 1e-4);
+    assert_int_equal(body.surface.patch_count, 9);
+    assert_int_equal(body.findings.remark_count, 0);
+    assert_string_equal(body.mesh.part[0].name, "bracket");
+    assert_int_equal(body.mesh.set_count, 1);
+    assert_string_equal(body.mesh.set[0].name, "foot");
+    for (size_t i = 0; i < body.mesh.set[0].count; i++)
+        near(body.mesh.points[body.mesh.set[0].nodes[i]][2], 0.0, 1e-9);
+    free_body(&body);
 }
 
 static const char CYLINDER[] = "Cylinder(1) = {0,0,0, 0,0,60, 10};\n";
@@ -227,9 +248,8 @@ static void says_why_not(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(meshes_parts),
-        cmocka_unit_test(reads_every_format),
-        cmocka_unit_test(fits_the_side_of_a_cylinder),
+        cmocka_unit_test(meshes_parts),       cmocka_unit_test(meshes_the_example),
+        cmocka_unit_test(reads_every_format), cmocka_unit_test(fits_the_side_of_a_cylinder),
         cmocka_unit_test(says_why_not),
     };
     return cmocka_run_group_tests(tests, prepare, clean);
