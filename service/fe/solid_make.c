@@ -79,6 +79,22 @@ static size_t half_width(const struct mesh *mesh)
     return 2 * width + 1;
 }
 
+static bool loads_make(struct solid_loads *loads, size_t candidates, size_t n)
+{
+    loads->stride = candidates;
+    loads->forward = calloc(candidates * n, sizeof(double));
+    loads->common = calloc(candidates * candidates, sizeof(double));
+    loads->share = calloc(candidates, sizeof(double));
+    return loads->forward && loads->common && loads->share;
+}
+
+static void loads_free(struct solid_loads *loads)
+{
+    free(loads->forward);
+    free(loads->common);
+    free(loads->share);
+}
+
 static bool allocate(struct solid *solid, size_t candidates)
 {
     const struct mesh *mesh = solid->mesh;
@@ -93,10 +109,10 @@ static bool allocate(struct solid *solid, size_t candidates)
     solid->balance = calloc(n, sizeof(double));
     solid->residual = calloc(n, sizeof(double));
     solid->boundary = calloc(n, sizeof(double));
-    solid->loads = calloc(candidates * n, sizeof(double));
     return solid->elastic.values && solid->tangent.values && solid->far && solid->pull &&
            solid->pulled && solid->stiffness && solid->balance && solid->residual &&
-           solid->boundary && solid->loads && snapshot_make(mesh, &solid->committed) &&
+           solid->boundary && loads_make(&solid->unloading, candidates, n) &&
+           loads_make(&solid->flowing, candidates, n) && snapshot_make(mesh, &solid->committed) &&
            snapshot_make(mesh, &solid->start) && snapshot_make(mesh, &solid->present);
 }
 
@@ -174,7 +190,8 @@ void solid_destroy(struct solid *solid)
     free(solid->balance);
     free(solid->residual);
     free(solid->boundary);
-    free(solid->loads);
+    loads_free(&solid->unloading);
+    loads_free(&solid->flowing);
     snapshot_free(&solid->committed);
     snapshot_free(&solid->start);
     snapshot_free(&solid->present);

@@ -17,6 +17,15 @@ struct snapshot {
     double force;         /* N, of all contact nodes: the far boundary moves with it */
 };
 
+/* Forward solutions L^-1 e_j of unit contact forces, what any two of them have in common, and each
+ * with the far boundary's. */
+struct solid_loads {
+    double *forward;      /* candidates x freedoms; row j from its own freedom on */
+    double *common;       /* candidates x candidates, lower triangle: products of two rows */
+    double *share;        /* products with `boundary` */
+    size_t known, stride; /* rows that are there; candidates */
+};
+
 struct solid {
     const struct mesh *mesh;
     const struct quad *quads;
@@ -28,13 +37,14 @@ struct solid {
     double (*stiffness)[QUAD_FREEDOMS * QUAD_FREEDOMS]; /* elastic, by element */
     struct band elastic, tangent;
     struct snapshot committed, start, present;
-    size_t zone;      /* elements before this one may flow */
-    bool yielding;    /* some point flows now: the tangent is not the elastic one */
-    size_t first;     /* first freedom that takes part in the present linearisation */
-    double *balance;  /* internal forces on the free freedoms */
-    double *residual; /* forward solution of `balance` */
-    double *boundary; /* forward solution of `pull` */
-    double *loads;    /* forward solutions of unit contact forces, candidates x freedoms */
+    size_t zone;                  /* elements before this one may flow */
+    bool yielding;                /* some point flows now: the tangent is not the elastic one */
+    size_t first;                 /* first freedom that takes part in the present linearisation */
+    double *balance;              /* internal forces on the free freedoms */
+    double *residual;             /* forward solution of `balance` */
+    double *boundary;             /* forward solution of `pull` */
+    struct solid_loads unloading; /* by the elastic factor: found once */
+    struct solid_loads flowing;   /* by the tangent's: anew in every linearisation */
 };
 
 static inline size_t freedoms(const struct solid *solid)

@@ -113,20 +113,27 @@ static size_t outermost_node(const struct solid *solid, size_t count)
     return outermost;
 }
 
-static void tangent_element(const struct solid *solid, const struct plastic_law *law,
+/* An element's tangent stiffness; false: it is the elastic one, and not filled. */
+static bool tangent_element(const struct solid *solid, const struct plastic_law *law,
                             size_t element, double stiffness[QUAD_FREEDOMS * QUAD_FREEDOMS])
 {
     double local[QUAD_FREEDOMS];
+    double moduli[QUAD_POINTS][STRESS_COMPONENTS * STRESS_COMPONENTS];
+    bool flows = false;
     solid_gather(solid, element, local);
-    memset(stiffness, 0, QUAD_FREEDOMS * QUAD_FREEDOMS * sizeof *stiffness);
     for (int p = 0; p < QUAD_POINTS; p++) {
         double strain[STRESS_COMPONENTS], stress[STRESS_COMPONENTS];
-        double moduli[STRESS_COMPONENTS * STRESS_COMPONENTS];
         struct plastic_state after;
         quad_strain(&solid->quads[element], p, local, strain);
-        plasticity_return(law, &solid->start.history[element][p], strain, &after, stress, moduli);
-        quad_add_stiffness(&solid->quads[element], p, moduli, stiffness);
+        flows |= plasticity_return(law, &solid->start.history[element][p], strain, &after, stress,
+                                   moduli[p]);
     }
+    if (!flows)
+        return false;
+    memset(stiffness, 0, QUAD_FREEDOMS * QUAD_FREEDOMS * sizeof *stiffness);
+    for (int p = 0; p < QUAD_POINTS; p++)
+        quad_add_stiffness(&solid->quads[element], p, moduli[p], stiffness);
+    return true;
 }
 
 static bool factor_tangent(struct solid *solid, size_t outermost, bool loading)
@@ -142,12 +149,13 @@ static bool factor_tangent(struct solid *solid, size_t outermost, bool loading)
     /* elements of the zone by their tangent moduli, the rest elastic */
     for (size_t e = 0; e < solid->mesh->elements; e++) {
         double stiffness[QUAD_FREEDOMS * QUAD_FREEDOMS];
-        if (e < solid->zone)
-            tangent_element(solid, &law, e, stiffness);
-        if (solid->mesh->quads[e][0] <= outermost || solid->mesh->quads[e][1] <= outermost ||
-            solid->mesh->quads[e][2] <= outermost || solid->mesh->quads[e][3] <= outermost)
-            solid_assemble(solid, e, e < solid->zone ? stiffness : solid->stiffness[e],
-                           solid->first, &solid->tangent);
+        const uint32_t *nodes = solid->mesh->quads[e];
+        if (nodes[0] > outermost && nodes[1] > outermost && nodes[2] > outermost &&
+            nodes[3] > outermost)
+            continue;
+        bool flows = e < solid->zone && tangent_element(solid, &law, e, stiffness);
+        solid_assemble(solid, e, flows ? stiffness : solid->stiffness[e], solid->first,
+                       &solid->tangent);
     }
     return band_factor_trailing(&solid->tangent, &solid->elastic, solid->first);
 }
@@ -172,6 +180,31 @@ static double dot(const double *a, const double *b, size_t from, size_t to)
     return sum;
 }
 
+static struct solid_loads *present_loads(struct solid *solid)
+{
+    return solid->yielding ? &solid->flowing : &solid->unloading;
+}
+
+/* Those of contact nodes that are not known yet. */
+static void find_loads(const struct solid *solid, size_t count, struct solid_loads *loads)
+{
+    size_t n = freedoms(solid);
+    for (; loads->known < count; loads->known++) {
+        /* contact nodes count outward, freedoms inward: those of j <= i lie beyond row `from` */
+        size_t i = loads->known;
+        size_t from = contact_freedom(solid, i);
+        double *load = loads->forward + i * n;
+        memset(load + from, 0, (n - from) * sizeof *load);
+        load[from] = 1.0;
+        band_forward(inner_factor(solid), from, n, load);
+        /* what it has in common with those farther in, and with the boundary */
+        loads->share[i] = dot(load, solid->boundary, from, n);
+        for (size_t j = 0; j <= i; j++)
+            loads->common[i * loads->stride + j] =
+                dot(load, loads->forward + j * n, contact_freedom(solid, j), n);
+    }
+}
+
 /* Internal forces r on the free freedoms, contact forces f_j inward at e_j, their sum F, which
  * moves the far nodes and so pulls by p per newton: equilibrium about the present state, of the
  * force F0, is
@@ -179,8 +212,8 @@ static double dot(const double *a, const double *b, size_t from, size_t to)
  *   r + K du + (F - F0) p + sum_j f_j e_j = 0,    K = L L^T,
  *   du = -L^-T (L^-1 r + (F - F0) L^-1 p + sum_j f_j L^-1 e_j).
  *
- * `residual`, `boundary` and `loads` are L^-1 r, L^-1 p and L^-1 e_j. The surface at contact node i
- * then lies at u_i + e_i . du = offset_i - sum_j c_ij f_j with
+ * `residual`, `boundary` and the loads are L^-1 r, L^-1 p and L^-1 e_j. The surface at contact node
+ * i then lies at u_i + e_i . du = offset_i - sum_j c_ij f_j with
  *
  *   offset_i = u_i - loads_i . residual + F0 loads_i . boundary,
  *   c_ij = loads_i . loads_j + loads_i . boundary. */
@@ -199,42 +232,36 @@ bool solid_linearise(struct solid *solid, size_t count, bool loading, double *of
     memcpy(solid->residual, solid->balance, n * sizeof *solid->residual);
     band_forward(&solid->elastic, 0, solid->first, solid->residual);
     forward(solid, solid->residual);
-    memcpy(solid->boundary, solid->pulled, solid->first * sizeof *solid->boundary);
-    memcpy(solid->boundary + solid->first, solid->pull + solid->first,
-           (n - solid->first) * sizeof *solid->boundary);
-    forward(solid, solid->boundary);
-    for (size_t i = 0; i < count; i++) {
-        /* contact nodes count outward, freedoms inward: those of j <= i lie beyond row `from` */
-        size_t from = contact_freedom(solid, i);
-        double *load = solid->loads + i * n;
-        memset(load + solid->first, 0, (n - solid->first) * sizeof *load);
-        load[from] = 1.0;
-        band_forward(inner_factor(solid), from, n, load);
-        double share = dot(load, solid->boundary, from, n);
-        offset[i] = solid_surface(solid, i) - dot(load, solid->residual, from, n) +
-                    solid->present.force * share;
-        for (size_t j = 0; j <= i; j++) {
-            double common = dot(load, solid->loads + j * n, contact_freedom(solid, j), n);
-            compliance[i * count + j] = common + share;
-            if (j < i)
-                compliance[j * count + i] = common;
-        }
+    memcpy(solid->boundary, solid->pulled, n * sizeof *solid->boundary);
+    if (solid->yielding) {
+        memcpy(solid->boundary + solid->first, solid->pull + solid->first,
+               (n - solid->first) * sizeof *solid->boundary);
+        forward(solid, solid->boundary);
+        solid->flowing.known = 0;
     }
-    /* above the diagonal: the share of row j */
-    for (size_t j = 0; j < count; j++)
-        for (size_t i = j + 1; i < count; i++)
-            compliance[j * count + i] +=
-                dot(solid->loads + j * n, solid->boundary, contact_freedom(solid, j), n);
+    /* L^-1 e_j */
+    struct solid_loads *loads = present_loads(solid);
+    find_loads(solid, count, loads);
+    for (size_t i = 0; i < count; i++) {
+        size_t from = contact_freedom(solid, i);
+        offset[i] = solid_surface(solid, i) -
+                    dot(loads->forward + i * n, solid->residual, from, n) +
+                    solid->present.force * loads->share[i];
+        for (size_t j = 0; j < count; j++)
+            compliance[i * count + j] =
+                loads->common[(j < i ? i : j) * loads->stride + (j < i ? j : i)] + loads->share[i];
+    }
     return true;
 }
 
 void solid_move(struct solid *solid, size_t count, const double *forces)
 {
     size_t n = freedoms(solid);
+    const struct solid_loads *loads = present_loads(solid);
     double *step = solid->residual;
     double force = 0.0;
     for (size_t j = 0; j < count; j++) {
-        const double *load = solid->loads + j * n;
+        const double *load = loads->forward + j * n;
         force += forces[j];
         if (forces[j] != 0.0)
             for (size_t i = contact_freedom(solid, j); i < n; i++)
