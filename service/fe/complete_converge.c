@@ -5,14 +5,6 @@
 
 #include <math.h>
 
-/* What the mean of 3 or 6 phases leaves of the swing's width: of 13 scenes with 12 phases each
- * (docs/complete-fe.md) at most 0.09 and 0.025. */
-static const double LEFT_BY_3 = 0.10;
-static const double LEFT_BY_6 = 0.03;
-/* The swing is what elements of this size do where material flows, of first order; its mean is off
- * by a part of it, which two means may hide by coming close on their way: of those scenes by 1/12
- * at most, against meshes three and four times as fine. */
-static const double SWING_IN_MEAN = 1.0 / 12.0;
 /* cost of a mesh over that of one half as fine */
 static const double TWICE_AS_FINE = 8.0;
 /* solutions at most that aim at the limit */
@@ -20,26 +12,11 @@ enum { AIMS = 3 };
 /* the solution that answers may be off the limit by this part of the limit's error */
 static const double OFF_LIMIT = 0.25;
 
-void complete_swing_judge(struct complete_swing *swing)
-{
-    double low = INFINITY;
-    double high = -INFINITY;
-    double sum = 0.0;
-    for (unsigned k = 0; k < swing->phases; k++) {
-        low = fmin(low, swing->restitution[k]);
-        high = fmax(high, swing->restitution[k]);
-        sum += swing->restitution[k];
-    }
-    swing->mean = sum / swing->phases;
-    swing->width = high - low;
-    swing->jitter = swing->width * (swing->phases == COMPLETE_PHASES ? LEFT_BY_6 : LEFT_BY_3);
-}
-
 /* What the limit would be wrong by if the means had no jitter; sets limit and order. */
 static double judge_bias(struct complete_convergence *convergence)
 {
-    const struct complete_swing *swing = convergence->swing;
-    const struct complete_swing *finest = &swing[convergence->meshes - 1];
+    const struct swing *swing = convergence->swing;
+    const struct swing *finest = &swing[convergence->meshes - 1];
     convergence->restitution = finest->mean;
     convergence->order = NAN;
     if (convergence->meshes < 2)
@@ -60,61 +37,16 @@ static double judge_bias(struct complete_convergence *convergence)
 
 void complete_converge_judge(struct complete_convergence *convergence)
 {
-    const struct complete_swing *finest = &convergence->swing[convergence->meshes - 1];
+    const struct swing *finest = &convergence->swing[convergence->meshes - 1];
     double bias = fmax(judge_bias(convergence), SWING_IN_MEAN * finest->width);
     convergence->error = bias + finest->jitter;
-}
-
-/* The trigonometric polynomial through n even phases: n odd, or n even with its highest harmonic a
- * cosine (Henrici, Applied and Computational Complex Analysis 3, section 13.6). */
-static double interpolate(const struct complete_swing *swing, double phase)
-{
-    unsigned n = swing->phases;
-    double sum = 0.0;
-    for (unsigned k = 0; k < n; k++) {
-        double x = M_PI * (phase - (double)k / n);
-        double weight = n % 2 ? sin(n * x) / sin(x) : sin(n * x) / tan(x);
-        sum += swing->restitution[k] * (fabs(sin(x)) < 1e-12 ? 1.0 : weight / n);
-    }
-    return sum;
-}
-
-double complete_swing_phase(const struct complete_swing *swing, double wanted,
-                            struct complete_bracket *bracket)
-{
-    unsigned n = swing->phases;
-    for (unsigned k = 0; k < n; k++) {
-        double low = swing->restitution[k] - wanted;
-        double high = swing->restitution[(k + 1) % n] - wanted;
-        if (!(low * high < 0.0))
-            continue;
-        *bracket = (struct complete_bracket){{(double)k / n, (k + 1.0) / n}, {low, high}};
-        double ends[2] = {bracket->phase[0], bracket->phase[1]};
-        for (int i = 0; i < 40; i++) {
-            double middle = 0.5 * (ends[0] + ends[1]);
-            ends[(interpolate(swing, middle) - wanted) * low <= 0.0] = middle;
-        }
-        return ends[0];
-    }
-    return NAN;
-}
-
-/* Puts what was found at a phase in the place of one end: the line through both ends gives the next
- * phase. */
-static double narrow(struct complete_bracket *bracket, double phase, double off)
-{
-    int end = off * bracket->off[0] <= 0.0;
-    bracket->phase[end] = phase;
-    bracket->off[end] = off;
-    double share = bracket->off[0] / (bracket->off[0] - bracket->off[1]);
-    return bracket->phase[0] + share * (bracket->phase[1] - bracket->phase[0]);
 }
 
 /* All that is needed while meshes are added. */
 struct search {
     struct complete_convergence *convergence;
     struct complete_problem problem; /* as given, but for the progress, mesh and phase */
-    struct complete_result latest[COMPLETE_PHASES]; /* of the finest mesh */
+    struct complete_result latest[SWING_PHASES]; /* of the finest mesh */
     struct complete_result aimed;
 };
 
@@ -123,7 +55,7 @@ static enum percuss_status solve_one(struct search *search, double phase,
 {
     unsigned finer = COMPLETE_MESHES - search->convergence->meshes;
     search->problem.phase = phase;
-    search->problem.share = pow(TWICE_AS_FINE, -(double)finer) / (2 * COMPLETE_PHASES);
+    search->problem.share = pow(TWICE_AS_FINE, -(double)finer) / (2 * SWING_PHASES);
     enum percuss_status status = impact_complete_solve(&search->problem, result, fault);
     search->problem.done += search->problem.share;
     return status;
@@ -132,7 +64,7 @@ static enum percuss_status solve_one(struct search *search, double phase,
 /* Solves the phases that `count` evenly spread ones lack. */
 static enum percuss_status add_phases(struct search *search, unsigned count, struct fault *fault)
 {
-    struct complete_swing *swing = &search->convergence->swing[search->convergence->meshes - 1];
+    struct swing *swing = &search->convergence->swing[search->convergence->meshes - 1];
     /* the known ones in their places among so many */
     unsigned stride = swing->phases ? count / swing->phases : 0;
     for (unsigned k = swing->phases; k-- > 0;) {
@@ -151,7 +83,7 @@ static enum percuss_status add_phases(struct search *search, unsigned count, str
     }
     /* what they say of the mean and of the limit */
     swing->phases = count;
-    complete_swing_judge(swing);
+    swing_judge(swing);
     complete_converge_judge(search->convergence);
     return PERCUSS_OK;
 }
@@ -160,8 +92,8 @@ static enum percuss_status add_mesh(struct search *search, unsigned finest, stru
 {
     unsigned mesh = search->convergence->meshes++;
     search->problem.cells = finest >> (COMPLETE_MESHES - 1 - mesh);
-    search->convergence->swing[mesh] = (struct complete_swing){.cells = search->problem.cells};
-    return add_phases(search, COMPLETE_PHASES / 2, fault);
+    search->convergence->swing[mesh] = (struct swing){.cells = search->problem.cells};
+    return add_phases(search, SWING_PHASES / 2, fault);
 }
 
 static void answer_with(struct search *search, const struct complete_result *result, double phase)
@@ -180,22 +112,22 @@ static void answer_with(struct search *search, const struct complete_result *res
 static enum percuss_status choose(struct search *search, struct fault *fault)
 {
     struct complete_convergence *convergence = search->convergence;
-    const struct complete_swing *swing = &convergence->swing[convergence->meshes - 1];
+    const struct swing *swing = &convergence->swing[convergence->meshes - 1];
     const double allowed = (1.0 + OFF_LIMIT) * convergence->error;
-    struct complete_bracket bracket;
+    struct swing_bracket bracket;
     /* of the phases solved the nearest */
     convergence->result_error = INFINITY;
     for (unsigned k = 0; k < swing->phases; k++)
         answer_with(search, &search->latest[k], (double)k / swing->phases);
     /* aims at the limit between the two phases around it */
-    double phase = complete_swing_phase(swing, convergence->restitution, &bracket);
+    double phase = swing_phase(swing, convergence->restitution, &bracket);
     for (int i = 0; i < AIMS && convergence->result_error > allowed && isfinite(phase); i++) {
         double turned = fmod(phase, 1.0);
         enum percuss_status status = solve_one(search, turned, &search->aimed, fault);
         if (status != PERCUSS_OK)
             return status;
         answer_with(search, &search->aimed, turned);
-        phase = narrow(&bracket, phase, search->aimed.restitution - convergence->restitution);
+        phase = swing_narrow(&bracket, phase, search->aimed.restitution - convergence->restitution);
     }
     return PERCUSS_OK;
 }
@@ -219,7 +151,7 @@ enum percuss_status complete_converge(const struct complete_problem *problem, do
         /* the other phases of a mesh cost little beside the next mesh, which is compared with it */
         double jitter = convergence->swing[convergence->meshes - 1].jitter;
         if (status == PERCUSS_OK && convergence->error > tolerance && jitter > 0.1 * tolerance)
-            status = add_phases(&search, COMPLETE_PHASES, fault);
+            status = add_phases(&search, SWING_PHASES, fault);
     }
     return status == PERCUSS_OK ? choose(&search, fault) : status;
 }

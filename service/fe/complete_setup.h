@@ -24,7 +24,7 @@ struct complete_problem {
     double speed;              /* of A towards B, m/s, > 0 */
     unsigned cells;            /* elements across the expected contact radius, 4 ... 96 */
     double phase;   /* 0 <= phase < 1: moves the nodes by this part of an element, less one from a
-                     * half on, against the patch's rim: see complete_converge.h */
+                     * half on, against the patch's rim: see swing.h */
     double horizon; /* s, > 0: end of the search for further contacts */
     struct pace *pace;  /* may stop it; NULL: nobody */
     double done, share; /* of the whole work, which it is told: before this solution, and its own */

@@ -204,7 +204,7 @@ static void fill_model(const struct complete_convergence *convergence,
                        const struct problem *problem, struct solve_result *result)
 {
     const struct complete_result *from = &convergence->result;
-    const struct complete_swing *finest = &convergence->swing[convergence->meshes - 1];
+    const struct swing *finest = &convergence->swing[convergence->meshes - 1];
     const struct body *bodies[2] = {problem->bodies[0], problem->bodies[1]};
     const struct complete_energy *energy = &from->energy;
     /* what was used */

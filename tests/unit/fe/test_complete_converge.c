@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/fe/complete_converge.c: known swings and limits, and scenes against finer meshes
+/* Mirrors service/fe/complete_converge.c: known limits, and scenes against finer meshes
  * and another program's. */
 #include "check.h"
 #include "fe/complete_converge.h"
@@ -12,40 +12,13 @@ static double swing_at(double phase)
     return 0.5 + 0.02 * cos(2.0 * M_PI * (phase - 0.2)) + 0.004 * sin(4.0 * M_PI * phase);
 }
 
-static struct complete_swing known_swing(unsigned phases)
+static struct swing known_swing(unsigned phases)
 {
-    struct complete_swing swing = {.cells = 8, .phases = phases};
+    struct swing swing = {.cells = 8, .phases = phases};
     for (unsigned k = 0; k < phases; k++)
         swing.restitution[k] = swing_at((double)k / phases);
-    complete_swing_judge(&swing);
+    swing_judge(&swing);
     return swing;
-}
-
-static void a_swing_has_a_mean(void **unused)
-{
-    (void)unused;
-    struct complete_swing three = known_swing(3);
-    struct complete_swing six = known_swing(6);
-    measured("three", three.mean, 0.5, 1e-15);
-    measured("six", six.mean, 0.5, 1e-15);
-    assert_true(six.jitter < three.jitter && six.jitter > 0.0);
-}
-
-static void a_swing_says_where_it_passes(void **unused)
-{
-    (void)unused;
-    struct complete_swing swing = known_swing(6);
-    struct complete_bracket bracket;
-    const double wanted[] = {0.49, 0.5, 0.505, 0.515};
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
-        double phase = complete_swing_phase(&swing, wanted[i], &bracket);
-        assert_true(phase > bracket.phase[0] && phase < bracket.phase[1]);
-        assert_true(bracket.off[0] * bracket.off[1] < 0.0);
-        measured("end", wanted[i] + bracket.off[0], swing_at(bracket.phase[0]), 1e-15);
-        measured("passes", swing_at(phase), wanted[i], 1e-9);
-    }
-    assert_true(isnan(complete_swing_phase(&swing, 0.6, &bracket)));
-    assert_true(isnan(complete_swing_phase(&swing, 0.4, &bracket)));
 }
 
 /* Means 0.5 + ratio^n without any swing. */
@@ -53,11 +26,11 @@ static struct complete_convergence known_means(double ratio, unsigned meshes)
 {
     struct complete_convergence found = {.meshes = meshes};
     for (unsigned m = 0; m < meshes; m++) {
-        struct complete_swing *swing = &found.swing[m];
+        struct swing *swing = &found.swing[m];
         swing->phases = 6;
         for (unsigned k = 0; k < swing->phases; k++)
             swing->restitution[k] = 0.5 + pow(ratio, m);
-        complete_swing_judge(swing);
+        swing_judge(swing);
     }
     complete_converge_judge(&found);
     return found;
@@ -165,8 +138,6 @@ static void finer_meshes_lie_within_the_error(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_swing_has_a_mean),
-        cmocka_unit_test(a_swing_says_where_it_passes),
         cmocka_unit_test(known_limits_are_found),
         cmocka_unit_test(a_swing_is_never_less_than_its_share),
         cmocka_unit_test(finer_meshes_lie_within_the_error),
