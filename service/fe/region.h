@@ -22,6 +22,8 @@ struct region_input {
     double indentation; /* m, the largest that will be asked for */
     size_t resolution;  /* elements along a side of the mesh's core, 4 ... 60; about 1.3 times as
                          * many lie within a contact radius, whatever the load */
+    double phase;       /* 0 <= phase < 1: moves the nodes by this part of a ring against the rim of
+                         * every contact: see swing.h */
 };
 
 struct region_answer {
@@ -49,6 +51,11 @@ enum percuss_status region_press(struct region *region, double indentation,
                                  struct region_answer *answer, struct fault *fault);
 enum percuss_status region_load(struct region *region, double force, struct region_answer *answer,
                                 struct fault *fault);
+
+/* The same in series with a spring: indentation + softness * force = approach (m; softness >= 0,
+ * m/N). */
+enum percuss_status region_approach(struct region *region, double approach, double softness,
+                                    struct region_answer *answer, struct fault *fault);
 
 /* Equilibrium in which contact node `node` (its radius: region_edge_radius) just touches without a
  * force and all within press: these states lie alike within their elements, so that curves through

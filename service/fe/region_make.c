@@ -38,6 +38,9 @@ static enum percuss_status check_input(const struct region_input *input, struct 
     if (input->resolution < 4 || input->resolution > 60)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "resolution: %zu: must be 4 ... 60",
                          input->resolution);
+    if (!(input->phase >= 0.0 && input->phase < 1.0))
+        return fault_set(fault, PERCUSS_BAD_REQUEST, "phase: %g: must be 0 <= phase < 1",
+                         input->phase);
     /* elastic constants, and a yield with hardening below the modulus */
     for (int i = 0; i < 2; i++) {
         const struct material *m = &input->materials[i];
@@ -62,7 +65,11 @@ static enum percuss_status make_mesh(struct region *region, const struct region_
     double core = (double)input->resolution;
     struct mesh_grade grade = {
         .size = 0.7 * low / core, .core = input->resolution, .growth = 1.0 + 0.25 * M_PI / core};
-    enum percuss_status status = mesh_half_space(EXTENT * top, &grade, &region->mesh, fault);
+    /* the whole mesh larger by the phase's part of a ring */
+    double scale = pow(grade.growth, input->phase);
+    grade.size *= scale;
+    enum percuss_status status =
+        mesh_half_space(EXTENT * top * scale, &grade, &region->mesh, fault);
     if (status != PERCUSS_OK)
         return status;
     /* nodes that may come to touch */

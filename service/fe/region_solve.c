@@ -21,14 +21,15 @@ static void state_copy(size_t n, struct contact_state *to, const struct contact_
 
 /* What is asked of an equilibrium. */
 struct target {
-    enum { BY_INDENTATION, BY_FORCE, BY_EDGE, WITHOUT_CONTACT } kind;
+    enum { BY_APPROACH, BY_FORCE, BY_EDGE, WITHOUT_CONTACT } kind;
     double value;
+    double softness; /* m/N, of a spring in series, BY_APPROACH */
     size_t node;
     bool loading; /* the step is expected to press further */
 };
 
-/* linearised surfaces of both bodies, added */
-static bool linearise(struct region *region, bool loading)
+/* linearised surfaces of both bodies, added; the spring gives way under every node's force */
+static bool linearise(struct region *region, double softness, bool loading)
 {
     size_t n = region->count;
     if (!solid_linearise(region->solids[0], n, loading, region->offsets, region->compliance) ||
@@ -37,7 +38,7 @@ static bool linearise(struct region *region, bool loading)
     for (size_t i = 0; i < n; i++)
         region->initial[i] = region->gaps[i] - region->offsets[i] - region->initial[i];
     for (size_t i = 0; i < n * n; i++)
-        region->compliance[i] += region->more[i];
+        region->compliance[i] += region->more[i] + softness;
     return true;
 }
 
@@ -50,7 +51,7 @@ static bool solve_contact(struct region *region, const struct target *target, bo
         memset(state->forces, 0, region->candidates * sizeof *state->forces);
         memset(state->active, 0, region->candidates * sizeof *state->active);
         state->force = 0.0;
-        return linearise(region, false);
+        return linearise(region, 0.0, false);
     }
     for (;;) {
         /* which nodes touch, and their forces */
@@ -66,12 +67,12 @@ static bool solve_contact(struct region *region, const struct target *target, bo
                                  .force = state->forces,
                                  .active = state->active,
                                  .scratch = region->scratch};
-        if (!linearise(region, loading) || !active_set_solve(&set))
+        if (!linearise(region, target->softness, loading) || !active_set_solve(&set))
             return false;
         /* done where two more nodes beyond the rim stay open */
-        state->indentation = set.indentation;
+        state->indentation = set.indentation - target->softness * set.total;
         state->force = set.total;
-        region->stiffness = set.stiffness;
+        region->stiffness = set.stiffness / (1.0 - target->softness * set.stiffness);
         size_t last = region->count;
         while (last > 0 && !state->active[last - 1])
             last--;
@@ -149,8 +150,8 @@ static void advance(struct region *region)
 static bool is_loading(const struct region *region, const struct target *target)
 {
     switch (target->kind) {
-    case BY_INDENTATION:
-        return target->value > region->start.indentation;
+    case BY_APPROACH:
+        return target->value > region->start.indentation + target->softness * region->start.force;
     case BY_FORCE:
         return target->value > region->start.force;
     case BY_EDGE:
@@ -165,15 +166,16 @@ static enum percuss_status reach(struct region *region, const struct target *tar
                                  struct fault *fault)
 {
     begin(region);
-    double from =
-        target->kind == BY_FORCE ? region->committed.force : region->committed.indentation;
+    double from = target->kind == BY_FORCE
+                      ? region->committed.force
+                      : region->committed.indentation + target->softness * region->committed.force;
     double part = 1.0;
     for (double done = 0.0; done < 1.0;) {
         /* as far as this part of the way goes */
         struct target next = *target;
         next.loading = is_loading(region, target);
         double until = fmin(done + part, 1.0);
-        if (target->kind == BY_INDENTATION || target->kind == BY_FORCE)
+        if (target->kind == BY_APPROACH || target->kind == BY_FORCE)
             next.value = until < 1.0 ? from + until * (target->value - from) : target->value;
         /* there: on from here */
         if (equilibrate(region, &next)) {
@@ -216,7 +218,13 @@ static void answer_fill(const struct region *region, struct region_answer *answe
 enum percuss_status region_press(struct region *region, double indentation,
                                  struct region_answer *answer, struct fault *fault)
 {
-    struct target target = {.kind = BY_INDENTATION, .value = indentation};
+    return region_approach(region, indentation, 0.0, answer, fault);
+}
+
+enum percuss_status region_approach(struct region *region, double approach, double softness,
+                                    struct region_answer *answer, struct fault *fault)
+{
+    struct target target = {.kind = BY_APPROACH, .value = approach, .softness = softness};
     enum percuss_status status = reach(region, &target, fault);
     answer_fill(region, answer);
     return status;

@@ -172,12 +172,17 @@ static void forward(const struct solid *solid, double *b)
     band_forward(inner_factor(solid), solid->first, freedoms(solid), b);
 }
 
+/* Four sums at once, which a compiler may not make of one. */
 static double dot(const double *a, const double *b, size_t from, size_t to)
 {
-    double sum = 0.0;
-    for (size_t i = from; i < to; i++)
-        sum += a[i] * b[i];
-    return sum;
+    double sum[4] = {0.0};
+    size_t i = from;
+    for (; i + 4 <= to; i += 4)
+        for (size_t k = 0; k < 4; k++)
+            sum[k] += a[i + k] * b[i + k];
+    for (; i < to; i++)
+        sum[0] += a[i] * b[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 static struct solid_loads *present_loads(struct solid *solid)

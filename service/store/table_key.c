@@ -128,5 +128,8 @@ struct region_input table_input(const struct material *a, const struct material 
         struct contact_law law = contact_law_closed_form(&hertz, a, b);
         depth = depth_for(&law, energy, limit);
     }
-    return (struct region_input){{*a, *b}, radius, fmin(MARGIN * depth, limit), TABLE_RESOLUTION};
+    return (struct region_input){.materials = {*a, *b},
+                                 .radius = radius,
+                                 .indentation = fmin(MARGIN * depth, limit),
+                                 .resolution = TABLE_RESOLUTION};
 }

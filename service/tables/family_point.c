@@ -34,7 +34,10 @@ struct region_input family_input(const struct contact_family_place *place, size_
     struct hertz_contact hertz =
         hertz_contact_make(hertz_effective_modulus(&soft, &elastic), 0.5, 0.5);
     soft.yield = sqrt(largest / FAMILY_DEEPEST / closed_form_yield(&hertz, &soft, &elastic));
-    return (struct region_input){{soft, elastic}, 1.0, largest, resolution};
+    return (struct region_input){.materials = {soft, elastic},
+                                 .radius = 1.0,
+                                 .indentation = largest,
+                                 .resolution = resolution};
 }
 
 /* Mean force over Hertz's at an indentation. */

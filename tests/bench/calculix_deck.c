@@ -122,7 +122,8 @@ int main(int count, char **arguments)
                                   {"indenter", 210e9, 0.30, 7800.0, INFINITY, 0.0}},
                                  RADIUS,
                                  d,
-                                 12};
+                                 12,
+                                 0.0};
     double force = own_force(&input);
     double top = sqrt(2.0 * RADIUS * d);
     size_t core = (size_t)atoi(arguments[3]);

@@ -20,7 +20,8 @@ int main(int count, char **arguments)
                                   {"aluminium", 70e9, 0.33, 2700.0, yield, 0.0}},
                                  0.015,
                                  largest,
-                                 resolution};
+                                 resolution,
+                                 0.0};
     struct indentation_table table;
     struct fault fault;
     clock_t start = clock();

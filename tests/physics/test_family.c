@@ -158,7 +158,7 @@ static void between_its_places_it_is_what_is_computed_there(void **state)
         struct hertz_contact hertz =
             hertz_contact_make(hertz_effective_modulus(a, b), 0.5 / radius, 0.5 / radius);
         double unit = closed_form_yield(&hertz, a, b);
-        struct region_input input = {{*a, *b}, radius, 40.0 * unit, 8};
+        struct region_input input = {{*a, *b}, radius, 40.0 * unit, 8, 0.0};
         struct indentation_table table;
         if (indentation_table_make(&input, NULL, &table, &fault))
             fail_msg("%s", fault.text);

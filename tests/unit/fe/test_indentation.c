@@ -12,7 +12,8 @@ static const struct region_input rod_1 = {
     {{"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0}, {"al-205", 70e9, 0.33, 2700.0, 205e6, 0.0}},
     0.015,
     2.5e-5,
-    8};
+    8,
+    0.0};
 
 static void make(const struct region_input *input, struct indentation_table *table)
 {

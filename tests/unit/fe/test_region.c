@@ -15,7 +15,7 @@ static const struct material rubber = {"rubber", 1e9, 0.499, 1000.0, INFINITY, 0
 static struct region *make(const struct material *a, const struct material *b, double radius,
                            double indentation, size_t resolution)
 {
-    struct region_input input = {{*a, *b}, radius, indentation, resolution};
+    struct region_input input = {{*a, *b}, radius, indentation, resolution, 0.0};
     struct region *region;
     struct fault fault;
     if (region_create(&input, &region, &fault) != PERCUSS_OK)
@@ -236,12 +236,59 @@ static void steps_are_functional(void **state)
     region_destroy(region);
 }
 
+/* In series with a spring the same states are reached as by their indentations, loading and
+ * unloading: within what Newton's method leaves; the stiffness is that of its last tangent. */
+static void presses_through_a_spring(void **state)
+{
+    (void)state;
+    static const double places[] = {4e-6, 8e-6, 7e-6, 5e-6};
+    static const double softness = 1e-8; /* m/N, the region's own at 300 N */
+    struct region *straight = make(&steel, &al_205, 0.015, 1e-5, 8);
+    struct region *through = make(&steel, &al_205, 0.015, 1e-5, 8);
+    struct fault fault;
+    for (size_t i = 0; i < 4; i++) {
+        struct region_answer a = press(straight, places[i]);
+        struct region_answer b;
+        double approach = places[i] + softness * a.force;
+        if (region_approach(through, approach, softness, &b, &fault) != PERCUSS_OK)
+            fail_msg("%s", fault.text);
+        measured_relative("force", b.force, a.force, 1e-8);
+        measured_relative("indentation", b.indentation, a.indentation, 1e-8);
+        measured_relative("stiffness", b.stiffness, a.stiffness, 1e-4);
+        region_commit(straight);
+        region_commit(through);
+    }
+    /* apart: the spring is without force */
+    struct region_answer open;
+    assert_int_equal(region_approach(through, -1e-6, softness, &open, &fault), PERCUSS_OK);
+    assert_true(open.force == 0.0 && open.indentation == -1e-6);
+    region_destroy(straight);
+    region_destroy(through);
+}
+
+/* A phase moves all nodes outward by its part of a ring, which grows by 1 + pi/32. */
+static void a_phase_moves_the_nodes(void **state)
+{
+    (void)state;
+    struct region_input input = {{steel, al_205}, 0.015, 1e-5, 8, 0.5};
+    struct region *moved;
+    struct fault fault;
+    assert_int_equal(region_create(&input, &moved, &fault), PERCUSS_OK);
+    struct region *still = make(&steel, &al_205, 0.015, 1e-5, 8);
+    double growth = region_edge_radius(still, 20) / region_edge_radius(still, 19);
+    double shift = region_edge_radius(moved, 19) / region_edge_radius(still, 19);
+    measured_relative("shift", log(shift), 0.5 * log(1.0 + M_PI / 32.0), 1e-9);
+    assert_true(shift > 1.0 && shift < growth);
+    region_destroy(moved);
+    region_destroy(still);
+}
+
 static void refuses_bad_input(void **state)
 {
     (void)state;
     struct region *region;
     struct fault fault;
-    struct region_input input = {{steel, al_205}, 0.0, 1e-5, 8};
+    struct region_input input = {{steel, al_205}, 0.0, 1e-5, 8, 0.0};
     assert_int_equal(region_create(&input, &region, &fault), PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(fault.text, "contact radius: 0"));
     input.radius = 0.01;
@@ -271,6 +318,8 @@ int main(void)
         cmocka_unit_test(loading_agrees_with_jackson_green),
         cmocka_unit_test(unloads_and_reloads),
         cmocka_unit_test(steps_are_functional),
+        cmocka_unit_test(presses_through_a_spring),
+        cmocka_unit_test(a_phase_moves_the_nodes),
         cmocka_unit_test(refuses_bad_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,7 +19,7 @@ static struct indentation_table small_table;
 static inline int make_small_table(void **state)
 {
     (void)state;
-    struct region_input input = {{small_steel, small_soft}, 0.015, 8e-6, 6};
+    struct region_input input = {{small_steel, small_soft}, 0.015, 8e-6, 6, 0.0};
     struct fault fault;
     if (indentation_table_make(&input, NULL, &small_table, &fault))
         fail_msg("%s", fault.text);

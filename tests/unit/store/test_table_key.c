@@ -6,7 +6,10 @@
 
 static struct region_input sample(void)
 {
-    return (struct region_input){{small_steel, small_soft}, 0.015, 8e-6, 6};
+    return (struct region_input){.materials = {small_steel, small_soft},
+                                 .radius = 0.015,
+                                 .indentation = 8e-6,
+                                 .resolution = 6};
 }
 
 static void expect_other(const struct region_input *changed)
