@@ -11,16 +11,8 @@
 #include "impact/kernel.h"
 #include "impact/march.h"
 
-enum {
-    /* Pressing takes two or three iterations, some ten where many nodes touch or part. */
-    MAX_PRESSES = 40,
-    /* Of all contacts, and intervals of a flight: some hundred times what an impact takes. */
-    MAX_STEPS = 100000
-};
-
-/* Largest last change of an indentation over the contact's: the force follows it on its tangent, so
- * that what remains is of second order. */
-static const double SETTLED = 1e-4;
+/* Of all contacts, and intervals of a flight: some hundred times what an impact takes. */
+enum { MAX_STEPS = 100000 };
 
 /* A contact lasts this many times its scale (Hertz, rigid bodies). */
 static const double HERTZ_DURATION = 2.94;
@@ -39,7 +31,7 @@ struct concurrent {
     struct impact_scale scale;
     int level;
     double response;         /* of the approach at a step's end to the force there, m/N, < 0 */
-    double depth[3];         /* now and at the two steps before, from the bottom of the dent, m */
+    double depth, earlier;   /* now and a step before, from the bottom of the dent, m */
     double force, stiffness; /* now */
     double peak;             /* N, of the sub-impact under way */
     double bottom;           /* of the dent, from the virgin surface, m */
@@ -103,48 +95,23 @@ static enum percuss_status begin_contact(struct concurrent *run)
     rising(1.0, unit);
     push(run, unit, &run->end);
     motion_approach(&run->end, scene, 0, &run->response, &d);
-    /* the depths that two steps before would have had */
-    double h = step_length(run->level);
-    for (int i = 0; i < 3; i++)
-        run->depth[i] = -i * rate * h;
+    run->depth = run->earlier = 0.0;
     run->force = run->stiffness = run->peak = 0.0;
     march_open(march, 0, now->time, now->gap_rate[0]);
     return PERCUSS_OK;
 }
 
-/* Depth and force at the end of a step: depth + compliance force(depth) = approach. The left side
- * rises with the depth; where its slope jumps (nodes that touch) Newton's method is kept between
- * the bounds found so far. */
-static enum percuss_status find_depth(struct concurrent *run, double approach,
-                                      struct region_answer *answer, double *depth)
+/* One step past the deepest: the parabola through three depths says where between the steps it was.
+ */
+static void end_compression(const struct concurrent *run, double depth, struct sub_impact *open)
 {
-    double compliance = run->march.scene.residual[0] - run->response;
-    double low = -INFINITY;
-    double high = INFINITY;
-    /* starts on the parabola through the last three depths */
-    *depth = 3.0 * (run->depth[0] - run->depth[1]) + run->depth[2];
-    for (int i = 0; i < MAX_PRESSES; i++) {
-        /* the region's force there, and Newton's change of the depth */
-        enum percuss_status status =
-            region_press(run->region, run->bottom + *depth, answer, run->march.fault);
-        if (status != PERCUSS_OK)
-            return status;
-        double excess = *depth + compliance * answer->force - approach;
-        double change = -excess / (1.0 + compliance * answer->stiffness);
-        /* small enough: the force follows on its tangent */
-        if (fabs(change) <= SETTLED * run->scale.indentation) {
-            *depth += change;
-            answer->force = fmax(0.0, answer->force + answer->stiffness * change);
-            return PERCUSS_OK;
-        }
-        /* otherwise on, or to the middle of the bounds */
-        *(excess > 0.0 ? &high : &low) = *depth;
-        double next = *depth + change;
-        *depth = next > low && next < high ? next : 0.5 * (low + high);
-    }
-    return fault_set(run->march.fault, PERCUSS_INTERNAL,
-                     "concurrent finite elements: no equilibrium at %g s",
-                     run->march.outcome->motion.time);
+    double bend = depth - 2.0 * run->depth + run->earlier;
+    double slope = 0.5 * (depth - run->earlier);
+    double later = bend < 0.0 ? -slope / bend : 0.0; /* in steps; within a half of one */
+    double time = later * step_length(run->level);
+    open->max_indentation += 0.5 * later * slope;
+    open->compression_end += time;
+    open->compression_impulse += time * run->force;
 }
 
 /* The books of the step from the present to its end. */
@@ -156,13 +123,15 @@ static void keep_books(struct concurrent *run, double depth, const struct region
     double change = answer->force - run->force;
     double stiffness = depth > 0.0 ? HERTZ_POWER * answer->force / depth : 0.0;
     /* force and depth are lines along the step: work and impulse */
-    run->work += 0.5 * (run->force + answer->force) * (depth - run->depth[0]);
+    run->work += 0.5 * (run->force + answer->force) * (depth - run->depth);
     track->open.impulse += 0.5 * h * (run->force + answer->force);
     /* what omitted inertia and viscosity would do, by the stiffness of Hertz' law */
     track->inertia += (stiffness - run->stiffness) * change / h;
     track->viscosity += change * change / h;
     run->stiffness = stiffness;
     /* the deepest of this sub-impact, which ends its compression */
+    if (depth < run->depth && run->depth == track->open.max_indentation)
+        end_compression(run, depth, &track->open);
     if (depth > track->open.max_indentation) {
         track->open.max_indentation = depth;
         track->open.compression_end = run->end.time;
@@ -211,9 +180,12 @@ static enum percuss_status step(struct concurrent *run, bool *open)
     push(run, force, &run->end);
     motion_approach(&run->end, &march->scene, 0, &approach, &rate);
     /* its equilibrium, and the bodies under the new force */
-    enum percuss_status status = find_depth(run, approach, &answer, &depth);
+    enum percuss_status status =
+        region_approach(run->region, run->bottom + approach,
+                        march->scene.residual[0] - run->response, &answer, march->fault);
     if (status != PERCUSS_OK)
         return status;
+    depth = answer.indentation - run->bottom;
     region_commit(run->region);
     rising(answer.force, force);
     push(run, force, &run->end);
@@ -225,9 +197,8 @@ static enum percuss_status step(struct concurrent *run, bool *open)
     struct motion old = *now;
     *now = run->end;
     run->end = old;
-    run->depth[2] = run->depth[1];
-    run->depth[1] = run->depth[0];
-    run->depth[0] = depth;
+    run->earlier = run->depth;
+    run->depth = depth;
     run->force = answer.force;
     march->outcome->steps++;
     *open = answer.force == 0.0;
