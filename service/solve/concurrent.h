@@ -9,17 +9,22 @@
 #include "solve/result.h"
 #include "solve/solution.h"
 
+/* The part of the tolerance that modes and steps of the closed form's solution may take: modes are
+ * cheap beside the region. */
+static const double CONCURRENT_MODES_SHARE = 0.25;
+
 /* What a reply says of it. */
 struct concurrent_effort {
-    size_t resolution, newton_steps; /* of the finest mesh */
-    unsigned long steps;
-    double extrapolated; /* restitution, from the two finest meshes */
+    size_t resolution;              /* of the finest mesh */
+    unsigned long steps;            /* of the solution that answers */
+    size_t solutions, newton_steps; /* in all */
+    double extrapolated;            /* restitution: the limit of steps and meshes */
 };
 
-/* Takes a solution with the closed form, its modes and its error in them, and solves it anew with
- * contact regions of growing resolution until two of them differ by less than the tolerance.
- * An elliptic contact's region is that of the sphere of equal stiffness. BAD_REQUEST: what the
- * region cannot answer; TIMEOUT where the pace stopped it. */
+/* Takes a solution with the closed form within that share of the tolerance, its modes and its error
+ * in them, and solves it anew with contact regions of more steps and finer meshes until one is
+ * within the tolerance of their limit. An elliptic contact's region is that of the sphere of equal
+ * stiffness. BAD_REQUEST: what the region cannot answer; TIMEOUT where the pace stopped it. */
 enum percuss_status concurrent_refine(struct solution *solution, const struct problem *problem,
                                       struct pace *pace, struct concurrent_effort *effort,
                                       struct fault *fault);

@@ -118,10 +118,14 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     if (!status && method == CONTACT_COMPLETE)
         return complete_answer(problem, &pace, result);
     /* the solution, and by finite elements in the contact once more */
+    bool concurrent = method == CONTACT_CONCURRENT;
+    double tolerance = problem->tolerance;
+    if (concurrent)
+        problem->tolerance *= CONCURRENT_MODES_SHARE;
     if (!status)
         status = solution_find(solution, problem, NULL, &workspace->arena, &pace, &result->fault);
+    problem->tolerance = tolerance;
     struct concurrent_effort effort;
-    bool concurrent = method == CONTACT_CONCURRENT;
     if (!status && concurrent)
         status = concurrent_refine(solution, problem, &pace, &effort, &result->fault);
     /* the answer, and its histories */

@@ -3,8 +3,7 @@
 
 /* The contact models side by side on the paper's rods: restitution, processor time of one solve,
  * and of what is computed once beforehand: the table, and the first solve's preparation of the
- * bodies. The tolerance is the default, 1e-3, but for concurrent-fe 3e-3: its time steps and meshes
- * are of first order where material flows.
+ * bodies. The tolerance is the default, 1e-3.
  * usage: contact_models [--csv] [--quick] [--speed V]... [--model NAME] [--case NAME] */
 #include <math.h>
 #include <stdbool.h>
@@ -163,6 +162,8 @@ static bool compare(const struct settings *settings, struct question *question, 
     struct contact_curves *curves = NULL;
     double start = seconds_now();
     double budget = settings->quick ? 0.05 : 0.5;
+    /* finite elements within a solve prepare nothing, and are too long to be repeated */
+    bool once = model == PERCUSS_CONTACT_COMPLETE_FE || model == PERCUSS_CONTACT_CONCURRENT_FE;
     if (model == PERCUSS_CONTACT_TABLE) {
         curves = make_curves(question->rods, cases[which].rod, speed, settings->quick);
         if (!curves)
@@ -174,14 +175,10 @@ static bool compare(const struct settings *settings, struct question *question, 
         return fail("out of memory");
     question->means = (struct solve_means){&question->rods->set, curves ? &source : NULL, {0}};
     ask(question, cases[which].rod, model, speed);
-    if (model == PERCUSS_CONTACT_CONCURRENT_FE)
-        question->request.options.tolerance = 3e-3;
-    if (settings->quick && model == PERCUSS_CONTACT_COMPLETE_FE)
+    if (settings->quick && once)
         question->request.options.tolerance = 0.01;
     bool ok = solve_it(question);
     double before = seconds_now() - start;
-    /* finite elements within a solve prepare nothing, and are too long to be repeated */
-    bool once = model == PERCUSS_CONTACT_COMPLETE_FE || model == PERCUSS_CONTACT_CONCURRENT_FE;
     double seconds = once ? before : measure(solve_it, question, budget);
     before = once ? 0.0 : before;
     snprintf(name, sizeof name, "%s-%g", cases[which].name, speed);
