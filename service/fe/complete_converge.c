@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "fe/complete_mean.h"
+
 /* cost of a mesh over that of one half as fine */
 static const double TWICE_AS_FINE = 8.0;
 /* solutions at most that aim at the limit */
@@ -47,7 +49,7 @@ struct search {
     struct complete_convergence *convergence;
     struct complete_problem problem; /* as given, but for the progress, mesh and phase */
     struct complete_result latest[SWING_PHASES]; /* of the finest mesh */
-    struct complete_result aimed;
+    struct complete_result aimed;                /* at the limit */
 };
 
 static enum percuss_status solve_one(struct search *search, double phase,
@@ -96,7 +98,7 @@ static enum percuss_status add_mesh(struct search *search, unsigned finest, stru
     return add_phases(search, SWING_PHASES / 2, fault);
 }
 
-static void answer_with(struct search *search, const struct complete_result *result, double phase)
+static void answer_with(struct search *search, const struct complete_result *result)
 {
     struct complete_convergence *convergence = search->convergence;
     double off = fabs(result->restitution - convergence->restitution);
@@ -104,32 +106,42 @@ static void answer_with(struct search *search, const struct complete_result *res
         return;
     convergence->result = *result;
     convergence->cells = search->problem.cells;
-    convergence->phase = phase;
     convergence->result_error = convergence->error + off;
 }
 
-/* The phase nearest the limit; others if it is too far from it and e passes through it. */
+/* Solves between the two phases around the limit until one is near it. */
+static enum percuss_status aim(struct search *search, const struct swing *swing,
+                               struct fault *fault)
+{
+    struct complete_convergence *convergence = search->convergence;
+    const double allowed = (1.0 + OFF_LIMIT) * convergence->error;
+    struct swing_bracket bracket;
+    double phase = swing_phase(swing, convergence->restitution, &bracket);
+    for (int i = 0; i < AIMS && convergence->result_error > allowed && isfinite(phase); i++) {
+        enum percuss_status status = solve_one(search, fmod(phase, 1.0), &search->aimed, fault);
+        if (status != PERCUSS_OK)
+            return status;
+        answer_with(search, &search->aimed);
+        phase = swing_narrow(&bracket, phase, search->aimed.restitution - convergence->restitution);
+    }
+    return PERCUSS_OK;
+}
+
+/* The mean of the finest mesh's phases that has the limit; where they differ in their course, or
+ * one of them is nearer, that one, or others aimed at the limit. */
 static enum percuss_status choose(struct search *search, struct fault *fault)
 {
     struct complete_convergence *convergence = search->convergence;
     const struct swing *swing = &convergence->swing[convergence->meshes - 1];
-    const double allowed = (1.0 + OFF_LIMIT) * convergence->error;
-    struct swing_bracket bracket;
-    /* of the phases solved the nearest */
+    double weights[SWING_PHASES];
+    swing_weigh(swing, convergence->restitution, weights);
     convergence->result_error = INFINITY;
+    bool alike = complete_mean(search->latest, weights, swing->phases, &search->aimed);
+    if (alike)
+        answer_with(search, &search->aimed);
     for (unsigned k = 0; k < swing->phases; k++)
-        answer_with(search, &search->latest[k], (double)k / swing->phases);
-    /* aims at the limit between the two phases around it */
-    double phase = swing_phase(swing, convergence->restitution, &bracket);
-    for (int i = 0; i < AIMS && convergence->result_error > allowed && isfinite(phase); i++) {
-        double turned = fmod(phase, 1.0);
-        enum percuss_status status = solve_one(search, turned, &search->aimed, fault);
-        if (status != PERCUSS_OK)
-            return status;
-        answer_with(search, &search->aimed, turned);
-        phase = swing_narrow(&bracket, phase, search->aimed.restitution - convergence->restitution);
-    }
-    return PERCUSS_OK;
+        answer_with(search, &search->latest[k]);
+    return alike ? PERCUSS_OK : aim(search, swing, fault);
 }
 
 enum percuss_status complete_converge(const struct complete_problem *problem, double tolerance,

@@ -17,9 +17,8 @@ struct complete_convergence {
     double restitution; /* the limit */
     double order;       /* of three meshes, observed; between 1 and 2 it is used; else NAN */
     double error;       /* of the limit, estimated */
-    struct complete_result result; /* on the finest mesh, at the phase nearest the limit */
+    struct complete_result result; /* on the finest mesh: the phases' mean that has the limit */
     unsigned cells;                /* its mesh */
-    double phase;
     double result_error; /* of its restitution: `error`, and how far it is from the limit */
 };
 
@@ -28,8 +27,8 @@ struct complete_convergence {
 void complete_converge_judge(struct complete_convergence *convergence);
 
 /* Solves on meshes of a quarter, half and all of problem->cells (at least 16), with more phases or
- * another mesh until the estimated error is within `tolerance`; 0: all. If need be some more, at
- * phases where e is near the limit, so that one whole solution has it. `phase` and `sample` of
+ * another mesh until the estimated error is within `tolerance`; 0: all. Where the phases differ in
+ * their course some more may follow, until one lies near the limit. `phase` and `sample` of
  * `problem` are not used; its `pace` is told the part done of all meshes. Status as
  * impact_complete_solve. Same input, same bits. */
 enum percuss_status complete_converge(const struct complete_problem *problem, double tolerance,

@@ -25,6 +25,29 @@ void swing_judge(struct swing *swing)
     swing->jitter = swing->width * (swing->phases == SWING_PHASES ? LEFT_BY_6 : LEFT_BY_3);
 }
 
+void swing_weigh(const struct swing *swing, double wanted, double weights[SWING_PHASES])
+{
+    /* even ones, tilted along the phases' distances from their mean: of all that have the wanted
+     * mean these have the least squares */
+    unsigned n = swing->phases;
+    double squares = 0.0;
+    double low = 0.0;
+    double high = 0.0;
+    for (unsigned k = 0; k < n; k++) {
+        double off = swing->restitution[k] - swing->mean;
+        squares += off * off;
+        low = fmin(low, off);
+        high = fmax(high, off);
+    }
+    /* no farther than where the first weight vanishes */
+    double tilt = squares > 0.0 ? (wanted - swing->mean) / squares : 0.0;
+    double most = tilt > 0.0 ? -1.0 / (n * low) : 1.0 / (n * high);
+    if (fabs(tilt) > most)
+        tilt = copysign(most, tilt);
+    for (unsigned k = 0; k < n; k++)
+        weights[k] = fmax(0.0, 1.0 / n + tilt * (swing->restitution[k] - swing->mean));
+}
+
 /* The trigonometric polynomial through n even phases: n odd, or n even with its highest harmonic a
  * cosine (Henrici, Applied and Computational Complex Analysis 3, section 13.6). */
 static double interpolate(const struct swing *swing, double phase)

@@ -31,6 +31,10 @@ static const double SWING_IN_MEAN = 1.0 / 12.0;
 /* Fills mean, width and jitter from the phases. */
 void swing_judge(struct swing *swing);
 
+/* Weights of the phases, their sum 1: as even as those can be whose mean is `wanted`; tilted that
+ * way until one vanishes where it lies too far from the mean. */
+void swing_weigh(const struct swing *swing, double wanted, double weights[SWING_PHASES]);
+
 /* Two phases, in order, and e less what is wanted there, of different signs. */
 struct swing_bracket {
     double phase[2], off[2];

@@ -213,16 +213,16 @@ static void fill_model(const struct complete_convergence *convergence,
     result->method = PERCUSS_METHOD_MODAL;
     result->delassus_source = PERCUSS_DELASSUS_SERVICE;
     /* how fine, and how far from the limit */
-    snprintf(
-        result->reason, sizeof result->reason,
-        "complete finite elements, explicit dynamics, no modes: %u elements across the "
-        "contact radius, %zu in all, %zu of them plastic, %zu steps; nodes in %u places against "
-        "the patch's rim; limit of the restitution %.5f, estimated error %.1g%s",
-        convergence->cells, from->elements, from->plastic_elements, from->steps, finest->phases,
-        convergence->restitution, convergence->error,
-        body_solid(bodies[0]).approximate || body_solid(bodies[1]).approximate
-            ? "; the block is taken as a cylinder of the same section"
-            : "");
+    snprintf(result->reason, sizeof result->reason,
+             "complete finite elements, explicit dynamics, no modes: %u elements across the "
+             "contact radius, %zu in all, %zu of them plastic, %zu steps; mean of %u places of the "
+             "nodes "
+             "against the patch's rim; limit of the restitution %.5f, estimated error %.1g%s",
+             convergence->cells, from->elements, from->plastic_elements, from->steps,
+             finest->phases, convergence->restitution, convergence->error,
+             body_solid(bodies[0]).approximate || body_solid(bodies[1]).approximate
+                 ? "; the block is taken as a cylinder of the same section"
+                 : "");
     /* the work of closing nodes (some 1e-7) is the mesh's, and left in the closure */
     result->energy = (struct impact_energy){
         .available = energy->available,

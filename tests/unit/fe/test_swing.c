@@ -47,11 +47,43 @@ static void a_swing_says_where_it_passes(void **unused)
     assert_true(isnan(swing_phase(&swing, 0.4, &bracket)));
 }
 
+static double weighed(const struct swing *swing, double wanted)
+{
+    double weights[SWING_PHASES];
+    double sum = 0.0;
+    double mean = 0.0;
+    swing_weigh(swing, wanted, weights);
+    for (unsigned k = 0; k < swing->phases; k++) {
+        assert_true(weights[k] >= 0.0);
+        sum += weights[k];
+        mean += weights[k] * swing->restitution[k];
+    }
+    measured("sum", sum, 1.0, 1e-15);
+    return mean;
+}
+
+static void weights_have_the_wanted_mean(void **unused)
+{
+    (void)unused;
+    struct swing swing = known_swing(6);
+    measured("mean", weighed(&swing, 0.5), 0.5, 1e-15);
+    measured("above", weighed(&swing, 0.504), 0.504, 1e-15);
+    measured("below", weighed(&swing, 0.497), 0.497, 1e-15);
+    /* too far: on that side, no farther than the phases */
+    double far = weighed(&swing, 0.6);
+    assert_true(far > 0.505 && far < 0.5 + 0.5 * 1.1 * swing.width);
+    /* no swing: even ones */
+    struct swing still = {.phases = 3, .restitution = {0.5, 0.5, 0.5}};
+    swing_judge(&still);
+    measured("still", weighed(&still, 0.6), 0.5, 1e-15);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_swing_has_a_mean),
         cmocka_unit_test(a_swing_says_where_it_passes),
+        cmocka_unit_test(weights_have_the_wanted_mean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
