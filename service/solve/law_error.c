@@ -123,8 +123,8 @@ static double by_roundness(const struct problem *problem, size_t contact, double
 {
     const struct contact_choice *choice = &problem->contact_model.choices[contact];
     const struct contact_side *sides = problem->sides[contact];
-    const struct material *m[2] = {&problem->bodies[sides[0].body]->material,
-                                   &problem->bodies[sides[1].body]->material};
+    const struct material *m[2] = {problem_material(problem, contact, 0),
+                                   problem_material(problem, contact, 1)};
     bool both = contact_family_both_yield(m[0], m[1]);
     double pressure = 0.0, stored = 0.0;
     for (int i = 0; i < 2; i++) {
@@ -152,10 +152,9 @@ void law_error_parts(const struct problem *problem, size_t contact,
 {
     const struct contact_choice *choice = &problem->contact_model.choices[contact];
     /* size and shape */
-    const struct contact_side *side = &problem->sides[contact][choice->side];
-    const struct material *soft = &problem->bodies[side->body]->material;
-    const struct material *m[2] = {&problem_body(problem, contact, 0)->material,
-                                   &problem_body(problem, contact, 1)->material};
+    const struct material *m[2] = {problem_material(problem, contact, 0),
+                                   problem_material(problem, contact, 1)};
+    const struct material *soft = m[choice->side];
     double hardening = soft->tangent / soft->young;
     parts[0] = by_size(history->contact_radius / closed_form_radius(&problem->hertz[contact])) +
                by_roundness(problem, contact, history->contact_radius);
