@@ -19,6 +19,7 @@ allowed() {
     contact) echo "base numeric model fe contact" ;;
     impact) echo "base numeric model fe contact impact" ;;
     solve) echo "base numeric model fe contact impact solve" ;;
+    spatial) echo "base numeric model mesh fe contact spatial" ;;
     ensemble) echo "base numeric model fe contact impact solve ensemble" ;;
     catalogue) echo "base numeric model mesh catalogue" ;;
     store) echo "base numeric model fe contact store" ;;
@@ -111,6 +112,7 @@ only 'yaml' 'service/catalogue|service/daemon'
 only 'jansson' 'client/cli|service/store'
 only 'sqlite3' 'service/store'
 only 'hdf5' 'service/mesh'
+only 'zmumps' 'service/spatial'
 only 'dds/' 'service/endpoint|service/daemon|client/lib'
 only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/lib|client/cli'
 

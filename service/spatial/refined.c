@@ -1,0 +1,221 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "spatial/refined.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "spatial/hanging.h"
+#include "spatial/places.h"
+
+/* Nodes of one mesh are farther apart than this: m. */
+static const double SAME_NODE = 1e-9;
+/* Bricks within so much of their own size from the core are halved: two layers of each size are
+ * left around it, which keeps neighbours within one level; just below two, where curved bricks'
+ * distances are not whole numbers. */
+static const double REACH = 1.9;
+
+/* Bricks while they are halved: where they lie in their blocks, in steps of their level. */
+struct cutting {
+    const struct shape *shape;
+    unsigned levels;
+    size_t count, room;
+    struct cut {
+        unsigned level;
+        size_t block, at[3];
+    } * cuts;
+};
+
+static void place_in(const struct shape *shape, const struct cut *cut, const double at[3],
+                     double place[3])
+{
+    /* shares 0 ... 1 of the brick into shares of the block */
+    double in_block[3];
+    for (int c = 0; c < 3; c++)
+        in_block[c] =
+            ((double)cut->at[c] + at[c]) / (double)(shape->count[cut->block][c] << cut->level);
+    shape->map(shape, cut->block, in_block, place);
+}
+
+/* where a brick's own node lies in it, 0 ... 1 */
+static void node_share(int node, double at[3])
+{
+    element_node(ELEMENT_HEX27, (size_t)node, at);
+    for (int c = 0; c < 3; c++)
+        at[c] = 0.5 * (1.0 + at[c]);
+}
+
+/* how far a brick is from the core: its nearest node, in bricks of its own size */
+static double distance(const struct shape *shape, const struct cut *cut)
+{
+    double nearest = INFINITY;
+    for (int n = 0; n < BRICK_NODES; n++) {
+        double at[3], place[3], farthest = 0.0;
+        node_share(n, at);
+        place_in(shape, cut, at, place);
+        for (int c = 0; c < 3; c++)
+            farthest = fmax(farthest, (fabs(place[c]) - shape->core[c]) / shape->brick[c]);
+        nearest = fmin(nearest, farthest);
+    }
+    return nearest * (double)(1u << cut->level);
+}
+
+static bool keep(struct cutting *cutting, const struct cut *cut)
+{
+    if (cutting->count == cutting->room) {
+        size_t room = cutting->room ? 2 * cutting->room : 1024;
+        struct cut *cuts = realloc(cutting->cuts, room * sizeof *cuts);
+        if (!cuts)
+            return false;
+        cutting->cuts = cuts;
+        cutting->room = room;
+    }
+    cutting->cuts[cutting->count++] = *cut;
+    return true;
+}
+
+/* keeps a brick, or its eighths */
+static bool halve(struct cutting *cutting, const struct cut *cut)
+{
+    if (cut->level == cutting->levels || distance(cutting->shape, cut) > REACH)
+        return keep(cutting, cut);
+    for (size_t part = 0; part < 8; part++) {
+        struct cut eighth = {.level = cut->level + 1, .block = cut->block};
+        for (int c = 0; c < 3; c++)
+            eighth.at[c] = 2 * cut->at[c] + (part >> c & 1);
+        if (!halve(cutting, &eighth))
+            return false;
+    }
+    return true;
+}
+
+static bool cut_all(struct cutting *cutting)
+{
+    const struct shape *shape = cutting->shape;
+    for (size_t block = 0; block < shape->blocks; block++) {
+        const size_t *count = shape->count[block];
+        for (size_t i = 0; i < count[0] * count[1] * count[2]; i++) {
+            struct cut cut = {
+                .block = block,
+                .at = {i % count[0], i / count[0] % count[1], i / count[0] / count[1]}};
+            if (!halve(cutting, &cut))
+                return false;
+        }
+    }
+    return true;
+}
+
+/* numbers the nodes of all bricks */
+static bool number_nodes(const struct cutting *cutting, struct places *places, struct refined *mesh)
+{
+    for (size_t b = 0; b < cutting->count; b++) {
+        const struct cut *cut = &cutting->cuts[b];
+        mesh->bricks[b].level = cut->level;
+        mesh->bricks[b].block = cut->block;
+        for (int n = 0; n < BRICK_NODES; n++) {
+            double at[3], place[3];
+            node_share(n, at);
+            place_in(cutting->shape, cut, at, place);
+            size_t node = places_add(places, place);
+            if (node == SIZE_MAX)
+                return false;
+            mesh->bricks[b].nodes[n] = node;
+        }
+    }
+    return true;
+}
+
+/* lists the nodes that may touch: on block 0's outer face, of the bricks halved most */
+static bool list_surface(const struct cutting *cutting, struct refined *mesh)
+{
+    bool *listed = calloc(mesh->node_count, sizeof *listed);
+    mesh->surface = malloc(mesh->node_count * sizeof *mesh->surface);
+    if (!listed || !mesh->surface) {
+        free(listed);
+        return false;
+    }
+    for (size_t b = 0; b < cutting->count; b++) {
+        const struct cut *cut = &cutting->cuts[b];
+        bool outside = cut->at[2] + 1 == cutting->shape->count[0][2] << cut->level;
+        if (cut->block != 0 || cut->level != cutting->levels || !outside)
+            continue;
+        for (int n = 0; n < BRICK_NODES; n++) {
+            double at[3];
+            size_t node = mesh->bricks[b].nodes[n];
+            node_share(n, at);
+            if (at[2] < 1.0 || listed[node])
+                continue;
+            mesh->surface[mesh->touching++] = node;
+            listed[node] = true;
+        }
+    }
+    free(listed);
+    return true;
+}
+
+/* the points of a brick's faces where nodes of its neighbours' halves lie */
+static bool hang_nodes(const struct cutting *cutting, const struct places *places,
+                       struct refined *mesh)
+{
+    struct hanging hanging;
+    if (!hanging_create(mesh->node_count, &hanging))
+        return false;
+    for (size_t b = 0; b < cutting->count; b++)
+        for (int p = 0; p < HANGING_POINTS; p++) {
+            double at[3], place[3];
+            hanging_point(p, at);
+            place_in(cutting->shape, &cutting->cuts[b], at, place);
+            size_t node = places_find(places, place);
+            if (node != SIZE_MAX)
+                hanging_add(&hanging, node, cutting->cuts[b].level, mesh->bricks[b].nodes, at);
+        }
+    bool made = hanging_resolve(&hanging, &mesh->first, &mesh->masters, &mesh->weights);
+    hanging_free(&hanging);
+    return made;
+}
+
+enum percuss_status refined_create(const struct shape *shape, unsigned levels, struct refined *mesh,
+                                   struct fault *fault)
+{
+    memset(mesh, 0, sizeof *mesh);
+    struct cutting cutting = {.shape = shape, .levels = levels};
+    struct places places = {.same = SAME_NODE};
+    bool made = cut_all(&cutting);
+    /* bricks and their nodes */
+    if (made) {
+        mesh->brick_count = cutting.count;
+        mesh->bricks = calloc(cutting.count, sizeof *mesh->bricks);
+        made = mesh->bricks && number_nodes(&cutting, &places, mesh);
+    }
+    /* what hangs, what may touch */
+    if (made) {
+        mesh->node_count = places.count;
+        made = hang_nodes(&cutting, &places, mesh) && list_surface(&cutting, mesh);
+    }
+    /* the points are the mesh's now */
+    mesh->points = places.points;
+    places.points = NULL;
+    places_free(&places);
+    free(cutting.cuts);
+    if (made)
+        return PERCUSS_OK;
+    refined_free(mesh);
+    return fault_set(fault, PERCUSS_INTERNAL,
+                     "a mesh of %zu bricks: out of memory, or neighbours differ by more than one "
+                     "level of halving",
+                     cutting.count);
+}
+
+void refined_free(struct refined *mesh)
+{
+    free(mesh->bricks);
+    free(mesh->points);
+    free(mesh->first);
+    free(mesh->masters);
+    free(mesh->weights);
+    free(mesh->surface);
+    memset(mesh, 0, sizeof *mesh);
+}

@@ -1,0 +1,36 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Quarters of bodies as blocks of bricks, by a map from unit cubes: the contact is at the origin on
+ * the body's surface, n = +z points out of the beam and into the sphere, x = 0 and y = 0 are planes
+ * of symmetry. */
+#ifndef PERCUSS_SPATIAL_SHAPE_H
+#define PERCUSS_SPATIAL_SHAPE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { SHAPE_BLOCKS = 5 };
+
+struct shape {
+    size_t blocks;
+    size_t count[SHAPE_BLOCKS][3]; /* bricks along each block's sides */
+    /* place in space (m) of a place in a block, 0 ... 1; block 0 holds the contact in its corner
+     * (0, 0, 1), and its third side leads out through the surface */
+    void (*map)(const struct shape *shape, size_t block, const double at[3], double place[3]);
+    double brick[3];       /* m, sides of the brick at the contact */
+    double core[3];        /* m, how far from the contact bricks are to be finest */
+    double length, radius; /* m; length: of a beam */
+    double half[2];        /* m, of block 0's outer face along x, y */
+    double inner[3];       /* m, corner of the block in the middle */
+};
+
+/* A round beam along x hit in its middle; `bricks` along half its length, `across` on block 0's
+ * width. */
+struct shape shape_beam(double radius, double length, size_t bricks, size_t across);
+
+/* A sphere with bricks of these sides along x and y at the contact, `across` of them on each of
+ * block 0's: together about half the radius. */
+struct shape shape_sphere(double radius, const double brick[2], size_t across);
+
+#endif
