@@ -1,0 +1,63 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A meshed body in motion, pressed at the nodes that may touch. */
+#ifndef PERCUSS_SPATIAL_MOVING_H
+#define PERCUSS_SPATIAL_MOVING_H
+
+#include "spatial/kept_factor.h"
+#include "spatial/rational.h"
+
+/* One size of steps. */
+struct pace3 {
+    struct rational rule;
+    double step; /* s */
+    struct kept_factor *factor;
+};
+
+/* Where forces act: `count` nodes of the system, each with a direction. */
+struct pressed {
+    size_t count;
+    size_t *nodes;
+    double (*directions)[3]; /* of a positive force on this body */
+};
+
+struct moving {
+    const struct system3 *system; /* borrowed, as `pressed` is */
+    const struct pressed *pressed;
+    double *u, *v;           /* m, m/s: the state */
+    double *next_u, *next_v; /* after the step that is tried */
+    double *scratch;         /* 2 freedoms */
+    double complex *right;   /* freedoms */
+    size_t solutions;        /* of a factor, so far */
+};
+
+/* At rest; `rise` is its speed along z. OK, or INTERNAL: no memory. */
+enum percuss_status moving_create(const struct system3 *system, const struct pressed *pressed,
+                                  double rise, struct moving *moving, struct fault *fault);
+void moving_free(struct moving *moving);
+
+/* OK, or INTERNAL. */
+enum percuss_status pace3_create(const struct system3 *system, enum rational_rule rule, double step,
+                                 struct pace3 *pace, struct fault *fault);
+void pace3_free(struct pace3 *pace);
+
+/* Tries a step with forces (N; NULL: none) that go from `start` to 0. False: the factor failed. */
+bool moving_try(struct moving *moving, const struct pace3 *pace, const double *start);
+/* Adds to what is tried the part of forces at its end. */
+bool moving_press(struct moving *moving, const struct pace3 *pace, const double *end);
+/* What was tried becomes the state. */
+void moving_accept(struct moving *moving);
+
+/* Displacement of a pressed node along its direction, m: now, or as tried. */
+double moving_at(const struct moving *moving, size_t i, bool tried);
+
+/* compliance[i * count + j] += what a force of 1 N at the end of a step on j moves i by then.
+ * False: the factor failed, or no memory. */
+bool pressed_add_compliance(const struct system3 *system, const struct pressed *pressed,
+                            const struct pace3 *pace, double *compliance);
+
+/* J: kinetic energy beyond that of the mean motion along z, and strain energy. */
+double moving_vibration(struct moving *moving);
+
+#endif
