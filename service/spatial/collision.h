@@ -1,0 +1,71 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Complete elastodynamics of a meshed pair in frictionless contact: the paper's model A of the beam
+ * in three dimensions. Forces are unknowns at the nodes that may touch, found at the end of each
+ * step so that none pulls and none overlaps; in between they go linearly. */
+#ifndef PERCUSS_SPATIAL_COLLISION_H
+#define PERCUSS_SPATIAL_COLLISION_H
+
+#include "base/watch.h"
+#include "spatial/pair.h"
+
+enum { COLLISION_SUB_IMPACTS = 32 };
+
+struct collision_sub_impact {
+    double start, end, impulse, peak_force; /* s, s, N s, N */
+};
+
+/* What it is at a time, and in the end. */
+struct collision {
+    double time;        /* s */
+    double force;       /* N */
+    double impulse;     /* N s */
+    double place[2];    /* m, of the bodies' centres of mass along z since the first touch */
+    double speed[2];    /* m/s */
+    double middle;      /* m, along z, of the beam's axis below the contact */
+    double restitution; /* impulse W / approach - 1 */
+    size_t active;      /* nodes that press now */
+    size_t sub_impacts;
+    struct collision_sub_impact sub_impact[COLLISION_SUB_IMPACTS];
+    double available, rebound, vibration; /* J: of the relative motion before and now, the rest */
+    bool over;                            /* vibration can no longer cause a contact */
+    size_t contact_steps, flight_steps, refused; /* flights tried that ended in a contact */
+    size_t solutions;
+    double factor; /* complex numbers kept */
+};
+
+/* The factors of both bodies for both lengths of step, and what contact nodes feel of each other.
+ */
+struct collider {
+    const struct pair *pair;          /* borrowed */
+    double contact_step, flight_step; /* s */
+    struct pace3 contact[2], flight[2];
+    double *compliance; /* of the nodes that face each other, in a contact step, m/N */
+};
+
+/* Some seconds. OK, or INTERNAL. */
+enum percuss_status collider_create(const struct pair *pair, double contact_step,
+                                    double flight_step, struct collider *collider,
+                                    struct fault *fault);
+void collider_free(struct collider *collider);
+
+struct collision_settings {
+    double approach; /* m/s */
+    double horizon;  /* s */
+    /* m/N: vibration of energy E moves the beam's middle by at most sqrt(2 E compliance); an impact
+     * that is open by more than that is over. 0: it goes on to the horizon */
+    double compliance;
+    struct pace *pace; /* borrowed; NULL: nobody waits */
+    /* told the state after each step; may be NULL */
+    void (*record)(void *context, const struct collision *collision);
+    void *context;
+};
+
+/* The sphere flies at the beam; both are free of stress and touch in one point. OK; TIMEOUT where
+ * the pace stopped it; INTERNAL where no set of pressing nodes was found, or without memory. */
+enum percuss_status collider_run(const struct collider *collider,
+                                 const struct collision_settings *settings,
+                                 struct collision *collision, struct fault *fault);
+
+#endif
