@@ -31,8 +31,7 @@ struct collision {
     double available, rebound, vibration; /* J: of the relative motion before and now, the rest */
     bool over;                            /* vibration can no longer cause a contact */
     size_t contact_steps, flight_steps, refused; /* flights tried that ended in a contact */
-    size_t solutions;
-    double factor; /* complex numbers kept */
+    double factor;                               /* complex numbers kept */
 };
 
 /* The factors of both bodies for both lengths of step, and what contact nodes feel of each other.
@@ -51,21 +50,23 @@ enum percuss_status collider_create(const struct pair *pair, double contact_step
 void collider_free(struct collider *collider);
 
 struct collision_settings {
-    double approach; /* m/s */
-    double horizon;  /* s */
+    double horizon; /* s */
     /* m/N: vibration of energy E moves the beam's middle by at most sqrt(2 E compliance); an impact
      * that is open by more than that is over. 0: it goes on to the horizon */
     double compliance;
     struct pace *pace; /* borrowed; NULL: nobody waits */
-    /* told the state after each step; may be NULL */
-    void (*record)(void *context, const struct collision *collision);
+    /* told the state of an impact after each step; may be NULL */
+    void (*record)(void *context, size_t which, const struct collision *collision);
     void *context;
 };
 
-/* The sphere flies at the beam; both are free of stress and touch in one point. OK; TIMEOUT where
- * the pace stopped it; INTERNAL where no set of pressing nodes was found, or without memory. */
+/* The sphere flies at the beam, `count` times, each with its own approach (m/s) and none knowing of
+ * the others: solved side by side they take hardly longer than one. Both bodies are free of stress
+ * and touch in one point. OK; TIMEOUT where the pace stopped it; INTERNAL where no set of pressing
+ * nodes was found, or without memory. */
 enum percuss_status collider_run(const struct collider *collider,
-                                 const struct collision_settings *settings,
-                                 struct collision *collision, struct fault *fault);
+                                 const struct collision_settings *settings, size_t count,
+                                 const double *approach, struct collision *collisions,
+                                 struct fault *fault);
 
 #endif

@@ -19,9 +19,7 @@ enum percuss_status moving_create(const struct system3 *system, const struct pre
     moving->next_u = calloc(n, sizeof(double));
     moving->next_v = calloc(n, sizeof(double));
     moving->scratch = calloc(2 * n, sizeof(double));
-    moving->right = calloc(n, sizeof *moving->right);
-    if (!moving->u || !moving->v || !moving->next_u || !moving->next_v || !moving->scratch ||
-        !moving->right) {
+    if (!moving->u || !moving->v || !moving->next_u || !moving->next_v || !moving->scratch) {
         moving_free(moving);
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory for a body of %zu freedoms", n);
     }
@@ -37,7 +35,6 @@ void moving_free(struct moving *moving)
     free(moving->next_u);
     free(moving->next_v);
     free(moving->scratch);
-    free(moving->right);
     memset(moving, 0, sizeof *moving);
 }
 
@@ -63,54 +60,55 @@ static void add_forces(const struct pressed *pressed, const double *force, doubl
             right[3 * pressed->nodes[i] + c] += share * force[i] * pressed->directions[i][c];
 }
 
-static void drop_held(const struct moving *moving)
+static void drop_held(const struct system3 *system, double complex *right)
 {
-    for (size_t f = 0; f < moving->system->freedoms; f++)
-        if (moving->system->held[f])
-            moving->right[f] = 0.0;
+    for (size_t f = 0; f < system->freedoms; f++)
+        if (system->held[f])
+            right[f] = 0.0;
 }
 
-bool moving_try(struct moving *moving, const struct pace3 *pace, const double *start)
+void moving_load(struct moving *moving, const struct pace3 *pace, const double *start,
+                 double complex *right)
 {
     size_t n = moving->system->freedoms;
-    const struct rational *rule = &pace->rule;
-    double complex length = rule->pole * pace->step, s = 1.0 / (length * length);
+    double complex length = pace->rule.pole * pace->step, s = 1.0 / (length * length);
     /* s M (u0 + pole h v0) and the forces */
     double *mu = moving->scratch, *mv = mu + n;
     system3_mass(moving->system, moving->u, mu);
     system3_mass(moving->system, moving->v, mv);
     for (size_t f = 0; f < n; f++)
-        moving->right[f] = s * mu[f] + s * length * mv[f];
-    add_forces(moving->pressed, start, rule->start, moving->right);
-    drop_held(moving);
-    if (!kept_factor_solve(pace->factor, 1, moving->right))
-        return false;
-    moving->solutions++;
-    /* the state after the step */
-    for (size_t f = 0; f < n; f++) {
-        double complex p = moving->right[f], q = (p - moving->u[f]) / length;
+        right[f] = s * mu[f] + s * length * mv[f];
+    add_forces(moving->pressed, start, pace->rule.start, right);
+    drop_held(moving->system, right);
+}
+
+void moving_try(struct moving *moving, const struct pace3 *pace, const double complex *solution)
+{
+    const struct rational *rule = &pace->rule;
+    double complex length = rule->pole * pace->step;
+    for (size_t f = 0; f < moving->system->freedoms; f++) {
+        double complex p = solution[f], q = (p - moving->u[f]) / length;
         moving->next_u[f] = rule->keep * moving->u[f] + 2.0 * creal(rule->weight * p);
         moving->next_v[f] = rule->keep * moving->v[f] + 2.0 * creal(rule->weight * q);
     }
-    return true;
 }
 
-bool moving_press(struct moving *moving, const struct pace3 *pace, const double *end)
+void moving_load_end(const struct moving *moving, const struct pace3 *pace, const double *end,
+                     double complex *right)
 {
-    size_t n = moving->system->freedoms;
+    memset(right, 0, moving->system->freedoms * sizeof *right);
+    add_forces(moving->pressed, end, pace->rule.end, right);
+    drop_held(moving->system, right);
+}
+
+void moving_press(struct moving *moving, const struct pace3 *pace, const double complex *solution)
+{
     double complex length = pace->rule.pole * pace->step;
-    memset(moving->right, 0, n * sizeof *moving->right);
-    add_forces(moving->pressed, end, pace->rule.end, moving->right);
-    drop_held(moving);
-    if (!kept_factor_solve(pace->factor, 1, moving->right))
-        return false;
-    moving->solutions++;
-    for (size_t f = 0; f < n; f++) {
-        double complex p = pace->rule.weight * moving->right[f];
+    for (size_t f = 0; f < moving->system->freedoms; f++) {
+        double complex p = pace->rule.weight * solution[f];
         moving->next_u[f] += 2.0 * creal(p);
         moving->next_v[f] += 2.0 * creal(p / length);
     }
-    return true;
 }
 
 void moving_accept(struct moving *moving)

@@ -28,8 +28,6 @@ struct moving {
     double *u, *v;           /* m, m/s: the state */
     double *next_u, *next_v; /* after the step that is tried */
     double *scratch;         /* 2 freedoms */
-    double complex *right;   /* freedoms */
-    size_t solutions;        /* of a factor, so far */
 };
 
 /* At rest; `rise` is its speed along z. OK, or INTERNAL: no memory. */
@@ -42,10 +40,18 @@ enum percuss_status pace3_create(const struct system3 *system, enum rational_rul
                                  struct pace3 *pace, struct fault *fault);
 void pace3_free(struct pace3 *pace);
 
-/* Tries a step with forces (N; NULL: none) that go from `start` to 0. False: the factor failed. */
-bool moving_try(struct moving *moving, const struct pace3 *pace, const double *start);
-/* Adds to what is tried the part of forces at its end. */
-bool moving_press(struct moving *moving, const struct pace3 *pace, const double *end);
+/* A step is tried in three parts, so that those of several bodies of one mesh can be solved at
+ * once: the right-hand side of a step with forces (N; NULL: none) that go from `start` to 0, its
+ * solution by the pace's factor, and the state after the step. */
+void moving_load(struct moving *moving, const struct pace3 *pace, const double *start,
+                 double complex *right);
+void moving_try(struct moving *moving, const struct pace3 *pace, const double complex *solution);
+
+/* The same for what forces add that go from 0 to `end`. */
+void moving_load_end(const struct moving *moving, const struct pace3 *pace, const double *end,
+                     double complex *right);
+void moving_press(struct moving *moving, const struct pace3 *pace, const double complex *solution);
+
 /* What was tried becomes the state. */
 void moving_accept(struct moving *moving);
 

@@ -111,17 +111,19 @@ static double middle_compliance(const struct pair_input *input)
     return beam_compliance(&plane, &load, &load);
 }
 
-/* speed, time, where the bodies are along the blow, the sphere's velocity, force */
-static void record(void *context, const struct collision *now)
+/* of the first speed: time, where the bodies are along the blow, the sphere's velocity, force */
+static void record(void *context, size_t which, const struct collision *now)
 {
-    fprintf(context, "%.9g,%.6e,%.6e,%.6e,%.6g\n", now->time, -now->place[PAIR_SPHERE],
-            -now->middle, -now->speed[PAIR_SPHERE], now->force);
+    if (which == 0)
+        fprintf(context, "%.9g,%.6e,%.6e,%.6e,%.6g\n", now->time, -now->place[PAIR_SPHERE],
+                -now->middle, -now->speed[PAIR_SPHERE], now->force);
 }
 
 static void print_header(void)
 {
-    printf("model,speed,bricks,across,levels,contact_step,flight_step,freedoms,contact_nodes,"
-           "restitution,over,end,closure,setup_s,run_s,sub_impacts:start:end:impulse:peak\n");
+    printf(
+        "model,speed,bricks,across,levels,contact_step,flight_step,freedoms,contact_nodes,"
+        "restitution,over,end,closure,setup_s,run_s_of_all,sub_impacts:start:end:impulse:peak\n");
 }
 
 static void print_found(const struct choice *choice, const struct pair *pair, double speed,
@@ -151,22 +153,19 @@ static enum percuss_status solve_all(const struct choice *choice, const struct c
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: cannot be written", choice->history);
     if (history)
         fprintf(history, "time,sphere,beam,velocity,force\n");
-    enum percuss_status status = PERCUSS_OK;
-    for (size_t i = 0; i < choice->speed_count && status == PERCUSS_OK; i++) {
-        struct collision_settings settings = {
-            .approach = choice->speeds[i],
-            .horizon = choice->horizon,
-            .compliance = middle_compliance(&choice->input),
-            .record = history ? record : NULL,
-            .context = history,
-        };
-        struct collision found;
-        double begun = user_seconds();
-        status = collider_run(collider, &settings, &found, fault);
-        if (status == PERCUSS_OK)
-            print_found(choice, collider->pair, choice->speeds[i], &found,
-                        (const double[2]){setup, user_seconds() - begun});
-    }
+    struct collision found[MOST_SPEEDS];
+    struct collision_settings settings = {
+        .horizon = choice->horizon,
+        .compliance = middle_compliance(&choice->input),
+        .record = history ? record : NULL,
+        .context = history,
+    };
+    double begun = user_seconds();
+    enum percuss_status status =
+        collider_run(collider, &settings, choice->speed_count, choice->speeds, found, fault);
+    for (size_t i = 0; i < choice->speed_count && status == PERCUSS_OK; i++)
+        print_found(choice, collider->pair, choice->speeds[i], &found[i],
+                    (const double[2]){setup, user_seconds() - begun});
     if (history)
         fclose(history);
     return status;
