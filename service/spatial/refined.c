@@ -180,7 +180,7 @@ static bool hang_nodes(const struct cutting *cutting, const struct places *place
 enum percuss_status refined_create(const struct shape *shape, unsigned levels, struct refined *mesh,
                                    struct fault *fault)
 {
-    memset(mesh, 0, sizeof *mesh);
+    *mesh = (struct refined){.edge = shape->edge};
     struct cutting cutting = {.shape = shape, .levels = levels};
     struct places places = {.same = SAME_NODE};
     bool made = cut_all(&cutting);

@@ -26,6 +26,7 @@ struct refined {
      * is free */
     size_t *first, *masters;
     double *weights;
+    double edge;     /* m: what is as far along any axis is held; 0: nothing */
     size_t touching; /* nodes of the face that holds the contact, as far as halved most */
     size_t *surface;
 };

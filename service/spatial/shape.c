@@ -140,3 +140,22 @@ struct shape shape_sphere(double radius, const double brick[2], size_t across)
         .inner = {SPHERE_NARROWER * half[0], SPHERE_NARROWER * half[1], SPHERE_INNER * radius},
     };
 }
+
+static void ground_map(const struct shape *shape, size_t block, const double at[3], double place[3])
+{
+    (void)block;
+    place[0] = shape->edge * at[0];
+    place[1] = shape->edge * at[1];
+    place[2] = shape->edge * (at[2] - 1.0);
+}
+
+struct shape shape_ground(double side)
+{
+    return (struct shape){
+        .blocks = 1,
+        .count = {{2, 2, 2}},
+        .map = ground_map,
+        .brick = {0.5 * side, 0.5 * side, 0.5 * side},
+        .edge = side,
+    };
+}

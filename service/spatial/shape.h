@@ -20,6 +20,7 @@ struct shape {
     void (*map)(const struct shape *shape, size_t block, const double at[3], double place[3]);
     double brick[3];       /* m, sides of the brick at the contact */
     double core[3];        /* m, how far from the contact bricks are to be finest */
+    double edge;           /* m: what is as far along any axis is held; 0: nothing */
     double length, radius; /* m; length: of a beam */
     double half[2];        /* m, of block 0's outer face along x, y */
     double inner[3];       /* m, corner of the block in the middle */
@@ -32,5 +33,9 @@ struct shape shape_beam(double radius, double length, size_t bricks, size_t acro
 /* A sphere with bricks of these sides along x and y at the contact, `across` of them on each of
  * block 0's: together about half the radius. */
 struct shape shape_sphere(double radius, const double brick[2], size_t across);
+
+/* A cube below a half-space's surface, held where it ends but for that and the planes of symmetry.
+ */
+struct shape shape_ground(double side);
 
 #endif

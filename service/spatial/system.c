@@ -10,6 +10,8 @@
 
 /* Nodes nearer than this to a plane of symmetry lie on it: m. */
 static const double ON_PLANE = 1e-9;
+/* The same for what is held, over its distance. */
+static const double AT_EDGE = 1e-9;
 
 /* A brick's matrices in the nodes that its own hang on in the end. */
 enum { MOST_MASTERS = 128 };
@@ -185,13 +187,16 @@ static bool number_free(const struct refined *mesh, struct system3 *system)
         system->index[n] = SIZE_MAX;
         if (mesh->first[n + 1] > mesh->first[n])
             continue;
-        /* a plane of symmetry keeps what is on it */
+        /* a plane of symmetry keeps what is on it, the edge holds */
         const double *point = mesh->points[n];
         size_t i = system->nodes++;
         system->index[n] = i;
         memcpy(system->points[i], point, sizeof *system->points);
-        for (int c = 0; c < 2; c++)
-            system->held[3 * i + (size_t)c] = fabs(point[c]) < ON_PLANE;
+        bool at_edge = false;
+        for (int c = 0; c < 3; c++)
+            at_edge |= mesh->edge > 0.0 && fabs(point[c]) > (1.0 - AT_EDGE) * mesh->edge;
+        for (size_t c = 0; c < 3; c++)
+            system->held[3 * i + c] = at_edge || (c < 2 && fabs(point[c]) < ON_PLANE);
     }
     system->freedoms = 3 * system->nodes;
     return true;
