@@ -62,9 +62,9 @@ struct run {
     size_t count;
     double *forces; /* [count], N, of a quarter: at the step's beginning */
     struct active_set set;
-    double total;        /* N, at the end of the step that is tried */
-    bool touching, near; /* a sub-impact is going on; short steps */
-    double near_gap;     /* m */
+    double total;    /* N, at the end of the step that is tried */
+    bool near;       /* short steps */
+    double near_gap; /* m */
 };
 
 /* All of them. */
@@ -91,25 +91,24 @@ static double least_gap(const struct run *run)
     return least;
 }
 
-/* counts an interval of contact */
-static void keep_books(struct run *run, double before, double after, double step)
+void collision_keep(struct collision *now, double before, double after, double step)
 {
-    struct collision *now = run->now;
-    bool closed = before > 0.0 || after > 0.0;
-    if (closed && !run->touching && now->sub_impacts < COLLISION_SUB_IMPACTS) {
-        now->sub_impact[now->sub_impacts] =
-            (struct collision_sub_impact){.start = now->time - step};
-        now->sub_impacts++;
-    }
-    run->touching = closed;
     now->force = after;
-    if (!closed)
+    if (!(before > 0.0 || after > 0.0))
         return;
-    struct collision_sub_impact *sub = &now->sub_impact[now->sub_impacts - 1];
+    /* an opening shorter than a step does not divide a sub-impact */
+    struct collision_sub_impact *sub = &now->sub_impact[now->sub_impacts - (now->sub_impacts > 0)];
+    bool goes_on = now->sub_impacts > 0 && sub->end > now->time - 1.5 * step;
+    if (!goes_on && now->sub_impacts < COLLISION_SUB_IMPACTS) {
+        sub = &now->sub_impact[now->sub_impacts++];
+        *sub = (struct collision_sub_impact){.start = now->time - step};
+    }
+    /* forces go linearly */
+    double impulse = 0.5 * (before + after) * step;
     sub->end = now->time;
-    sub->impulse += 0.5 * (before + after) * step;
+    sub->impulse += impulse;
     sub->peak_force = fmax(sub->peak_force, after);
-    now->impulse += 0.5 * (before + after) * step;
+    now->impulse += impulse;
 }
 
 /* the next state is the present one */
@@ -204,7 +203,7 @@ static enum percuss_status contact_steps(const struct runs *runs, size_t chosen,
         struct run *run = runs->chosen[i];
         double gap = run->total > 0.0 ? 0.0 : least_gap(run), before = run->now->force;
         accept(run, collider->contact_step);
-        keep_books(run, before, run->total, collider->contact_step);
+        collision_keep(run->now, before, run->total, collider->contact_step);
         run->now->contact_steps++;
         run->near = gap < run->near_gap;
     }

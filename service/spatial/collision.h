@@ -34,6 +34,9 @@ struct collision {
     double factor;                               /* complex numbers kept */
 };
 
+/* Counts a step that has just ended, along which the force went from `before` to `after` (N). */
+void collision_keep(struct collision *collision, double before, double after, double step);
+
 /* The factors of both bodies for both lengths of step, and what contact nodes feel of each other.
  */
 struct collider {
