@@ -34,10 +34,10 @@ static const struct choice defaults = {
               .beam_radius = 0.01,
               .beam_length = 1.0,
               .sphere_radius = 0.015,
-              .bricks = 80,
-              .across = 1,
+              .bricks = 60,
+              .across = 2,
               .levels = 6},
-    .contact_step = 1.5e-6,
+    .contact_step = 2e-6,
     .flight_step = 8e-6,
     .horizon = 0.010,
 };
