@@ -14,12 +14,19 @@
 static const double FACING = 1e-9;
 /* What is symmetric about two planes has four quarters. */
 static const double QUARTERS = 4.0;
+/* Sides of the sphere's face with the contact over its radius, at most, and layers below it. */
+static const double SPHERE_FACE = 0.6;
+static const size_t SPHERE_LAYERS = 2;
 
 static enum percuss_status check(const struct pair_input *input, struct fault *fault)
 {
     if (input->bricks < 4 || input->bricks > 1000)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "bricks: %zu: must be 4 ... 1000",
                          input->bricks);
+    if (0.25 * input->beam_length / (double)input->bricks > SPHERE_FACE * input->sphere_radius)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "bricks: %zu: half of one must be shorter than %g of the sphere's radius",
+                         input->bricks, SPHERE_FACE);
     if (input->across < 1 || input->across > 4)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "across: %zu: must be 1 ... 4", input->across);
     if (input->levels < 1 || input->levels > 10)
@@ -69,9 +76,11 @@ static void make_shapes(const struct pair *pair, const double swell[2], struct s
     shapes[PAIR_BEAM] = shape_beam(swell[PAIR_BEAM] * input->beam_radius, input->beam_length,
                                    input->bricks, input->across);
     const double *brick = shapes[PAIR_BEAM].brick;
-    shapes[PAIR_SPHERE] =
-        shape_sphere(swell[PAIR_SPHERE] * input->sphere_radius,
-                     (const double[2]){0.5 * brick[0], 0.5 * brick[1]}, 2 * input->across);
+    double radius = swell[PAIR_SPHERE] * input->sphere_radius;
+    double half[2] = {0.5 * brick[0], 0.5 * brick[1]};
+    size_t count[3] = {(size_t)(SPHERE_FACE * radius / half[0]),
+                       (size_t)(SPHERE_FACE * radius / half[1]), SPHERE_LAYERS};
+    shapes[PAIR_SPHERE] = shape_sphere(radius, half, count);
     for (int b = 0; b < 2; b++) {
         shapes[b].core[0] = pair->axes[0];
         shapes[b].core[1] = pair->axes[1];

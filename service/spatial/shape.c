@@ -123,18 +123,19 @@ static void sphere_map(const struct shape *shape, size_t block, const double at[
     place[2] = r - place[2];
 }
 
-struct shape shape_sphere(double radius, const double brick[2], size_t across)
+struct shape shape_sphere(double radius, const double brick[2], const size_t count[3])
 {
-    double half[2] = {(double)across * brick[0], (double)across * brick[1]};
+    double half[2] = {(double)count[0] * brick[0], (double)count[1] * brick[1]};
+    size_t out = count[2], up = 2 * count[2];
     return (struct shape){
         .blocks = 5,
-        .count = {{across, across, across},
-                  {across, across, 2 * across},
-                  {across, across, 2 * across},
-                  {across, across, across},
-                  {across, across, 2 * across}},
+        .count = {{count[0], count[1], out},
+                  {count[0], count[1], up},
+                  {out, count[1], up},
+                  {count[0], count[1], out},
+                  {count[0], out, up}},
         .map = sphere_map,
-        .brick = {brick[0], brick[1], radius * (1.0 - SPHERE_INNER) / (double)across},
+        .brick = {brick[0], brick[1], radius * (1.0 - SPHERE_INNER) / (double)out},
         .radius = radius,
         .half = {half[0], half[1]},
         .inner = {SPHERE_NARROWER * half[0], SPHERE_NARROWER * half[1], SPHERE_INNER * radius},

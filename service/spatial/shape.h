@@ -30,9 +30,10 @@ struct shape {
  * width. */
 struct shape shape_beam(double radius, double length, size_t bricks, size_t across);
 
-/* A sphere with bricks of these sides along x and y at the contact, `across` of them on each of
- * block 0's: together about half the radius. */
-struct shape shape_sphere(double radius, const double brick[2], size_t across);
+/* A sphere with bricks of these sides along x and y at the contact, the first two counts of them on
+ * block 0's: each together less than two thirds of the radius. The third is that of the layers
+ * around the block in the middle. */
+struct shape shape_sphere(double radius, const double brick[2], const size_t count[3]);
 
 /* A cube below a half-space's surface, held where it ends but for that and the planes of symmetry.
  */

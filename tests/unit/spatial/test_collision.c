@@ -60,6 +60,9 @@ static void refuses(void **state)
     input.bricks = 3;
     assert_int_equal(pair_create(&input, &pair, &fault), PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(fault.text, "bricks: 3: must be"));
+    input.bricks = 20;
+    assert_int_equal(pair_create(&input, &pair, &fault), PERCUSS_BAD_REQUEST);
+    assert_non_null(strstr(fault.text, "bricks: 20: half of one must be"));
     input = paper;
     input.across = 9;
     assert_int_equal(pair_create(&input, &pair, &fault), PERCUSS_BAD_REQUEST);

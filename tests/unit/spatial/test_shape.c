@@ -28,8 +28,9 @@ static void is_the_body(void **state)
     double beam = 0.25 * M_PI * 1e-4 * 0.1, sphere = M_PI / 3.0 * 3.375e-6, error[2][2];
     for (size_t across = 1; across <= 2; across++) {
         struct shape a = shape_beam(0.01, 0.1, 8 * across, across);
-        struct shape b = shape_sphere(
-            0.015, (const double[2]){0.006 / (double)across, 0.006 / (double)across}, across);
+        double side = 0.006 / (double)across;
+        struct shape b = shape_sphere(0.015, (const double[2]){side, side},
+                                      (const size_t[3]){across, across, across});
         error[0][across - 1] = 1.0 - volume_of(&a) / beam;
         error[1][across - 1] = 1.0 - volume_of(&b) / sphere;
     }
@@ -44,7 +45,7 @@ static void touches_at_the_origin(void **state)
 {
     (void)state;
     struct shape beam = shape_beam(0.01, 0.1, 8, 1);
-    struct shape sphere = shape_sphere(0.015, beam.brick, 1);
+    struct shape sphere = shape_sphere(0.015, beam.brick, (const size_t[3]){1, 1, 1});
     for (int i = 0; i <= 10; i++)
         for (int j = 0; j <= 10; j++) {
             double at[3] = {0.1 * i, 0.1 * j, 1.0}, place[3];
