@@ -53,7 +53,7 @@ void solid_retreat(struct solid *solid);
 void solid_commit(struct solid *solid);
 
 /* Outward displacement of contact node i, m. */
-double solid_surface(const struct solid *solid, size_t i);
+double solid_surface(struct solid *solid, size_t i);
 
 /* Largest accumulated plastic strain at the last solid_balance; 0: elastic. */
 double solid_flow(const struct solid *solid);
@@ -61,6 +61,6 @@ double solid_flow(const struct solid *solid);
 /* Work that has gone into plastic flow from the virgin state to the present, J (hardening's share
  * included), and the energy of the elastic strains within the mesh, J. */
 double solid_plastic_work(const struct solid *solid);
-double solid_elastic_energy(const struct solid *solid);
+double solid_elastic_energy(struct solid *solid);
 
 #endif

@@ -28,10 +28,11 @@ double solid_plastic_work(const struct solid *solid)
     return work;
 }
 
-double solid_elastic_energy(const struct solid *solid)
+double solid_elastic_energy(struct solid *solid)
 {
     double energy = 0.0;
     double moduli[STRESS_COMPONENTS * STRESS_COMPONENTS];
+    solid_settle(solid);
     plastic_law_moduli(&solid->law, moduli);
     for (size_t e = 0; e < solid->mesh->elements; e++) {
         double local[QUAD_FREEDOMS];

@@ -1,6 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,17 +56,20 @@ void solid_assemble(const struct solid *solid, size_t element, const double *loc
     }
 }
 
-static bool snapshot_make(const struct mesh *mesh, struct snapshot *snapshot)
+static bool snapshot_make(const struct mesh *mesh, size_t candidates, struct snapshot *snapshot)
 {
+    snapshot->settled = true;
+    snapshot->forces = calloc(candidates, sizeof *snapshot->forces);
     snapshot->displacement = calloc(2 * mesh->nodes, sizeof *snapshot->displacement);
     snapshot->history = calloc(mesh->elements, sizeof *snapshot->history);
-    return snapshot->displacement && snapshot->history;
+    return snapshot->displacement && snapshot->history && snapshot->forces;
 }
 
 static void snapshot_free(struct snapshot *snapshot)
 {
     free(snapshot->displacement);
     free(snapshot->history);
+    free(snapshot->forces);
 }
 
 static size_t half_width(const struct mesh *mesh)
@@ -112,8 +116,10 @@ static bool allocate(struct solid *solid, size_t candidates)
     return solid->elastic.values && solid->tangent.values && solid->far && solid->pull &&
            solid->pulled && solid->stiffness && solid->balance && solid->residual &&
            solid->boundary && loads_make(&solid->unloading, candidates, n) &&
-           loads_make(&solid->flowing, candidates, n) && snapshot_make(mesh, &solid->committed) &&
-           snapshot_make(mesh, &solid->start) && snapshot_make(mesh, &solid->present);
+           loads_make(&solid->flowing, candidates, n) &&
+           snapshot_make(mesh, candidates, &solid->committed) &&
+           snapshot_make(mesh, candidates, &solid->start) &&
+           snapshot_make(mesh, candidates, &solid->present);
 }
 
 /* the elastic matrix and its factor */
@@ -168,6 +174,7 @@ struct solid *solid_create(const struct mesh *mesh, const struct quad *quads,
     solid->mesh = mesh;
     solid->quads = quads;
     solid->law = plastic_law_make(material);
+    solid->linear = isinf(solid->law.yield);
     solid->free_nodes = mesh->nodes - mesh->far.count;
     if (!allocate(solid, candidates) || !prepare_elastic(solid)) {
         solid_destroy(solid);

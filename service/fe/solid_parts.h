@@ -15,6 +15,8 @@ struct snapshot {
     double *displacement; /* all nodes, r and z */
     histories *history;   /* by element */
     double force;         /* N, of all contact nodes: the far boundary moves with it */
+    double *forces;       /* N, by contact node; of a solid that never yields */
+    bool settled;         /* the displacement is that of the forces; else not found yet */
 };
 
 /* Forward solutions L^-1 e_j of unit contact forces, what any two of them have in common, and each
@@ -27,6 +29,7 @@ struct solid_loads {
 };
 
 struct solid {
+    bool linear; /* never yields: its displacement follows from the forces, when it is asked for */
     const struct mesh *mesh;
     const struct quad *quads;
     struct plastic_law law;
@@ -76,6 +79,9 @@ void solid_scatter(const struct solid *solid, size_t element, const double *loca
  */
 void solid_assemble(const struct solid *solid, size_t element, const double *local, size_t first,
                     struct band *matrix);
+
+/* The displacement of a linear solid's present forces. */
+void solid_settle(struct solid *solid);
 
 /* The far nodes move as under this contact force, N. */
 void solid_move_far(struct solid *solid, double force);

@@ -16,7 +16,9 @@ static void snapshot_copy(const struct solid *solid, struct snapshot *to,
 {
     memcpy(to->displacement, from->displacement, 2 * solid->mesh->nodes * sizeof(double));
     memcpy(to->history, from->history, solid->zone * sizeof *to->history);
+    memcpy(to->forces, from->forces, solid->unloading.stride * sizeof *to->forces);
     to->force = from->force;
+    to->settled = from->settled;
 }
 
 /* two rings beyond the last flowing element are followed closely */
@@ -52,6 +54,8 @@ double solid_balance(struct solid *solid, size_t count, const double *forces)
 {
     size_t n = freedoms(solid);
     solid->yielding = false;
+    if (solid->linear)
+        return 0.0;
     memset(solid->balance, 0, n * sizeof *solid->balance);
     /* internal forces: elements of the zone may flow, the others are elastic */
     for (size_t e = 0; e < solid->mesh->elements; e++) {
@@ -210,6 +214,24 @@ static void find_loads(const struct solid *solid, size_t count, struct solid_loa
     }
 }
 
+/* Compliance of the contact nodes by their loads. */
+static void fill_compliance(const struct solid_loads *loads, size_t count, double *compliance)
+{
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < count; j++)
+            compliance[i * count + j] =
+                loads->common[(j < i ? i : j) * loads->stride + (j < i ? j : i)] + loads->share[i];
+}
+
+/* The same as solid_linearise of a solid that never yields: no forces, no offsets. */
+static void linearise_linear(struct solid *solid, size_t count, double *offset, double *compliance)
+{
+    memcpy(solid->boundary, solid->pulled, freedoms(solid) * sizeof *solid->boundary);
+    find_loads(solid, count, &solid->unloading);
+    memset(offset, 0, count * sizeof *offset);
+    fill_compliance(&solid->unloading, count, compliance);
+}
+
 /* Internal forces r on the free freedoms, contact forces f_j inward at e_j, their sum F, which
  * moves the far nodes and so pulls by p per newton: equilibrium about the present state, of the
  * force F0, is
@@ -225,6 +247,10 @@ static void find_loads(const struct solid *solid, size_t count, struct solid_loa
 bool solid_linearise(struct solid *solid, size_t count, bool loading, double *offset,
                      double *compliance)
 {
+    if (solid->linear) {
+        linearise_linear(solid, count, offset, compliance);
+        return true;
+    }
     size_t n = freedoms(solid);
     size_t outermost = outermost_node(solid, count);
     /* K from the zone inward; outside, its factor stands */
@@ -252,18 +278,16 @@ bool solid_linearise(struct solid *solid, size_t count, bool loading, double *of
         offset[i] = solid_surface(solid, i) -
                     dot(loads->forward + i * n, solid->residual, from, n) +
                     solid->present.force * loads->share[i];
-        for (size_t j = 0; j < count; j++)
-            compliance[i * count + j] =
-                loads->common[(j < i ? i : j) * loads->stride + (j < i ? j : i)] + loads->share[i];
     }
+    fill_compliance(loads, count, compliance);
     return true;
 }
 
-void solid_move(struct solid *solid, size_t count, const double *forces)
+/* step += sum_j forces[j] loads_j; returns the sum of the forces. */
+static double add_loads(const struct solid *solid, const struct solid_loads *loads, size_t count,
+                        const double *forces, double *step)
 {
     size_t n = freedoms(solid);
-    const struct solid_loads *loads = present_loads(solid);
-    double *step = solid->residual;
     double force = 0.0;
     for (size_t j = 0; j < count; j++) {
         const double *load = loads->forward + j * n;
@@ -272,6 +296,47 @@ void solid_move(struct solid *solid, size_t count, const double *forces)
             for (size_t i = contact_freedom(solid, j); i < n; i++)
                 step[i] += forces[j] * load[i];
     }
+    return force;
+}
+
+/* Displacements of free nodes rise by `step`, those of the far ones follow the force. */
+static void add_displacement(struct solid *solid, const double *step, double force)
+{
+    for (size_t node = 0; node < solid->free_nodes; node++)
+        for (size_t c = 0; c < 2; c++)
+            solid->present.displacement[2 * node + c] += step[freedom(solid, node) + c];
+    solid_move_far(solid, force);
+}
+
+void solid_settle(struct solid *solid)
+{
+    if (solid->present.settled)
+        return;
+    /* from none: u = -L^-T (F L^-1 p + sum_j f_j L^-1 e_j) */
+    size_t n = freedoms(solid);
+    double *step = solid->residual;
+    memset(step, 0, n * sizeof *step);
+    memset(solid->present.displacement, 0, 2 * solid->mesh->nodes * sizeof(double));
+    double force =
+        add_loads(solid, &solid->unloading, solid->unloading.known, solid->present.forces, step);
+    for (size_t i = 0; i < n; i++)
+        step[i] = -(step[i] + force * solid->pulled[i]);
+    band_backward(&solid->elastic, 0, n, step);
+    add_displacement(solid, step, force);
+    solid->present.settled = true;
+}
+
+void solid_move(struct solid *solid, size_t count, const double *forces)
+{
+    size_t n = freedoms(solid);
+    double *step = solid->residual;
+    if (solid->linear) {
+        memset(solid->present.forces, 0, solid->unloading.stride * sizeof(double));
+        memcpy(solid->present.forces, forces, count * sizeof(double));
+        solid->present.settled = false;
+        return;
+    }
+    double force = add_loads(solid, present_loads(solid), count, forces, step);
     /* du = -L^-T (...), the outer freedoms by the elastic factor */
     double change = force - solid->present.force;
     for (size_t i = 0; i < n; i++)
@@ -279,11 +344,7 @@ void solid_move(struct solid *solid, size_t count, const double *forces)
     band_backward(inner_factor(solid), solid->first, n, step);
     band_carry_backward(&solid->elastic, solid->first, step, step);
     band_backward(&solid->elastic, 0, solid->first, step);
-    /* displacements of free nodes, then of the far ones */
-    for (size_t node = 0; node < solid->free_nodes; node++)
-        for (size_t c = 0; c < 2; c++)
-            solid->present.displacement[2 * node + c] += step[freedom(solid, node) + c];
-    solid_move_far(solid, force);
+    add_displacement(solid, step, force);
 }
 
 void solid_begin(struct solid *solid)
@@ -307,7 +368,8 @@ void solid_commit(struct solid *solid)
     snapshot_copy(solid, &solid->committed, &solid->present);
 }
 
-double solid_surface(const struct solid *solid, size_t i)
+double solid_surface(struct solid *solid, size_t i)
 {
+    solid_settle(solid);
     return solid->present.displacement[2 * solid->mesh->contact.index[i] + 1];
 }
