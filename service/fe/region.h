@@ -52,8 +52,8 @@ enum percuss_status region_press(struct region *region, double indentation,
 enum percuss_status region_load(struct region *region, double force, struct region_answer *answer,
                                 struct fault *fault);
 
-/* The same in series with a spring: indentation + softness * force = approach (m; softness >= 0,
- * m/N). */
+/* The same in series with a spring: indentation + softness * force = approach, m. softness, m/N: of
+ * either sign, above -1 / stiffness, below which there is no one equilibrium. */
 enum percuss_status region_approach(struct region *region, double approach, double softness,
                                     struct region_answer *answer, struct fault *fault);
 

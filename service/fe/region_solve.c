@@ -9,7 +9,10 @@
 
 enum { NEWTON_MAX = 25, HALVINGS_MAX = 8 };
 
-static const double BALANCED = 1e-9; /* of the largest force so far */
+/* Of the largest force so far may be out of balance: where curves are drawn from the states, and in
+ * series with bodies, whose steps are much coarser. */
+static const double BALANCED = 1e-9;
+static const double BALANCED_IN_SERIES = 1e-6;
 
 static void state_copy(size_t n, struct contact_state *to, const struct contact_state *from)
 {
@@ -23,7 +26,7 @@ static void state_copy(size_t n, struct contact_state *to, const struct contact_
 struct target {
     enum { BY_APPROACH, BY_FORCE, BY_EDGE, WITHOUT_CONTACT } kind;
     double value;
-    double softness; /* m/N, of a spring in series, BY_APPROACH */
+    double softness; /* m/N, of a spring in series, BY_APPROACH; 0: none */
     size_t node;
     bool loading; /* the step is expected to press further */
 };
@@ -95,6 +98,7 @@ static bool equilibrate(struct region *region, const struct target *target)
         region->count = region->candidates < 6 ? region->candidates : 6;
     if (target->kind == BY_EDGE && region->count < target->node + 3)
         region->count = target->node + 3;
+    double balanced = target->softness != 0.0 ? BALANCED_IN_SERIES : BALANCED;
     for (int i = 0; i < NEWTON_MAX && pace_ask(region->pace, region->done); i++) {
         /* out of balance */
         double worst = 0.0;
@@ -103,7 +107,7 @@ static bool equilibrate(struct region *region, const struct target *target)
                          solid_balance(region->solids[k], region->count, region->present.forces));
         double scale = fmax(region->peak, region->present.force);
         /* in balance, and nothing flows that was taken for elastic: an equilibrium */
-        if (i > 0 && worst <= BALANCED * scale) {
+        if (i > 0 && worst <= balanced * scale) {
             bool grew = solid_zone_grew(region->solids[0]);
             grew |= solid_zone_grew(region->solids[1]);
             if (!grew)

@@ -133,6 +133,11 @@ static enum percuss_status add_mesh(struct concurrent_search *search)
     struct swing *swing = &search->swing[mesh];
     *swing = (struct swing){.cells = (unsigned)concurrent_resolution(mesh), .phases = PHASES};
     for (unsigned k = 0; k < PHASES; k++) {
+        /* the coarsest mesh alone never answers, and its first phase is known by now */
+        if (mesh == 0 && k == 0) {
+            swing->restitution[0] = search->steps.restitution[search->steps.chosen];
+            continue;
+        }
         enum percuss_status status =
             solve_on(search, mesh, (double)k / PHASES, search->steps.chosen, &search->latest[k]);
         if (status != PERCUSS_OK)
@@ -147,7 +152,7 @@ static enum percuss_status add_mesh(struct concurrent_search *search)
 static void answer_with(struct concurrent_search *search, const struct impact_outcome *outcome)
 {
     double error = search->error + fabs(restitution(search, outcome) - search->restitution);
-    if (search->meshes > 1 && !(error < search->answer_error))
+    if (!(error < search->answer_error))
         return;
     search->answer = *outcome;
     search->answer_error = error;
@@ -190,7 +195,7 @@ enum percuss_status concurrent_search(struct concurrent_search *search, double a
     enum percuss_status status = search_steps(search);
     while (status == PERCUSS_OK && search->meshes < CONCURRENT_MESHES && expected > allowed) {
         status = add_mesh(search);
-        if (status == PERCUSS_OK)
+        if (status == PERCUSS_OK && search->meshes > 1)
             expected = choose(search, &phase, &bracket);
     }
     return status == PERCUSS_OK ? aim(search, phase, &bracket, allowed) : status;
