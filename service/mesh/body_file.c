@@ -364,16 +364,20 @@ enum percuss_status body_file_read(const char *path, struct mesh_body **body, st
     enum percuss_status status = PERCUSS_OK;
     struct mesh_body *made = calloc(1, sizeof *made);
     *body = NULL;
+    /* closed with all that is open in it: a damaged file's parts may not close by themselves */
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     errno = 0;
     if (!made)
         status = out_of_memory(&file);
-    else if ((file.id = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT)) < 0)
+    else if ((file.id = H5Fopen(path, H5F_ACC_RDONLY, access)) < 0)
         status = refuse(&file, "cannot be opened: %s",
                         errno ? strerror(errno) : "it is no HDF5 file, or damaged");
     else {
         status = read_all(&file, made);
         H5Fclose(file.id);
     }
+    H5Pclose(access);
     /* and makes sense as a whole */
     struct fault inner = {{0}};
     if (!status && mesh_body_check(made, &inner))

@@ -8,6 +8,8 @@
 
 #include "model/vector.h"
 
+/* Parts of an element. */
+static const double ONE_PLACE = 0.5;
 /* Sites that a place is interpolated from: enough for a plane through them. */
 enum { NEIGHBOURS = 6 };
 
@@ -113,14 +115,16 @@ static double half_space_field(const struct mesh_body *mesh, unsigned face, doub
     return fmax(alike, 0.0) * (1.0 - nu * nu) / (M_PI * material->young * distance);
 }
 
-/* What two sites have beside it; of those too close to each other the mean of their own. */
+/* What two sites have beside it; of those that are one place, but for a part of an element, the
+ * mean of their own. That the whole between neighbours is no smooth function (mesh->near) does not
+ * matter here. */
 static double regular_part(const struct mesh_body *mesh, size_t a, size_t b, bool one_patch)
 {
     double apart[3];
     sub3(mesh->site_point[a], mesh->site_point[b], apart);
     double distance = norm3(apart);
     size_t n = mesh->site_count;
-    if (one_patch && distance < mesh->near)
+    if (one_patch && distance < ONE_PLACE * mesh->element_size)
         return 0.5 * ((double)mesh->between[a * n + a] + (double)mesh->between[b * n + b]);
     double all = (double)mesh->between[a * n + b];
     return one_patch ? all - half_space_field(mesh, mesh->site_face[a], distance,

@@ -43,7 +43,8 @@ static struct mesh_body *make_body(void)
         &(struct made_mesh){.bar = &rod, .modes = 4, .removed = 2, .around = 24, .along = 8});
     assert_true(body && mesh_surface_prepare(body));
     size_t n = body->site_count = SIDE * SIDE;
-    body->near = 2e-3;
+    body->near = 4e-3;
+    body->element_size = 1e-3;
     body->site_face = calloc(n, sizeof *body->site_face);
     body->site_point = calloc(n, sizeof *body->site_point);
     body->site_normal = calloc(n, sizeof *body->site_normal);
