@@ -11,6 +11,7 @@
 
 #include "check.h"
 #include "mesh/bulk.h"
+#include "mesh/mesh_check.h"
 #include "mesh/mesh_read.h"
 
 static char file_path[64];
@@ -57,8 +58,8 @@ static inline const char *file_with(const char *text, const char *from, const ch
     return changed;
 }
 
-/* Whatever is done to a file, reading it ends with a mesh or with words: it is cut short, bytes of
- * it change, numbers become large or none. `tries` of each. */
+/* Whatever is done to a file, reading and checking it ends with a mesh or with words: it is cut
+ * short, bytes of it change, numbers become large or none. `tries` of each. */
 static inline void file_survives(const char *suffix, const void *data, size_t size, int tries)
 {
     static const char *const WORDS[] = {"99999999999", "-7", "nan", "18446744073709551615", "0"};
@@ -80,6 +81,12 @@ static inline void file_survives(const char *suffix, const void *data, size_t si
         enum percuss_status status =
             mesh_read(file_path, &(struct mesh_options){.unit = 1.0}, &mesh, &file_fault);
         assert_true(status == PERCUSS_OK || file_fault.text[0]);
+        struct surface surface = {0};
+        struct mesh_findings findings;
+        if (status == PERCUSS_OK && surface_make(&mesh, &surface, &file_fault) == PERCUSS_OK &&
+            surface_fit(&mesh, &surface, &file_fault) == PERCUSS_OK)
+            mesh_check(&mesh, &surface, &findings, &file_fault);
+        surface_free(&surface);
         solid_mesh_free(&mesh);
     }
     unlink(file_path);
