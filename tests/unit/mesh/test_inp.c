@@ -172,8 +172,8 @@ static void refuses_with_the_line(void **state)
     file_refused(".inp", file_with(BRICK, "*NODE, NSET=ALL", "*NODE, SYSTEM=C"), "must be R");
     file_refused(".inp", file_with(TETRAHEDRON, "2, 1,2,3,4", "1, 1,2,3,4"),
                  "element 1: is there twice");
-    file_survives(".inp", BRICK, strlen(BRICK), 500);
-    file_survives(".inp", TETRAHEDRON, strlen(TETRAHEDRON), 300);
+    file_survives(".inp", BRICK, strlen(BRICK), 150);
+    file_survives(".inp", TETRAHEDRON, strlen(TETRAHEDRON), 150);
 }
 
 int main(void)

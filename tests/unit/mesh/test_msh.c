@@ -132,7 +132,7 @@ static void reads_bytes(void **state)
                      PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(file_fault.text, ".msh: byte "));
     unlink(file_path);
-    file_survives(".msh", bytes.data, bytes.size, 500);
+    file_survives(".msh", bytes.data, bytes.size, 150);
 }
 
 static void refuses_with_the_line(void **state)
@@ -157,7 +157,7 @@ static void refuses_with_the_line(void **state)
     file_refused(".msh", file_with(TEXT, "3 9 11 1\n", "3 9 29 1\n"), "element type 29: must be");
     file_refused(".msh", file_with(TEXT, "$EndElements", "$End"),
                  "$Elements: must end with $EndElements: is the file whole?");
-    file_survives(".msh", TEXT, strlen(TEXT), 500);
+    file_survives(".msh", TEXT, strlen(TEXT), 150);
 }
 
 static void refuses_what_is_asked_badly(void **state)
