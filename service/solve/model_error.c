@@ -14,7 +14,7 @@
 #include "solve/validity.h"
 
 /* Change of e by a unit of the stiffness's logarithm, of a single contact: by the share s of the
- * energy that vibrates, at most LOST s + SWUNG sqrt(s) of 95 in 100 random bars (waves that leave;
+ * energy that vibrates, at most LOST s + SWUNG sqrt(s) of 97 in 100 random bars (waves that leave;
  * a mode that the contact catches in its swing). */
 static const double LOST = 0.3;
 static const double SWUNG = 0.2;
