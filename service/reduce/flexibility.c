@@ -292,6 +292,13 @@ double flexibility_of_contact(double young, double poisson, double mean_curvatur
     return mean * flexibility_slope(young, poisson, mean_curvature) + tilt * mean_curvature;
 }
 
+double flexibility_mode(const struct flexibility *flexibility, size_t mode,
+                        const struct flexibility_place *place)
+{
+    size_t k = flexibility->body.rigid_count + mode;
+    return displacement_at(flexibility, place, flexibility->psi + k * flexibility->n);
+}
+
 double flexibility_response(const struct flexibility *flexibility, size_t solved,
                             const struct flexibility_place *other)
 {

@@ -70,6 +70,10 @@ double flexibility_slope(double young, double poisson, double mean_curvature);
  * normal to the surface everywhere, which tilts it, m/N. */
 double flexibility_of_contact(double young, double poisson, double mean_curvature);
 
+/* Displacement of a place along its inward normal in a removed mode, 1/sqrt(kg). */
+double flexibility_mode(const struct flexibility *flexibility, size_t mode,
+                        const struct flexibility_place *place);
+
 /* What the force at places[solved] of the last flexibility_solve moves another place along its own
  * inward normal, the half-space's field included, without rigid motion and removed modes, m/N. */
 double flexibility_response(const struct flexibility *flexibility, size_t solved,

@@ -24,7 +24,8 @@ static const double CUT = 0.02;
 
 struct half_edge {
     size_t ends[2], middle; /* nodes, ends[0] < ends[1] */
-    size_t patch;
+    size_t patch, face;
+    bool hollow;
 };
 
 static int half_edge_compare(const void *a, const void *b)
@@ -45,7 +46,7 @@ static size_t collect(const struct surface *surface, struct half_edge *all)
         for (size_t i = 0; i < corners; i++) {
             size_t a = face->nodes[i], b = face->nodes[(i + 1) % corners];
             all[count++] = (struct half_edge){
-                {a < b ? a : b, a < b ? b : a}, face->nodes[corners + i], face->patch};
+                {a < b ? a : b, a < b ? b : a}, face->nodes[corners + i], face->patch, f, false};
         }
     }
     return count;
@@ -90,6 +91,17 @@ static void find_planes(const struct surface_rule *rule, bool *plane)
     }
 }
 
+/* whether the neighbour across the edge rises above the own face's plane */
+static bool is_hollow(const struct surface_rule *rule, const struct half_edge *own,
+                      const struct half_edge *other)
+{
+    if (!other || own->ends[0] != other->ends[0] || own->ends[1] != other->ends[1])
+        return false;
+    double across[3];
+    sub3(rule->centres[other->face], rule->mesh->points[own->middle], across);
+    return dot3(across, rule->areas[rule->first[own->face]]) > 0.0;
+}
+
 bool flexibility_edges_make(struct flexibility_edges *edges, const struct surface_rule *rule)
 {
     *edges = (struct flexibility_edges){0};
@@ -105,15 +117,18 @@ bool flexibility_edges_make(struct flexibility_edges *edges, const struct surfac
         size_t next = i + 1;
         while (next < count && half_edge_compare(&all[i], &all[next]) == 0)
             next++;
-        if (next == i + 1)
+        if (next == i + 1) {
+            all[i].hollow = is_hollow(rule, &all[i], i > 0 ? &all[i - 1] : NULL) ||
+                            is_hollow(rule, &all[i], next < count ? &all[next] : NULL);
             all[kept++] = all[i];
+        }
         i = next;
     }
-
     edges->points = malloc((kept ? kept : 1) * sizeof *edges->points);
     edges->patches = malloc((kept ? kept : 1) * sizeof *edges->patches);
+    edges->hollow = malloc((kept ? kept : 1) * sizeof *edges->hollow);
     edges->plane = malloc(rule->surface->patch_count * sizeof *edges->plane);
-    if (!edges->points || !edges->patches || !edges->plane) {
+    if (!edges->points || !edges->patches || !edges->hollow || !edges->plane) {
         free(all);
         flexibility_edges_free(edges);
         return false;
@@ -125,6 +140,7 @@ bool flexibility_edges_make(struct flexibility_edges *edges, const struct surfac
         for (int n = 0; n < 3; n++)
             memcpy(edges->points[i][n], rule->mesh->points[nodes[n]], sizeof edges->points[i][n]);
         edges->patches[i] = all[i].patch;
+        edges->hollow[i] = all[i].hollow;
     }
     free(all);
     return true;
@@ -134,6 +150,7 @@ void flexibility_edges_free(struct flexibility_edges *edges)
 {
     free(edges->points);
     free(edges->patches);
+    free(edges->hollow);
     free(edges->plane);
     *edges = (struct flexibility_edges){0};
 }

@@ -29,6 +29,7 @@ struct flexibility_edges {
     size_t count;
     double (*points)[3][3]; /* [count]: end, middle, end, m */
     size_t *patches;        /* [count] */
+    bool *hollow;           /* [count]: the body is more than a half-space there */
     bool *plane;            /* [patch_count]: the patch is plane */
 };
 

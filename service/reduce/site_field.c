@@ -28,12 +28,12 @@ static const double OTHER_SIDE = -0.2;
 
 /* Integral of ds / r^2 along the edges of the patch, over pi: 1/distance from a long straight edge,
  * and from two at a corner the sum of both. And its logarithm, the next one for a quarter of space
- * that is bent. 0 without an edge. */
+ * that is bent. The same of hollow edges. 0 without an edge. */
 static void edge_terms(const struct site_field *field, size_t patch, const double x[3],
                        double terms[SITE_FIELD_EDGE_TERMS])
 {
     const struct flexibility_edges *edges = field->edges;
-    double sum = 0.0;
+    double sums[2] = {0.0}; /* sharp, hollow */
     for (size_t i = 0; i < edges->count; i++) {
         if (edges->patches[i] != patch)
             continue;
@@ -45,11 +45,14 @@ static void edge_terms(const struct site_field *field, size_t patch, const doubl
             double length = norm3(along), start = -dot3(offset, along) / length;
             double square = dot3(offset, offset) - start * start;
             double aside = sqrt(fmax(square, field->blunt * field->blunt));
-            sum += (atan((start + length) / aside) - atan(start / aside)) / aside;
+            sums[edges->hollow[i]] +=
+                (atan((start + length) / aside) - atan(start / aside)) / aside;
         }
     }
-    terms[0] = field->blunt * sum / M_PI;
-    terms[1] = sum > 0.0 ? log(terms[0]) : 0.0;
+    for (int k = 0; k < 2; k++) {
+        terms[2 * k] = field->blunt * sums[k] / M_PI;
+        terms[2 * k + 1] = sums[k] > 0.0 ? log(terms[2 * k]) : 0.0;
+    }
 }
 
 void site_field_free(struct site_field *field)
@@ -200,7 +203,9 @@ static bool fit_edges(struct site_field *field, size_t patch_count)
     }
     for (size_t p = 0; p < patch_count; p++) {
         /* two terms that say the same share what they say */
-        double ridge = 1e-6 * (matrix[p][0] + matrix[p][N * N - 1]);
+        double ridge = 0.0;
+        for (int t = 0; t < N; t++)
+            ridge += 1e-6 * matrix[p][t * N + t];
         for (int t = 0; t < N; t++)
             matrix[p][t * N + t] += ridge;
         bool solved = ridge > 0.0 && linear_solve(N, matrix[p], side[p]);

@@ -9,9 +9,9 @@
 
 #include "reduce/flexibility_place.h"
 
-enum { SITE_FIELD_NEIGHBOURS = 32 };
+enum { SITE_FIELD_NEIGHBOURS = 28 };
 
-enum { SITE_FIELD_EDGE_TERMS = 2 };
+enum { SITE_FIELD_EDGE_TERMS = 4 };
 
 /* Owns its arrays; edges are borrowed. */
 struct site_field {

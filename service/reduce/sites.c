@@ -138,22 +138,88 @@ static double make_symmetric(struct sites *sites, double near_it)
     return largest;
 }
 
-static void judge(const struct sites *sites, const struct site_field *field,
-                  struct sites_report *report)
+/* Gives the mode back to values and responses: it is no longer removed. */
+static void give_back(struct sites *sites, size_t mode, double *shape)
 {
+    double omega = sites->task->body.omega[mode];
+    for (size_t i = 0; i < sites->count; i++)
+        shape[i] = flexibility_mode(sites->flexibility, mode, &sites->places[i]) / omega;
+    for (size_t i = 0; i < sites->count; i++) {
+        sites->values[i] += shape[i] * shape[i];
+        for (size_t j = 0; sites->between && j < sites->count; j++)
+            sites->between[i * sites->count + j] += (float)(shape[i] * shape[j]);
+    }
+}
+
+/* the field of the values as they are, and how good it is */
+static enum percuss_status make_field(const struct sites *sites, struct site_field *field,
+                                      struct sites_report *report, struct fault *fault)
+{
+    if (!site_field_make(field, flexibility_rule(sites->flexibility),
+                         flexibility_edges(sites->flexibility), sites->count, sites->places,
+                         sites->values, report->spacing))
+        return pace_fault(fault, PERCUSS_INTERNAL);
     double sum = 0.0, inside = 0.0;
+    report->unknown = 0;
+    report->largest_error = 0.0;
     for (size_t i = 0; i < sites->count; i++) {
         double error = fabs(site_field_error(field, i));
         report->unknown += isnan(sites->values[i]);
         if (isnan(error))
             continue;
         report->largest_error = fmax(report->largest_error, error);
-        if (sites->places[i].edge > 2.0 * report->spacing) {
+        if (sites->places[i].edge > report->spacing) {
             sum += error * error;
             inside += 1.0;
         }
     }
     report->usual_error = inside > 0.0 ? sqrt(sum / inside) : report->largest_error;
+    return PERCUSS_OK;
+}
+
+/* The field of all sites with as many modes removed as suits its interpolation best. */
+static enum percuss_status smoothen(struct sites *sites, struct site_field *field,
+                                    struct sites_report *report, struct fault *fault)
+{
+    enum { TRIALS = 12 };
+    size_t most = sites->task->body.removed, count = sites->count;
+    size_t step = most / TRIALS + 1;
+    double *shape = malloc((count + 1) * sizeof *shape);
+    struct sites_report best = *report;
+    best.usual_error = INFINITY;
+    enum percuss_status status = shape ? PERCUSS_OK : pace_fault(fault, PERCUSS_INTERNAL);
+
+    /* first what is best, by values alone; then that, with all that depends on it */
+    float *between = sites->between;
+    double *first = malloc((count + 1) * sizeof *first);
+    if (!first && status == PERCUSS_OK)
+        status = pace_fault(fault, PERCUSS_INTERNAL);
+    if (status == PERCUSS_OK)
+        memcpy(first, sites->values, count * sizeof *first);
+    sites->between = NULL;
+    for (size_t removed = most; status == PERCUSS_OK;) {
+        struct sites_report now = *report;
+        now.removed = removed;
+        status = make_field(sites, field, &now, fault);
+        site_field_free(field);
+        if (now.usual_error < best.usual_error)
+            best = now;
+        if (removed == 0)
+            break;
+        for (size_t i = 0; i < step && removed > 0; i++)
+            give_back(sites, --removed, shape);
+    }
+    sites->between = between;
+    if (status == PERCUSS_OK) {
+        memcpy(sites->values, first, count * sizeof *first);
+        for (size_t mode = most; mode > best.removed; mode--)
+            give_back(sites, mode - 1, shape);
+        *report = best;
+        status = make_field(sites, field, report, fault);
+    }
+    free(first);
+    free(shape);
+    return status;
 }
 
 /* sites and what is between them, which the body takes over */
@@ -203,15 +269,11 @@ enum percuss_status sites_find(const struct sites_task *task, struct mesh_body *
     report->asymmetry = make_symmetric(&sites, body->near);
 
     /* and everywhere */
-    if (!site_field_make(&field, flexibility_rule(sites.flexibility),
-                         flexibility_edges(sites.flexibility), sites.count, sites.places,
-                         sites.values, report->spacing)) {
-        status = pace_fault(fault, PERCUSS_INTERNAL);
+    status = smoothen(&sites, &field, report, fault);
+    if (status != PERCUSS_OK)
         goto done;
-    }
-    judge(&sites, &field, report);
     body->cut = sites.cut;
-    body->removed = task->body.removed;
+    body->removed = report->removed;
     status = sites_spread(&field, flexibility_rule(sites.flexibility), body, fault);
     if (status == PERCUSS_OK)
         status = hand_over(&sites, body, fault);

@@ -30,14 +30,19 @@ struct sites_report {
     size_t count;         /* sites */
     size_t unknown;       /* of these, where nothing could be said: the body comes back within a
                            * face's size over the surface, or the mesh's forces do not balance */
+    size_t removed;       /* modes */
     double spacing;       /* reached, m */
-    double usual_error;   /* root of the mean square, m/N, of sites two spacings off the edges */
+    double usual_error;   /* root of the mean square, m/N, of sites a spacing off the edges */
     double largest_error; /* of all, m/N */
     double imbalance;     /* largest, of the forces, over the force */
     double asymmetry;     /* largest difference of two responses that ought to be one, m/N */
 };
 
-/* Fills of `body`: faces' flexibility and flexibility_slope, cut, removed, sites and between. Its
+/* The body's modes are removed as far as that makes the flexibility smoother: they have peaks and
+ * nodes of their own, which sites catch less the higher they are. What neighbours say of a site
+ * that is left out decides how many, at most as many as the task's body says.
+ *
+ * Fills of `body`: faces' flexibility and flexibility_slope, cut, removed, sites and between. Its
  * faces, those of the surface in their order, and its centre are there. PERCUSS_TIMEOUT: the watch
  * stopped it; PERCUSS_INTERNAL without memory. */
 enum percuss_status sites_find(const struct sites_task *task, struct mesh_body *body,

@@ -58,6 +58,15 @@ static void scene_free(struct scene *scene)
     flexed_free(&scene->flexed);
 }
 
+/* the flexibility that is solved for without as many modes as the body's is */
+static void remove_as_many(struct scene *scene)
+{
+    flexibility_free(scene->flexed.flexibility);
+    scene->flexed.body.removed = scene->body.removed;
+    scene->flexed.flexibility = flexibility_make(&scene->flexed.body);
+    assert_non_null(scene->flexed.flexibility);
+}
+
 /* what the body's face says at a place, and what is solved for there; times E R */
 static double told(const struct scene *scene, const struct flexibility_place *place)
 {
@@ -93,7 +102,8 @@ static void faces_tell_what_is_solved_for(void **state)
     assert_int_equal(scene.report.unknown, 0);
     assert_true(scene.report.imbalance < 1e-6);
     assert_true(scene.report.usual_error * YOUNG * RADIUS < 0.02);
-    assert_int_equal(scene.body.removed, 24);
+    assert_true(scene.body.removed <= 24);
+    remove_as_many(&scene);
 
     size_t faces = scene.body.face_count;
     for (size_t i = 0; i < 36; i++) {
@@ -139,13 +149,14 @@ static void sites_know_each_other(void **state)
             near(scene.body.site_point[i][k] + scene.body.centre[k], exact[i][k], 1e-9);
     near(scene.body.site_normal[0][0], -1.0, 1e-9);
 
+    remove_as_many(&scene);
     struct flexibility_place places[2] = {
         flexed_place(&scene.flexed, 0.0, 0.0, 0.0),
         flexed_place(&scene.flexed, 3.0 * RADIUS, 0.0, 0.4 * RADIUS)};
     double own = solved_there(&scene, &places[0]);
     double other = flexibility_response(scene.flexed.flexibility, 0, &places[1]);
-    /* single precision */
-    near_relative(scene.body.between[0] * YOUNG * RADIUS, own, 1e-6);
+    /* modes that were given back are the mesh's own: test_flexibility.c */
+    near(scene.body.between[0] * YOUNG * RADIUS, own, 5e-4);
     near(scene.body.between[1] * YOUNG * RADIUS, other * YOUNG * RADIUS, 2e-3);
     assert_true(scene.body.between[1] == scene.body.between[scene.body.site_count]);
     assert_true(scene.report.asymmetry * YOUNG * RADIUS < 0.01);
