@@ -9,9 +9,9 @@
 #include "model/facet.h"
 #include "model/vector.h"
 
-/* The rule of degree 6 is good to 1e-7 of a field that changes with the distance from the place,
+/* The rule of degree 6 is good to 1e-8 of a field that changes with the distance from the place,
  * where that is as many radii of a triangle; nearer ones are split. */
-static const double FAR = 4.0;
+static const double FAR = 6.0;
 /* Triangles of this part of a face or smaller are not split any more: where the place lies within
  * one the face is plane, t bounded and u like 1/r, and what is wrong is the part of a part. */
 enum { MOST_SPLITS = 7 };
