@@ -11,7 +11,7 @@ set grid
 set xrange [0:6]
 set multiplot layout 2,1
 set ylabel "displacement / mm"
-set key top left
+set key bottom right
 plot a using ($1*1e3):($2*1e3) with lines lw 3 lc rgb "#8cb4e0" title "sphere, A (3-D finite elements)", \
      b using ($1*1e3):($2*1e3) every 10 with lines lw 2 lc rgb "#1f4e8c" title "B (modes, region in every step)", \
      c using ($1*1e3):($2*1e3) every 10 with lines dt 2 lw 2 lc rgb "#101010" title "C (modes, table)", \
