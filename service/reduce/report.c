@@ -58,11 +58,11 @@ static void tell_modes(const struct reduction *reduction)
 static void tell_flexibility(const struct reduction *reduction)
 {
     const struct sites_report *sites = &reduction->sites;
-    printf(
-        "flexibility     %zu sites %.3g mm apart, error of interpolation %.1e m/N, at most %.1e; "
-        "forces balance to %.1e\n",
-        sites->count, 1e3 * sites->spacing, sites->usual_error, sites->largest_error,
-        sites->imbalance);
+    printf("flexibility     %zu sites %.3g mm apart, without %zu modes; error of interpolation "
+           "%.1e m/N, "
+           "at most %.1e; forces balance to %.1e\n",
+           sites->count, 1e3 * sites->spacing, sites->removed, sites->usual_error,
+           sites->largest_error, sites->imbalance);
     if (sites->unknown)
         printf("                unknown at %zu of them\n", sites->unknown);
 }
@@ -153,6 +153,7 @@ void report_json(const struct reduction *reduction)
     put_count("sites", sites->count);
     put_count("sites_unknown", sites->unknown);
     put_number("site_spacing", sites->spacing);
+    put_count("modes_removed", sites->removed);
     put_number("flexibility_error", sites->usual_error);
     put_number("flexibility_largest_error", sites->largest_error);
     put_number("force_imbalance", sites->imbalance);
