@@ -242,7 +242,7 @@ static enum percuss_status check_nodes(const struct solid_mesh *mesh, struct fau
 enum percuss_status matrices_make(const struct solid_mesh *mesh, struct matrices *matrices,
                                   struct fault *fault)
 {
-    memset(matrices, 0, sizeof *matrices);
+    *matrices = (struct matrices){.mesh = mesh};
     enum percuss_status status = check_nodes(mesh, fault);
     if (status)
         return status;

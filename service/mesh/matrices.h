@@ -12,6 +12,7 @@ struct matrices {
     struct sparse stiffness, mass; /* N/m, kg; held degrees of freedom have only a stiffness, their
                                     * own: see sparse_hold */
     bool *held;                    /* [3 node_count]; NULL: none is */
+    const struct solid_mesh *mesh; /* borrowed: what they were made of; NULL: of a file */
 };
 
 /* Linear elastic, each part of its material. PERCUSS_BAD_REQUEST: a node belongs to no element, or
