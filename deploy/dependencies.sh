@@ -4,22 +4,24 @@
 #
 # Installs what percuss is built with and tested with, from Debian 12; nothing where it is there
 # already. Needs root (or sudo) only when something is missing.
-# usage: dependencies.sh [build|test|ci]    (ci: also a second compiler and what makes an empty machine)
+# usage: dependencies.sh [build|test|mpi|ci]    (mpi: what percuss-reduce-mpi needs; ci: all, a second compiler and
+# what makes an empty machine)
 set -eu
 
 build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-serial-dev
 liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom123-dev libsqlite3-dev
 libmumps-seq-dev libhdf5-dev"
-test="libcmocka-dev python3-venv libmujoco-dev valgrind iproute2 mount gmsh libmumps-dev
-libopenmpi-dev openmpi-bin"
+test="libcmocka-dev python3-venv libmujoco-dev valgrind iproute2 mount gmsh"
+mpi="libslepc-real-dev mpi-default-dev mpi-default-bin"
 ci="clang mmdebstrap"
 
 case ${1:-build} in
 build) packages=$build ;;
 test) packages="$build $test" ;;
-ci) packages="$build $test $ci" ;;
+ci) packages="$build $test $mpi $ci" ;;
+mpi) packages="$build $mpi" ;;
 *)
-    echo "usage: dependencies.sh [build|test|ci]" >&2
+    echo "usage: dependencies.sh [build|test|mpi|ci]" >&2
     exit 2
     ;;
 esac

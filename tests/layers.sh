@@ -26,7 +26,7 @@ allowed() {
     endpoint) echo "base numeric model contact impact solve ensemble endpoint" ;;
     tables) echo "base model fe contact catalogue store tables" ;;
     reduce) echo "base numeric model mesh catalogue reduce" ;;
-    reduce_mpi) echo "reduce" ;;
+    reduce_mpi) echo "base mesh reduce reduce_mpi" ;;
     daemon) echo "base numeric model fe contact impact solve ensemble catalogue store endpoint daemon" ;;
     esac
 }
@@ -105,7 +105,8 @@ only() {
 only 'cvode|arkode|sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol' 'service/numeric'
 only 'lapacke|Random123' 'service/numeric'
 only 'cblas' 'service/numeric'
-only 'dmumps' 'service/reduce|service/reduce_mpi'
+only 'dmumps' 'service/reduce'
+only 'petsc|slepc' 'service/reduce_mpi'
 only 'mpi\.h' 'service/reduce_mpi|client/mpi'
 only 'cminpack' 'client/measured'
 only 'yaml' 'service/catalogue|service/daemon'

@@ -7,11 +7,9 @@
 #include <limits.h>
 #include <stdlib.h>
 
-#include "reduce/ranks.h"
-
 /* What MUMPS calls its controls, counted from one as in its manual. */
 enum { ERRORS = 1, DIAGNOSTICS = 2, GLOBAL = 3, LEVEL = 4 };
-enum { PERMUTATION = 6, ORDERING = 7, PIVOTS = 12, PLAIN_ROOT = 13, RELAXATION = 14 };
+enum { PERMUTATION = 6, ORDERING = 7, PIVOTS = 12, RELAXATION = 14 };
 enum { INITIALISE = -1, FINISH = -2, ANALYSE = 1, FACTOR = 2, SOLVE = 3 };
 enum { SCOTCH = 3 };
 enum { ANY_PROCESS = -987654, OFF = -1 };
@@ -52,7 +50,6 @@ static enum percuss_status outcome(const struct factor *factor, struct fault *fa
 static void run(struct factor *factor, int job)
 {
     factor->mumps.job = job;
-    ranks_follow(factor, factor->mumps.sym, job);
     dmumps_c(&factor->mumps);
 }
 
@@ -109,8 +106,6 @@ enum percuss_status factor_analyse(const struct matrices *matrices, enum factor_
     *control(made, PERMUTATION) = 0;
     *control(made, ORDERING) = SCOTCH;
     *control(made, PIVOTS) = 1;
-    /* negative pivots are not counted in a root that ScaLAPACK factors */
-    *control(made, PLAIN_ROOT) = 1;
     if (!status && !place_entries(made))
         status = no_memory(fault);
     if (!status) {
