@@ -163,20 +163,26 @@ static void plot_measured(const struct plot *plot, const struct sweep_points *po
     }
 }
 
+static bool bodies_differ(const struct sweep_points *points)
+{
+    for (size_t k = 1; k < points->curve_count; k++)
+        if (strcmp(points->curves[k].b, points->curves->b))
+            return true;
+    return false;
+}
+
 /* What tells the curves apart: the bodies, the models or both. */
 static void write_title(const struct plot *plot, const struct sweep_points *points, size_t k)
 {
     const struct sweep_curve *curve = &points->curves[k], *first = points->curves;
-    bool bodies = false, models = false;
+    bool models = false;
     char title[160];
-    for (size_t i = 1; i < points->curve_count; i++) {
-        bodies = bodies || strcmp(points->curves[i].b, first->b);
+    for (size_t i = 1; i < points->curve_count; i++)
         models = models || strcmp(points->curves[i].contact_model, first->contact_model);
-    }
     if (models)
         snprintf(title, sizeof title, "%s, %s", curve->b, curve->contact_model);
     else
-        snprintf(title, sizeof title, "%s", bodies ? curve->b : "estimated error");
+        snprintf(title, sizeof title, "%s", bodies_differ(points) ? curve->b : "estimated error");
     plot_text(plot, title);
 }
 
@@ -190,11 +196,11 @@ int sweep_plot(const char *file, const struct sweep_points *points)
     write_data(&plot, points);
     write_measured(&plot, points);
     snprintf(title, sizeof title, "%s on %s%s", points->a, points->curves[0].b,
-             points->curve_count == 1 ? "" : " and others");
+             bodies_differ(points) ? " and others" : "");
     fputs("set multiplot title ", plot.script);
     plot_text(&plot, title);
     /* above, restitution with its error */
-    fputs("\nset lmargin 10\nset key top right\nset bars 0.5\n"
+    fputs("\nset lmargin 10\nset key outside top center horizontal\nset bars 0.5\n"
           "set origin 0,0.32\nset size 1,0.64\nset ylabel 'restitution e'\nplot ",
           plot.script);
     for (size_t k = 0; k < points->curve_count; k++) {
@@ -206,7 +212,7 @@ int sweep_plot(const char *file, const struct sweep_points *points)
     }
     plot_measured(&plot, points, 2);
     /* below, numbers of sub-impacts */
-    fputs("\nset origin 0,0\nset size 1,0.33\nset key top left\nset ylabel 'sub-impacts'\n"
+    fputs("\nset origin 0,0\nset size 1,0.33\nset key inside top left\nset ylabel 'sub-impacts'\n"
           "set xlabel 'speed / (m/s)'\nset yrange [0:*]\nset offsets 0,0,0.5,0\nset ytics 1\nplot ",
           plot.script);
     for (size_t k = 0; k < points->curve_count; k++)
