@@ -11,7 +11,7 @@ set -eu
 build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-serial-dev
 liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom123-dev libsqlite3-dev
 libmumps-seq-dev libhdf5-dev"
-test="libcmocka-dev python3-venv libmujoco-dev valgrind iproute2 mount gmsh"
+test="libcmocka-dev python3-venv libmujoco-dev valgrind iproute2 mount gmsh calculix-ccx"
 mpi="libslepc-real-dev mpi-default-dev mpi-default-bin"
 ci="clang mmdebstrap"
 

@@ -10,7 +10,8 @@ cd "$(dirname "$0")/.."
 ci=${CI:-false}
 [ "$ci" = true ] && no_skips=true || no_skips=${PERCUSS_NO_SKIPS:-false}
 
-sh deploy/dependencies.sh test
+[ "$ci" = true ] && packages=ci || packages=test
+sh deploy/dependencies.sh "$packages"
 # deploy/quickstart.sh builds without tests
 cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON
 cmake --build build --parallel "$(nproc)"
