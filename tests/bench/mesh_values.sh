@@ -1,0 +1,142 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Bodies meshed by Gmsh, reduced and struck, beside numbers of other programs: what docs/mesh.md states. Takes
+# some ten minutes of one core and 2 GB.
+# usage: mesh_values.sh BUILD OUTPUT [rod-end|rod|beam|plate|cylinder]...    (default: all)
+set -eu
+build=$(cd "$1" && pwd)
+mkdir -p "$2"
+cd "$2"
+shift 2
+[ $# -gt 0 ] || set -- rod-end rod beam plate cylinder
+here=$(cd "$build" && sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' CMakeCache.txt)
+export OMP_NUM_THREADS=1
+domain=$((100 + $$ % 100))
+daemon=
+trap '[ -z "$daemon" ] || kill "$daemon" 2>/dev/null || true' EXIT
+
+# name, drawing, the options of percuss-reduce
+reduce() {
+    name=$1
+    printf 'SetFactory("OpenCASCADE");\nMesh.ElementOrder = 2;\nMesh.HighOrderOptimize = 2;\n%s\n' "$2" >"$name.geo"
+    shift 2
+    gmsh -3 -format msh41 -o "$name.msh" "$name.geo" >"$name.log" 2>&1 || {
+        cat "$name.log" >&2
+        exit 1
+    }
+    "$build/bin/percuss-reduce" "$name.msh" --unit mm -o "$name.h5" "$@" >"$name.txt" 2>"$name.log" || {
+        cat "$name.log" >&2
+        exit 1
+    }
+    grep -hE "elements,|^modes|written|s$" "$name.txt" | sed "s/^/# $name: /"
+}
+
+# a bar of radius 10 mm: length and element size in mm
+bar() {
+    echo "Cylinder(1) = {0, 0, 0, $1, 0, 0, 10}; Mesh.MeshSizeMin = $2; Mesh.MeshSizeMax = $2;"
+}
+
+serve() {
+    [ -z "$daemon" ] || {
+        kill "$daemon"
+        wait "$daemon" || true
+    }
+    cat >catalogue.yaml
+    printf 'catalogue: catalogue.yaml\n' >percussd.yaml
+    "$build/bin/percussd" --config percussd.yaml --domain "$domain" 2>percussd.log &
+    daemon=$!
+    until grep -qs ready percussd.log; do
+        kill -0 "$daemon" 2>/dev/null || {
+            cat percussd.log >&2
+            exit 1
+        }
+        sleep 0.1
+    done
+}
+
+# what, speed, what others have: e, its error, length and peak of the first sub-impact
+ask() {
+    "$build/bin/percuss" query --a ball --b part --speed "$2" --domain "$domain" --tolerance 1e-5 >answer.txt 2>/dev/null || true
+    awk -v what="$1" -v speed="$2" -v others="$3" '
+        $1 == "restitution" && e == "" { e = $2 }
+        $1 == "1" && NF == 7 { length_us = $3; impulse = $4; peak = $6 }
+        END { printf "%s,%s,%s,%s,%s,%s,%s\n", what, speed, e, impulse, length_us, peak, others }' answer.txt
+}
+
+# the flexibility of a rod's end beyond L/(3 E A), in 1/(E b): what, name, E, L in m, others
+end() {
+    "$build/tests/bench/mesh_flexibility" "$2.h5" "$(awk -v l="$4" 'BEGIN { print 1000 * l }')" 0 0 |
+        awk -v what="$1" -v E="$3" -v L="$4" -v others="$5" '{
+            b = 0.010; printf "%s,,%.4f,,,,%s\n", what, ($1 - L / (3 * E * 3.14159265358979 * b * b)) * E * b, others }'
+}
+
+rod_end() {
+    reduce end-33 "$(bar 1000 6)" --young 73e9 --poisson 0.33 --density 2780 --modes 60 --site 1000,0,0
+    end "rod 1 m nu .33 end" end-33 73e9 1 "-.5876 +- .002"
+    reduce end-30 "$(bar 400 4)" --young 73e9 --poisson 0.3 --density 2780 --modes 60 --site 400,0,0
+    end "rod 40 b nu .3 end" end-30 73e9 0.4 "-.600 +- .003"
+    reduce end-0 "$(bar 400 4)" --young 73e9 --poisson 0 --density 2780 --modes 60 --site 400,0,0
+    end "rod 40 b nu 0 end" end-0 73e9 0.4 "-.648 +- .003"
+}
+
+rod() {
+    reduce rod "$(bar 1000 8)" --young 73e9 --poisson 0.33 --density 2780 --modes 160 --site 1000,0,0
+    serve <<END
+materials: {steel: {young: 210e9, poisson: 0.30, density: 7780}}
+bodies:
+  ball: {shape: sphere, material: steel, radius: 0.015}
+  part: {shape: mesh, file: rod.h5, sites: {end: {point: [1000, 0, 0]}}}
+END
+    for case in 0.05:.7769 0.1:.7256 0.2:.6710 0.3:.6377 0.5:.5942; do
+        ask rod "${case%:*}" "${case#*:} +- .0006"
+    done
+}
+
+steel='materials: {steel: {young: 210e9, poisson: 0.30, density: 7800}}
+bodies:
+  ball: {shape: sphere, material: steel, radius: 0.015}'
+aluminium="--young 70e9 --poisson 0.33 --density 2700"
+
+beam() {
+    # words on purpose
+    # shellcheck disable=SC2086
+    reduce beam "$(bar 1000 "${PERCUSS_BEAM_MM:-4}")" $aluminium --modes 220 --site 500,0,10
+    serve <<END
+$steel
+  part: {shape: mesh, file: beam.h5, sites: {middle: {point: [500, 0, 10], normal: [0, 0, 1], curvatures: [0, 100], directions: [1, 0, 0]}}}
+END
+    ask beam 0.2 ".738 +- .004; 19.508e-3 N s +- .002e-3"
+    ask beam 0.276 ".731 +- .01"
+    ask beam 0.287 ".338 +- .01"
+    ask beam 0.303 ".253 +- .01"
+}
+
+plate() {
+    # shellcheck disable=SC2086
+    reduce plate "Cylinder(1) = {0, 0, -10, 0, 0, 20, 100, Pi}; Mesh.MeshSizeMin = 6; Mesh.MeshSizeMax = 6;" $aluminium \
+        --max-frequency 60000 --site 0,0,0
+    serve <<END
+$steel
+  part: {shape: mesh, file: plate.h5, sites: {edge: {point: [0, 0, 0]}}}
+END
+    ask "half-circular plate" 0.3 ".9994 +- .0005"
+}
+
+cylinder() {
+    # shellcheck disable=SC2086
+    reduce cylinder "Cylinder(1) = {0, 0, 0, 73.68063, 0, 0, 36.840315}; Mesh.MeshSizeMin = 6; Mesh.MeshSizeMax = 6;" \
+        $aluminium --max-frequency 60000 --site 73.68063,0,0
+    serve <<END
+$steel
+  part: {shape: mesh, file: cylinder.h5, sites: {end: {point: [73.68063, 0, 0]}}}
+END
+    ask "compact cylinder" 0.3 ".9999; 161.4 us; 669 N"
+}
+
+echo "case,speed,value,first_impulse,first_length_us,first_peak,others"
+for part; do
+    [ "$part" != rod-end ] || part=rod_end
+    "$part"
+done
