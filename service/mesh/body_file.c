@@ -293,6 +293,7 @@ static enum percuss_status read_numbers(const struct file *file, const struct la
 {
     size_t numbers = numbers_of(layout);
     size_t at = 0;
+    /* a value has its place; an array gets one, never of 0 bytes */
     void *data = layout->value;
     if (!data) {
         size_t size = layout_size(layout->type);
@@ -302,11 +303,13 @@ static enum percuss_status read_numbers(const struct file *file, const struct la
     }
     if (!data)
         return out_of_memory(file);
+    /* read as this machine's type */
     hid_t type = type_open(layout->type);
     bool good = numbers == 0 || H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
     H5Tclose(type);
     if (!good)
         return refuse(file, "%s: cannot be read: the file is damaged or cut short", layout->name);
+    /* numbers that the layout does not allow are refused */
     if (!layout_holds(layout, data, numbers, &at))
         return refuse(file, "%s: number %zu is none that is allowed: must be %s", layout->name,
                       at + 1, layout_allowed(layout->range));

@@ -165,6 +165,7 @@ static enum percuss_status refuse_material(const struct deck_material *material,
 static enum percuss_status convert(const struct deck_material *from, const char *file, double unit,
                                    struct material *to, struct fault *fault)
 {
+    /* in SI */
     double stress = 1.0 / (unit * unit), density = stress * stress;
     memset(to, 0, sizeof *to);
     snprintf(to->name, sizeof to->name, "%.*s", (int)sizeof to->name - 1, from->name);
@@ -172,15 +173,18 @@ static enum percuss_status convert(const struct deck_material *from, const char 
     to->poisson = from->poisson;
     to->density = from->density * density;
     to->yield = from->stress_count ? from->stress[0] * stress : INFINITY;
+    /* hardening from the slope of plastic strain */
     if (from->stress_count > 1 && from->strain[1] > from->strain[0]) {
         double hardening =
             (from->stress[1] - from->stress[0]) / (from->strain[1] - from->strain[0]) * stress;
         to->tangent = hardening > 0.0 ? to->young * hardening / (to->young + hardening) : 0.0;
     }
+    /* limits that tell a wrong unit, in the words of the deck */
     if (!(to->young >= LEAST_YOUNG && to->young <= MOST_YOUNG))
         return refuse_material(from, file, "*ELASTIC", from->young, to->young, fault);
     if (!(to->density >= LEAST_DENSITY && to->density <= MOST_DENSITY))
         return refuse_material(from, file, "*DENSITY", from->density, to->density, fault);
+    /* limits of every material */
     struct fault inner;
     if (material_check(to, &inner) != PERCUSS_OK)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: material %s: %.400s", file, from->name,
@@ -199,12 +203,14 @@ static enum percuss_status apply_section(struct deck *deck, const struct deck_se
     if (index == SIZE_MAX)
         return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", file);
     struct mesh_part *part = &deck->builder.parts[index];
+    /* a material that says enough; else the command line must */
     if (material->elastic && material->dense) {
         part->has_material = true;
         enum percuss_status status = convert(material, file, unit, &part->material, fault);
         if (status != PERCUSS_OK)
             return status;
     }
+    /* its solid elements, in one part each */
     for (size_t i = 0; i < set->labels.count; i++) {
         const struct place *place = find(places, set->labels.values[i]);
         if (!place || !place->solid)

@@ -99,6 +99,7 @@ static enum percuss_status read_set(struct inp *inp, char *line, bool of_nodes)
     struct deck *deck = &inp->deck;
     char *field;
     while ((field = card_field(&line))) {
+        /* a label */
         struct builder_list *list =
             of_nodes ? &deck->builder.sets[inp->set].labels : &deck->sets[inp->set].labels;
         if (*field >= '0' && *field <= '9') {
@@ -109,12 +110,14 @@ static enum percuss_status read_set(struct inp *inp, char *line, bool of_nodes)
                 return inp_out_of_memory(inp);
             continue;
         }
+        /* or the name of a set above; in an assembly, one that is not known is left out */
         size_t other =
             of_nodes ? deck_find_node_set(deck, field) : deck_find_element_set(deck, field);
         if (other == SIZE_MAX && !inp->assembly)
             return scan_refuse(inp->scan, "set: %.60s: must be the name of a set above", field);
         if (other == SIZE_MAX || other == inp->set)
             continue;
+        /* whose labels follow */
         const struct builder_list *from =
             of_nodes ? &deck->builder.sets[other].labels : &deck->sets[other].labels;
         for (size_t i = 0; i < from->count; i++)

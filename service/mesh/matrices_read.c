@@ -279,22 +279,27 @@ enum percuss_status matrices_read(const struct matrices_files *files, const stru
                                   struct matrices *matrices, struct fault *fault)
 {
     memset(matrices, 0, sizeof *matrices);
+    /* rows are numbered in 32 bits */
     if (mesh->node_count >= NO_ROW / 3)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "nodes: %zu: must be fewer than %u",
                          mesh->node_count, NO_ROW / 3);
+    /* which row is which freedom, by the labels of the nodes */
     const char *map = files->freedoms ? files->freedoms : files->mass;
     struct freedoms freedoms = {0};
     struct label *labels = sort_labels(mesh);
     enum percuss_status status =
         labels ? read_freedoms(files->freedoms, mesh, labels, &freedoms, fault)
                : out_of_memory(map, fault);
+    /* freedoms without a row are held */
     if (status == PERCUSS_OK)
         status = find_held(&freedoms, map, mesh, matrices, fault);
+    /* held freedoms are stiff, and have no mass */
     if (status == PERCUSS_OK)
         status = read_matrix(files->stiffness, &freedoms, mesh, matrices->held,
                              &matrices->stiffness, fault);
     if (status == PERCUSS_OK)
         status = read_matrix(files->mass, &freedoms, mesh, NULL, &matrices->mass, fault);
+    /* all that moves has one mass */
     if (status == PERCUSS_OK)
         status = check_mass(matrices, files->mass, fault);
     free(labels);

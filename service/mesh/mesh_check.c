@@ -48,6 +48,7 @@ static enum percuss_status check_shapes(const struct solid_mesh *mesh,
     size_t bad = 0, first = 0, reversed = 0;
     double volume, first_ratio = 0.0;
     findings->least_jacobian = INFINITY;
+    /* the least det J of its mean, the volume, and the first element that is bad */
     for (size_t e = 0; e < mesh->element_count; e++) {
         double ratio = bulk_element_det(mesh, e, &volume);
         bool inside_out = !(ratio > 0.0) || !(volume > 0.0);
@@ -62,11 +63,13 @@ static enum percuss_status check_shapes(const struct solid_mesh *mesh,
             findings->least_element = mesh->element_labels[e];
         }
     }
+    /* most are reversed: the mesh is mirrored */
     if (reversed > 0 && 2 * reversed > mesh->element_count)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "%zu of %zu elements have a negative volume (element %zu first): their "
                          "nodes run the wrong way round, as in a mirrored mesh: turn them over",
                          reversed, mesh->element_count, first);
+    /* a few: they are bent too far */
     if (bad > 0)
         return fault_set(
             fault, PERCUSS_BAD_REQUEST,
@@ -75,6 +78,7 @@ static enum percuss_status check_shapes(const struct solid_mesh *mesh,
             "curved elements must be smaller at round places, or their edges straight (Gmsh: "
             "Mesh.HighOrderOptimize=2, or Mesh.SecondOrderLinear = 1)",
             bad, mesh->element_count, first, first_ratio);
+    /* all are good; the worst is worth a remark */
     if (findings->least_jacobian < POOR_JACOBIAN)
         remark(findings, "element %zu is badly shaped: least det J %.2g of its mean",
                findings->least_element, findings->least_jacobian);
@@ -93,6 +97,7 @@ static int compare(const void *left, const void *right)
 static enum percuss_status check_places(const struct solid_mesh *mesh, double size,
                                         struct fault *fault)
 {
+    /* along one direction, nodes in one place are neighbours */
     struct sorted_node *nodes = malloc(mesh->node_count * sizeof *nodes);
     size_t pairs = 0, one = 0, other = 0;
     if (!nodes)
@@ -100,6 +105,7 @@ static enum percuss_status check_places(const struct solid_mesh *mesh, double si
     for (size_t i = 0; i < mesh->node_count; i++)
         nodes[i] = (struct sorted_node){dot3(SORTING, mesh->points[i]), i};
     qsort(nodes, mesh->node_count, sizeof *nodes, compare);
+    /* each with those that follow closely */
     double near = SAME_PLACE * size;
     for (size_t i = 0; i < mesh->node_count; i++)
         for (size_t j = i + 1; j < mesh->node_count && nodes[j].along - nodes[i].along <= near;

@@ -115,11 +115,13 @@ static enum percuss_status read_entity(struct msh *msh, int dimension)
     int entity, tag;
     double box;
     size_t count;
+    /* its number, and its box, which is not needed */
     if (!scan_integer(scan, "entity", &entity))
         return PERCUSS_BAD_REQUEST;
     for (int i = 0; i < (dimension == 0 ? 3 : 6); i++)
         if (!scan_real(scan, "entity's box", &box))
             return PERCUSS_BAD_REQUEST;
+    /* the groups it belongs to */
     if (!scan_count(scan, "entity's physical groups", &count))
         return PERCUSS_BAD_REQUEST;
     for (size_t i = 0; i < count; i++) {
@@ -128,6 +130,7 @@ static enum percuss_status read_entity(struct msh *msh, int dimension)
         if (!msh_groups_join(&msh->groups, (struct msh_member){dimension, entity, tag}))
             return out_of_memory(msh);
     }
+    /* what bounds it is not needed; a point has none */
     if (dimension == 0)
         return PERCUSS_OK;
     if (!scan_count(scan, "entity's boundary", &count))
@@ -160,18 +163,21 @@ static enum percuss_status read_node_block(struct msh *msh)
     struct builder *builder = &msh->builder;
     int dimension, entity, parametric;
     size_t count, label, first = builder->node_count;
+    /* of what entity, and how many */
     if (!scan_integer(scan, "dimension", &dimension) || !scan_integer(scan, "entity", &entity) ||
         !scan_integer(scan, "parametric", &parametric) ||
         !scan_count(scan, "nodes of a block", &count))
         return PERCUSS_BAD_REQUEST;
     if (dimension < 0 || dimension > 3)
         return scan_refuse(scan, "dimension: %d: must be 0 to 3", dimension);
+    /* first all labels */
     for (size_t i = 0; i < count; i++) {
         if (!scan_size(scan, "number of a node", &label))
             return PERCUSS_BAD_REQUEST;
         if (!builder_add_node(builder, label, (double[3]){0.0, 0.0, 0.0}))
             return out_of_memory(msh);
     }
+    /* then all points, with the parameters on a curve or surface, which are not needed */
     for (size_t i = 0; i < count; i++) {
         double parameter, *point = builder->nodes[first + i].point;
         for (int k = 0; k < 3; k++)
@@ -246,10 +252,12 @@ static enum percuss_status read_elements_of(struct msh *msh, int type, int entit
     size_t nodes[ELEMENT_MOST_NODES], sets[MOST_ENTITY_TAGS], set_count = 0, label, part = 0;
     size_t node_count = TYPES[type].nodes;
     bool solid = TYPES[type].dimension == 3;
+    /* solids make parts; faces, edges and points make sets of nodes */
     if (solid && (part = find_part(msh, entity)) == SIZE_MAX)
         return out_of_memory(msh);
     if (!solid && find_sets(msh, TYPES[type].dimension, entity, sets, &set_count) != PERCUSS_OK)
         return PERCUSS_INTERNAL;
+    /* each in the order of Gmsh, which the builder knows by type */
     for (size_t i = 0; i < count; i++) {
         if (!scan_size(scan, "number of an element", &label))
             return PERCUSS_BAD_REQUEST;

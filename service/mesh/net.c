@@ -123,16 +123,19 @@ static void find_straight(const struct solid_mesh *mesh, struct surface *surface
         const struct surface_face *face = &surface->faces[f];
         int corners = face->count == FACE_TRIANGLE6 ? 3 : 4;
         for (int i = 0; i < corners; i++) {
+            /* an edge: its ends, and the normals there */
             int j = (i + 1) % corners;
             size_t middle = net->vertices[f][corners + i];
             const double *a = net->normals[net->vertices[f][i]];
             const double *b = net->normals[net->vertices[f][j]];
             const double *from = mesh->points[face->nodes[i]], *to = mesh->points[face->nodes[j]];
+            /* how far its middle lies off the chord */
             double turn[3], way[3], off[3];
             sub3(b, a, turn);
             sub3(to, from, way);
             for (int k = 0; k < 3; k++)
                 off[k] = mesh->points[face->nodes[corners + i]][k] - 0.5 * (from[k] + to[k]);
+            /* and how far it should: one that is bent, yet straight, is left out */
             double bend = fabs(dot3(turn, way)) / 8.0;
             bool curved = bend > LEAST_BEND * norm3(way);
             bool straight = curved && norm3(off) < STRAIGHT * bend;

@@ -117,6 +117,7 @@ static void number_patches(struct surface *surface, size_t *parent)
 static enum percuss_status make_patches(const struct solid_mesh *mesh, struct surface *surface,
                                         struct fault *fault)
 {
+    /* each face brings all its edges */
     size_t count = 0;
     for (size_t f = 0; f < surface->face_count; f++)
         count += (size_t)corner_count(&surface->faces[f]);
@@ -125,12 +126,14 @@ static enum percuss_status make_patches(const struct solid_mesh *mesh, struct su
     size_t *parent = malloc(surface->face_count * sizeof *parent);
     enum percuss_status status = PERCUSS_OK;
     if (edges && lengths && parent) {
+        /* the size: the median length */
         fill_edges(mesh, surface, edges);
         for (size_t i = 0; i < count; i++)
             lengths[i] = edges[i].length;
         qsort(lengths, count, sizeof *lengths, compare_numbers);
         surface->size = lengths[count / 2];
 
+        /* faces that are joined across a smooth edge make a patch */
         for (size_t f = 0; f < surface->face_count; f++)
             parent[f] = f;
         qsort(edges, count, sizeof *edges, compare_edges);

@@ -125,6 +125,7 @@ static int terms(bool through, int order, double x, double y, double *term)
  */
 static bool solve(int n, double (*a)[MOST_TERMS], double *b)
 {
+    /* L in the lower half of a; the last two terms, the slopes, must stand out more */
     for (int i = 0; i < n; i++) {
         double diagonal = a[i][i];
         for (int j = 0; j <= i; j++) {
@@ -137,11 +138,13 @@ static bool solve(int n, double (*a)[MOST_TERMS], double *b)
             return false;
         a[i][i] = sqrt(a[i][i]);
     }
+    /* L y = b */
     for (int i = 0; i < n; i++) {
         for (int k = 0; k < i; k++)
             b[i] -= a[i][k] * b[k];
         b[i] /= a[i][i];
     }
+    /* L^T x = y */
     for (int i = n - 1; i >= 0; i--) {
         for (int k = i + 1; k < n; k++)
             b[i] -= a[k][i] * b[k];
@@ -154,9 +157,11 @@ static bool solve(int n, double (*a)[MOST_TERMS], double *b)
 static bool fit_order(const struct fit *fit, int order, struct shape *shape)
 {
     double a[MOST_TERMS][MOST_TERMS] = {{0}}, b[MOST_TERMS] = {0}, term[MOST_TERMS];
+    /* enough samples for its terms */
     int n = terms(fit->through, order, 0.0, 0.0, term);
     if ((double)fit->count < SAMPLES_PER_TERM * n)
         return false;
+    /* the normal equations, lower half */
     for (size_t i = 0; i < fit->count; i++) {
         const double *at = fit->at[i];
         double weight = exp(-WEIGHT_FALL * dot3(at, at));
@@ -167,6 +172,7 @@ static bool fit_order(const struct fit *fit, int order, struct shape *shape)
             b[j] += weight * term[j] * at[2];
         }
     }
+    /* slopes and second derivatives at the vertex */
     if (!solve(n, a, b))
         return false;
     *shape = (struct shape){{b[n - 2], b[n - 1]}, {0}};
@@ -215,17 +221,20 @@ static void fit_vertex(struct walk *walk, size_t vertex, struct fit *fit,
                        struct surface_point *point)
 {
     const struct net *net = walk->net;
+    /* until a fit says more, the mean normal, wholly in doubt */
     const double *normal = net->normals[vertex];
     *point = (struct surface_point){.doubt = M_PI};
     memcpy(point->normal, normal, sizeof point->normal);
     if (!(norm3(normal) > 0.0))
         return;
+    /* a circle wide enough to hold samples */
     make_frame(normal, fit->frame);
     for (size_t r = 0; r < sizeof RADII / sizeof *RADII; r++) {
         gather(walk, vertex, RADII[r] * net->spacing[vertex], fit);
         if (fit->count >= ENOUGH)
             break;
     }
+    /* the highest order */
     struct shape shape, lower;
     int order = MOST_ORDER;
     while (order > 0 && !fit_order(fit, order, &shape))
@@ -233,6 +242,7 @@ static void fit_vertex(struct walk *walk, size_t vertex, struct fit *fit,
     if (order == 0)
         return;
     place_shape(fit, &shape, point);
+    /* and the next lower one */
     if (order > 1 && fit_order(fit, order - 1, &lower)) {
         struct surface_point other;
         place_shape(fit, &lower, &other);
@@ -247,6 +257,7 @@ enum percuss_status surface_fit(const struct solid_mesh *mesh, struct surface *s
     if (!net_make(mesh, surface, &net))
         return fault_set(fault, PERCUSS_INTERNAL, "surface of %zu faces: out of memory",
                          surface->face_count);
+    /* room for a walk from each vertex */
     struct walk walk = {mesh, &net, calloc(net.vertex_count, sizeof *walk.stamps), 0,
                         malloc(net.vertex_count * sizeof *walk.queue)};
     struct surface_point *points = malloc(net.vertex_count * sizeof *points);
@@ -254,6 +265,7 @@ enum percuss_status surface_fit(const struct solid_mesh *mesh, struct surface *s
     free(surface->points);
     surface->points = calloc(surface->face_count, sizeof *surface->points);
     enum percuss_status status = PERCUSS_OK;
+    /* each vertex once, then to every face that has it */
     if (walk.stamps && walk.queue && points && fit && surface->points) {
         for (size_t i = 0; i < net.vertex_count; i++)
             fit_vertex(&walk, i, fit, &points[i]);

@@ -141,6 +141,7 @@ struct products {
  * (cosh ax cos bx)' = a sinh cos - b cosh sin, (sinh ax sin bx)' = a cosh sin + b sinh cos. */
 static struct products integrate_products(const struct beam_wave *wave)
 {
+    /* products of one kind, then of both */
     double product = wave->cosh_end * wave->sinh_end;
     double mean = wave->sin_end * wave->cos_end / wave->beta;
     double sum = wave->alpha_squared + wave->beta * wave->beta;
@@ -157,6 +158,7 @@ static struct products integrate_products(const struct beam_wave *wave)
                  sum,
     };
 
+    /* near the cut-off, where the quotient would lose its digits */
     if (fabs(wave->alpha_squared) < 1.0)
         is.pp = 0.5 * wave->sech_squared * sinh_excess(wave->alpha_squared);
     else

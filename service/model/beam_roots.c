@@ -94,11 +94,13 @@ static double chandrupatla_step(const double x[3], const double f[3])
 static double polish(const struct beam_interlaced_walk *walk, double low, double f_low, double high,
                      double f_high)
 {
+    /* x[0] the latest, x[1] across the root, x[2] the one before */
     double x[3] = {high, low, low};
     double f[3] = {f_high, f_low, f_low};
     double fraction = 0.5;
 
     for (int i = 0; i < 200; i++) {
+        /* one step, which leaves the root between x[0] and x[1] */
         double next = x[0] + fraction * (x[1] - x[0]);
         double f_next = determinant(walk, next);
         bool same_side = signbit(f_next) == signbit(f[0]);
@@ -111,6 +113,7 @@ static double polish(const struct beam_interlaced_walk *walk, double low, double
         x[0] = next;
         f[0] = f_next;
 
+        /* done at the last bits; else on, where Chandrupatla says */
         double best = fabs(f[0]) < fabs(f[1]) ? x[0] : x[1];
         double least = DBL_EPSILON * best / fabs(x[1] - x[0]);
         if (f_next == 0.0 || least > 0.5)

@@ -80,6 +80,7 @@ static void odd_values(const struct beam_wave *wave, enum beam_quantity quantity
 {
     double sinh_end = wave->alpha_squared * wave->sinh_end / wave->beta;
 
+    /* hyperbolic and trigonometric part of each, at the end */
     switch (quantity) {
     case BEAM_DEFLECTION:
         values[0] = sinh_end;

@@ -35,6 +35,7 @@ static enum percuss_status check_key(const struct key *key, const void *field, s
 {
     const double *number = field;
     const unsigned *choice = field;
+    /* numbers by their limits; none stated is good where it may be absent */
     switch (key->type) {
     case KEY_NUMBER:
         if (!key->required && *number == key->absent)
@@ -44,6 +45,7 @@ static enum percuss_status check_key(const struct key *key, const void *field, s
         return check_sizes(key, number, fault);
     case KEY_WHOLE:
         return *choice <= key->limit->high ? PERCUSS_OK : refuse_number(key, *choice, fault);
+    /* words by their number */
     case KEY_WORD:
     case KEY_ENDS:
         for (int i = 0; i < (key->type == KEY_ENDS ? 2 : 1); i++)

@@ -17,8 +17,7 @@
 
 enum support { SUPPORT_FREE, SUPPORT_PINNED, SUPPORT_CLAMPED }; /* a rod's `fixed` is CLAMPED */
 enum beam_theory { THEORY_TIMOSHENKO, THEORY_EULER_BERNOULLI };
-/* Nothing stated: Hutchinson's, and Cowper's where that is no fraction (a wide section, see
- * kind_beam.c). */
+/* Absent: Hutchinson's, and Cowper's where that is no fraction (a wide section, kind_beam.c). */
 enum shear_rule { SHEAR_ABSENT, SHEAR_COWPER, SHEAR_HUTCHINSON, SHEAR_NUMBER };
 
 struct body {
@@ -77,10 +76,9 @@ double body_parameter(const struct body *body, enum percuss_parameter parameter)
 /* Whether two variants of one body of the catalogue have the same modes. */
 bool body_same_modes(const struct body *a, const struct body *b);
 
-/* Whether it can vibrate: its kind has families of modes. */
+/* Whether it can vibrate: its kind has families of modes. And whether it can be hit on its side
+ * anywhere along x and bends then: a beam. */
 bool body_is_flexible(const struct body *body);
-
-/* Whether it can be hit on its side anywhere along x and bends then: a beam. */
 bool body_bends(const struct body *body);
 
 /* The material of its surface at a site: of a mesh of several, one of them. */

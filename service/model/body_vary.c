@@ -10,6 +10,7 @@
 /* Where the body holds it; NULL: a body of this shape has no such parameter. */
 static double *find_parameter(struct body *body, unsigned parameter)
 {
+    /* of the material: every body has them */
     switch (parameter) {
     case PERCUSS_PARAMETER_YOUNG:
         return &body->material.young;
@@ -21,6 +22,7 @@ static double *find_parameter(struct body *body, unsigned parameter)
         return &body->material.yield;
     case PERCUSS_PARAMETER_TANGENT:
         return &body->material.tangent;
+    /* of the body: only some kinds */
     case PERCUSS_PARAMETER_DAMPING:
         return body_is_flexible(body) ? &body->damping : NULL;
     case PERCUSS_PARAMETER_RADIUS:

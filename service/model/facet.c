@@ -27,6 +27,7 @@ static void triangle_shape(double u, double v, double d[KINDS][FACET_MOST_NODES]
 {
     const double l[3] = {1.0 - u - v, u, v};
     static const double SLOPE[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
+    /* the corner, and its derivatives */
     for (int i = 0; i < 3; i++) {
         const double *s = SLOPE[i];
         d[VALUE][i] = l[i] * (2.0 * l[i] - 1.0);
@@ -36,6 +37,7 @@ static void triangle_shape(double u, double v, double d[KINDS][FACET_MOST_NODES]
         d[UV][i] = 4.0 * s[0] * s[1];
         d[VV][i] = 4.0 * s[1] * s[1];
 
+        /* the mid node after it */
         int j = (i + 1) % 3;
         const double *t = SLOPE[j];
         d[VALUE][3 + i] = 4.0 * l[i] * l[j];
@@ -198,10 +200,11 @@ static void keep_nearer(int count, const double (*points)[3], const double p[3],
 }
 
 /* the nearest point of the edge from one corner to the next: its middle part from the nearest of
- * three places, and its ends */
+ * four places, and its ends */
 static void search_edge(int count, const double (*points)[3], const double p[3], int edge,
                         struct facet_foot *best)
 {
+    /* the edge in local coordinates */
     int corners = count == 6 ? 3 : 4;
     double from[2], to[2], way[2];
     facet_node(count, edge, &from[0], &from[1]);
@@ -209,6 +212,7 @@ static void search_edge(int count, const double (*points)[3], const double p[3],
     for (int i = 0; i < 2; i++)
         way[i] = to[i] - from[i];
 
+    /* the nearest of four, as a bent edge may have several feet */
     double start = 0.5, nearest = INFINITY;
     for (int i = 1; i < 8; i += 2) {
         double t = i / 8.0;
@@ -216,10 +220,12 @@ static void search_edge(int count, const double (*points)[3], const double p[3],
         start = distance < nearest ? t : start;
         nearest = fmin(nearest, distance);
     }
+    /* downhill from there, along the edge */
     double at[2] = {from[0] + start * way[0], from[1] + start * way[1]};
     descend(count, points, p, way, at);
     double t = ((at[0] - from[0]) * way[0] + (at[1] - from[1]) * way[1]) /
                (way[0] * way[0] + way[1] * way[1]);
+    /* a foot inside the edge, and the corner it starts at */
     if (t > 0.0 && t < 1.0)
         keep_nearer(count, points, p, at, best);
     keep_nearer(count, points, p, from, best);

@@ -91,17 +91,20 @@ static void compare_site(const struct mesh_spot *spot, struct body_site *site)
 static enum percuss_status complete_site(const struct body *body, struct body_site *site,
                                          struct fault *fault)
 {
+    /* the point in the frame of the mesh */
     struct mesh_place place;
     double point[3];
     double p[3];
     body_site_point(body, site, point);
     to_mesh(body, point, p);
+    /* as near the surface as a named point must be */
     double allowed = NAMED * body->mesh->volume / body->mesh->area;
     if (mesh_surface_find(body->mesh, p, 0.0, &place, 1) == 0 || !(place.distance <= allowed))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "sites.%s.point: lies %.3g m off the surface: at most %.3g m is allowed; "
                          "points are in the mesh's own frame and unit (%g m)",
                          site->name, place.distance, allowed, body->mesh->unit);
+    /* what the mesh says there, where the site says nothing */
     struct mesh_spot spot = mesh_surface_at(body->mesh, place.face, place.u, place.v);
     site->face = place.face;
     if (!site->has_normal)

@@ -10,6 +10,7 @@
 
 enum percuss_status material_check(const struct material *material, struct fault *fault)
 {
+    /* each by its limit; an elastic one never yields */
     bool elastic = material->yield == INFINITY;
     const struct {
         const char *field;
@@ -27,6 +28,7 @@ enum percuss_status material_check(const struct material *material, struct fault
         status = limit_check(quantities[i].limit, quantities[i].field, quantities[i].value, fault);
     if (status)
         return status;
+    /* together: yield and hardening stay below young, and none hardens that does not yield */
     if (material->tangent >= material->young)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "tangent: %.9g: must be below young (%.9g Pa)",
                          material->tangent, material->young);

@@ -59,6 +59,7 @@ static enum percuss_status check_modes(const struct mesh_body *body, struct faul
 
 static enum percuss_status check_face(const struct mesh_body *body, size_t f, struct fault *fault)
 {
+    /* what the file counts: nodes, material, patch */
     const struct mesh_body_face *face = &body->faces[f];
     if (face->count != 6 && face->count != 8 && face->count != 9)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
@@ -72,6 +73,7 @@ static enum percuss_status check_face(const struct mesh_body *body, size_t f, st
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "faces/patch: %u at face %zu: must be below the number of faces, %zu",
                          face->patch, f, body->face_count);
+    /* its nodes, and a normal at each */
     for (int i = 0; i < face->count; i++) {
         const float *n = face->normal[i];
         double length = sqrt((double)n[0] * n[0] + (double)n[1] * n[1] + (double)n[2] * n[2]);

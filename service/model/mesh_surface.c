@@ -60,22 +60,27 @@ static bool find_quickly(int count, double points[FACET_MOST_NODES][3], const do
 {
     double n[FACET_MOST_NODES], du[FACET_MOST_NODES], dv[FACET_MOST_NODES];
     double r[3], xu[3], xv[3];
+    /* from the middle */
     foot->u = foot->v = count == 6 ? 1.0 / 3.0 : 0.0;
     for (int step = 0; step < QUICK_STEPS; step++) {
+        /* the point there, and how far p is off along u and v */
         facet_shape(count, foot->u, foot->v, n, du, dv);
         combine(count, points, n, foot->point);
         combine(count, points, du, xu);
         combine(count, points, dv, xv);
         sub3(p, foot->point, r);
+        /* least squares of the tangents */
         double a = dot3(xu, xu), b = dot3(xu, xv), c = dot3(xv, xv);
         double gu = dot3(r, xu), gv = dot3(r, xv), share = 1.0 / (a * c - b * b);
         double su = share * (c * gu - b * gv), sv = share * (a * gv - b * gu);
+        /* settled: a foot if it lies near and well inside */
         if (fabs(su) + fabs(sv) < QUICK_SETTLED) {
             foot->distance = norm3(r);
             foot->at_rim = false;
             return foot->distance * foot->distance < QUICK_NEAR * (a + c) &&
                    is_well_inside(count, foot->u, foot->v);
         }
+        /* on, unless the step has left the face */
         foot->u += su;
         foot->v += sv;
         if (!(fabs(foot->u) < 2.0 && fabs(foot->v) < 2.0))
@@ -146,13 +151,16 @@ static void search(struct finding *finding)
     int depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
+        /* too far: holds nothing nearer */
         const struct mesh_box *box = &boxes[stack[--depth]];
         if (box_distance(box, finding->p) > finding->within)
             continue;
+        /* a leaf: its faces */
         for (unsigned i = 0; i < box->count; i++)
             take_face(finding, finding->body->order[box->first + i]);
         if (box->count > 0 || depth + 2 > MOST_DEPTH)
             continue;
+        /* two parts: the nearer comes next */
         unsigned near = box->first, far = box->first + 1;
         if (box_distance(&boxes[far], finding->p) < box_distance(&boxes[near], finding->p)) {
             near++;

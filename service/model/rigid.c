@@ -43,8 +43,10 @@ static void turn_by(const struct mobility *mobility, const double moment[3], dou
 static struct mobility mobility_of(const struct body *body)
 {
     struct mobility mobility = {0};
+    /* held: neither turns nor moves */
     if (body->mesh && body->mesh->supported)
         return mobility;
+    /* free at both ends */
     bool free[2] = {body->supports[0] == SUPPORT_FREE, body->supports[1] == SUPPORT_FREE};
     if (free[0] && free[1]) {
         mobility.inverse_mass = 1.0 / body->mass;
@@ -54,6 +56,7 @@ static struct mobility mobility_of(const struct body *body)
             invert_tensor(body, &mobility);
         return mobility;
     }
+    /* pinned at one: turns about that end; all else is held */
     int held = free[0] ? 1 : 0;
     if (body->supports[held] == SUPPORT_PINNED && free[1 - held]) {
         double arm = held == 0 ? -0.5 * body->length : 0.5 * body->length;

@@ -53,6 +53,7 @@ struct flexibility *flexibility_make(const struct flexibility_body *body)
     struct flexibility *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
+    /* room for a block of columns */
     size_t n = f->n = 3 * body->mesh->node_count, block = FLEXIBILITY_BLOCK * n;
     f->body = *body;
     f->psi_count = body->rigid_count + body->removed;
@@ -64,6 +65,7 @@ struct flexibility *flexibility_make(const struct flexibility_body *body)
     f->mass_x = malloc(block * sizeof *f->mass_x);
     f->rest = malloc(block * sizeof *f->rest);
     f->products = malloc((2 * FLEXIBILITY_BLOCK * f->psi_count + 1) * sizeof *f->products);
+    /* rules of integration over surface and volume */
     if (!f->psi || !f->mass_psi || !f->force || !f->x || !f->work || !f->mass_x || !f->rest ||
         !f->products || !surface_rule_make(&f->surface, body->mesh, body->surface) ||
         !volume_rule_make(&f->volume, body->mesh) ||
@@ -71,6 +73,7 @@ struct flexibility *flexibility_make(const struct flexibility_body *body)
         flexibility_free(f);
         return NULL;
     }
+    /* Psi: rigid motions, then modes that are taken out; M Psi */
     size_t rigid = body->rigid_count * n;
     if (body->rigid_count > 0)
         memcpy(f->psi, body->rigid, rigid * sizeof *f->psi);
@@ -196,23 +199,28 @@ static void prepare(struct flexibility *f, size_t count, struct flexibility_term
 static enum percuss_status advance(struct flexibility *f, size_t count, double *work, double *step,
                                    struct fault *fault)
 {
+    /* (K + s M)^-1 of loads and of the last step */
     size_t n = f->n;
     for (size_t i = 0; i < count * n; i++)
         f->work[i] = f->force[i] + f->body.shift * f->mass_x[i];
     enum percuss_status status = factor_solve(f->body.factor, count, f->work, fault);
     if (status != PERCUSS_OK)
         return status;
+    /* without Psi */
     dense_products((struct dense){n, f->psi_count, f->mass_psi}, (struct dense){n, count, f->work},
                    f->products);
     dense_combine((struct dense){n, f->psi_count, f->psi}, -1.0, f->products, 1.0, count, f->work);
+    /* both terms of the work: of the load, and of the step */
     for (size_t c = 0; c < count; c++) {
         const double *y = f->work + c * n;
         work[c] = dot(n, f->force + c * n, y);
         step[c] = -f->body.shift * dot(n, y, f->mass_x + c * n);
     }
+    /* M y, which the next step takes too */
     sparse_multiply(&f->body.matrices->mass, count, f->work, f->mass_x);
     for (size_t c = 0; c < count; c++)
         step[c] += f->body.shift * dot(n, f->work + c * n, f->mass_x + c * n);
+    /* y is the next x */
     double *swap = f->x;
     f->x = f->work;
     f->work = swap;

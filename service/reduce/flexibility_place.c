@@ -240,10 +240,12 @@ static void measure_rim(int count, double derivative[5][3], double u, double v, 
     int corners = count == FACE_TRIANGLE6 ? 3 : 4;
     double angle = 0.0, sum = 0.0;
     *least = INFINITY;
+    /* the edge in local coordinates */
     for (int i = 0; i < corners; i++) {
         double from[2], to[2];
         facet_node(count, i, &from[0], &from[1]);
         facet_node(count, (i + 1) % corners, &to[0], &to[1]);
+        /* in short steps: the radius, and the angle that each turns by */
         for (int s = 0; s < STEPS; s++) {
             double t = (s + 0.5) / STEPS, radius[3] = {0.0}, step[3] = {0.0}, across[3];
             add_scaled3(from[0] + t * (to[0] - from[0]) - u, derivative[0], radius);
@@ -257,6 +259,7 @@ static void measure_rim(int count, double derivative[5][3], double u, double v, 
             *least = fmin(*least, norm3(radius));
         }
     }
+    /* its logarithm, weighed by angle */
     *mean = exp(sum / angle);
 }
 

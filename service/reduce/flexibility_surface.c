@@ -56,6 +56,7 @@ static void add_point(struct surface_sum *sum, const double at[2], double weight
 static void add_triangle(struct surface_sum *sum, const struct surface_triangle *triangle,
                          int splits)
 {
+    /* its centre, and a radius that holds it */
     double middle[2] = {0.0, 0.0}, centre[3], radius = 0.0, offset[3];
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 2; k++)
@@ -70,6 +71,7 @@ static void add_triangle(struct surface_sum *sum, const struct surface_triangle 
     }
     sub3(centre, sum->place->load.point, offset);
 
+    /* near: by quarters */
     if (norm3(offset) < FAR * radius && splits < MOST_SPLITS) {
         struct surface_triangle parts[4];
         surface_rule_split(triangle, parts);
@@ -77,6 +79,7 @@ static void add_triangle(struct surface_sum *sum, const struct surface_triangle 
             add_triangle(sum, &parts[i], splits + 1);
         return;
     }
+    /* far: by the rule */
     double at[SURFACE_RULE_POINTS][2], weights[SURFACE_RULE_POINTS];
     surface_rule_place(triangle, at, weights);
     for (int p = 0; p < SURFACE_RULE_POINTS; p++)
@@ -108,10 +111,12 @@ static void gauss(int count, double *at, double *weights)
  * energy, like 1/s^2, in ln s from the cut on. */
 static void add_fan(struct surface_sum *sum)
 {
+    /* points of Gauss around the place and along the radius */
     enum { AROUND = 40, ALONG = 12 };
     double around[AROUND], around_weights[AROUND], along[ALONG], along_weights[ALONG];
     gauss(AROUND, around, around_weights);
     gauss(ALONG, along, along_weights);
+    /* tangents at the place */
     const double place[2] = {sum->place->u, sum->place->v};
     double du[3] = {0.0}, dv[3] = {0.0};
     double shape[FACE_MOST_NODES], shape_u[FACE_MOST_NODES], shape_v[FACE_MOST_NODES];
@@ -121,6 +126,7 @@ static void add_fan(struct surface_sum *sum)
         add_scaled3(shape_v[n], sum->nodes[n], dv);
     }
 
+    /* the triangle to each edge; twice its area in local coordinates */
     int corners = sum->count == FACE_TRIANGLE6 ? 3 : 4;
     for (int i = 0; i < corners; i++) {
         double from[2], to[2];
@@ -128,6 +134,7 @@ static void add_fan(struct surface_sum *sum)
         facet_node(sum->count, (i + 1) % corners, &to[0], &to[1]);
         double area =
             (from[0] - place[0]) * (to[1] - place[1]) - (to[0] - place[0]) * (from[1] - place[1]);
+        /* a radius, and ln s where it leaves the cut */
         for (int a = 0; a < AROUND; a++) {
             double way[2], radius[3] = {0.0};
             for (int k = 0; k < 2; k++)
@@ -135,6 +142,7 @@ static void add_fan(struct surface_sum *sum)
             add_scaled3(way[0], du, radius);
             add_scaled3(way[1], dv, radius);
             double least = log(sum->place->cut / norm3(radius));
+            /* the force evenly in s, then the energy evenly in ln s */
             for (int p = 0; p < ALONG; p++) {
                 double s = along[p];
                 const double even[2] = {place[0] + s * way[0], place[1] + s * way[1]};

@@ -22,6 +22,7 @@ static void fill_element(struct volume_rule *rule, size_t element)
     const struct element_rule *points = &rule->rules[mesh->types[element]];
     double nodes[ELEMENT_MOST_NODES][3];
     element_points(mesh, element, nodes);
+    /* points of integration, each with its volume */
     for (size_t p = 0; p < points->point_count; p++) {
         struct element_point here;
         element_at(points, p, nodes, &here);
@@ -29,6 +30,7 @@ static void fill_element(struct volume_rule *rule, size_t element)
         memcpy(point, here.position, sizeof here.position);
         point[3] = here.volume;
     }
+    /* a sphere that holds the nodes */
     double *centre = rule->centres[element];
     memset(centre, 0, 3 * sizeof *centre);
     for (size_t n = 0; n < points->node_count; n++)
@@ -43,6 +45,7 @@ static void fill_element(struct volume_rule *rule, size_t element)
 
 bool volume_rule_make(struct volume_rule *rule, const struct solid_mesh *mesh)
 {
+    /* room for what there is one of an element */
     size_t count = mesh->element_count, total = 0;
     *rule = (struct volume_rule){.mesh = mesh};
     rule->rules = malloc(VOLUME_RULE_TYPES * sizeof *rule->rules);
@@ -51,6 +54,7 @@ bool volume_rule_make(struct volume_rule *rule, const struct solid_mesh *mesh)
     rule->radii = malloc(count * sizeof *rule->radii);
     if (!rule->rules || !rule->first || !rule->centres || !rule->radii)
         goto no_memory;
+    /* where the points of each element begin */
     for (int type = 0; type < VOLUME_RULE_TYPES; type++)
         element_rule_make((enum element_type)type, &rule->rules[type]);
     for (size_t e = 0; e < count; e++) {
@@ -58,6 +62,7 @@ bool volume_rule_make(struct volume_rule *rule, const struct solid_mesh *mesh)
         total += rule->rules[mesh->types[e]].point_count;
     }
     rule->first[count] = total;
+    /* the points */
     rule->points = malloc(total * sizeof *rule->points);
     if (!rule->points)
         goto no_memory;
@@ -153,6 +158,7 @@ static void add_piece(struct mass_sum *sum, const struct piece *piece, double sc
     const struct element_rule *rule = sum->rule;
     struct element_point here[ELEMENT_MOST_POINTS];
     double shapes[ELEMENT_MOST_POINTS][ELEMENT_MOST_NODES], nearest = INFINITY, volume = 0.0;
+    /* points of the piece, its volume, and the nearest to the place */
     for (size_t p = 0; p < rule->point_count; p++) {
         double natural[3], gradient[ELEMENT_MOST_NODES][3], offset[3];
         in_piece(sum->type, piece, rule->at[p], natural);
@@ -162,6 +168,7 @@ static void add_piece(struct mass_sum *sum, const struct piece *piece, double sc
         nearest = fmin(nearest, norm3(offset));
         volume += scale * rule->weight[p] * here[p].volume;
     }
+    /* near: by eighths */
     if (splits < MOST_SPLITS && nearest < FAR * cbrt(volume)) {
         struct piece parts[8];
         split(sum->type, piece, parts);
@@ -169,6 +176,7 @@ static void add_piece(struct mass_sum *sum, const struct piece *piece, double sc
             add_piece(sum, &parts[i], scale / 8.0, splits + 1);
         return;
     }
+    /* far: by the rule */
     for (size_t p = 0; p < rule->point_count; p++)
         add_mass_point(sum, here[p].position, scale * rule->weight[p] * here[p].volume, shapes[p]);
 }
@@ -183,6 +191,7 @@ void flexibility_volume_add_mass(const struct volume_rule *rule,
         enum element_type type = mesh->types[e];
         double nodes[ELEMENT_MOST_NODES][3], offset[3];
         struct mass_sum sum = {place, &rule->rules[type], type, nodes, {{0.0}}};
+        /* near elements in pieces, far ones by their own points */
         sub3(rule->centres[e], place->load.point, offset);
         if (norm3(offset) < FAR * rule->radii[e]) {
             element_points(mesh, e, nodes);
@@ -192,6 +201,7 @@ void flexibility_volume_add_mass(const struct volume_rule *rule,
                 add_mass_point(&sum, rule->points[i], rule->points[i][3],
                                sum.rule->shape[i - rule->first[e]]);
         }
+        /* to the nodes, as momentum */
         double density = mesh->part[mesh->parts[e]].material.density;
         for (size_t n = 0; n < sum.rule->node_count; n++)
             add_scaled3(density, sum.sums[n], momentum + 3 * mesh->nodes[mesh->first[e] + n]);
@@ -243,6 +253,7 @@ double flexibility_volume_add_parts(const struct volume_rule *rule,
     const struct solid_mesh *mesh = rule->mesh;
     const struct material *own = &mesh->part[place->part].material;
     double work = 0.0;
+    /* elements of the place's own stiffness balance already */
     for (size_t e = 0; e < mesh->element_count; e++) {
         const struct material *other = &mesh->part[mesh->parts[e]].material;
         if (other->young == own->young && other->poisson == own->poisson)
@@ -250,6 +261,7 @@ double flexibility_volume_add_parts(const struct volume_rule *rule,
         const struct element_rule *points = &rule->rules[mesh->types[e]];
         double nodes[ELEMENT_MOST_NODES][3];
         element_points(mesh, e, nodes);
+        /* the stress of the place's material, less that of this one, at one strain */
         for (size_t p = 0; p < points->point_count; p++) {
             struct element_point here;
             double stress[6], strain[6], there[6];

@@ -187,6 +187,7 @@ static void append(struct lanczos *state)
  * is |beta s_last|. */
 static bool look(struct lanczos *state)
 {
+    /* T, made symmetric against rounding */
     size_t size = state->size;
     for (size_t i = 0; i < size; i++)
         for (size_t j = 0; j < size; j++)
@@ -194,6 +195,7 @@ static bool look(struct lanczos *state)
                                                   state->projection[j * state->room + i]);
     if (!linear_symmetric_eigen(size, state->vectors, state->values))
         return false;
+    /* from the largest down, until a residual is too large */
     state->converged = 0;
     while (state->converged < size) {
         size_t at = size - 1 - state->converged;
@@ -245,10 +247,12 @@ size_t lanczos_expected_vectors(size_t count)
 static enum percuss_status iterate(struct lanczos *state, struct fault *fault)
 {
     size_t wanted = state->input->count, look_at = wanted + 2 * LANCZOS_BLOCK;
+    /* a random block to begin with */
     for (size_t j = 0; j < LANCZOS_BLOCK; j++)
         fill_random(state, j);
     orthogonalise(state, 0, LANCZOS_BLOCK, false);
     orthonormalise(state);
+    /* one block more, with room for it */
     while (state->converged < wanted) {
         if (state->size + LANCZOS_BLOCK > state->room &&
             !make_room(state, state->room + state->room / 2 + LANCZOS_BLOCK))
@@ -257,8 +261,10 @@ static enum percuss_status iterate(struct lanczos *state, struct fault *fault)
         enum percuss_status status = extend(state, fault);
         if (status)
             return status;
+        /* it can be stopped between blocks */
         if (!goes_on(state))
             return fault_set(fault, PERCUSS_TIMEOUT, "stopped");
+        /* when it has grown by a tenth */
         if (state->size < look_at)
             continue;
         if (!look(state))
@@ -306,14 +312,17 @@ enum percuss_status lanczos_modes(const struct lanczos_input *input, double **om
                                   double **shapes, struct fault *fault)
 {
     *omega = *shapes = NULL;
+    /* no more than there are */
     if (input->count > free_count(input))
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%zu modes: the mesh has only %zu",
                          input->count, free_count(input));
+    /* two blocks, and a basis for as many vectors as that usually takes */
     struct lanczos state = {.input = input, .n = input->matrices->stiffness.n};
     state.next = calloc(LANCZOS_BLOCK * state.n, sizeof *state.next);
     state.massive = calloc(LANCZOS_BLOCK * state.n, sizeof *state.massive);
     bool fine = state.next && state.massive &&
                 make_room(&state, lanczos_expected_vectors(input->count) + LANCZOS_BLOCK);
+    /* eigenvalues, then the shapes */
     enum percuss_status status = fine ? iterate(&state, fault) : no_memory(fault);
     if (!status)
         status = collect(&state, omega, shapes, fault);

@@ -52,6 +52,7 @@ static enum percuss_status assign_named(const struct options *options, struct so
 enum percuss_status materials_assign(const struct options *options, struct solid_mesh *mesh,
                                      struct fault *fault)
 {
+    /* one material given by numbers is that of every part */
     struct fault inner = {""};
     if (!isnan(options->young)) {
         struct material material = {"given",          options->young, options->poisson,
@@ -59,7 +60,9 @@ enum percuss_status materials_assign(const struct options *options, struct solid
         for (size_t i = 0; i < mesh->part_count; i++)
             give(&mesh->part[i], &material);
     }
+    /* names on the command line go before it */
     enum percuss_status status = assign_named(options, mesh, fault);
+    /* each part has one that is good */
     for (size_t i = 0; !status && i < mesh->part_count; i++) {
         const struct mesh_part *part = &mesh->part[i];
         if (!part->has_material)

@@ -178,15 +178,18 @@ static enum percuss_status measure(const struct modes_task *task, struct modes *
     size_t n = modes->n, rigid = task->rigid.count;
     double *massive = malloc(TOGETHER * n * sizeof *massive + 1);
     double *products = malloc(TOGETHER * (modes->count + rigid) * sizeof *products + 1);
+    /* a few at a time: M times a block of modes */
     for (size_t first = 0; massive && products && first < modes->count; first += TOGETHER) {
         size_t count = modes->count - first < TOGETHER ? modes->count - first : TOGETHER;
         struct dense block = {n, count, massive}, shapes = {n, modes->count, modes->shapes};
         sparse_multiply(&task->matrices->mass, count, modes->shapes + first * n, massive);
+        /* with all modes: 1 with itself, 0 with others */
         dense_products(shapes, block, products);
         for (size_t j = 0; j < count; j++)
             for (size_t i = 0; i < modes->count; i++)
                 modes->doubt = fmax(modes->doubt, fabs(products[j * modes->count + i] -
                                                        (i == first + j ? 1.0 : 0.0)));
+        /* with rigid motions: 0 */
         dense_products(task->rigid, block, products);
         for (size_t i = 0; i < count * rigid; i++)
             modes->doubt = fmax(modes->doubt, fabs(products[i]));

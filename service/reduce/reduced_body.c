@@ -53,12 +53,14 @@ static void name_matrix(const struct sparse *matrix, struct sha256 *hash)
 /* What everything in the file follows from. */
 static void name(const struct reduced_parts *parts, char text[SHA256_TEXT])
 {
+    /* the mesh */
     const struct solid_mesh *mesh = parts->mesh;
     struct sha256 hash = sha256_begin();
     sha256_add(&hash, mesh->points, mesh->node_count * sizeof *mesh->points);
     sha256_add(&hash, mesh->types, mesh->element_count);
     sha256_add(&hash, mesh->nodes, mesh->first[mesh->element_count] * sizeof *mesh->nodes);
     sha256_add(&hash, mesh->parts, mesh->element_count * sizeof *mesh->parts);
+    /* its materials */
     for (size_t i = 0; i < mesh->part_count; i++) {
         const struct material *material = &mesh->part[i].material;
         sha256_add(&hash, material->name, strlen(material->name) + 1);
@@ -68,12 +70,14 @@ static void name(const struct reduced_parts *parts, char text[SHA256_TEXT])
         sha256_add(&hash, &material->yield, sizeof material->yield);
         sha256_add(&hash, &material->tangent, sizeof material->tangent);
     }
+    /* supports, and matrices from elsewhere */
     if (parts->held)
         sha256_add(&hash, parts->held, 3 * mesh->node_count * sizeof *parts->held);
     if (parts->foreign) {
         name_matrix(&parts->foreign->stiffness, &hash);
         name_matrix(&parts->foreign->mass, &hash);
     }
+    /* what was asked for */
     sha256_add(&hash, parts->sites, parts->site_count * sizeof *parts->sites);
     sha256_add(&hash, &parts->modes->count, sizeof parts->modes->count);
     sha256_end(&hash, text);
@@ -169,21 +173,25 @@ static bool fill(const struct reduced_parts *parts, struct mesh_body *body)
 enum percuss_status reduced_body_make(const struct reduced_parts *parts, struct mesh_body **body,
                                       struct fault *fault)
 {
+    /* a face keeps its material in one byte */
     const struct bulk *bulk = parts->bulk;
     *body = NULL;
     if (parts->mesh->part_count > 256)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%zu parts: must be at most 256",
                          parts->mesh->part_count);
+    /* arrays */
     struct mesh_body *made = calloc(1, sizeof *made);
     if (!made || !fill(parts, made)) {
         mesh_body_free(made);
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     }
+    /* where it comes from */
     name(parts, made->hash);
     snprintf(made->source, sizeof made->source, "%s", parts->source);
     snprintf(made->supports, sizeof made->supports, "%s", parts->supports);
     made->supported = parts->held != NULL;
     made->unit = parts->mesh->unit;
+    /* the whole body's figures */
     made->volume = bulk->volume;
     made->mass = bulk->mass;
     memcpy(made->centre, bulk->centre, sizeof made->centre);

@@ -24,8 +24,8 @@ static const double ELEMENTS_PER_WAVE = 8.0;
 /* Of a body that is so compact that no mode lies as far as the mesh is good. */
 enum { LEAST_MODES = 10 };
 
-/* Most modes without which flexibility is interpolated (on a bracket 110 are three times as exact as
- * 30; sites_find takes fewer where that is no better), and sites that it is computed at. */
+/* Most modes without which flexibility is interpolated (on a bracket 110 are three times as exact
+ * as 30; sites_find takes fewer where that is no better), and sites that it is computed at. */
 enum { REMOVED = 120, SITES = 1500 };
 
 /* Of an element's size: how far a site may be off the surface. */
@@ -67,6 +67,7 @@ static enum percuss_status place_sites(struct reduction *reduction, struct fault
 
 static enum percuss_status read_body(struct reduction *reduction, struct fault *fault)
 {
+    /* the mesh, its materials and its surface, each checked by what follows */
     const struct options *options = reduction->options;
     struct mesh_options how = {options->unit, options->size * options->unit};
     struct solid_mesh *mesh = &reduction->mesh;
@@ -83,9 +84,11 @@ static enum percuss_status read_body(struct reduction *reduction, struct fault *
         status = place_sites(reduction, fault);
     if (status)
         return status;
+    /* what is known of it before any matrix */
     bulk_of(mesh, &reduction->bulk);
     reduction->enclosed = reduced_body_enclosed(mesh, &reduction->surface);
     reduction->good_to = frequency_limit(mesh, reduction->surface.size);
+    /* what is odd, but allowed */
     for (size_t i = 0; i < reduction->findings.remark_count; i++)
         fprintf(stderr, "percuss-reduce: warning: %s\n", reduction->findings.remarks[i]);
     return PERCUSS_OK;
@@ -116,6 +119,7 @@ static enum percuss_status hold(struct reduction *reduction, struct fault *fault
 
 static enum percuss_status assemble(struct reduction *reduction, struct fault *fault)
 {
+    /* matrices from files, which hold what they hold, or from the mesh */
     const struct options *options = reduction->options;
     struct matrices_files files = {options->stiffness, options->mass, options->freedoms};
     enum percuss_status status =
@@ -123,10 +127,12 @@ static enum percuss_status assemble(struct reduction *reduction, struct fault *f
                         : matrices_make(&reduction->mesh, &reduction->matrices, fault);
     if (!status && reduction->matrices.held)
         snprintf(reduction->supports, sizeof reduction->supports, "(matrices)");
+    /* and what the command line holds */
     if (!status)
         status = hold(reduction, fault);
     if (status)
         return status;
+    /* the task of the modes, and the rigid motions left to it */
     struct modes_task *task = &reduction->task;
     task->matrices = &reduction->matrices;
     task->scale = rigid_modes_scale(&reduction->mesh, &reduction->bulk);
@@ -183,6 +189,7 @@ static enum percuss_status estimate(struct reduction *reduction, size_t count, b
 /* Which modes: by number, by frequency, or as far as the mesh is good. */
 static enum percuss_status choose(struct reduction *reduction, struct fault *fault)
 {
+    /* how many at most, and what that takes */
     const struct options *options = reduction->options;
     struct modes_task *task = &reduction->task;
     bool asked = options->max_frequency > 0.0;
@@ -192,16 +199,19 @@ static enum percuss_status choose(struct reduction *reduction, struct fault *fau
         estimate(reduction, asked ? OPTIONS_MODES : task->most, options->modes > 0, fault);
     if (status || options->modes)
         return status;
+    /* by frequency, asked for or the mesh's own: those below are counted */
     double hertz = asked ? options->max_frequency : reduction->good_to;
     size_t count;
     progress_stage(&reduction->progress, "counting modes", READ, 0.1 * MODES);
     status = modes_count(task, 2.0 * M_PI * hertz, &count, fault);
     if (status)
         return status;
+    /* below one that was asked for there must be some */
     if (asked && (count == 0 || count > LIMIT_MODES))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "--max-frequency: %g Hz: there are %zu modes below, must be 1 to %d",
                          hertz, count, LIMIT_MODES);
+    /* as far as the mesh is good there may be none: the first few */
     if (count == 0) {
         task->most = LEAST_MODES;
         return PERCUSS_OK;
@@ -224,6 +234,7 @@ static enum percuss_status find_modes(struct reduction *reduction, struct fault 
 
 static enum percuss_status make_body(struct reduction *reduction, struct fault *fault)
 {
+    /* the source: the file without its folder, the version, the date in UTC */
     char source[256], date[32] = "";
     time_t now = time(NULL);
     struct tm utc;
@@ -232,6 +243,7 @@ static enum percuss_status make_body(struct reduction *reduction, struct fault *
     const char *slash = strrchr(reduction->options->file, '/');
     snprintf(source, sizeof source, "%.150s, percuss-reduce %s, %s",
              slash ? slash + 1 : reduction->options->file, PERCUSS_VERSION, date);
+    /* all that the file is made of */
     struct reduced_parts parts = {.mesh = &reduction->mesh,
                                   .surface = &reduction->surface,
                                   .bulk = &reduction->bulk,
@@ -251,6 +263,7 @@ static enum percuss_status find_flexibility(struct reduction *reduction, struct 
     const struct options *options = reduction->options;
     const struct modes *modes = &reduction->modes;
     struct watch watch = {progress_show, &reduction->progress};
+    /* modes that are kept are taken out, as many as pay */
     struct sites_task task = {.body = {.mesh = &reduction->mesh,
                                        .surface = &reduction->surface,
                                        .matrices = &reduction->matrices,

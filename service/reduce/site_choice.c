@@ -80,6 +80,7 @@ static bool collect(struct candidates *candidates, const struct surface_rule *ru
                     const struct flexibility_edges *edges)
 {
     enum { CUTS = 4 };
+    /* parts of one face, and which patches have a place */
     const struct surface *surface = rule->surface;
     double parts[CUTS * CUTS][2], whole[1][2];
     bool *served = calloc(surface->patch_count, sizeof *served);
@@ -88,12 +89,14 @@ static bool collect(struct candidates *candidates, const struct surface_rule *ru
         free(served);
         return false;
     }
+    /* away from edges first; then, in patches without any, at any distance */
     for (int pass = 0; pass < 2; pass++) {
         candidates->least = pass == 0 ? candidates->nearest : 0.0;
         for (size_t f = 0; f < surface->face_count; f++) {
             const struct surface_face *face = &surface->faces[f];
             if (pass == 1 && served[face->patch])
                 continue;
+            /* the middle; near an edge, the parts instead */
             size_t before = candidates->count;
             part_middles(face->count, 1, whole);
             if (add(candidates, rule, edges, f, whole[0])) {
@@ -103,6 +106,7 @@ static bool collect(struct candidates *candidates, const struct surface_rule *ru
                     add(candidates, rule, edges, f, parts[i]);
             }
         }
+        /* which patches that served */
         for (size_t i = 0; i < candidates->count; i++)
             served[candidates->all[i].patch] = true;
     }

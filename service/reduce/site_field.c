@@ -34,11 +34,13 @@ static void edge_terms(const struct site_field *field, size_t patch, const doubl
 {
     const struct flexibility_edges *edges = field->edges;
     double sums[2] = {0.0}; /* sharp, hollow */
+    /* each edge as two straight lines through its middle */
     for (size_t i = 0; i < edges->count; i++) {
         if (edges->patches[i] != patch)
             continue;
         for (int half = 0; half < 2; half++) {
             const double *from = edges->points[i][half], *to = edges->points[i][half + 1];
+            /* along it and aside; no nearer than the edge is blunt */
             double along[3], offset[3];
             sub3(to, from, along);
             sub3(x, from, offset);
@@ -49,6 +51,7 @@ static void edge_terms(const struct site_field *field, size_t patch, const doubl
                 (atan((start + length) / aside) - atan(start / aside)) / aside;
         }
     }
+    /* over that bluntness, and the logarithm */
     for (int k = 0; k < 2; k++) {
         terms[2 * k] = field->blunt * sums[k] / M_PI;
         terms[2 * k + 1] = sums[k] > 0.0 ? log(terms[2 * k]) : 0.0;
@@ -76,11 +79,13 @@ static void find(const struct site_field *field, const struct surface_face *face
                  const double outward[3], size_t without, struct neighbours *found)
 {
     found->count = 0;
+    /* of the same patch and material, known, and not across a thin wall */
     for (size_t i = 0; i < field->count; i++) {
         if (field->faces[i]->patch != face->patch || field->faces[i]->part != face->part ||
             i == without || isnan(field->values[i]) ||
             dot3(field->normals[i], outward) < OTHER_SIDE)
             continue;
+        /* nearer than the farthest that is kept */
         double offset[3];
         sub3(field->points[i], x, offset);
         double distance = norm3(offset);
@@ -92,6 +97,7 @@ static void find(const struct site_field *field, const struct surface_face *face
         } else {
             found->count++;
         }
+        /* in its place by distance */
         for (; at > 0 && found->distances[at - 1] > distance; at--) {
             found->distances[at] = found->distances[at - 1];
             found->places[at] = found->places[at - 1];

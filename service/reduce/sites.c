@@ -60,17 +60,20 @@ static enum percuss_status choose(struct sites *sites, double *spacing, struct f
     const struct surface_rule *rule = flexibility_rule(sites->flexibility);
     const struct flexibility_edges *edges = flexibility_edges(sites->flexibility);
     struct flexibility_place *wanted = malloc((task->exact_count + 1) * sizeof *wanted);
+    /* the places nearest to the points asked for */
     if (wanted) {
         for (size_t i = 0; i < task->exact_count; i++) {
             struct surface_place at = surface_near(body->mesh, body->surface, task->exact[i]);
             wanted[i] = flexibility_place_make(rule, edges, at.face, at.foot.u, at.foot.v);
         }
+        /* others between, at that spacing */
         struct site_choice choice = {task->spacing > 0.0 ? task->spacing
                                                          : SPACING * body->surface->size,
                                      task->most, task->exact_count, wanted};
         sites->places = site_choice_make(&choice, rule, edges, &sites->count, spacing);
         free(wanted);
     }
+    /* room for the answers */
     sites->values = malloc((sites->count + 1) * sizeof *sites->values);
     if (task->between)
         sites->between = malloc((sites->count * sites->count + 1) * sizeof *sites->between);
@@ -96,12 +99,14 @@ static enum percuss_status solve(struct sites *sites, struct sites_report *repor
     struct pace pace = {.watch = sites->task->watch};
     struct flexibility_answer answers[FLEXIBILITY_BLOCK];
     double least = LEAST_REACH * sites->task->body.surface->size;
+    /* the next block, unless stopped */
     for (size_t first = 0; first < sites->count; first += FLEXIBILITY_BLOCK) {
         size_t left = sites->count - first;
         size_t count = left < FLEXIBILITY_BLOCK ? left : FLEXIBILITY_BLOCK;
         const struct flexibility_place *places = sites->places + first;
         if (sites->task->watch && !pace_ask(&pace, (double)first / (double)sites->count))
             return pace_fault(fault, PERCUSS_TIMEOUT);
+        /* each column: the value at the cut, unknown where the elements are too coarse */
         enum percuss_status status =
             flexibility_solve(sites->flexibility, count, places, answers, fault);
         if (status != PERCUSS_OK)
@@ -110,6 +115,7 @@ static enum percuss_status solve(struct sites *sites, struct sites_report *repor
             double value = at_cut(sites, &places[c], &answers[c]);
             sites->values[first + c] = places[c].load.reach < least ? NAN : value;
             report->imbalance = fmax(report->imbalance, answers[c].imbalance);
+            /* and what it does at the other sites */
             for (size_t i = 0; sites->between && i < sites->count; i++)
                 sites->between[i * sites->count + first + c] =
                     (float)(i == first + c
@@ -159,6 +165,7 @@ static enum percuss_status make_field(const struct sites *sites, struct site_fie
                          flexibility_edges(sites->flexibility), sites->count, sites->places,
                          sites->values, report->spacing))
         return pace_fault(fault, PERCUSS_INTERNAL);
+    /* each site from its neighbours alone */
     double sum = 0.0, inside = 0.0;
     report->unknown = 0;
     report->largest_error = 0.0;
@@ -168,6 +175,7 @@ static enum percuss_status make_field(const struct sites *sites, struct site_fie
         if (isnan(error))
             continue;
         report->largest_error = fmax(report->largest_error, error);
+        /* the usual error: away from edges */
         if (sites->places[i].edge > report->spacing) {
             sum += error * error;
             inside += 1.0;

@@ -95,6 +95,7 @@ static void fill_face(const struct site_field *field, const struct surface_rule 
     const struct material *material = &rule->mesh->part[f->part].material;
     bool marked[FACE_MOST_NODES] = {false}, any = false, whole = true;
     double own[FACE_MOST_NODES];
+    /* nodes near an edge; and whether all of the face is known */
     memcpy(own, values, sizeof own);
     for (size_t n = 0; n < f->count; n++) {
         double edge =
@@ -103,8 +104,10 @@ static void fill_face(const struct site_field *field, const struct surface_rule 
         any = any || marked[n];
         whole = whole && !isnan(own[n]);
     }
+    /* these are fitted to the field inside the face */
     if (any && whole)
         fit_marked(field, rule, face, marked, own);
+    /* with the slope that a half-space of that curvature has */
     for (size_t n = 0; n < f->count; n++) {
         double curvature = sites_mean_curvature(&rule->surface->points[face][n]);
         result->flexibility[n] = own[n];

@@ -95,6 +95,7 @@ static void fill_face(struct surface_rule *rule, size_t face)
     size_t count = rule->surface->faces[face].count;
     double nodes[FACE_MOST_NODES][3], at[SURFACE_RULE_MOST][2], weights[SURFACE_RULE_MOST];
     surface_rule_nodes(rule, face, nodes);
+    /* points of integration, each with its area as a vector */
     place_all(count, at, weights);
     for (size_t p = 0; p < point_count(count); p++) {
         size_t i = rule->first[face] + p;
@@ -102,6 +103,7 @@ static void fill_face(struct surface_rule *rule, size_t face)
         facet_place((int)count, nodes, at[p][0], at[p][1], rule->points[i], area);
         scale3(weights[p], area, rule->areas[i]);
     }
+    /* a sphere that holds the nodes */
     for (int k = 0; k < 3; k++) {
         rule->centres[face][k] = 0.0;
         for (size_t n = 0; n < count; n++)
@@ -118,6 +120,7 @@ static void fill_face(struct surface_rule *rule, size_t face)
 bool surface_rule_make(struct surface_rule *rule, const struct solid_mesh *mesh,
                        const struct surface *surface)
 {
+    /* room for what there is one of a face */
     size_t faces = surface->face_count, total = 0;
     *rule = (struct surface_rule){.mesh = mesh, .surface = surface};
     rule->first = malloc((faces + 1) * sizeof *rule->first);
@@ -125,16 +128,19 @@ bool surface_rule_make(struct surface_rule *rule, const struct solid_mesh *mesh,
     rule->radii = malloc(faces * sizeof *rule->radii);
     if (!rule->first || !rule->centres || !rule->radii)
         goto no_memory;
+    /* where the points of each face begin */
     for (size_t f = 0; f < faces; f++) {
         rule->first[f] = total;
         total += point_count(surface->faces[f].count);
     }
     rule->first[faces] = total;
+    /* the points */
     rule->points = malloc(total * sizeof *rule->points);
     rule->areas = malloc(total * sizeof *rule->areas);
     if (!rule->points || !rule->areas)
         goto no_memory;
 
+    /* shapes at the points, for each type of face */
     static const int COUNTS[3] = {FACE_TRIANGLE6, FACE_QUAD8, FACE_QUAD9};
     for (int kind = 0; kind < 3; kind++) {
         double at[SURFACE_RULE_MOST][2], weights[SURFACE_RULE_MOST];

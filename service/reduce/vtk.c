@@ -36,16 +36,19 @@ static void write_header(struct writer *writer, const struct solid_mesh *mesh,
 {
     uint64_t nodes = mesh->node_count, cells = mesh->element_count;
     uint64_t entries = mesh->first[mesh->element_count];
+    /* sizes first; the data follow in this order */
     fprintf(writer->file,
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
             "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n"
             "<Piece NumberOfPoints=\"%" PRIu64 "\" NumberOfCells=\"%" PRIu64 "\">\n<PointData>\n",
             nodes, cells);
+    /* a field a mode */
     for (size_t m = 0; m < shown; m++) {
         char name[64];
         snprintf(name, sizeof name, "mode %zu: %.6g Hz", m + 1, modes->omega[m] / (2.0 * M_PI));
         announce(writer, "Float32", name, 3, 12 * nodes);
     }
+    /* what the mesh is */
     fprintf(writer->file, "</PointData>\n<CellData>\n");
     announce(writer, "Int32", "part", 1, 4 * cells);
     fprintf(writer->file, "</CellData>\n<Points>\n");

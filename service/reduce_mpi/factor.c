@@ -43,6 +43,7 @@ enum percuss_status factor_analyse(const struct matrices *matrices, enum factor_
                                    struct factor **factor, struct fault *fault)
 {
     *factor = NULL;
+    /* rows are numbered in int */
     if (matrices->stiffness.n == 0 || matrices->stiffness.n > INT_MAX)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%zu degrees of freedom: must be 1 to %d",
                          matrices->stiffness.n, INT_MAX);
@@ -51,6 +52,7 @@ enum percuss_status factor_analyse(const struct matrices *matrices, enum factor_
         return no_memory(fault);
     made->matrices = matrices;
     made->kind = kind;
+    /* the others are told to begin, and this one does its own share */
     bool positive = kind == FACTOR_POSITIVE;
     struct spread_outcome outcome;
     team_order(

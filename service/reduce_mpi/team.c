@@ -60,8 +60,10 @@ void team_follow(void)
     struct member *members = NULL;
     struct spread_outcome outcome;
     for (;;) {
+        /* the leader's next order; the work itself is collective */
         struct team_order order;
         MPI_Bcast(&order, sizeof order, MPI_BYTE, 0, PETSC_COMM_WORLD);
+        /* each with the factor that the key names */
         switch (order.job) {
         case TEAM_MAKE:
             spread_make(&begin(&members, order.key)->spread, NULL, order.positive, &outcome);
@@ -79,6 +81,7 @@ void team_follow(void)
             finish(find(&members, order.key));
             break;
         case TEAM_END:
+            /* what was left of them */
             while (members)
                 finish(&members);
             return;

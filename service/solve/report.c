@@ -39,9 +39,11 @@ static void fill_contacts(const struct problem *problem, const struct solution *
     size_t n = problem->contact_count;
     bool unsolved = outcome_is_unsolved(problem, &solution->outcome);
     result->contact_count = n;
+    /* from the track of each contact */
     for (size_t c = 0; c < n; c++) {
         const struct track *track = &solution->outcome.tracks[c];
         struct solve_contact_result *contact = &result->contacts[c];
+        /* a long list is cut; the count says how much */
         size_t listed =
             track->count < PERCUSS_MAX_SUB_IMPACTS ? track->count : PERCUSS_MAX_SUB_IMPACTS;
         *contact = (struct solve_contact_result){
@@ -54,6 +56,7 @@ static void fill_contacts(const struct problem *problem, const struct solution *
             .sub_impacts_listed = listed,
             .sub_impacts = track->list,
         };
+        /* its impulse, along the normal */
         scale3(track->impulse, problem->request->contacts[c].normal, contact->impulse_vector);
     }
 }

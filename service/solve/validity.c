@@ -105,6 +105,7 @@ static void find_mesh_place(const struct problem *problem, size_t c, unsigned wh
     const struct face_spot *spot = &problem->sides[c][which].site.spot;
     const struct body *body = problem_body(problem, c, which);
     double element = body->scale * body->mesh->element_size;
+    /* an edge that is near: beside the contact's width, else beside the elements */
     if (half_axis > 0.5 * spot->edge)
         warnings_add(warnings, WARNING_EDGE + which,
                      "contacts[%zu]: %.3g m from an edge of %s, with a half-axis of %.3g m: the "
@@ -116,9 +117,11 @@ static void find_mesh_place(const struct problem *problem, size_t c, unsigned wh
             "contacts[%zu]: %.3g m from an edge of %s, whose elements are %.3g m long: its "
             "flexibility there is uncertain",
             c, spot->edge, body->id, element);
+    /* what the site itself says */
     if (spot->remark)
         warnings_add(warnings, WARNING_EDGE + which, "contacts[%zu]: on %s: %s", c, body->id,
                      spot->remark);
+    /* a normal that the mesh leaves open */
     if (spot->doubt > DOUBT)
         warnings_add(
             warnings, WARNING_EDGE + which,

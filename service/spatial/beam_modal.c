@@ -99,6 +99,7 @@ struct state {
 static bool state_create(const struct beam_modal *modal, double step, double approach,
                          struct state *state)
 {
+    /* at rest, approaching as rigid bodies */
     size_t n = modal->modes;
     double *room = calloc(6 * n, sizeof(double));
     *state = (struct state){.modal = modal,
@@ -108,11 +109,13 @@ static bool state_create(const struct beam_modal *modal, double step, double app
                             .q = room};
     if (!room)
         return false;
+    /* rows of one array */
     state->v = room + n;
     state->cosine = room + 2 * n;
     state->sine = room + 3 * n;
     state->rise = room + 4 * n;
     state->rise_rate = room + 5 * n;
+    /* what a force that rises to 1 N moves in a step: rigidly and at once, then by each mode */
     state->series = modal->residual + state->mobility * step * step / 6.0;
     for (size_t k = 0; k < n; k++) {
         double w = modal->omega[k], angle = w * step;

@@ -24,15 +24,18 @@ enum percuss_status collider_create(const struct pair *pair, double contact_step
     *collider =
         (struct collider){.pair = pair, .contact_step = contact_step, .flight_step = flight_step};
     size_t count = pair->pressed[0].count;
+    /* room for the compliance of both together */
     enum percuss_status status = PERCUSS_OK;
     collider->compliance = calloc(count * count, sizeof(double));
     if (!collider->compliance)
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory for %zu contact nodes", count);
+    /* each body: a fine step in contact, a coarse one in flight */
     for (int b = 0; b < 2 && status == PERCUSS_OK; b++) {
         const struct system3 *system = &pair->systems[b];
         status = pace3_create(system, RATIONAL_RADAU, contact_step, &collider->contact[b], fault);
         if (status == PERCUSS_OK)
             status = pace3_create(system, RATIONAL_GAUSS, flight_step, &collider->flight[b], fault);
+        /* what the contact's nodes do to each other in a fine step */
         if (status == PERCUSS_OK &&
             !pressed_add_compliance(system, &pair->pressed[b], &collider->contact[b],
                                     collider->compliance))
@@ -255,9 +258,11 @@ static enum percuss_status prepare(struct run *run, struct fault *fault)
     const struct pair *pair = run->collider->pair;
     size_t count = pair->pressed[0].count;
     double rise[2] = {0.0, -run->approach};
+    /* near at first: fine steps */
     run->count = count;
     run->near = true;
     run->near_gap = NEAR_STEPS * run->approach * run->collider->flight_step;
+    /* the second body comes at the first */
     for (int b = 0; b < 2; b++) {
         enum percuss_status status =
             moving_create(&pair->systems[b], &pair->pressed[b], rise[b], &run->moving[b], fault);
@@ -265,6 +270,7 @@ static enum percuss_status prepare(struct run *run, struct fault *fault)
             return status;
         run->now->factor += kept_factor_size(run->collider->contact[b].factor);
     }
+    /* room for the forces, and for which nodes touch */
     run->forces = calloc(count, sizeof(double));
     run->set = (struct active_set){.kind = ACTIVE_SET_BY_INDENTATION,
                                    .count = count,
@@ -338,6 +344,7 @@ enum percuss_status collider_run(const struct collider *collider,
     struct runs runs = {.collider = collider, .settings = settings, .count = count};
     enum percuss_status status = prepare_all(&runs, approach, collisions, fault);
     bool going = true;
+    /* runs in flight step together, then those in contact */
     while (status == PERCUSS_OK && going) {
         going = false;
         for (int near = 0; near < 2 && status == PERCUSS_OK; near++) {
@@ -348,9 +355,11 @@ enum percuss_status collider_run(const struct collider *collider,
             status = (near ? contact_steps : flight_steps)(&runs, chosen, fault);
             report(&runs, chosen, near);
         }
+        /* between steps it can be stopped */
         if (!pace_ask(settings->pace, collisions[0].time / settings->horizon))
             status = pace_fault(fault, PERCUSS_TIMEOUT);
     }
+    /* a last look at each */
     for (size_t i = 0; i < count && status == PERCUSS_OK; i++)
         look(&runs.run[i], settings);
     release(&runs);

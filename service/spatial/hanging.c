@@ -75,11 +75,13 @@ struct gathering {
 
 static void gather_one(struct gathering *gathering, size_t from, size_t node, double share)
 {
+    /* a master that is there takes more */
     for (size_t i = from; i < gathering->count; i++)
         if (gathering->masters[i] == node) {
             gathering->weights[i] += share;
             return;
         }
+    /* room for another; what was had stays good if there is none */
     if (gathering->count == gathering->room) {
         size_t room = gathering->room ? 2 * gathering->room : 1024;
         size_t *masters = realloc(gathering->masters, room * sizeof *masters);

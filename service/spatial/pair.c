@@ -170,17 +170,20 @@ static bool face_nodes(struct pair *pair)
     struct places above = {.same = FACING};
     size_t *of_place = malloc(sphere->touching * sizeof *of_place);
     bool faced = of_place && take_room(pair, beam->touching);
+    /* the sphere's nodes by what they stand above, each alone */
     for (size_t i = 0; faced && i < sphere->touching; i++) {
         const double *point = sphere->points[sphere->surface[i]];
         size_t place = places_add(&above, (const double[3]){point[0], point[1], 0.0});
         faced = place == i;
         of_place[i] = sphere->surface[i];
     }
+    /* the beam's within the ellipse */
     for (size_t i = 0; faced && i < beam->touching; i++) {
         size_t node = beam->surface[i];
         const double *point = beam->points[node];
         if (pow(point[0] / pair->axes[0], 2.0) + pow(point[1] / pair->axes[1], 2.0) > 1.0)
             continue;
+        /* one above each, both with freedoms of their own */
         size_t place = places_find(&above, (const double[3]){point[0], point[1], 0.0});
         faced = place != SIZE_MAX && pair->systems[PAIR_BEAM].index[node] != SIZE_MAX &&
                 pair->systems[PAIR_SPHERE].index[of_place[place]] != SIZE_MAX;

@@ -137,11 +137,13 @@ static bool list_surface(const struct cutting *cutting, struct refined *mesh)
         free(listed);
         return false;
     }
+    /* bricks of the finest level on the outer face */
     for (size_t b = 0; b < cutting->count; b++) {
         const struct cut *cut = &cutting->cuts[b];
         bool outside = cut->at[2] + 1 == cutting->shape->count[0][2] << cut->level;
         if (cut->block != 0 || cut->level != cutting->levels || !outside)
             continue;
+        /* their nodes on that face, once each */
         for (int n = 0; n < BRICK_NODES; n++) {
             double at[3];
             size_t node = mesh->bricks[b].nodes[n];

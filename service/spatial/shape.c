@@ -92,8 +92,10 @@ static void sphere_map(const struct shape *shape, size_t block, const double at[
     double r = shape->radius, share = at[2];
     const double *half = shape->half, *s = shape->inner;
     double up = 2.0 * at[2] - 1.0;
+    /* between the inner block and the sphere */
     double inside[3] = {s[0] * at[0], s[1] * at[1], s[2]}, outside[3] = {0.0};
     switch (block) {
+    /* above and below it, one the other's mirror */
     case ABOVE:
     case BELOW:
         outside[0] = half[0] * at[0];
@@ -105,6 +107,7 @@ static void sphere_map(const struct shape *shape, size_t block, const double at[
             share = 1.0 - at[2];
         }
         break;
+    /* the inner block itself */
     case MIDDLE:
         inside[2] = up * s[2];
         share = 0.0;
@@ -119,6 +122,7 @@ static void sphere_map(const struct shape *shape, size_t block, const double at[
         share = at[along_x ? 0 : 1];
     }
     }
+    /* turned over: the contact is the origin */
     between(inside, outside, share, place);
     place[2] = r - place[2];
 }

@@ -155,6 +155,7 @@ static enum percuss_status fill(const struct refined *mesh, const struct materia
     double points[ELEMENT_MOST_NODES][3], mass[BRICK_NODES][BRICK_NODES];
     double stiffness[BRICK_FREEDOMS][BRICK_FREEDOMS];
     for (size_t b = 0; b < mesh->brick_count; b++) {
+        /* a brick's own matrices */
         const struct refined_brick *brick = &mesh->bricks[b];
         for (int n = 0; n < BRICK_NODES; n++)
             memcpy(points[n], mesh->points[brick->nodes[n]], sizeof points[n]);
@@ -162,6 +163,7 @@ static enum percuss_status fill(const struct refined *mesh, const struct materia
             return fault_set(fault, PERCUSS_INTERNAL,
                              "brick %zu of block %zu with a corner at (%g, %g, %g) m is folded", b,
                              brick->block, points[0][0], points[0][1], points[0][2]);
+        /* hanging nodes to their masters, then what lies above the diagonal */
         reduce(mesh, system, brick, &reduced);
         for (size_t i = 0; i < reduced.count; i++)
             for (size_t j = 0; j < reduced.count; j++)
@@ -169,6 +171,7 @@ static enum percuss_status fill(const struct refined *mesh, const struct materia
                     add_block(&reduced, (const size_t[2]){i, j},
                               (const double(*)[BRICK_FREEDOMS])stiffness,
                               (const double(*)[BRICK_NODES])mass, system);
+        /* its mass, however it is shared out */
         for (int m = 0; m < BRICK_NODES; m++)
             for (int n = 0; n < BRICK_NODES; n++)
                 system->whole += mass[m][n];
