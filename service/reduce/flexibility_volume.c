@@ -30,17 +30,7 @@ static void fill_element(struct volume_rule *rule, size_t element)
         memcpy(point, here.position, sizeof here.position);
         point[3] = here.volume;
     }
-    /* a sphere that holds the nodes */
-    double *centre = rule->centres[element];
-    memset(centre, 0, 3 * sizeof *centre);
-    for (size_t n = 0; n < points->node_count; n++)
-        add_scaled3(1.0 / (double)points->node_count, nodes[n], centre);
-    rule->radii[element] = 0.0;
-    for (size_t n = 0; n < points->node_count; n++) {
-        double offset[3];
-        sub3(nodes[n], centre, offset);
-        rule->radii[element] = fmax(rule->radii[element], norm3(offset));
-    }
+    rule->radii[element] = surface_rule_sphere(points->node_count, nodes, rule->centres[element]);
 }
 
 bool volume_rule_make(struct volume_rule *rule, const struct solid_mesh *mesh)

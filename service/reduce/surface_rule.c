@@ -90,6 +90,20 @@ static void place_all(size_t count, double at[SURFACE_RULE_MOST][2],
                            weights + t * SURFACE_RULE_POINTS);
 }
 
+double surface_rule_sphere(size_t count, double points[][3], double centre[3])
+{
+    double radius = 0.0;
+    memset(centre, 0, 3 * sizeof *centre);
+    for (size_t n = 0; n < count; n++)
+        add_scaled3(1.0 / (double)count, points[n], centre);
+    for (size_t n = 0; n < count; n++) {
+        double offset[3];
+        sub3(points[n], centre, offset);
+        radius = fmax(radius, norm3(offset));
+    }
+    return radius;
+}
+
 static void fill_face(struct surface_rule *rule, size_t face)
 {
     size_t count = rule->surface->faces[face].count;
@@ -103,18 +117,7 @@ static void fill_face(struct surface_rule *rule, size_t face)
         facet_place((int)count, nodes, at[p][0], at[p][1], rule->points[i], area);
         scale3(weights[p], area, rule->areas[i]);
     }
-    /* a sphere that holds the nodes */
-    for (int k = 0; k < 3; k++) {
-        rule->centres[face][k] = 0.0;
-        for (size_t n = 0; n < count; n++)
-            rule->centres[face][k] += nodes[n][k] / (double)count;
-    }
-    rule->radii[face] = 0.0;
-    for (size_t n = 0; n < count; n++) {
-        double offset[3];
-        sub3(nodes[n], rule->centres[face], offset);
-        rule->radii[face] = fmax(rule->radii[face], norm3(offset));
-    }
+    rule->radii[face] = surface_rule_sphere(count, nodes, rule->centres[face]);
 }
 
 bool surface_rule_make(struct surface_rule *rule, const struct solid_mesh *mesh,

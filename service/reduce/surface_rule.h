@@ -48,4 +48,7 @@ void surface_rule_place(const struct surface_triangle *triangle, double at[][2],
 /* The four triangles of half the size. */
 void surface_rule_split(const struct surface_triangle *triangle, struct surface_triangle parts[4]);
 
+/* A sphere that holds points: the centre is their mean; returns the radius. */
+double surface_rule_sphere(size_t count, double points[][3], double centre[3]);
+
 #endif
