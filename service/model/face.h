@@ -19,6 +19,7 @@ struct face_spot {
     unsigned facet, material;
     double u, v;        /* on the facet */
     double edge;        /* distance from the nearest sharp edge of its patch, m; INFINITY: none */
+    double element;     /* how long the facet is, m */
     double doubt;       /* of the normal and the curvature, rad; 0 where they are declared */
     double flexibility; /* regular, m/N, see struct mesh_body_face; NAN: not known */
     double slope;

@@ -181,8 +181,9 @@ static struct face face_at(const struct body *body, const struct mesh_place *pla
     face.distance = dot3(away, face.outward);
     double aside = sqrt(fmax(dot3(away, away) - face.distance * face.distance, 0.0));
     double edge = body->scale * place->to_rim;
+    double element = body->scale * mesh_surface_face_size(body->mesh, place->face);
     /* from an inner foot the point is along the normal, but for kinks between faces */
-    bool near_rim = edge < OVER * body->scale * body->mesh->element_size;
+    bool near_rim = edge < OVER * element;
     face.beyond = near_rim && aside > ASIDE * smallest_radius(body) ? aside : -edge;
     face.spot = (struct face_spot){
         .on_mesh = true,
@@ -191,6 +192,7 @@ static struct face face_at(const struct body *body, const struct mesh_place *pla
         .u = place->u,
         .v = place->v,
         .edge = edge,
+        .element = element,
         .doubt = normal && curvature ? 0.0 : spot.doubt,
         .flexibility = spot.flexibility * mesh_ratio_flexibility(body),
         .slope = spot.slope * mesh_ratio_flexibility(body),

@@ -6,9 +6,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/mesh_surface.h"
 #include "model/vector.h"
 
-/* Parts of an element. */
+/* Parts of an element, the longer one of both sites. */
 static const double ONE_PLACE = 0.5;
 /* Sites that a place is interpolated from: enough for a plane through them. */
 enum { NEIGHBOURS = 6 };
@@ -124,7 +125,9 @@ static double regular_part(const struct mesh_body *mesh, size_t a, size_t b, boo
     sub3(mesh->site_point[a], mesh->site_point[b], apart);
     double distance = norm3(apart);
     size_t n = mesh->site_count;
-    if (one_patch && distance < ONE_PLACE * mesh->element_size)
+    double element = fmax(mesh_surface_face_size(mesh, mesh->site_face[a]),
+                          mesh_surface_face_size(mesh, mesh->site_face[b]));
+    if (one_patch && distance < ONE_PLACE * element)
         return 0.5 * ((double)mesh->between[a * n + a] + (double)mesh->between[b * n + b]);
     double all = (double)mesh->between[a * n + b];
     return one_patch ? all - half_space_field(mesh, mesh->site_face[a], distance,

@@ -214,6 +214,19 @@ int mesh_surface_find(const struct mesh_body *body, const double p[3], double be
     return finding.count;
 }
 
+double mesh_surface_face_size(const struct mesh_body *body, unsigned face)
+{
+    const struct mesh_body_face *at = &body->faces[face];
+    int corners = at->count == 6 ? 3 : 4;
+    double longest2 = 0.0;
+    for (int i = 0; i < corners; i++) {
+        double edge[3];
+        sub3(body->points[at->nodes[i]], body->points[at->nodes[(i + 1) % corners]], edge);
+        longest2 = fmax(longest2, dot3(edge, edge));
+    }
+    return sqrt(longest2);
+}
+
 /* The tensor without what it has along the normal: interpolation turns the normal a little. */
 static void lay_across(const double n[3], double curvature[9])
 {

@@ -36,6 +36,9 @@ bool mesh_surface_prepare(struct mesh_body *body);
 int mesh_surface_find(const struct mesh_body *body, const double p[3], double beside,
                       struct mesh_place *places, int most);
 
+/* How long a face is: the longest of its edges, from corner to corner, m. */
+double mesh_surface_face_size(const struct mesh_body *body, unsigned face);
+
 struct mesh_spot mesh_surface_at(const struct mesh_body *body, unsigned face, double u, double v);
 
 #endif

@@ -96,27 +96,26 @@ static void find_size(const struct problem *problem, const struct impact_outcome
     }
 }
 
-/* On a mesh: a contact wider than half its distance from an edge, or nearer to it than its elements
- * are long (service/reduce), and a site whose surface is declared otherwise than it is or is not
- * well known. */
+/* On a mesh: a contact wider than half its distance from an edge, or nearer to it than the
+ * element there is long (service/reduce), and a site whose surface is declared otherwise than it is
+ * or is not well known. */
 static void find_mesh_place(const struct problem *problem, size_t c, unsigned which,
                             double half_axis, struct warnings *warnings)
 {
     const struct face_spot *spot = &problem->sides[c][which].site.spot;
     const struct body *body = problem_body(problem, c, which);
-    double element = body->scale * body->mesh->element_size;
     /* an edge that is near: beside the contact's width, else beside the elements */
     if (half_axis > 0.5 * spot->edge)
         warnings_add(warnings, WARNING_EDGE + which,
                      "contacts[%zu]: %.3g m from an edge of %s, with a half-axis of %.3g m: the "
                      "contact law assumes material on all sides",
                      c, spot->edge, body->id, half_axis);
-    else if (element > spot->edge && body_is_flexible(body))
+    else if (spot->element > spot->edge && body_is_flexible(body))
         warnings_add(
             warnings, WARNING_EDGE + which,
-            "contacts[%zu]: %.3g m from an edge of %s, whose elements are %.3g m long: its "
-            "flexibility there is uncertain",
-            c, spot->edge, body->id, element);
+            "contacts[%zu]: %.3g m from an edge of %s, whose elements there are %.3g m long: "
+            "its flexibility there is uncertain",
+            c, spot->edge, body->id, spot->element);
     /* what the site itself says */
     if (spot->remark)
         warnings_add(warnings, WARNING_EDGE + which, "contacts[%zu]: on %s: %s", c, body->id,

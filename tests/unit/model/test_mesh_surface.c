@@ -85,6 +85,8 @@ static void knows_a_cylinder(void **state)
         const double p[3] = {x, RADIUS * n[1], RADIUS * n[2]};
         assert_int_equal(mesh_surface_find(body, p, 0.0, &place, 1), 1);
         assert_true(place.distance <= 4e-5 * RADIUS);
+        /* longer along than across */
+        near_relative(mesh_surface_face_size(body, place.face), LENGTH / 16.0, 1e-12);
         near(place.to_rim, 0.5 * LENGTH - fabs(x), 1e-4 * RADIUS);
         struct mesh_spot spot = mesh_surface_at(body, place.face, place.u, place.v);
         /* normals are interpolated with their squares: to the third power of half the turn */
