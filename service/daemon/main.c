@@ -32,6 +32,22 @@ static enum percuss_status gather_settings(const struct arguments *arguments,
     return PERCUSS_OK;
 }
 
+/* What is good but worth a look: sites of meshes that were not declared on the surface. */
+static void remark_sites(const struct body_set *set)
+{
+    for (size_t b = 0; b < set->count; b++)
+        for (size_t i = 0; i < set->bodies[b].site_count; i++) {
+            const struct body *body = &set->bodies[b];
+            const struct body_site *site = &body->sites[i];
+            if (site->moved > 0.0)
+                fprintf(stderr,
+                        "percussd: bodies.%s.sites.%s.point: lies %.2g m off the surface: moved "
+                        "onto it, to [%.6g, %.6g, %.6g]\n",
+                        body->id, site->name, body->scale * site->moved, site->point[0],
+                        site->point[1], site->point[2]);
+        }
+}
+
 static int check_config(const struct settings *settings)
 {
     struct fault fault;
@@ -40,6 +56,7 @@ static int check_config(const struct settings *settings)
         fprintf(stderr, "percussd: %s\n", fault.text);
         return EXIT_FAILURE;
     }
+    remark_sites(set);
     body_set_free(set);
     puts("ok");
     return EXIT_SUCCESS;

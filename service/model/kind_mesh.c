@@ -20,6 +20,10 @@
 static const double SAME_POISSON = 1e-9;
 /* How far from a named place what is declared of it holds, in smallest radii. */
 static const double NAMED = 0.1;
+/* How far off the surface it may be declared: half an element, as what is drawn round is off its
+ * straight-sided mesh, but no farther than half the way to where the other side may be nearer. */
+static const double NAMED_ELEMENT = 0.5;
+static const double NAMED_MOST = 0.5;
 /* How far from its edge a point looks for faces beside, in smallest radii: more than a point may
  * lie off the surface (solve/placement.c). */
 static const double BESIDE = 0.15;
@@ -87,6 +91,29 @@ static void compare_site(const struct mesh_spot *spot, struct body_site *site)
                  size);
 }
 
+/* How far off the surface a named site may be declared: beyond a sharp edge no farther than points
+ * of contacts may. */
+static double allowed_off(const struct mesh_body *mesh, const struct mesh_place *place)
+{
+    double half = mesh->volume / mesh->area;
+    double element = mesh_surface_face_size(mesh, place->face);
+    bool near_rim = place->to_rim < OVER * element;
+    return near_rim ? NAMED * half
+                    : fmax(NAMED * half, fmin(NAMED_ELEMENT * element, NAMED_MOST * half));
+}
+
+/* Onto the surface from farther off than a contact's point may be. */
+static void move_site(const struct mesh_body *mesh, const struct mesh_place *place,
+                      struct body_site *site)
+{
+    site->moved = 0.0;
+    if (place->distance <= NAMED * mesh->volume / mesh->area)
+        return;
+    site->moved = place->distance;
+    for (int k = 0; k < 3; k++)
+        site->point[k] = (place->point[k] + mesh->centre[k]) / mesh->unit;
+}
+
 /* Finds the face of a named site, and what is not declared of it. */
 static enum percuss_status complete_site(const struct body *body, struct body_site *site,
                                          struct fault *fault)
@@ -98,8 +125,10 @@ static enum percuss_status complete_site(const struct body *body, struct body_si
     body_site_point(body, site, point);
     to_mesh(body, point, p);
     /* as near the surface as a named point must be */
-    double allowed = NAMED * body->mesh->volume / body->mesh->area;
-    if (mesh_surface_find(body->mesh, p, 0.0, &place, 1) == 0 || !(place.distance <= allowed))
+    double allowed = mesh_surface_find(body->mesh, p, 0.0, &place, 1) > 0
+                         ? allowed_off(body->mesh, &place)
+                         : 0.0;
+    if (!(place.distance <= allowed))
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "sites.%s.point: lies %.3g m off the surface: at most %.3g m is allowed; "
                          "points are in the mesh's own frame and unit (%g m)",
@@ -112,6 +141,7 @@ static enum percuss_status complete_site(const struct body *body, struct body_si
     if (!site->has_curvature)
         memcpy(site->curvature, spot.curvature, sizeof site->curvature);
     compare_site(&spot, site);
+    move_site(body->mesh, &place, site);
     site->placed = true;
     return PERCUSS_OK;
 }
@@ -258,6 +288,20 @@ static const char *theory(const struct body *body)
     return body->mesh->mode_count > 0 ? "mesh" : "rigid";
 }
 
+/* Named sites that are not where they were declared. */
+static void describe_moved(const struct body *body, struct body_description *description)
+{
+    unsigned count = 0;
+    double farthest = 0.0;
+    for (size_t i = 0; i < body->site_count; i++) {
+        count += body->sites[i].moved > 0.0;
+        farthest = fmax(farthest, body->scale * body->sites[i].moved);
+    }
+    if (count > 0)
+        describe_add(description, "%u site%s moved onto the surface by up to %.2g m", count,
+                     count > 1 ? "s" : "", farthest);
+}
+
 static void describe(const struct body *body, struct body_description *description)
 {
     const struct mesh_body *mesh = body->mesh;
@@ -290,6 +334,7 @@ static void describe(const struct body *body, struct body_description *descripti
         describe_add(description, "modal damping ratio %g", body->damping);
     if (body->modes > 0)
         describe_add(description, "%u of them taking part", body->modes);
+    describe_moved(body, description);
 }
 
 const struct body_kind mesh_kind = {

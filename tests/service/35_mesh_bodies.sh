@@ -5,7 +5,7 @@
 . "$(dirname "$0")/lib.sh"
 
 "$build/tests/write_mesh" beam 60 "$work/part.h5"
-awk '/^bodies:/ { print; print "  part: {shape: mesh, file: part.h5, sites: {middle: {point: [500, 0, 10]}, third: {point: [350, 0, 10]}, end: {point: [1000, 0, 0]}}}"; print "  lump: {shape: mesh, file: part.h5, rigid: true, sites: {middle: {point: [500, 0, 10]}}}"; print "  own-beam: {shape: beam, material: aluminium, radius: 0.010, length: 1.0, modes: 60}"; next } { print }' \
+awk '/^bodies:/ { print; print "  part: {shape: mesh, file: part.h5, sites: {middle: {point: [500, 0, 10]}, third: {point: [350, 0, 10]}, end: {point: [1000, 0, 0]}, above: {point: [350, 0, 11]}}}"; print "  lump: {shape: mesh, file: part.h5, rigid: true, sites: {middle: {point: [500, 0, 10]}}}"; print "  own-beam: {shape: beam, material: aluminium, radius: 0.010, length: 1.0, modes: 60}"; next } { print }' \
     "$work/catalogue.yaml" >"$work/new" && mv "$work/new" "$work/catalogue.yaml"
 start_daemon
 
@@ -32,9 +32,16 @@ near "$(e --b part)" "$(e --b own-beam)" 1e-5 || fail "another answer in the mid
 near "$(e --b part --at-b middle)" "$(e --b part)" 1e-15 || fail "the default is another site"
 near "$(e --b part --at-b third)" "$(e --b own-beam --at 0.35)" 1e-5 || fail "another answer at 0.35"
 expect 2 percuss query --a steel-sphere --b part --at-b nowhere --speed 0.2
-says "part has the sites middle, third, end"
+says "part has the sites middle, third, end, above"
 expect 2 percuss query --a steel-sphere --b al-beam --at-b middle --speed 0.2
 says "no sites with names"
+
+say "one declared off the surface is moved onto it, and that is said"
+near "$(e --b part --at-b above)" "$(e --b part --at-b third)" 1e-9 || fail "another answer above"
+expect 0 percuss bodies
+shows "1 site moved onto the surface by up to 0.001 m"
+expect 0 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" --check-config
+says "bodies.part.sites.above.point: lies 0.001 m off the surface: moved onto it, to [350, "
 
 say "a rigid one"
 expect 0 percuss query --a steel-sphere --b lump --speed 0.2 --json

@@ -9,6 +9,7 @@
 
 #include "bodies/made_mesh.h"
 #include "mesh/body_file.h"
+#include "model/describe.h"
 #include "unit/catalogue/parse.h"
 
 static char folder[64];
@@ -143,6 +144,33 @@ static void sites_stand_in_the_mesh_s_frame(void **state)
     body_set_free(set);
 }
 
+/* Half of half a thickness is 2.42 mm here, half an element of the side 12.5 mm. */
+static void sites_beside_the_surface_are_moved(void **state)
+{
+    (void)state;
+    struct body_set *set =
+        good("{shape: mesh, file: rod.h5, scale: 2, sites: {near: {point: [150, 0, 10.4]}, out: "
+             "{point: [150, 0, 12]}, in: {point: [150, -8.5, 0]}}}");
+    const struct body *part = body_set_find(set, "part");
+    const struct body_site *out = body_find_site(part, "out"), *in = body_find_site(part, "in");
+    struct body_description description = {.text = ""};
+    double point[3];
+    /* as they are, or by how much, at the mesh's own size; faces of nine nodes lie within
+     * (turn/2)^4/8 radii of the circle */
+    const double off = 2e-6;
+    assert_true(body_find_site(part, "near")->moved == 0.0);
+    near(out->moved, 0.002, off);
+    near(in->moved, 0.0015, off);
+    body_site_point(part, out, point);
+    near(point[2], 0.020, off);
+    near(out->normal[2], 1.0, 1e-6);
+    body_site_point(part, in, point);
+    near(point[1], -0.020, off);
+    part->kind->describe(part, &description);
+    assert_non_null(strstr(description.text, "2 sites moved onto the surface by up to 0.004 m"));
+    body_set_free(set);
+}
+
 static void revisions_follow_what_is_said(void **state)
 {
     (void)state;
@@ -200,6 +228,11 @@ static void says_what_is_wrong(void **state)
     bad("{shape: mesh, file: rod.h5, sites: {tip: {}}}", "sites.tip.point: missing");
     bad("{shape: mesh, file: rod.h5, sites: {tip: {point: [150, 0, 0]}}}",
         "bodies.part.sites.tip.point: lies");
+    bad("{shape: mesh, file: rod.h5, sites: {tip: {point: [150, 0, 12.6]}}}",
+        "lies 0.0026 m off the surface: at most 0.00242 m is allowed");
+    /* beyond an edge */
+    bad("{shape: mesh, file: rod.h5, sites: {tip: {point: [301, 0, 10]}}}",
+        "lies 0.001 m off the surface: at most 0.000");
     bad("{shape: mesh, file: rod.h5, sites: {a: {point: [300, 0, 0], normal: [0, 0, 0]}}}",
         "normal: must not be zero");
     bad("{shape: mesh, file: rod.h5, sites: {a: {point: [300, 0, 0], curvatures: [1, 2]}}}",
@@ -219,6 +252,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_file_is_a_body),
         cmocka_unit_test(sites_stand_in_the_mesh_s_frame),
+        cmocka_unit_test(sites_beside_the_surface_are_moved),
         cmocka_unit_test(revisions_follow_what_is_said),
         cmocka_unit_test(a_material_is_found_by_its_name),
         cmocka_unit_test(says_what_is_wrong),
