@@ -103,13 +103,14 @@ void facet_node(int count, int node, double *u, double *v)
     *v = at[1];
 }
 
-/* the point and its derivatives, x[VALUE] .. x[VV] */
-static void place(int count, const double (*points)[3], double u, double v, double x[KINDS][3])
+/* the point and its derivatives, x[VALUE] .., the first `kinds` of them */
+static void place(int count, const double (*points)[3], double u, double v, int kinds,
+                  double (*x)[3])
 {
     double d[KINDS][FACET_MOST_NODES];
     shape(count, u, v, d);
-    memset(x, 0, KINDS * sizeof *x);
-    for (int k = 0; k < KINDS; k++)
+    memset(x, 0, (size_t)kinds * sizeof *x);
+    for (int k = 0; k < kinds; k++)
         for (int i = 0; i < count; i++)
             add_scaled3(d[k][i], points[i], x[k]);
 }
@@ -118,18 +119,40 @@ void facet_place(int count, const double (*points)[3], double u, double v, doubl
                  double area[3])
 {
     double x[KINDS][3];
-    place(count, points, u, v, x);
+    place(count, points, u, v, area ? V + 1 : VALUE + 1, x);
     if (point)
         memcpy(point, x[VALUE], sizeof x[VALUE]);
     if (area)
         cross3(x[U], x[V], area);
 }
 
-static bool is_inside(int count, double u, double v, double margin)
+bool facet_is_inside(int count, double u, double v, double margin)
 {
     if (count == 6)
         return u >= -margin && v >= -margin && u + v <= 1.0 + margin;
     return fabs(u) <= 1.0 + margin && fabs(v) <= 1.0 + margin;
+}
+
+static double control(double from, double middle, double to)
+{
+    return 2.0 * middle - 0.5 * (from + to);
+}
+
+double facet_lowest(int count, const double *h)
+{
+    int corners = count == 6 ? 3 : 4;
+    double edge[4];
+    double lowest = INFINITY;
+    for (int i = 0; i < corners; i++) {
+        edge[i] = control(h[i], h[corners + i], h[(i + 1) % corners]);
+        lowest = fmin(lowest, fmin(h[i], edge[i]));
+    }
+    if (corners == 3)
+        return lowest;
+    /* without a middle node: what the others make of it */
+    double middle =
+        count == 9 ? h[8] : 0.5 * (h[4] + h[5] + h[6] + h[7]) - 0.25 * (h[0] + h[1] + h[2] + h[3]);
+    return fmin(lowest, control(edge[0], control(h[7], middle, h[5]), edge[2]));
 }
 
 static double distance_at(int count, const double (*points)[3], const double p[3], double u,
@@ -148,7 +171,7 @@ static void descend(int count, const double (*points)[3], const double p[3],
 {
     for (int step = 0; step < MOST_STEPS; step++) {
         double x[KINDS][3], r[3];
-        place(count, points, at[0], at[1], x);
+        place(count, points, at[0], at[1], KINDS, x);
         sub3(x[VALUE], p, r);
 
         /* gradient and second derivatives; those of a saddle without their curved part */
@@ -183,7 +206,7 @@ static void descend(int count, const double (*points)[3], const double p[3],
         at[0] += scale * s[0];
         at[1] += scale * s[1];
         /* far outside the face its polynomials mean nothing */
-        if (length < SMALLEST_STEP || !is_inside(count, at[0], at[1], 1.0))
+        if (length < SMALLEST_STEP || !facet_is_inside(count, at[0], at[1], 1.0))
             return;
     }
 }
@@ -261,11 +284,11 @@ struct facet_foot facet_closest(int count, const double (*points)[3], const doub
     descend(count, points, p, NULL, at);
 
     /* a foot in the face that is no farther than where the search started is it; else the rim */
-    if (is_inside(count, at[0], at[1], ROUNDING) &&
+    if (facet_is_inside(count, at[0], at[1], ROUNDING) &&
         distance_at(count, points, p, at[0], at[1]) <=
             distance_at(count, points, p, start[0], start[1])) {
         keep_nearer(count, points, p, at, &best);
-        best.at_rim = !is_inside(count, at[0], at[1], -ROUNDING);
+        best.at_rim = !facet_is_inside(count, at[0], at[1], -ROUNDING);
     } else {
         for (int edge = 0; edge < (count == 6 ? 3 : 4); edge++)
             search_edge(count, points, p, edge, &best);

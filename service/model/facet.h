@@ -31,6 +31,13 @@ void facet_node(int count, int node, double *u, double *v);
 void facet_place(int count, const double (*points)[3], double u, double v, double point[3],
                  double area[3]);
 
+/* Whether it is on the face, or beyond its edges by no more than `margin`. */
+bool facet_is_inside(int count, double u, double v, double margin);
+
+/* A bound below what a function takes on the face that has the values h at its nodes: the lowest of
+ * its control values (Bernstein's form). */
+double facet_lowest(int count, const double *h);
+
 /* The nearest point of the face, by Newton's method. */
 struct facet_foot facet_closest(int count, const double (*points)[3], const double p[3]);
 

@@ -17,6 +17,10 @@
  * the last one. */
 static const double TAIL = 1.0 / 3.0;
 static const double OCTAVE = 0.5;
+/* Of a force, what is as little as this does not act (modal_basis.h): shapes are floats. */
+static const double LEAST_PART = 1e-9;
+/* Modes whose shapes are summed up at once. */
+enum { AT_ONCE = 64 };
 
 struct mesh_ratio mesh_ratio_of(const struct body *body)
 {
@@ -58,9 +62,9 @@ VECTOR_CLONES static void add_row(size_t count, double share, const float *shape
         row[k] += share * (double)shape[k];
 }
 
-/* The first `count` modes at a load; shapes go with the inverse root of mass. */
-static void fill_row(const struct body *body, size_t count, const struct family_load *load,
-                     double *row)
+/* Modes first, ... at a load; shapes go with the inverse root of mass. */
+static void fill_row(const struct body *body, size_t first, size_t count,
+                     const struct family_load *load, double *row)
 {
     const struct mesh_body *mesh = body->mesh;
     const struct mesh_load *at = &load->mesh;
@@ -70,30 +74,12 @@ static void fill_row(const struct body *body, size_t count, const struct family_
     for (int i = 0; i < at->count; i++) {
         size_t node = mesh->faces[at->face].nodes[i];
         for (int axis = 0; axis < 3; axis++) {
-            double share = factor * at->share[i] * at->direction[axis];
-            if (share != 0.0)
-                add_row(count, share, mesh->shapes + (3 * node + axis) * mesh->mode_count, row);
+            double part = at->share[i] * at->direction[axis];
+            if (fabs(part) > LEAST_PART)
+                add_row(count, factor * part,
+                        mesh->shapes + (3 * node + axis) * mesh->mode_count + first, row);
         }
     }
-}
-
-/* One mode at a load. */
-static double shape_at(const struct body *body, size_t mode, const struct family_load *load)
-{
-    const struct mesh_body *mesh = body->mesh;
-    const struct mesh_load *at = &load->mesh;
-    struct mesh_ratio ratio = mesh_ratio_of(body);
-    double factor = 1.0 / sqrt(ratio.density * ratio.size * ratio.size * ratio.size);
-    double sum = 0.0;
-    for (int i = 0; i < at->count; i++) {
-        size_t node = mesh->faces[at->face].nodes[i];
-        for (int axis = 0; axis < 3; axis++) {
-            double share = factor * at->share[i] * at->direction[axis];
-            if (share != 0.0)
-                sum += share * (double)mesh->shapes[(3 * node + axis) * mesh->mode_count + mode];
-        }
-    }
-    return sum;
 }
 
 static void participations(const struct body *body, const struct modal_family *modes,
@@ -103,10 +89,10 @@ static void participations(const struct body *body, const struct modal_family *m
     (void)modes;
     /* as a rule the first ones */
     if (count > 0 && which[0] == 0 && which[count - 1] == count - 1)
-        fill_row(body, count, load, row);
+        fill_row(body, 0, count, load, row);
     else
         for (size_t i = 0; i < count; i++)
-            row[i] = shape_at(body, which[i], load);
+            fill_row(body, which[i], 1, load, &row[i]);
 }
 
 /* The sum of participation_i participation_j / omega^2 over modes from, ... to - 1, small terms
@@ -116,11 +102,19 @@ static double held_by(const struct body *body, size_t from, size_t to, const str
 {
     struct mesh_ratio ratio = mesh_ratio_of(body);
     double factor = ratio.young / (ratio.density * ratio.size * ratio.size);
+    double rows[2][AT_ONCE];
     double sum = 0.0;
-    for (size_t k = to; k-- > from;) {
-        double omega = body->mesh->omega[k];
-        double a = shape_at(body, k, i);
-        sum += a * (i == j ? a : shape_at(body, k, j)) / (omega * omega);
+    while (to > from) {
+        size_t count = to - from < AT_ONCE ? to - from : AT_ONCE;
+        const double *other = i == j ? rows[0] : rows[1];
+        to -= count;
+        fill_row(body, to, count, i, rows[0]);
+        if (i != j)
+            fill_row(body, to, count, j, rows[1]);
+        for (size_t k = count; k-- > 0;) {
+            double omega = body->mesh->omega[to + k];
+            sum += rows[0][k] * other[k] / (omega * omega);
+        }
     }
     return sum / factor;
 }
@@ -158,11 +152,16 @@ static double beyond(const struct body *body, const struct modal_family *modes, 
     double factor = sqrt(ratio.young / ratio.density) / ratio.size;
     double last = all > 0 ? factor * body->mesh->omega[all - 1] : 0.0;
     double sum = 0.0, octave = 0.0;
-    for (size_t k = all; k-- > 0;) {
+    double row[AT_ONCE];
+    for (size_t k = all, begin = all; k-- > 0;) {
         double omega = factor * body->mesh->omega[k];
         if (k < first && omega < OCTAVE * last)
             break;
-        double shape = shape_at(body, k, load);
+        if (k < begin) {
+            begin = k + 1 > AT_ONCE ? k + 1 - AT_ONCE : 0;
+            fill_row(body, begin, k + 1 - begin, load, row);
+        }
+        double shape = row[k - begin];
         double inertia = shape * shape / (omega * omega * omega * omega);
         sum += k >= first ? inertia : 0.0;
         octave += omega >= OCTAVE * last ? inertia : 0.0;

@@ -11,11 +11,15 @@
 
 /* Deep enough for 2^40 faces. */
 enum { MOST_DEPTH = 64 };
+/* Faces round a node, and those beyond them whose boxes overlap. */
+enum { MOST_LATER = 16 };
 /* Close to a face: within a tenth of its size, where the nearest place is the only foot but on
- * faces as round as they are long. Converged to what is left of a micrometre on a metre. */
+ * faces as round as they are long. Converged to what is left of a micrometre on a metre; beyond an
+ * edge by no more than that may leave, a foot is on it. */
 enum { QUICK_STEPS = 8 };
 static const double QUICK_NEAR = 0.01;
 static const double QUICK_SETTLED = 1e-10;
+static const double QUICK_RIM = 1e-9;
 /* Share of a face's shape function below which a node does not count. */
 static const double NO_SHARE = 1e-9;
 
@@ -45,18 +49,35 @@ static void combine(int count, double points[FACET_MOST_NODES][3], const double 
         add_scaled3(weights[i], points[i], sum);
 }
 
-static bool is_well_inside(int count, double u, double v)
+/* Where a point is to a face, as far as a few steps tell. */
+enum nearness { ABOVE, BESIDE, UNKNOWN };
+
+/* Local coordinates within the face, nearest to (u, v) in them; whether that is on an edge, whose
+ * direction is `way`, or else at a corner where (u, v) is outside. */
+static bool pull_inside(int count, double at[2], double way[2])
 {
-    const double margin = 1e-3;
-    if (count == 6)
-        return u > margin && v > margin && u + v < 1.0 - margin;
-    return fabs(u) < 1.0 - margin && fabs(v) < 1.0 - margin;
+    double u = at[0], v = at[1];
+    way[0] = way[1] = 0.0;
+    if (count == 6 && u + v > 1.0) {
+        double over = 0.5 * (u + v - 1.0);
+        at[0] = fmin(fmax(u - over, 0.0), 1.0);
+        at[1] = 1.0 - at[0];
+        way[0] = 1.0;
+        way[1] = -1.0;
+        return at[0] > 0.0 && at[1] > 0.0;
+    }
+    double low = count == 6 ? 0.0 : -1.0;
+    at[0] = fmin(fmax(u, low), 1.0);
+    at[1] = fmin(fmax(v, low), 1.0);
+    way[0] = at[0] == u;
+    way[1] = at[1] == v;
+    return at[0] == u || at[1] == v;
 }
 
-/* The foot of a point that is close to a face and above its inside, as most are: Gauss and Newton
- * from its middle. False: it is none such, or the steps do not settle. */
-static bool find_quickly(int count, double points[FACET_MOST_NODES][3], const double p[3],
-                         struct facet_foot *foot)
+/* The foot of a point that is close to a face and above it, as most are: Gauss and Newton from its
+ * middle. BESIDE: the foot on the face drawn on is beyond its edge, (u, v). */
+static enum nearness find_quickly(int count, double points[FACET_MOST_NODES][3], const double p[3],
+                                  struct facet_foot *foot)
 {
     double n[FACET_MOST_NODES], du[FACET_MOST_NODES], dv[FACET_MOST_NODES];
     double r[3], xu[3], xv[3];
@@ -77,26 +98,49 @@ static bool find_quickly(int count, double points[FACET_MOST_NODES][3], const do
         if (fabs(su) + fabs(sv) < QUICK_SETTLED) {
             foot->distance = norm3(r);
             foot->at_rim = false;
-            return foot->distance * foot->distance < QUICK_NEAR * (a + c) &&
-                   is_well_inside(count, foot->u, foot->v);
+            if (!facet_is_inside(count, foot->u, foot->v, QUICK_RIM))
+                return BESIDE;
+            return foot->distance * foot->distance < QUICK_NEAR * (a + c) ? ABOVE : UNKNOWN;
         }
         /* on, unless the step has left the face */
         foot->u += su;
         foot->v += sv;
         if (!(fabs(foot->u) < 2.0 && fabs(foot->v) < 2.0))
-            return false;
+            return BESIDE;
     }
-    return false;
+    return UNKNOWN;
 }
 
-static struct facet_foot foot_on(const struct mesh_body *body, unsigned face, const double p[3])
+/* How far p is from a plane that all of the face is beyond: at most its distance from the face. All
+ * of the face is among its control points, and the plane is across the way to the nearest place of
+ * the edge at which (u, v) lies. */
+static double bound_distance(const struct mesh_body_face *face, double points[FACET_MOST_NODES][3],
+                             const double p[3], const struct facet_foot *foot)
 {
-    double points[FACET_MOST_NODES][3];
-    struct facet_foot foot;
-    face_points(body, &body->faces[face], points);
-    if (find_quickly(body->faces[face].count, points, p, &foot))
-        return foot;
-    return facet_closest(body->faces[face].count, (const double(*)[3])points, p);
+    double n[FACET_MOST_NODES], du[FACET_MOST_NODES], dv[FACET_MOST_NODES], h[FACET_MOST_NODES];
+    double at[2] = {foot->u, foot->v}, way[2], normal[3], xu[3], xv[3];
+    if (!isfinite(at[0]) || !isfinite(at[1]))
+        return 0.0;
+    bool on_edge = pull_inside(face->count, at, way);
+    facet_shape(face->count, at[0], at[1], n, du, dv);
+    combine(face->count, points, n, normal);
+    sub3(normal, p, normal);
+    /* across the edge */
+    if (on_edge) {
+        double tangent[3] = {0.0, 0.0, 0.0};
+        combine(face->count, points, du, xu);
+        combine(face->count, points, dv, xv);
+        add_scaled3(way[0], xu, tangent);
+        add_scaled3(way[1], xv, tangent);
+        add_scaled3(-dot3(normal, tangent) / dot3(tangent, tangent), tangent, normal);
+    }
+    double length = norm3(normal);
+    if (!(length > 0.0))
+        return 0.0;
+    /* heights of the nodes, then of the control points */
+    for (int i = 0; i < face->count; i++)
+        h[i] = dot3(normal, points[i]);
+    return (facet_lowest(face->count, h) - dot3(normal, p)) / length;
 }
 
 /* The places found so far, by distance: one for each patch. */
@@ -106,6 +150,10 @@ struct finding {
     struct mesh_place *places;
     int count, most;
     double within; /* nothing farther is looked for */
+    /* faces that are at least so far: looked at last, as a rule not at all */
+    int later_count;
+    unsigned later[MOST_LATER];
+    double later_bound[MOST_LATER];
 };
 
 static void place_set(struct mesh_place *place, unsigned face, const struct facet_foot *foot)
@@ -115,11 +163,10 @@ static void place_set(struct mesh_place *place, unsigned face, const struct face
     memcpy(place->point, foot->point, sizeof place->point);
 }
 
-static void take_face(struct finding *finding, unsigned face)
+static void keep_foot(struct finding *finding, unsigned face, const struct facet_foot *foot)
 {
-    struct facet_foot foot = foot_on(finding->body, face, finding->p);
     unsigned patch = finding->body->faces[face].patch;
-    if (!(foot.distance <= finding->within))
+    if (!(foot->distance <= finding->within))
         return;
     /* in the place of its patch, or of the farthest */
     int at = 0;
@@ -130,9 +177,9 @@ static void take_face(struct finding *finding, unsigned face)
         finding->count++;
     else if (at == finding->count)
         at--;
-    if (!fresh && !(foot.distance < finding->places[at].distance))
+    if (!fresh && !(foot->distance < finding->places[at].distance))
         return;
-    place_set(&finding->places[at], face, &foot);
+    place_set(&finding->places[at], face, foot);
     /* kept by distance */
     for (; at > 0 && finding->places[at].distance < finding->places[at - 1].distance; at--) {
         struct mesh_place swap = finding->places[at];
@@ -143,8 +190,55 @@ static void take_face(struct finding *finding, unsigned face)
         finding->within = fmin(finding->within, finding->places[finding->count - 1].distance);
 }
 
-/* From the root down, the nearer box first. */
-static void search(struct finding *finding)
+/* By all that a face has: where its middle part does not tell. */
+static void look_closely(struct finding *finding, unsigned face)
+{
+    const struct mesh_body_face *at = &finding->body->faces[face];
+    double points[FACET_MOST_NODES][3];
+    face_points(finding->body, at, points);
+    struct facet_foot foot = facet_closest(at->count, (const double(*)[3])points, finding->p);
+    keep_foot(finding, face, &foot);
+}
+
+static void take_face(struct finding *finding, unsigned face)
+{
+    const struct mesh_body_face *at = &finding->body->faces[face];
+    double points[FACET_MOST_NODES][3];
+    struct facet_foot foot;
+    face_points(finding->body, at, points);
+    enum nearness nearness = find_quickly(at->count, points, finding->p, &foot);
+    if (nearness == ABOVE) {
+        keep_foot(finding, face, &foot);
+        return;
+    }
+    double bound = nearness == BESIDE ? bound_distance(at, points, finding->p, &foot) : 0.0;
+    if (bound > finding->within)
+        return;
+    if (finding->later_count < MOST_LATER) {
+        finding->later[finding->later_count] = face;
+        finding->later_bound[finding->later_count++] = bound;
+    } else
+        look_closely(finding, face);
+}
+
+/* The nearest first. */
+static void take_later(struct finding *finding)
+{
+    while (finding->later_count > 0) {
+        int first = 0, last = --finding->later_count;
+        for (int i = 1; i <= last; i++)
+            if (finding->later_bound[i] < finding->later_bound[first])
+                first = i;
+        if (finding->later_bound[first] <= finding->within)
+            look_closely(finding, finding->later[first]);
+        finding->later[first] = finding->later[last];
+        finding->later_bound[first] = finding->later_bound[last];
+    }
+}
+
+/* From the root down, the nearer box first: of the faces whose boxes have the point inside, or of
+ * all others. */
+static void search_boxes(struct finding *finding, bool inside)
 {
     const struct mesh_box *boxes = finding->body->boxes;
     unsigned stack[MOST_DEPTH];
@@ -153,10 +247,11 @@ static void search(struct finding *finding)
     while (depth > 0) {
         /* too far: holds nothing nearer */
         const struct mesh_box *box = &boxes[stack[--depth]];
-        if (box_distance(box, finding->p) > finding->within)
+        double distance = box_distance(box, finding->p);
+        if (inside ? distance > 0.0 : distance > finding->within)
             continue;
         /* a leaf: its faces */
-        for (unsigned i = 0; i < box->count; i++)
+        for (unsigned i = 0; i < box->count && inside == (distance == 0.0); i++)
             take_face(finding, finding->body->order[box->first + i]);
         if (box->count > 0 || depth + 2 > MOST_DEPTH)
             continue;
@@ -171,7 +266,15 @@ static void search(struct finding *finding)
     }
 }
 
-static double rim_distance(const struct mesh_rim *rim, const double p[3])
+/* A point on the surface is within the boxes of its faces: then no other ones are near. */
+static void search(struct finding *finding)
+{
+    search_boxes(finding, true);
+    search_boxes(finding, false);
+    take_later(finding);
+}
+
+static double rim_distance2(const struct mesh_rim *rim, const double p[3])
 {
     double along[3];
     double from[3];
@@ -182,22 +285,22 @@ static double rim_distance(const struct mesh_rim *rim, const double p[3])
     double length2 = dot3(along, along);
     double t = length2 > 0.0 ? fmin(fmax(dot3(from, along) / length2, 0.0), 1.0) : 0.0;
     add_scaled3(-t, along, from);
-    return norm3(from);
+    return dot3(from, from);
 }
 
 static double distance_to_rim(const struct mesh_body *body, unsigned patch, const double p[3])
 {
-    double nearest = INFINITY;
+    double nearest2 = INFINITY;
     for (size_t i = body->rim_first[patch]; i < body->rim_first[patch + 1]; i++)
-        nearest = fmin(nearest, rim_distance(&body->rims[i], p));
-    return nearest;
+        nearest2 = fmin(nearest2, rim_distance2(&body->rims[i], p));
+    return sqrt(nearest2);
 }
 
 int mesh_surface_find(const struct mesh_body *body, const double p[3], double beside,
                       struct mesh_place *places, int most)
 {
     /* the nearest of all */
-    struct finding finding = {body, p, places, 0, 1, INFINITY};
+    struct finding finding = {body, p, places, 0, 1, INFINITY, .later_count = 0};
     search(&finding);
     if (finding.count == 0)
         return 0;

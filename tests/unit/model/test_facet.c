@@ -161,12 +161,46 @@ static void nothing_is_nearer(void **state)
     }
 }
 
+/* nothing on the face is lower, and of a plane the bound is its lowest corner */
+static void nothing_is_lower(void **state)
+{
+    (void)state;
+    enum { GRID = 20 };
+    uint64_t seed = 4;
+    for (int trial = 0; trial < 60; trial++) {
+        int count = COUNTS[trial % 3];
+        double h[9], plane[9], least = INFINITY;
+        for (int i = 0; i < count; i++) {
+            double u, v;
+            facet_node(count, i, &u, &v);
+            seed = seed * 6364136223846793005u + 1442695040888963407u;
+            h[i] = (double)(seed >> 11) * 0x1p-53;
+            plane[i] = 1.0 + 0.5 * u - 0.25 * v;
+        }
+        for (int i = 0; i <= GRID; i++)
+            for (int j = 0; j <= GRID; j++) {
+                double u = (double)i / GRID, v = (double)j / GRID, n[9], sum = 0.0;
+                if (count == 6)
+                    v *= 1.0 - u;
+                else
+                    u = 2.0 * u - 1.0, v = 2.0 * v - 1.0;
+                facet_shape(count, u, v, n, NULL, NULL);
+                for (int k = 0; k < count; k++)
+                    sum += n[k] * h[k];
+                least = fmin(least, sum);
+            }
+        assert_true(facet_lowest(count, h) <= least + 1e-14);
+        near(facet_lowest(count, plane), count == 6 ? 0.75 : 0.25, 1e-15);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reproduces_parabolas),      cmocka_unit_test(interpolates),
         cmocka_unit_test(finds_the_foot_on_a_plane), cmocka_unit_test(stays_on_the_face),
         cmocka_unit_test(finds_the_foot_on_a_cap),   cmocka_unit_test(nothing_is_nearer),
+        cmocka_unit_test(nothing_is_lower),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,6 +69,32 @@ static void finds_the_nearest_place(void **state)
     mesh_body_free(body);
 }
 
+/* On nodes and beside them, where faces meet, and on the axis, which is as far from all round it.
+ */
+static void finds_places_where_faces_meet(void **state)
+{
+    (void)state;
+    struct mesh_body *body = make_cylinder();
+    uint64_t seed = 11;
+    for (size_t i = 0; i < body->node_count; i += 3) {
+        struct mesh_place places[6];
+        double p[3];
+        for (int beside = 0; beside < 2; beside++) {
+            for (int k = 0; k < 3; k++)
+                p[k] = body->points[i][k] + beside * random_between(&seed, -0.05, 0.05) * RADIUS;
+            assert_true(mesh_surface_find(body, p, 0.0, places, 1) == 1);
+            near(places[0].distance, beside ? nearest_of_all(body, p) : 0.0, 1e-9 * RADIUS);
+        }
+    }
+    for (int i = 0; i < 20; i++) {
+        struct mesh_place place;
+        const double p[3] = {(i - 9.5) * 0.05 * LENGTH, 0.0, 0.0};
+        assert_true(mesh_surface_find(body, p, 0.0, &place, 1) == 1);
+        near(place.distance, nearest_of_all(body, p), 1e-9 * RADIUS);
+    }
+    mesh_body_free(body);
+}
+
 static void knows_a_cylinder(void **state)
 {
     (void)state;
@@ -166,9 +192,8 @@ static void products_of_inertia_turn(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(finds_the_nearest_place),
-        cmocka_unit_test(knows_a_cylinder),
-        cmocka_unit_test(finds_both_sides_of_an_edge),
+        cmocka_unit_test(finds_the_nearest_place),  cmocka_unit_test(finds_places_where_faces_meet),
+        cmocka_unit_test(knows_a_cylinder),         cmocka_unit_test(finds_both_sides_of_an_edge),
         cmocka_unit_test(products_of_inertia_turn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
