@@ -20,6 +20,8 @@ enum { QUICK_STEPS = 8 };
 static const double QUICK_NEAR = 0.01;
 static const double QUICK_SETTLED = 1e-10;
 static const double QUICK_RIM = 1e-9;
+/* Of the body's size: what is as near is on the surface. */
+static const double ENOUGH = 1e-12;
 /* Share of a face's shape function below which a node does not count. */
 static const double NO_SHARE = 1e-9;
 
@@ -150,6 +152,7 @@ struct finding {
     struct mesh_place *places;
     int count, most;
     double within; /* nothing farther is looked for */
+    double enough; /* and nothing else once something is as near */
     /* faces that are at least so far: looked at last, as a rule not at all */
     int later_count;
     unsigned later[MOST_LATER];
@@ -224,7 +227,7 @@ static void take_face(struct finding *finding, unsigned face)
 /* The nearest first. */
 static void take_later(struct finding *finding)
 {
-    while (finding->later_count > 0) {
+    while (finding->later_count > 0 && !(finding->within <= finding->enough)) {
         int first = 0, last = --finding->later_count;
         for (int i = 1; i <= last; i++)
             if (finding->later_bound[i] < finding->later_bound[first])
@@ -248,6 +251,8 @@ static void search_boxes(struct finding *finding, bool inside)
         /* too far: holds nothing nearer */
         const struct mesh_box *box = &boxes[stack[--depth]];
         double distance = box_distance(box, finding->p);
+        if (finding->within <= finding->enough)
+            return;
         if (inside ? distance > 0.0 : distance > finding->within)
             continue;
         /* a leaf: its faces */
@@ -300,7 +305,10 @@ int mesh_surface_find(const struct mesh_body *body, const double p[3], double be
                       struct mesh_place *places, int most)
 {
     /* the nearest of all */
-    struct finding finding = {body, p, places, 0, 1, INFINITY, .later_count = 0};
+    double size = fmax(body->high[0] - body->low[0],
+                       fmax(body->high[1] - body->low[1], body->high[2] - body->low[2]));
+    struct finding finding = {
+        body, p, places, .most = 1, .within = INFINITY, .enough = ENOUGH * size};
     search(&finding);
     if (finding.count == 0)
         return 0;
@@ -309,6 +317,8 @@ int mesh_surface_find(const struct mesh_body *body, const double p[3], double be
         return 1;
     /* near an edge: those of other patches too */
     finding.most = most;
+    finding.enough = -1.0;
+    finding.later_count = 0;
     finding.within = places[0].distance + beside;
     search(&finding);
     for (int i = 0; i < finding.count; i++)
