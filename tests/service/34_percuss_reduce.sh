@@ -81,6 +81,12 @@ INP
         END { exit bad || NR != 2 }' || fail "other frequencies"
 fi
 
+say "a slender bar held at one end and a single mode: statics converge far above its first frequency"
+awk -F, '/^\*/ { nodes = /^\*NODE/ } nodes && NF == 4 { printf "%s,%.9g,%s,%s\n", $1, 3 * $2, $3, $4; next }
+    { print }' "$work/block.inp" >"$work/long.inp"
+expect 0 "$bin/percuss-reduce" "$work/long.inp" --unit mm -o "$work/long.h5" $steel --modes 1 --fixed low
+shows 'without 1 modes'
+
 say "refusals"
 expect 1 reduce
 says 'has no material: give --material NAME'
