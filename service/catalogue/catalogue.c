@@ -36,7 +36,8 @@ static enum percuss_status load_document(const char *text, size_t size, const ch
 /* What is made of a document. */
 struct product {
     struct body_set *set;
-    const char *name; /* of the material wanted; NULL: the whole set is */
+    const char *folder; /* of reduced bodies; NULL: none */
+    const char *name;   /* of the material wanted; NULL: the whole set is */
     struct material *material;
 };
 
@@ -57,7 +58,8 @@ static enum percuss_status parse(const char *text, size_t size, const char *name
         status = load_document(text, size, name, &document, fault);
     if (status)
         return status;
-    struct reader reader = {.document = &document, .name = name, .fault = fault};
+    struct reader reader = {
+        .document = &document, .name = name, .folder = product->folder, .fault = fault};
     status = read_product(&reader, product);
     yaml_document_delete(&document);
     return status;
@@ -80,21 +82,27 @@ static enum percuss_status parse_plainly(const char *text, size_t size, const ch
     return status;
 }
 
-enum percuss_status catalogue_parse(const char *text, size_t size, const char *name,
-                                    struct body_set **set, struct fault *fault)
+static enum percuss_status parse_set(const char *text, size_t size, const char *name,
+                                     const char *folder, struct body_set **set, struct fault *fault)
 {
     /* the caller gets a whole set or none */
     struct body_set *fresh = calloc(1, sizeof *fresh);
     *set = NULL;
     if (!fresh)
         return out_of_memory(name, fault);
-    const struct product product = {.set = fresh};
+    const struct product product = {.set = fresh, .folder = folder};
     enum percuss_status status = parse_plainly(text, size, name, &product, fault);
     if (status)
         body_set_free(fresh);
     else
         *set = fresh;
     return status;
+}
+
+enum percuss_status catalogue_parse(const char *text, size_t size, const char *name,
+                                    struct body_set **set, struct fault *fault)
+{
+    return parse_set(text, size, name, NULL, set, fault);
 }
 
 static enum percuss_status unreadable(const char *path, struct fault *fault)
@@ -132,13 +140,19 @@ close:
 
 enum percuss_status catalogue_load(const char *path, struct body_set **set, struct fault *fault)
 {
+    return catalogue_load_reducing(path, NULL, set, fault);
+}
+
+enum percuss_status catalogue_load_reducing(const char *path, const char *folder,
+                                            struct body_set **set, struct fault *fault)
+{
     char *text;
     size_t size;
     *set = NULL;
     enum percuss_status status = read_file(path, &text, &size, fault);
     if (status)
         return status;
-    status = catalogue_parse(text, size, path, set, fault);
+    status = parse_set(text, size, path, folder, set, fault);
     free(text);
     return status;
 }

@@ -19,6 +19,11 @@ enum { CATALOGUE_MAX_BYTES = 16 * 1024 * 1024 };
  * be read or accepted, PERCUSS_INTERNAL without memory. */
 enum percuss_status catalogue_load(const char *path, struct body_set **set, struct fault *fault);
 
+/* The same, where bodies may be given as meshes: they are taken from the folder of reduced bodies,
+ * and those that it lacks become orders of the set. Without a folder (NULL) they are refused. */
+enum percuss_status catalogue_load_reducing(const char *path, const char *folder,
+                                            struct body_set **set, struct fault *fault);
+
 /* The same from memory; `name` stands for the file in messages. The text need not end with zero and
  * is not kept. */
 enum percuss_status catalogue_parse(const char *text, size_t size, const char *name,

@@ -119,6 +119,12 @@ static enum percuss_status read_rest(struct reader *reader, struct entry entry,
     return status;
 }
 
+/* Whether its mesh is still to be reduced. */
+static bool is_ordered(const struct body *body)
+{
+    return body->kind->own_material && !body->mesh;
+}
+
 static enum percuss_status read_body(struct reader *reader, struct entry entry,
                                      const struct materials *materials, struct mesh_files *files,
                                      struct body_set *set, struct body *body)
@@ -136,7 +142,11 @@ static enum percuss_status read_body(struct reader *reader, struct entry entry,
         status = read_rest(reader, entry, materials, files, set, body);
     if (status)
         return status;
-    /* what follows from them, if they make a body */
+    /* what follows from them, if they make a body already */
+    if (is_ordered(body)) {
+        reader_leave(reader, mark);
+        return PERCUSS_OK;
+    }
     struct fault fault = {0};
     if (body_complete(body, &fault))
         return refuse_field(reader, entry, fault.text);
@@ -161,8 +171,13 @@ static enum percuss_status read_bodies(struct reader *reader, const yaml_node_t 
     for (size_t i = 0; !status && i < count; i++) {
         /* counted with what it owns, whether it is accepted or not */
         set->bodies[set->count++] = (struct body){.tip_radius = INFINITY};
-        status = read_body(reader, reader_entry(reader, mapping, i), materials, &files, set,
-                           &set->bodies[i]);
+        struct body *body = &set->bodies[set->count - 1];
+        status = read_body(reader, reader_entry(reader, mapping, i), materials, &files, set, body);
+        /* what is not there yet is no body of the set */
+        if (!status && is_ordered(body)) {
+            free(body->sites);
+            set->count--;
+        }
     }
     mesh_files_free(&files, set);
     if (!status)

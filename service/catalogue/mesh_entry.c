@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "catalogue/keys.h"
+#include "catalogue/mesh_order.h"
 #include "catalogue/names.h"
 #include "mesh/body_file.h"
 #include "model/mesh_surface.h"
@@ -77,15 +78,13 @@ static bool keep(struct mesh_files *files, struct body_set *set, struct mesh_bod
     return true;
 }
 
+/* Takes over the path. */
 static enum percuss_status read_file(struct reader *reader, const yaml_node_t *value,
-                                     struct mesh_files *files, struct body_set *set,
+                                     struct mesh_files *files, struct body_set *set, char *path,
                                      struct body *body)
 {
     struct mesh_body *mesh;
     struct fault fault = {{0}};
-    char *path = resolve(reader, (const char *)value->data.scalar.value);
-    if (!path)
-        return out_of_memory(reader);
     /* known already */
     for (size_t i = 0; i < set->mesh_count; i++)
         if (strcmp(files->paths[i], path) == 0) {
@@ -234,13 +233,26 @@ enum percuss_status mesh_entry_read(struct reader *reader, struct entry entry,
     const yaml_node_t *file = reader_find(reader, entry.value, "file").value;
     const yaml_node_t *material = reader_find(reader, entry.value, "material").value;
     const yaml_node_t *sites = reader_find(reader, entry.value, "sites").value;
+    /* the body's own file, or the one that its mesh was reduced to or will be */
+    char *path = resolve(reader, (const char *)file->data.scalar.value);
+    if (!path)
+        return out_of_memory(reader);
+    bool is_mesh = mesh_order_is_mesh(path);
+    enum percuss_status status = is_mesh ? mesh_order_read(reader, entry, set, body, &path)
+                                         : mesh_order_refuse(reader, entry);
+    if (status) {
+        free(path);
+        return status;
+    }
+    if (!path)
+        return sites ? read_sites(reader, sites, body) : PERCUSS_OK;
     size_t mark = reader_enter(reader, "file");
-    enum percuss_status status = read_file(reader, file, files, set, body);
+    status = read_file(reader, file, files, set, path, body);
     if (status)
         return status;
     reader_leave(reader, mark);
     /* one material may stand for another, all of a body's not */
-    if (material && body->mesh->material_count > 1)
+    if (material && !is_mesh && body->mesh->material_count > 1)
         return reader_refuse(reader, material,
                              "material: must be absent: the file holds %zu materials of its own",
                              body->mesh->material_count);

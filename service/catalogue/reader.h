@@ -16,7 +16,8 @@ enum { READER_NAME_BYTES = 200 }; /* of a file's name in a message: its end */
 
 struct reader {
     yaml_document_t *document;
-    const char *name; /* of the file */
+    const char *name;   /* of the file */
+    const char *folder; /* of bodies reduced from meshes; NULL: none */
     struct fault *fault;
     char path[256]; /* of the value being read: bodies.al-rod.radius */
 };

@@ -52,11 +52,15 @@ static int check_config(const struct settings *settings)
 {
     struct fault fault;
     struct body_set *set;
-    if (catalogue_load(settings->catalogue, &set, &fault)) {
+    const char *folder = settings->bodies[0] ? settings->bodies : NULL;
+    if (catalogue_load_reducing(settings->catalogue, folder, &set, &fault)) {
         fprintf(stderr, "percussd: %s\n", fault.text);
         return EXIT_FAILURE;
     }
     remark_sites(set);
+    /* what is not there yet */
+    for (size_t i = 0; i < set->order_count; i++)
+        printf("%s: will be reduced from %s\n", set->orders[i].id, set->orders[i].mesh);
     body_set_free(set);
     puts("ok");
     return EXIT_SUCCESS;

@@ -11,6 +11,7 @@
 #include "daemon/log.h"
 #include "daemon/neighbours.h"
 #include "daemon/pool.h"
+#include "daemon/reducer.h"
 #include "daemon/responder.h"
 #include "daemon/specimen_lane.h"
 #include "daemon/status.h"
@@ -26,6 +27,7 @@ struct service {
     bool reader_runs;
     struct pool *pool;
     struct neighbours neighbours;
+    struct reducer reducer;
     unsigned long long reported; /* of the undelivered replies: those that are in the log */
 };
 
@@ -120,6 +122,7 @@ struct service *service_create(const struct settings *settings, struct fault *fa
         return NULL;
     }
     struct shared *shared = &service->shared;
+    reducer_begin(&service->reducer, settings->bodies);
     if (!shared_create(shared, settings, fault) || !open_specimens(shared, fault) ||
         !open_endpoint(shared, fault) || !start_workers(service, fault) ||
         !start_reader(service, fault)) {
@@ -138,6 +141,7 @@ struct service *service_create(const struct settings *settings, struct fault *fa
 void service_free(struct service *service)
 {
     struct shared *shared = &service->shared;
+    reducer_end(&service->reducer);
     /* the threads end */
     if (service->reader_runs) {
         endpoint_stop(shared->endpoint);
@@ -158,7 +162,7 @@ void service_free(struct service *service)
     free(service);
 }
 
-void service_reload(struct service *service)
+static void load_again(struct service *service)
 {
     struct fault fault;
     struct shared *shared = &service->shared;
@@ -176,9 +180,18 @@ void service_reload(struct service *service)
     status_announce(shared);
 }
 
+void service_reload(struct service *service)
+{
+    /* what has failed is tried again */
+    reducer_forget(&service->reducer);
+    load_again(service);
+}
+
 void service_tick(struct service *service)
 {
     struct shared *shared = &service->shared;
+    if (reducer_look(&service->reducer, shared->snapshots.current->set))
+        load_again(service);
     double now = clock_now();
     token_store_sweep(shared->tokens, now);
     reply_store_sweep(shared->replies, now);
@@ -195,6 +208,7 @@ void service_tick(struct service *service)
 void service_begin_drain(struct service *service)
 {
     atomic_store(&service->shared.draining, true);
+    reducer_end(&service->reducer);
     status_announce(&service->shared);
 }
 

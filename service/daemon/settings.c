@@ -40,6 +40,7 @@ static const struct setting table[] = {
     {"session_minutes", KIND_NUMBER, AT(session_minutes), 0.001, 100000},
     {"drain_seconds", KIND_NUMBER, AT(drain_seconds), 0, 86400},
     {"tables", KIND_PATH, AT(tables), 0, 0},
+    {"bodies", KIND_PATH, AT(bodies), 0, 0},
     {"log_level", KIND_LEVEL, AT(log_level), 0, 0},
 };
 enum { SETTING_COUNT = sizeof table / sizeof *table };

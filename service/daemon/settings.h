@@ -15,6 +15,7 @@ enum { SETTINGS_PATH_SIZE = 4096 };
 struct settings {
     char catalogue[SETTINGS_PATH_SIZE]; /* empty: not given */
     char tables[SETTINGS_PATH_SIZE];    /* folder of contact tables; empty: none */
+    char bodies[SETTINGS_PATH_SIZE];    /* folder of reduced bodies; empty: none */
     unsigned domain;
     unsigned workers;
     unsigned queue_capacity;

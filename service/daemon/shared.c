@@ -42,7 +42,8 @@ bool shared_create(struct shared *shared, const struct settings *settings, struc
     shared->started = clock_now();
     ensembles_create(&shared->ensembles);
     activity_create(&shared->activity);
-    if (snapshots_open(&shared->snapshots, settings->catalogue, &shared->tables, fault))
+    if (snapshots_open(&shared->snapshots, settings->catalogue, &shared->tables, settings->bodies,
+                       fault))
         return false;
     if (create_stores(shared))
         return true;

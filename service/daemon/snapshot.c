@@ -7,14 +7,15 @@
 
 #include "catalogue/catalogue.h"
 
-static enum percuss_status snapshot_load(const char *path, struct table_cache *tables,
-                                         struct snapshot **snapshot, struct fault *fault)
+static enum percuss_status snapshot_load(const char *path, const char *folder,
+                                         struct table_cache *tables, struct snapshot **snapshot,
+                                         struct fault *fault)
 {
     struct snapshot *loaded = calloc(1, sizeof *loaded);
     *snapshot = NULL;
     if (!loaded)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = catalogue_load(path, &loaded->set, fault);
+    enum percuss_status status = catalogue_load_reducing(path, folder, &loaded->set, fault);
     if (status) {
         free(loaded);
         return status;
@@ -26,10 +27,12 @@ static enum percuss_status snapshot_load(const char *path, struct table_cache *t
 }
 
 enum percuss_status snapshots_open(struct snapshots *snapshots, const char *path,
-                                   struct table_cache *tables, struct fault *fault)
+                                   struct table_cache *tables, const char *folder,
+                                   struct fault *fault)
 {
     pthread_mutex_init(&snapshots->lock, NULL);
-    return snapshot_load(path, tables, &snapshots->current, fault);
+    snapshots->folder = folder[0] ? folder : NULL;
+    return snapshot_load(path, snapshots->folder, tables, &snapshots->current, fault);
 }
 
 void snapshots_close(struct snapshots *snapshots)
@@ -44,7 +47,8 @@ enum percuss_status snapshots_reload(struct snapshots *snapshots, const char *pa
 {
     struct snapshot *fresh;
     *before = NULL;
-    enum percuss_status status = snapshot_load(path, snapshots->current->tables, &fresh, fault);
+    enum percuss_status status =
+        snapshot_load(path, snapshots->folder, snapshots->current->tables, &fresh, fault);
     if (status)
         return status;
     pthread_mutex_lock(&snapshots->lock);

@@ -21,12 +21,15 @@ struct snapshot {
 /* The snapshot in force. */
 struct snapshots {
     pthread_mutex_t lock;
+    const char *folder;       /* of reduced bodies; NULL: none */
     struct snapshot *current; /* under the lock; NULL: none was read */
 };
 
-/* Reads the first catalogue. Its status is the catalogue's. */
+/* Reads the first catalogue, with reduced bodies from a folder (borrowed; empty: none). Its status
+ * is the catalogue's. */
 enum percuss_status snapshots_open(struct snapshots *snapshots, const char *path,
-                                   struct table_cache *tables, struct fault *fault);
+                                   struct table_cache *tables, const char *folder,
+                                   struct fault *fault);
 void snapshots_close(struct snapshots *snapshots);
 
 /* Reads the catalogue again and puts it in force; *before, to be released by the caller, is the

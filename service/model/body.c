@@ -133,6 +133,14 @@ const struct body *body_set_find(const struct body_set *set, const char *id)
     return NULL;
 }
 
+const struct body_order *body_set_order(const struct body_set *set, const char *id)
+{
+    for (size_t i = 0; i < set->order_count; i++)
+        if (strcmp(set->orders[i].id, id) == 0)
+            return &set->orders[i];
+    return NULL;
+}
+
 struct material body_material_at(const struct body *body, const struct site *site)
 {
     return body->kind->material_at ? body->kind->material_at(body, site) : body->material;
@@ -158,6 +166,9 @@ void body_set_clear(struct body_set *set)
         free(set->bodies[i].sites);
     for (size_t i = 0; i < set->mesh_count; i++)
         mesh_body_free(set->meshes[i]);
+    for (size_t i = 0; i < set->order_count; i++)
+        body_order_clear(&set->orders[i]);
+    free(set->orders);
     free(set->meshes);
     free(set->bodies);
     *set = (struct body_set){0};

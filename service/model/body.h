@@ -11,6 +11,7 @@
 
 #include "base/fault.h"
 #include "model/body_kind.h"
+#include "model/body_order.h"
 #include "model/material.h"
 #include "model/mesh_body.h"
 #include "model/named_site.h"
@@ -104,12 +105,15 @@ struct body_set {
     size_t count;
     struct mesh_body **meshes; /* of the bodies, each once */
     size_t mesh_count;
+    struct body_order *orders; /* bodies that are not there yet */
+    size_t order_count;
     enum percuss_compliance compliance; /* HALF_SPACE; MATCHED: where it is known */
     char revision[PERCUSS_ID_SIZE];     /* hash of everything that can change an answer */
 };
 
-/* The body of that id, or NULL. */
+/* The body or the order of that id, or NULL. */
 const struct body *body_set_find(const struct body_set *set, const char *id);
+const struct body_order *body_set_order(const struct body_set *set, const char *id);
 
 /* Frees what a set holds, which came from malloc, and leaves it empty. */
 void body_set_clear(struct body_set *set);

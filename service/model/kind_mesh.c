@@ -47,6 +47,9 @@ static const struct key keys[] = {
     {"rigid", KEY_FLAG, KEY_OF(body, rigid)},
     {"scale", KEY_NUMBER, &limit_scale, KEY_OF(body, scale), .absent = 0.0},
     {"sites", KEY_CALLER, .required = false},
+    {"unit", KEY_TEXT, .required = false},
+    {"max_frequency", KEY_TEXT, .required = false},
+    {"fixed", KEY_LIST, .required = false},
 };
 
 static const struct mode_family *const families[] = {&mesh_family};

@@ -42,6 +42,19 @@ static enum percuss_status vary(struct problem *problem, size_t index, struct fa
     return PERCUSS_OK;
 }
 
+/* A body that has yet to be made of its mesh, or could not be. */
+static enum percuss_status refuse_order(const struct body_order *order, size_t index,
+                                        struct fault *fault)
+{
+    if (order->reason[0])
+        return fault_set(fault, PERCUSS_UNKNOWN_BODY,
+                         "bodies[%zu].id: '%s': its mesh could not be reduced: %s", index,
+                         order->id, order->reason);
+    return fault_set(fault, PERCUSS_BUSY,
+                     "bodies[%zu].id: '%s': its mesh is being reduced: ask again later", index,
+                     order->id);
+}
+
 static enum percuss_status find_bodies(struct problem *problem, const struct body_set *catalogue,
                                        struct fault *fault)
 {
@@ -49,6 +62,8 @@ static enum percuss_status find_bodies(struct problem *problem, const struct bod
         const struct solve_body *body = &problem->request->bodies[i];
         /* the catalogue's, or with parameters of the request's own */
         problem->bodies[i] = body_set_find(catalogue, body->id);
+        if (!problem->bodies[i] && body_set_order(catalogue, body->id))
+            return refuse_order(body_set_order(catalogue, body->id), i, fault);
         if (!problem->bodies[i])
             return fault_set(fault, PERCUSS_UNKNOWN_BODY,
                              "bodies[%zu].id: '%s': not in the catalogue (%zu bodies; percuss "

@@ -28,7 +28,7 @@ say "every setting is understood"
 settings "domain: 7" "workers: 3" "queue_capacity: 10" "inline_solves: false" \
     "tokens: {count: 10, megabytes: 1, minutes: 0.5}" "replies: {per_client: 10, megabytes: 1}" \
     "session_minutes: 1" "drain_seconds: 0" "log_level: debug" "tables: somewhere" \
-    "store: dents.db" "stored_replies: 10"
+    "store: dents.db" "stored_replies: 10" "bodies: reduced"
 expect 0 check
 
 say "bad settings are refused with file, line and what is allowed"

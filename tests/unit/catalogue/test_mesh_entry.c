@@ -219,7 +219,6 @@ static void says_what_is_wrong(void **state)
     (void)state;
     bad("{shape: mesh}", "bodies.part.file: missing");
     bad("{shape: mesh, file: none.h5}", "none.h5: cannot be opened: No such file");
-    bad("{shape: mesh, file: catalogue.yaml}", "catalogue.yaml: cannot be opened");
     bad("{shape: mesh, file: rod.h5, radius: 1}", "radius: unknown key; the keys of mesh are");
     bad("{shape: mesh, file: rod.h5, material: none}", "none: unknown material");
     bad("{shape: mesh, file: rod.h5, material: other}",
@@ -243,8 +242,92 @@ static void says_what_is_wrong(void **state)
     bad("{shape: mesh, file: rod.h5, sites: {a: {point: [300, 0, 0], normal: [1, 0, 0], curvatures:"
         " [1, 2], directions: [1, 0, 0]}}}",
         "directions: must be one direction");
+    bad("{shape: mesh, file: rod.msh, unit: mm}", "rod.msh: must be a body file");
+    bad("{shape: mesh, file: rod.h5, unit: mm}", "unit: must be absent");
     bad("{shape: rod, file: rod.h5}", "file: unknown key");
     bad("{shape: sphere, radius: 1}", "bodies.part.material: missing");
+}
+
+static void write_file(const char *name, const char *text)
+{
+    char path[200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+static void remove_in_folder(const char *name)
+{
+    char path[200];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    remove(path);
+}
+
+/* The catalogue of one body from a mesh; reduced bodies are in the same folder. */
+static struct body_set *ordering(const char *lines)
+{
+    char text[1000], path[96];
+    struct body_set *set;
+    struct fault fault = {""};
+    snprintf(text, sizeof text,
+             "materials:\n  alloy: {young: 75e9, poisson: 0.33, density: 2800, yield: 300e6}\n"
+             "bodies:\n  part: {shape: mesh, file: part.inp, %s}\n",
+             lines);
+    write_file("ordering.yaml", text);
+    snprintf(path, sizeof path, "%s/ordering.yaml", folder);
+    if (catalogue_load_reducing(path, folder, &set, &fault))
+        fail_msg("%s", fault.text);
+    return set;
+}
+
+/* What these lines order; its texts alone are left. */
+static struct body_order order_of(const char *lines)
+{
+    struct body_set *set = ordering(lines);
+    assert_int_equal(set->count, 0);
+    assert_int_equal(set->order_count, 1);
+    assert_null(body_set_order(set, "other"));
+    struct body_order order = *body_set_order(set, "part");
+    body_set_free(set);
+    return order;
+}
+
+static void a_mesh_is_ordered_until_its_body_is_there(void **state)
+{
+    (void)state;
+    char path[200], name[80];
+    write_file("part.inp", "*NODE\n");
+    /* the same order has the same name, any other another one */
+    struct body_order first = order_of("unit: mm, material: alloy");
+    struct body_order other = order_of("unit: cm, material: alloy");
+    assert_string_equal(order_of("material: alloy, unit: mm, damping: 0.1").name, first.name);
+    assert_string_not_equal(other.name, first.name);
+    assert_string_not_equal(order_of("unit: mm").name, first.name);
+    assert_string_not_equal(order_of("unit: mm, material: alloy, fixed: [low]").name, first.name);
+    assert_string_not_equal(order_of("unit: mm, material: alloy, max_frequency: 1e4").name,
+                            first.name);
+    assert_non_null(strstr(first.material, "yield: 300000000"));
+    /* why there is none */
+    assert_string_equal(first.reason, "");
+    snprintf(name, sizeof name, "%s.failed", first.name);
+    write_file(name, "no such set");
+    assert_string_equal(order_of("unit: mm, material: alloy").reason, "no such set");
+    remove_in_folder(name);
+    /* its body */
+    snprintf(path, sizeof path, "%s/%s.h5", folder, first.name);
+    assert_int_equal(symlink("rod.h5", path), 0);
+    struct body_set *set = ordering("unit: mm, material: alloy");
+    assert_int_equal(set->order_count, 0);
+    near_relative(body_set_find(set, "part")->mass, 2800.0 * M_PI * 1e-4 * 0.3, 1e-14);
+    body_set_free(set);
+    remove(path);
+    /* another mesh in the same place */
+    write_file("part.inp", "*NODE\n1, 0, 0, 0\n");
+    assert_string_not_equal(order_of("unit: mm, material: alloy").name, first.name);
+    remove_in_folder("part.inp");
+    remove_in_folder("ordering.yaml");
 }
 
 int main(void)
@@ -256,6 +339,7 @@ int main(void)
         cmocka_unit_test(revisions_follow_what_is_said),
         cmocka_unit_test(a_material_is_found_by_its_name),
         cmocka_unit_test(says_what_is_wrong),
+        cmocka_unit_test(a_mesh_is_ordered_until_its_body_is_there),
     };
     return cmocka_run_group_tests(tests, make_file, remove_file);
 }

@@ -1,0 +1,25 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Bodies of the catalogue that are given as meshes: what their reduction is, and its file's name.
+ */
+#ifndef PERCUSS_CATALOGUE_MESH_ORDER_H
+#define PERCUSS_CATALOGUE_MESH_ORDER_H
+
+#include <stdbool.h>
+
+#include "catalogue/reader.h"
+#include "model/body.h"
+
+/* Anything but a body file of percuss-reduce, whose name ends with .h5. */
+bool mesh_order_is_mesh(const char *path);
+
+/* Refuses what may only stand beside a mesh. */
+enum percuss_status mesh_order_refuse(struct reader *reader, struct entry entry);
+
+/* Turns the path of a mesh, which came from malloc, into that of its reduced body. Where that one
+ * is not there, *path becomes NULL and the set gets an order. After a failure *path stays. */
+enum percuss_status mesh_order_read(struct reader *reader, struct entry entry, struct body_set *set,
+                                    const struct body *body, char **path);
+
+#endif
