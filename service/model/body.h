@@ -93,10 +93,8 @@ void body_site_point(const struct body *body, const struct body_site *site, doub
  * INFINITY for a half-space. */
 double body_smallest_radius(const struct body *body);
 
-/* What closed forms and axisymmetric meshes can take it for. */
+/* What closed forms and axisymmetric meshes can take it for, and the theory of its vibration. */
 struct solid body_solid(const struct body *body);
-
-/* The theory of its vibration: rigid, rod, rayleigh-love, timoshenko, euler-bernoulli, ... */
 const char *body_theory(const struct body *body);
 
 /* An immutable catalogue. Owns its arrays; loaders fill it, see catalogue/. */
@@ -115,10 +113,8 @@ struct body_set {
 const struct body *body_set_find(const struct body_set *set, const char *id);
 const struct body_order *body_set_order(const struct body_set *set, const char *id);
 
-/* Frees what a set holds, which came from malloc, and leaves it empty. */
+/* Frees what a set holds, which came from malloc, and leaves it empty; the set too (or NULL). */
 void body_set_clear(struct body_set *set);
-
-/* Frees the set too; NULL is allowed. */
 void body_set_free(struct body_set *set);
 
 #endif
