@@ -5,12 +5,11 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/watch.h"
 #include "model/facet.h"
 #include "model/vector.h"
-#include "numeric/linear.h"
+#include "reduce/edge_fit.h"
 #include "reduce/flexibility.h"
 
 /* of the mesh's edges: nearer to a sharp edge the field is not known (site_choice.c's first row) */
@@ -20,6 +19,9 @@ static const double FITTED_TO = 0.6;
 /* how much a node's own value weighs beside one point of its face, where shape functions of the
  * order of 0.1 are what is fitted: it decides only where the points say nothing */
 static const double OWN_WEIGHT = 1e-4;
+/* how far a fit may move a value, times E and the distance from which on the field is known: what
+ * an edge is worth there (0.27) ten times over, as at a corner where few points are known */
+static const double MOST_MOVED = 3.0;
 
 enum { GRID = 5 };
 
@@ -44,105 +46,160 @@ static size_t grid_points(size_t count, double at[GRID * GRID][2])
     return filled;
 }
 
-/* Least squares for the values of the nodes that are marked, the others' given: what the face's
- * shape functions make of them is to be the field inside the face. */
-static void fit_marked(const struct site_field *field, const struct surface_rule *rule, size_t face,
-                       const bool marked[FACE_MOST_NODES], double values[FACE_MOST_NODES])
-{
-    const struct surface_face *f = &rule->surface->faces[face];
-    size_t index[FACE_MOST_NODES], size = 0;
-    double nodes[FACE_MOST_NODES][3], at[GRID * GRID][2];
-    double matrix[FACE_MOST_NODES * FACE_MOST_NODES] = {0.0}, side[FACE_MOST_NODES] = {0.0};
-    surface_rule_nodes(rule, face, nodes);
-    for (size_t n = 0; n < f->count; n++)
-        if (marked[n])
-            index[size++] = n;
+/* Faces of one patch and one material, which have one value at a node that they share. */
+struct group {
+    const struct site_field *field;
+    const struct surface_rule *rule;
+    size_t patch, part;
+    double *known; /* [nodes], of those of the group's faces */
+    size_t *index; /* [nodes]: which unknown a node is; KNOWN, ELSEWHERE */
+    size_t unknowns;
+    struct edge_fit fit;
+};
+static const size_t KNOWN = (size_t)-1, ELSEWHERE = (size_t)-2;
 
-    for (size_t i = 0; i < size; i++) {
-        matrix[i * size + i] = OWN_WEIGHT;
-        side[i] = OWN_WEIGHT * values[index[i]];
+static bool is_in(const struct group *group, size_t face)
+{
+    const struct surface_face *f = &group->rule->surface->faces[face];
+    return f->patch == group->patch && f->part == group->part;
+}
+
+/* The field at the face's nodes that no face before had; nodes near an edge become unknowns. */
+static void take_nodes(struct group *group, size_t face)
+{
+    const struct surface *surface = group->rule->surface;
+    const struct surface_face *f = &surface->faces[face];
+    for (size_t n = 0; n < f->count; n++) {
+        size_t node = f->nodes[n];
+        if (group->index[node] != ELSEWHERE)
+            continue;
+        const double *point = group->rule->mesh->points[node];
+        double value = site_field_at(group->field, f, point, surface->points[face][n].normal);
+        double edge = flexibility_edges_distance(group->field->edges, f->patch, point);
+        bool unknown = edge < FITTED_TO * surface->size && !isnan(value);
+        group->known[node] = value;
+        group->index[node] = unknown ? group->unknowns++ : KNOWN;
     }
-    size_t points = grid_points(f->count, at);
+}
+
+/* What the shape functions make of the nodes' values is to be the field inside the face. False: out
+ * of memory. */
+static bool add_rows(struct group *group, size_t face)
+{
+    const struct surface_rule *rule = group->rule;
+    const struct surface_face *f = &rule->surface->faces[face];
+    double nodes[FACE_MOST_NODES][3], at[GRID * GRID][2];
+    /* a face with unknowns, all of it known */
+    bool any = false, whole = true;
+    for (size_t n = 0; n < f->count; n++) {
+        any = any || group->index[f->nodes[n]] != KNOWN;
+        whole = whole && !isnan(group->known[f->nodes[n]]);
+    }
+    surface_rule_nodes(rule, face, nodes);
+    size_t points = any && whole ? grid_points(f->count, at) : 0;
     for (size_t p = 0; p < points; p++) {
         double x[3], outward[3], shape[FACE_MOST_NODES];
         facet_place(f->count, (const double(*)[3])nodes, at[p][0], at[p][1], x, outward);
         scale3(1.0 / norm3(outward), outward, outward);
-        double edge = flexibility_edges_distance(field->edges, f->patch, x) / rule->surface->size;
-        double rest = site_field_at(field, f, x, outward);
+        double edge =
+            flexibility_edges_distance(group->field->edges, f->patch, x) / rule->surface->size;
+        double rest = site_field_at(group->field, f, x, outward);
         if (edge < KNOWN_FROM || isnan(rest))
             continue;
         /* an error matters the more the less a flexibility is in doubt for other reasons */
-        double weight = edge * edge * edge;
+        struct edge_row row = {.rest = rest, .weight = edge * edge * edge};
         facet_shape(f->count, at[p][0], at[p][1], shape, NULL, NULL);
-        for (size_t n = 0; n < f->count; n++)
-            rest -= marked[n] ? 0.0 : shape[n] * values[n];
-        for (size_t i = 0; i < size; i++) {
-            side[i] += weight * shape[index[i]] * rest;
-            for (size_t j = 0; j < size; j++)
-                matrix[i * size + j] += weight * shape[index[i]] * shape[index[j]];
+        for (size_t n = 0; n < f->count; n++) {
+            size_t node = f->nodes[n];
+            if (group->index[node] == KNOWN) {
+                row.rest -= shape[n] * group->known[node];
+                continue;
+            }
+            row.index[row.count] = group->index[node];
+            row.shape[row.count++] = shape[n];
         }
+        if (!edge_fit_add(&group->fit, &row))
+            return false;
     }
-    if (!linear_solve(size, matrix, side))
-        return;
-    for (size_t i = 0; i < size; i++)
-        values[index[i]] = side[i];
+    return true;
 }
 
-static void fill_face(const struct site_field *field, const struct surface_rule *rule, size_t face,
-                      const double values[FACE_MOST_NODES], struct mesh_body_face *result)
+/* Nodes near an edge get the values that serve all faces about them best. False: out of memory. */
+static bool fit_group(struct group *group)
 {
-    const struct surface_face *f = &rule->surface->faces[face];
-    const struct material *material = &rule->mesh->part[f->part].material;
-    bool marked[FACE_MOST_NODES] = {false}, any = false, whole = true;
-    double own[FACE_MOST_NODES];
-    /* nodes near an edge; and whether all of the face is known */
-    memcpy(own, values, sizeof own);
+    const struct surface *surface = group->rule->surface;
+    double *values = calloc(group->unknowns + 1, sizeof *values);
+    bool good = values;
+    for (size_t f = 0; good && f < surface->face_count; f++)
+        good = !is_in(group, f) || add_rows(group, f);
+    /* from the nodes' own values */
+    for (size_t node = 0; good && node < group->rule->mesh->node_count; node++)
+        if (group->index[node] < group->unknowns)
+            values[group->index[node]] = group->known[node];
+    good = good && edge_fit_solve(&group->fit, group->unknowns, OWN_WEIGHT, values);
+    /* no further than edges account for */
+    double young = group->rule->mesh->part[group->part].material.young;
+    double most = MOST_MOVED / (young * KNOWN_FROM * surface->size);
+    for (size_t node = 0; good && node < group->rule->mesh->node_count; node++)
+        if (group->index[node] < group->unknowns) {
+            double moved = values[group->index[node]] - group->known[node];
+            group->known[node] += fmax(-most, fmin(moved, most));
+        }
+    free(values);
+    return good;
+}
+
+/* With the slope that a half-space of that curvature has. */
+static void fill_face(const struct group *group, size_t face, struct mesh_body_face *result)
+{
+    const struct surface_face *f = &group->rule->surface->faces[face];
+    const struct material *material = &group->rule->mesh->part[f->part].material;
     for (size_t n = 0; n < f->count; n++) {
-        double edge =
-            flexibility_edges_distance(field->edges, f->patch, rule->mesh->points[f->nodes[n]]);
-        marked[n] = edge < FITTED_TO * rule->surface->size;
-        any = any || marked[n];
-        whole = whole && !isnan(own[n]);
-    }
-    /* these are fitted to the field inside the face */
-    if (any && whole)
-        fit_marked(field, rule, face, marked, own);
-    /* with the slope that a half-space of that curvature has */
-    for (size_t n = 0; n < f->count; n++) {
-        double curvature = sites_mean_curvature(&rule->surface->points[face][n]);
-        result->flexibility[n] = own[n];
+        double curvature = sites_mean_curvature(&group->rule->surface->points[face][n]);
+        result->flexibility[n] = group->known[f->nodes[n]];
         result->flexibility_slope[n] =
             flexibility_slope(material->young, material->poisson, curvature);
     }
 }
 
+/* False: out of memory. */
+static bool spread_group(struct group *group, struct mesh_body *body)
+{
+    const struct surface *surface = group->rule->surface;
+    size_t members = 0;
+    /* what is known of its nodes */
+    for (size_t node = 0; node < group->rule->mesh->node_count; node++)
+        group->index[node] = ELSEWHERE;
+    group->unknowns = group->fit.count = 0;
+    for (size_t f = 0; f < surface->face_count; f++)
+        if (is_in(group, f)) {
+            take_nodes(group, f);
+            members++;
+        }
+    if (members == 0)
+        return true;
+    /* what is fitted; all of it to the faces */
+    bool good = group->unknowns == 0 || fit_group(group);
+    for (size_t f = 0; good && f < surface->face_count; f++)
+        if (is_in(group, f))
+            fill_face(group, f, &body->faces[f]);
+    return good;
+}
+
 enum percuss_status sites_spread(const struct site_field *field, const struct surface_rule *rule,
                                  struct mesh_body *body, struct fault *fault)
 {
-    const struct surface *surface = rule->surface;
     size_t nodes = rule->mesh->node_count;
-    double *known = malloc(nodes * sizeof *known);
-    const struct surface_face **of = calloc(nodes, sizeof *of); /* the face it was found for */
-    if (!known || !of) {
-        free(known);
-        free(of);
-        return pace_fault(fault, PERCUSS_INTERNAL);
-    }
-    /* faces of one patch and material have one value at a node that they share */
-    for (size_t f = 0; f < surface->face_count; f++) {
-        const struct surface_face *face = &surface->faces[f];
-        double values[FACE_MOST_NODES] = {0.0};
-        for (size_t n = 0; n < face->count; n++) {
-            size_t node = face->nodes[n];
-            if (!of[node] || of[node]->patch != face->patch || of[node]->part != face->part)
-                known[node] = site_field_at(field, face, rule->mesh->points[node],
-                                            surface->points[f][n].normal);
-            of[node] = face;
-            values[n] = known[node];
-        }
-        fill_face(field, rule, f, values, &body->faces[f]);
-    }
-    free(known);
-    free(of);
-    return PERCUSS_OK;
+    struct group group = {.field = field,
+                          .rule = rule,
+                          .known = malloc(nodes * sizeof *group.known),
+                          .index = malloc(nodes * sizeof *group.index)};
+    bool good = group.known && group.index;
+    for (group.patch = 0; good && group.patch < rule->surface->patch_count; group.patch++)
+        for (group.part = 0; good && group.part < rule->mesh->part_count; group.part++)
+            good = spread_group(&group, body);
+    free(group.known);
+    free(group.index);
+    edge_fit_free(&group.fit);
+    return good ? PERCUSS_OK : pace_fault(fault, PERCUSS_INTERNAL);
 }
