@@ -3,6 +3,8 @@
 
 #include "reduce/reduction.h"
 
+#include <errno.h>
+#include <libgen.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -303,12 +305,30 @@ static enum percuss_status find_flexibility(struct reduction *reduction, struct 
     return sites_find(&task, reduction->body, &reduction->sites, fault);
 }
 
+/* Before hours of work: whether a file can be written there. */
+static enum percuss_status check_output(const char *path, struct fault *fault)
+{
+    char *copy = strdup(path);
+    enum percuss_status status = PERCUSS_OK;
+    if (!copy)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    if (access(path, F_OK) == 0 ? access(path, W_OK) : access(dirname(copy), W_OK))
+        status = fault_set(fault, PERCUSS_BAD_REQUEST, "%s: cannot be written: %s", path,
+                           strerror(errno));
+    free(copy);
+    return status;
+}
+
 enum percuss_status reduction_run(const struct options *options, struct reduction *reduction,
                                   struct fault *fault)
 {
     *reduction = (struct reduction){.options = options, .progress = progress_begin()};
     progress_stage(&reduction->progress, "reading", 0.0, READ);
-    enum percuss_status status = read_body(reduction, fault);
+    enum percuss_status status = check_output(options->body, fault);
+    if (!status && options->vtk)
+        status = check_output(options->vtk, fault);
+    if (!status)
+        status = read_body(reduction, fault);
     if (!status)
         status = assemble(reduction, fault);
     if (!status)

@@ -111,6 +111,8 @@ says 'C3D8'
 expect 2 reduce --young 210e9
 says 'must be given together'
 expect 2 reduce $steel --modes 5 --max-frequency 100
+expect 1 "$bin/percuss-reduce" "$work/block.inp" --unit mm $steel -o "$work/nowhere/block.h5"
+says "nowhere/block.h5: cannot be written"
 expect 2 reduce $steel --unit furlong
 expect 2 reduce $steel --stiffness "$work/ccx.sti"
 expect 2 reduce $steel --site 1,2
