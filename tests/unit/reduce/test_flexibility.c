@@ -165,7 +165,8 @@ static void held_rod_differs_from_a_free_one_by_its_stretch(void **state)
         struct flexibility_place place = flexed_place(&flexed, size[1], 0.0, 0.0);
         struct flexibility_answer answer = flexed_solve(&flexed, &place);
         double stretch = uniform_pull(&flexed, shift);
-        assert_true(matched_cylinder(0.3, 96.0, &longer) && matched_cylinder(0.3, 48.0, &long_rod));
+        assert_true(matched_cylinder(0.3, 96.0, &longer));
+        assert_true(matched_cylinder(0.3, 48.0, &long_rod));
         longer -= 96.0 / (3.0 * M_PI);
         long_rod -= 48.0 / (3.0 * M_PI);
         measured("held rod, E b (C - stretch)", (answer.value - stretch) * YOUNG * RADIUS,

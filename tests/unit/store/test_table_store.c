@@ -141,7 +141,10 @@ static void an_elastic_pair_has_hertz(void **state)
     for (size_t j = 0; j < INDENTATION_SAMPLES; j++)
         way[j] = (double)j / (INDENTATION_SAMPLES - 1);
     struct indentation_table table = {
-        .input = {{small_steel, small_steel}, 0.01, d, 6},
+        .input = {.materials = {small_steel, small_steel},
+                  .radius = 0.01,
+                  .indentation = d,
+                  .resolution = 6},
         .hertz = f / pow(d, 1.5),
         .points = 1,
         .indentation = &d,
