@@ -4,6 +4,7 @@
 #
 # Counts the instructions of warm solves and compares them with the recorded ones: more than 10 %
 # above them fails.
+# A sample of an ensemble is told beside them.
 # usage: instructions.sh [--record] PROGRAM [OFTEN]    (build/tests/bench/solve_once, solve_often)
 #
 # What is counted is the work of this project's own code: callgrind books instructions by the object
@@ -37,7 +38,7 @@ trap 'rm -rf "$work"' EXIT
 # warm solves: instructions within the program, and calls from it into shared libraries
 count() {
     if ! valgrind --tool=callgrind \
-        --toggle-collect=counted_solve --callgrind-out-file="$work/out" --compress-strings=no \
+        --toggle-collect='counted_*' --callgrind-out-file="$work/out" --compress-strings=no \
         "$program" "$@" >"$work/log" 2>&1; then
         cat "$work/log" >&2
         return 1
@@ -80,6 +81,8 @@ for scene in rod beam; do
         done
     done
 done
+samples=$(count beam 1e-3 samples | cut -d ' ' -f 1)
+echo "a sample of an ensemble on the beam at 1e-3: $((samples / 100)) instructions"
 if [ "$record" = yes ]; then
     {
         echo "# instructions of one warm solve: scene, tolerance, instructions, library calls (instructions.sh --record)"

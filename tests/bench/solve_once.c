@@ -1,14 +1,16 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Warm solves of the rod and the beam, and of groups of contacts, for counting instructions:
- * instructions.sh. */
+/* Warm solves of the rod and the beam, of groups of contacts, and of an ensemble's samples, for
+ * counting instructions: instructions.sh. */
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "scenes.h"
+#include "solve/repeat.h"
 
 /* What is counted: everything this function does and calls. */
 __attribute__((noinline)) enum percuss_status counted_solve(struct solve_workspace *workspace,
@@ -23,7 +25,23 @@ enum percuss_status counted_solve(struct solve_workspace *workspace,
     return solve(workspace, means, request, result);
 }
 
-enum { STRIKERS = 3, GROUPS = 30 };
+/* The same for one sample. */
+__attribute__((noinline)) enum percuss_status counted_sample(struct repeat *repeat,
+                                                             const struct solve_means *means,
+                                                             const struct solve_request *request,
+                                                             const struct solution_model *model,
+                                                             struct repeat_outcome *outcome);
+
+enum percuss_status counted_sample(struct repeat *repeat, const struct solve_means *means,
+                                   const struct solve_request *request,
+                                   const struct solution_model *model,
+                                   struct repeat_outcome *outcome)
+{
+    struct fault fault;
+    return repeat_solve(repeat, means, request, 0, model, true, outcome, &fault);
+}
+
+enum { STRIKERS = 3, GROUPS = 30, SAMPLES = 100 };
 
 /* Repeatable numbers in [0, 1). */
 static double next_number(uint64_t *seed)
@@ -78,8 +96,34 @@ static enum percuss_status solve_warm(struct solve_workspace *workspace,
     return status ? status : counted_solve(workspace, means, request, result);
 }
 
-/* solve_once rod|beam TOLERANCE [groups|singles]: the scene; or thirty groups of three strikers on
- * its body; or each of their contacts by itself. */
+/* Impacts between 0.05 and 0.5 m/s by the model of the request's own. */
+static enum percuss_status solve_samples(const struct solve_means *means,
+                                         const struct solve_request *request,
+                                         struct solve_result *result)
+{
+    struct solution_model model;
+    struct repeat_outcome outcome = {.restitution = NAN};
+    struct fault fault;
+    struct repeat *repeat = repeat_create();
+    enum percuss_status status = PERCUSS_INTERNAL;
+    if (repeat)
+        status = repeat_search(repeat, means, request, 0, &model, &outcome, &fault);
+    for (int i = 0; !status && i < SAMPLES; i++) {
+        struct solve_request sample = *request;
+        sample.bodies[0].velocity[2] = -0.05 - 0.45 * i / SAMPLES;
+        if (i == 0) /* makes what all share */
+            status = repeat_solve(repeat, means, &sample, 0, &model, false, &outcome, &fault);
+        if (!status)
+            status = counted_sample(repeat, means, &sample, &model, &outcome);
+    }
+    result->contacts[0].restitution = outcome.restitution;
+    repeat_free(repeat);
+    return status;
+}
+
+/* solve_once rod|beam TOLERANCE [groups|singles|samples]: the scene; or thirty groups of three
+ * strikers on its body; or each of their contacts by itself; or a hundred samples of an ensemble.
+ */
 int main(int argc, char **argv)
 {
     static struct bench_catalogue catalogue;
@@ -88,8 +132,9 @@ int main(int argc, char **argv)
     double tolerance = argc >= 3 ? strtod(argv[2], NULL) : 0.0;
     bool groups = argc == 4 && strcmp(argv[3], "groups") == 0;
     bool singles = argc == 4 && strcmp(argv[3], "singles") == 0;
-    if (!scene || !(tolerance > 0.0) || (argc != 3 && !groups && !singles)) {
-        fprintf(stderr, "usage: solve_once SCENE TOLERANCE [groups|singles]\n");
+    bool samples = argc == 4 && strcmp(argv[3], "samples") == 0;
+    if (!scene || !(tolerance > 0.0) || (argc != 3 && !groups && !singles && !samples)) {
+        fprintf(stderr, "usage: solve_once SCENE TOLERANCE [groups|singles|samples]\n");
         return 2;
     }
     const struct solve_means means = {.catalogue = &catalogue.set};
@@ -99,7 +144,9 @@ int main(int argc, char **argv)
     uint64_t seed = 3;
     if (workspace && bench_catalogue_make(&catalogue, 0) && argc == 3)
         status = solve_warm(workspace, &means, &request, &result);
-    for (int i = 0; argc == 4 && catalogue.set.count && i < GROUPS; i++) {
+    else if (samples && catalogue.set.count)
+        status = solve_samples(&means, &request, &result);
+    for (int i = 0; (groups || singles) && catalogue.set.count && i < GROUPS; i++) {
         struct solve_request group = request;
         make_group(&group, &seed);
         status = groups ? solve_warm(workspace, &means, &group, &result) : PERCUSS_OK;
