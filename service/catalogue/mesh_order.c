@@ -3,7 +3,6 @@
 
 #include "catalogue/mesh_order.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -12,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/sha256.h"
+#include "mesh/mesh_digest.h"
 
 /* Of what percuss-reduce makes of the same mesh: raise it where that changes. */
 static const char METHOD[] = "percuss reduced body 1";
@@ -116,16 +116,11 @@ static enum percuss_status add_material(const struct reader *reader, const struc
     return add(reader, order, "--material=%s", from->name);
 }
 
-/* The order's name: of the method, the mesh's bytes, the material and the options. */
+/* The order's name: of the method, the bytes of the mesh, the material and the options. */
 static enum percuss_status write_name(struct reader *reader, const yaml_node_t *value,
                                       struct body_order *order)
 {
-    char bytes[16384];
-    size_t got;
-    FILE *file = fopen(order->mesh, "rbe");
-    if (!file)
-        return reader_refuse(reader, value, "%s: cannot be opened: %s",
-                             reader_short_name(order->mesh), strerror(errno));
+    struct fault fault;
     struct sha256 hash = sha256_begin();
     sha256_add(&hash, METHOD, sizeof METHOD);
     sha256_add(&hash, order->material, strlen(order->material) + 1);
@@ -134,14 +129,11 @@ static enum percuss_status write_name(struct reader *reader, const yaml_node_t *
     /* its kind too, by which it is read */
     const char *kind = strrchr(order->mesh, '.');
     sha256_add(&hash, kind ? kind : "", kind ? strlen(kind) + 1 : 1);
-    while ((got = fread(bytes, 1, sizeof bytes, file)) > 0)
-        sha256_add(&hash, bytes, got);
-    int failed = ferror(file);
-    fclose(file);
+    enum percuss_status status = mesh_digest(order->mesh, &hash, &fault);
     sha256_end(&hash, order->name);
-    return failed
-               ? reader_refuse(reader, value, "%s: cannot be read", reader_short_name(order->mesh))
-               : PERCUSS_OK;
+    if (status == PERCUSS_INTERNAL)
+        return out_of_memory(reader);
+    return status ? reader_refuse(reader, value, "%s", reader_short_name(fault.text)) : PERCUSS_OK;
 }
 
 /* What a failure left in the folder. */

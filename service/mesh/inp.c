@@ -10,8 +10,6 @@
 
 #include "mesh/inp_parts.h"
 
-enum { MOST_DEPTH = 8, PATH_SIZE = 1024 };
-
 typedef enum percuss_status card_reader(struct inp *inp, const struct card *card);
 
 static enum percuss_status read_deck(struct inp *inp, const char *path);
@@ -163,19 +161,24 @@ static enum percuss_status section(struct inp *inp, const struct card *card)
                : inp_out_of_memory(inp);
 }
 
+void inp_beside(const char *file, const char *name, char path[INP_PATH_SIZE])
+{
+    const char *slash = strrchr(file, '/');
+    int folder = *name != '/' && slash ? (int)(slash + 1 - file) : 0;
+    snprintf(path, INP_PATH_SIZE, "%.*s%s", folder, file, name);
+}
+
 /* a file beside this one, in place of the line: its lines of data may belong to the keyword above
  */
 static enum percuss_status include(struct inp *inp, const struct card *card)
 {
     const char *name = need(inp, card, "INPUT");
-    const char *slash = strrchr(inp->scan->file, '/');
-    char path[PATH_SIZE];
+    char path[INP_PATH_SIZE];
     if (!name)
         return PERCUSS_BAD_REQUEST;
-    if (inp->depth == MOST_DEPTH)
-        return scan_refuse(inp->scan, "*INCLUDE: must not be more than %d deep", MOST_DEPTH);
-    int folder = *name != '/' && slash ? (int)(slash + 1 - inp->scan->file) : 0;
-    snprintf(path, sizeof path, "%.*s%s", folder, inp->scan->file, name);
+    if (inp->depth == INP_MOST_DEPTH)
+        return scan_refuse(inp->scan, "*INCLUDE: must not be more than %d deep", INP_MOST_DEPTH);
+    inp_beside(inp->scan->file, name, path);
     struct scan *outer = inp->scan;
     inp->depth++;
     enum percuss_status status = read_deck(inp, path);

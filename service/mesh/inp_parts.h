@@ -8,6 +8,8 @@
 #include "mesh/card.h"
 #include "mesh/deck.h"
 
+enum { INP_MOST_DEPTH = 8, INP_PATH_SIZE = 1024 };
+
 struct inp;
 typedef enum percuss_status inp_line_reader(struct inp *inp, char *line);
 
@@ -24,6 +26,9 @@ struct inp {
     enum element_type type;
     size_t label, nodes[ELEMENT_MOST_NODES], filled; /* the element that is being read */
 };
+
+/* The path of a file that another one names by *INCLUDE. */
+void inp_beside(const char *file, const char *name, char path[INP_PATH_SIZE]);
 
 enum percuss_status inp_out_of_memory(const struct inp *inp);
 

@@ -28,7 +28,7 @@ say "what a mesh needs beside it"
 refused "block: unit: missing: must be m, cm, mm" "block: {shape: mesh, file: block.inp}"
 refused "unit: furlong: must be m, cm, mm" "block: {shape: mesh, file: block.inp, unit: furlong}"
 refused "max_frequency: -1: must be a frequency in Hz" "block: {shape: mesh, file: block.inp, unit: mm, max_frequency: -1}"
-refused "none.inp: cannot be opened: No such file" "block: {shape: mesh, file: none.inp, unit: mm}"
+refused "none.inp: No such file" "block: {shape: mesh, file: none.inp, unit: mm}"
 refused "unit: must be absent" "block: {shape: mesh, file: block.h5, unit: mm}"
 settings
 refused "block.inp: must be a body file of percuss-reduce" "block: {shape: mesh, file: block.inp, unit: mm}"
