@@ -137,18 +137,21 @@ static enum percuss_status write_name(struct reader *reader, const yaml_node_t *
 }
 
 /* What a failure left in the folder. */
-static void read_reason(const char *folder, struct body_order *order)
+static void read_reason(const char *folder, const struct body_order *order)
 {
-    char *path;
-    if (asprintf(&path, "%s/%s.failed", folder, order->name) < 0)
-        return;
-    FILE *file = fopen(path, "re");
-    free(path);
-    if (!file)
-        return;
-    size_t got = fread(order->reason, 1, sizeof order->reason - 1, file);
-    order->reason[got] = '\0';
-    fclose(file);
+    static const char *const suffixes[] = {"failed", "killed"};
+    for (size_t i = 0; i < sizeof suffixes / sizeof *suffixes; i++) {
+        char *path, reason[400];
+        if (asprintf(&path, "%s/%s.%s", folder, order->name, suffixes[i]) < 0)
+            return;
+        FILE *file = fopen(path, "re");
+        free(path);
+        if (!file)
+            continue;
+        reason[fread(reason, 1, sizeof reason - 1, file)] = '\0';
+        fclose(file);
+        body_order_tell(order, PERCUSS_UNKNOWN_BODY, "its mesh could not be reduced: %s", reason);
+    }
 }
 
 static enum percuss_status read_options(struct reader *reader, struct entry entry,
@@ -196,31 +199,32 @@ enum percuss_status mesh_order_read(struct reader *reader, struct entry entry, s
                              "reduced by percussd where its settings name a folder for bodies",
                              reader_excerpt(file).text);
     reader_leave(reader, mark);
-    /* what it will be made from */
+    /* what it is made from */
     memcpy(order.id, body->id, sizeof order.id);
-    enum percuss_status status = read_options(reader, entry, body, &order);
+    enum percuss_status status = body_order_begin(&order)
+                                     ? read_options(reader, entry, body, &order)
+                                     : out_of_memory(reader);
     if (!status)
         status = write_name(reader, file, &order);
-    if (!status && asprintf(&reduced, "%s/%s.h5", reader->folder, order.name) < 0) {
-        reduced = NULL;
+    if (!status && asprintf(&reduced, "%s/%s.h5", reader->folder, order.name) < 0)
         status = out_of_memory(reader);
-    }
-    if (!status && access(reduced, F_OK) != 0) {
-        /* not yet there: the set keeps the order with the mesh's path */
-        free(reduced);
-        read_reason(reader->folder, &order);
+    /* the set keeps the order with the mesh's path; the caller gets that of the body, if it is
+     * there
+     */
+    if (!status) {
+        order.made = access(reduced, F_OK) == 0;
+        if (!order.made)
+            read_reason(reader->folder, &order);
         if (keep(set, &order)) {
-            *path = NULL;
+            *path = order.made ? reduced : NULL;
+            if (!order.made)
+                free(reduced);
             return PERCUSS_OK;
         }
-        reduced = NULL;
+        free(reduced);
         status = out_of_memory(reader);
     }
-    /* the path stays the caller's, or is replaced */
-    if (status)
-        order.mesh = NULL;
-    else
-        *path = reduced;
+    order.mesh = NULL;
     body_order_clear(&order);
     return status;
 }

@@ -17,8 +17,8 @@ bool mesh_order_is_mesh(const char *path);
 /* Refuses what may only stand beside a mesh. */
 enum percuss_status mesh_order_refuse(struct reader *reader, struct entry entry);
 
-/* Turns the path of a mesh, which came from malloc, into that of its reduced body. Where that one
- * is not there, *path becomes NULL and the set gets an order. After a failure *path stays. */
+/* Gives the set an order for a mesh, whose path, which came from malloc, becomes that of the
+ * reduced body, or NULL where that one is not there yet. After a failure *path stays. */
 enum percuss_status mesh_order_read(struct reader *reader, struct entry entry, struct body_set *set,
                                     const struct body *body, char **path);
 

@@ -60,7 +60,8 @@ static int check_config(const struct settings *settings)
     remark_sites(set);
     /* what is not there yet */
     for (size_t i = 0; i < set->order_count; i++)
-        printf("%s: will be reduced from %s\n", set->orders[i].id, set->orders[i].mesh);
+        if (!set->orders[i].made)
+            printf("%s: will be reduced from %s\n", set->orders[i].id, set->orders[i].mesh);
     body_set_free(set);
     puts("ok");
     return EXIT_SUCCESS;

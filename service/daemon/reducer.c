@@ -9,6 +9,7 @@
 #include <limits.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,17 +24,21 @@ static const int NICE = 15; /* below the long lane, which somebody waits for */
 
 enum { BODY, MESSAGES, MATERIAL };
 
-void reducer_forget(struct reducer *reducer)
+static const char REFUSED[] = ".failed", KILLED[] = ".killed"; /* files with the reason */
+
+/* Whether a file of the folder is the reason of a failure of that kind. */
+static bool is_reason(const char *name, const char *kind)
 {
-    static const char suffix[] = ".failed";
+    return strlen(name) == 64 + strlen(kind) && strcmp(name + 64, kind) == 0;
+}
+
+static void forget(const struct reducer *reducer, bool refusals)
+{
     struct dirent *entry;
     DIR *folder = reducer->folder[0] ? opendir(reducer->folder) : NULL;
-    reducer->halted = false;
-    while (folder && (entry = readdir(folder))) {
-        size_t length = strlen(entry->d_name);
-        if (length == 64 + strlen(suffix) && strcmp(entry->d_name + 64, suffix) == 0)
+    while (folder && (entry = readdir(folder)))
+        if (is_reason(entry->d_name, KILLED) || (refusals && is_reason(entry->d_name, REFUSED)))
             unlinkat(dirfd(folder), entry->d_name, 0);
-    }
     if (folder)
         closedir(folder);
 }
@@ -44,7 +49,13 @@ void reducer_begin(struct reducer *reducer, const char *folder)
     /* one level: what is above it is for an administrator to make */
     if (folder[0])
         mkdir(folder, 0755);
-    reducer_forget(reducer);
+    forget(reducer, true);
+}
+
+void reducer_retry(struct reducer *reducer)
+{
+    reducer->halted[0] = '\0';
+    forget(reducer, false);
 }
 
 static void drop_files(struct reducer *reducer)
@@ -55,6 +66,30 @@ static void drop_files(struct reducer *reducer)
         free(reducer->files[i]);
         reducer->files[i] = NULL;
     }
+}
+
+/* Tells who asks for what is, or was, in work; two bodies may be of one mesh. */
+static void __attribute__((format(printf, 4, 5)))
+tell(const struct reducer *reducer, const struct body_set *set, enum percuss_status status,
+     const char *format, ...)
+{
+    char text[BODY_NEWS_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    for (size_t i = 0; i < set->order_count; i++)
+        if (strcmp(set->orders[i].name, reducer->name) == 0)
+            body_order_tell(&set->orders[i], status, "%s", text);
+}
+
+static void __attribute__((format(printf, 2, 3)))
+halt(struct reducer *reducer, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(reducer->halted, sizeof reducer->halted, format, arguments);
+    va_end(arguments);
 }
 
 /* PATH of a result in the folder, for free(); NULL: no memory. */
@@ -136,13 +171,16 @@ static int spawn(struct reducer *reducer, char **arguments)
     return error;
 }
 
-static void start(struct reducer *reducer, const struct body_order *order)
+static void start(struct reducer *reducer, const struct body_set *set,
+                  const struct body_order *order)
 {
-    char name[] = "percuss-reduce", output[] = "-o", catalogue[] = "-C", files[] = "--";
-    char *arguments[BODY_ORDER_ARGUMENTS + 8] = {name};
-    size_t count = 1;
+    char name[] = "percuss-reduce", progress[] = "--progress=1";
+    char output[] = "-o", catalogue[] = "-C", files[] = "--";
+    char *arguments[BODY_ORDER_ARGUMENTS + 9] = {name, progress};
+    size_t count = 2;
     snprintf(reducer->id, sizeof reducer->id, "%s", order->id);
     snprintf(reducer->name, sizeof reducer->name, "%s", order->name);
+    reducer->done = 0.0;
     int error = name_files(reducer) ? 0 : ENOMEM;
     /* the order's options, and the files */
     for (size_t i = 0; i < order->argument_count; i++)
@@ -162,12 +200,40 @@ static void start(struct reducer *reducer, const struct body_order *order)
     if (!error) {
         log_line(LEVEL_INFO, "%s: %s is being reduced by process %d, its messages in %s", order->id,
                  order->mesh, (int)reducer->child, reducer->files[MESSAGES]);
+        tell(reducer, set, PERCUSS_BUSY, "its mesh is being reduced: ask again later");
         return;
     }
-    log_line(LEVEL_ERROR, "%s: %s cannot be reduced: percuss-reduce or %s: %s; SIGHUP tries again",
-             order->id, order->mesh, reducer->folder, strerror(error));
+    halt(reducer, "percuss-reduce or %.300s: %s", reducer->folder, strerror(error));
+    log_line(LEVEL_ERROR, "%s: %s cannot be reduced: %s; SIGHUP tries again", order->id,
+             order->mesh, reducer->halted);
     drop_files(reducer);
-    reducer->halted = true;
+}
+
+/* How far the child is: its last line of progress, "percuss-reduce:  43.2 %  modes, 12 s left". */
+static void follow(struct reducer *reducer, const struct body_set *set)
+{
+    char text[2048], *line, *rest = text, stage[120] = "";
+    double percent;
+    int read;
+    FILE *file = fopen(reducer->files[MESSAGES], "re");
+    if (!file)
+        return;
+    /* the end of its messages, which may begin within a line */
+    fseek(file, -(long)(sizeof text - 1), SEEK_END);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    fclose(file);
+    while ((line = strsep(&rest, "\n"))) {
+        read = 0;
+        if (rest && sscanf(line, "percuss-reduce: %lf %% %n", &percent, &read) == 1 && read > 0) {
+            snprintf(stage, sizeof stage, "%s", line + read);
+            reducer->done = percent / 100.0;
+        }
+    }
+    if (stage[0])
+        tell(reducer, set, PERCUSS_BUSY, "its mesh is being reduced, %.0f %% (%s): ask again later",
+             100.0 * reducer->done, stage);
+    else
+        tell(reducer, set, PERCUSS_BUSY, "its mesh is being reduced: ask again later");
 }
 
 /* The last line of the child's messages. */
@@ -187,14 +253,17 @@ static void last_message(const char *path, char text[400])
 }
 
 /* Puts what the child has made, or why it has made nothing, where the catalogue finds it. */
-static void conclude(struct reducer *reducer, int status)
+static void conclude(struct reducer *reducer, const struct body_set *set, int status)
 {
     char reason[400];
-    bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    char *path = result_path(reducer, reducer->name, good ? ".h5" : ".failed");
-    if (good) {
-        good = path && rename(reducer->files[BODY], path) == 0;
-        reducer->halted = !good;
+    bool made = WIFEXITED(status) && WEXITSTATUS(status) == 0, noted;
+    char *path = result_path(reducer, reducer->name,
+                             made                  ? ".h5"
+                             : WIFSIGNALED(status) ? KILLED
+                                                   : REFUSED);
+    if (made) {
+        noted = path && rename(reducer->files[BODY], path) == 0;
+        tell(reducer, set, PERCUSS_BUSY, "its mesh is reduced and being loaded: ask again");
     } else {
         if (WIFSIGNALED(status))
             snprintf(reason, sizeof reason, "percuss-reduce was ended by signal %d",
@@ -202,25 +271,44 @@ static void conclude(struct reducer *reducer, int status)
         else
             last_message(reducer->files[MESSAGES], reason);
         log_line(LEVEL_ERROR, "%s: could not be reduced: %s", reducer->id, reason);
-        reducer->halted = !path || !write_text(path, reason);
+        noted = path && write_text(path, reason);
+        tell(reducer, set, PERCUSS_UNKNOWN_BODY, "its mesh could not be reduced: %s", reason);
     }
-    if (good)
+    if (made && noted)
         log_line(LEVEL_INFO, "%s: reduced", reducer->id);
-    else if (reducer->halted)
-        log_line(LEVEL_ERROR, "%s: cannot be written: nothing more is reduced until SIGHUP",
-                 reducer->folder);
+    if (!noted) {
+        halt(reducer, "%.300s: cannot be written", reducer->folder);
+        log_line(LEVEL_ERROR, "%s: nothing more is reduced until SIGHUP", reducer->halted);
+    }
     free(path);
     drop_files(reducer);
+}
+
+void reducer_unloaded(const struct reducer *reducer, const struct body_set *set,
+                      const struct fault *fault)
+{
+    for (size_t i = 0; i < set->order_count; i++) {
+        const struct body_order *order = &set->orders[i];
+        char *path = order->made ? NULL : result_path(reducer, order->name, ".h5");
+        if (path && access(path, F_OK) == 0)
+            body_order_tell(
+                order, PERCUSS_UNKNOWN_BODY,
+                "its mesh is reduced, but the catalogue cannot be loaded with it: %.380s",
+                fault->text);
+        free(path);
+    }
 }
 
 /* Whether the folder lacks an order's body and knows no reason why. */
 static bool is_open(const struct reducer *reducer, const struct body_order *order)
 {
-    char *body = result_path(reducer, order->name, ".h5");
-    char *failed = result_path(reducer, order->name, ".failed");
-    bool open = body && failed && access(body, F_OK) != 0 && access(failed, F_OK) != 0;
-    free(body);
-    free(failed);
+    static const char *const suffixes[] = {".h5", REFUSED, KILLED};
+    bool open = true;
+    for (size_t i = 0; open && i < sizeof suffixes / sizeof *suffixes; i++) {
+        char *path = result_path(reducer, order->name, suffixes[i]);
+        open = path && access(path, F_OK) != 0;
+        free(path);
+    }
     return open;
 }
 
@@ -230,24 +318,34 @@ bool reducer_look(struct reducer *reducer, const struct body_set *set)
     /* the one that runs */
     if (reducer->child) {
         pid_t ended = waitpid(reducer->child, &status, WNOHANG);
-        if (ended != reducer->child)
+        if (ended != reducer->child) {
+            follow(reducer, set);
             return false;
+        }
         reducer->child = 0;
-        conclude(reducer, status);
+        conclude(reducer, set, status);
         return true;
     }
     /* or the next */
-    for (size_t i = 0; !reducer->halted && i < set->order_count; i++)
-        if (is_open(reducer, &set->orders[i])) {
-            start(reducer, &set->orders[i]);
+    for (size_t i = 0; i < set->order_count; i++) {
+        const struct body_order *order = &set->orders[i];
+        if (!is_open(reducer, order))
+            continue;
+        if (!reducer->halted[0])
+            start(reducer, set, order);
+        if (reducer->child)
             break;
-        }
+        body_order_tell(order, PERCUSS_UNKNOWN_BODY,
+                        "its mesh cannot be reduced: %s; the server's "
+                        "log says more",
+                        reducer->halted);
+    }
     return false;
 }
 
 void reducer_end(struct reducer *reducer)
 {
-    reducer->halted = true;
+    halt(reducer, "the server is shutting down");
     if (!reducer->child)
         return;
     /* it keeps nothing that it would have to put away; Gmsh, which it may run, goes with it */

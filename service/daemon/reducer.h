@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <sys/types.h>
 
+#include "base/fault.h"
 #include "model/body.h"
 
 enum { REDUCER_FILES = 3 };
@@ -16,18 +17,26 @@ enum { REDUCER_FILES = 3 };
 struct reducer {
     const char *folder; /* borrowed; empty: nothing is reduced */
     pid_t child;        /* 0: none */
-    bool halted;        /* nothing can be started or noted, which the log has said */
+    char halted[400];   /* why nothing is started any more; empty: it is */
     char id[PERCUSS_ID_SIZE], name[65];
+    double done;                /* of the child: 0 .. 1 */
     char *files[REDUCER_FILES]; /* of the child: body, messages, material; NULL: none */
 };
 
-/* Failures of before are forgotten: what lacks is tried again. */
+/* Failures of before are forgotten: what lacks is tried. */
 void reducer_begin(struct reducer *reducer, const char *folder);
-void reducer_forget(struct reducer *reducer);
 
-/* Starts the next of the set's orders if nothing runs. True: one has ended, well or not, so that
- * the catalogue is to be loaded again. */
+/* What could not be started, or was killed, is tried again. What percuss-reduce has refused is not:
+ * it would refuse it again. */
+void reducer_retry(struct reducer *reducer);
+
+/* Starts the next of the set's orders if nothing runs, and tells how far it is. True: one has
+ * ended, well or not, so that the catalogue is to be loaded again. */
 bool reducer_look(struct reducer *reducer, const struct body_set *set);
+
+/* The catalogue cannot be loaded again: bodies that are there now do not go with it. */
+void reducer_unloaded(const struct reducer *reducer, const struct body_set *set,
+                      const struct fault *fault);
 
 /* Stops what runs, for good. */
 void reducer_end(struct reducer *reducer);

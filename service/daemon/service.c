@@ -169,6 +169,7 @@ static void load_again(struct service *service)
     struct snapshot *before;
     if (snapshots_reload(&shared->snapshots, shared->settings->catalogue, &before, &fault)) {
         log_line(LEVEL_ERROR, "reload: %s; the old catalogue stays", fault.text);
+        reducer_unloaded(&service->reducer, shared->snapshots.current->set, &fault);
         return;
     }
     /* only this thread replaces it */
@@ -182,16 +183,26 @@ static void load_again(struct service *service)
 
 void service_reload(struct service *service)
 {
-    /* what has failed is tried again */
-    reducer_forget(&service->reducer);
+    reducer_retry(&service->reducer);
     load_again(service);
+}
+
+static void look_at_reducer(struct service *service)
+{
+    struct shared *shared = &service->shared;
+    struct reducer *reducer = &service->reducer;
+    if (reducer_look(reducer, shared->snapshots.current->set))
+        load_again(service);
+    if (reducer->child)
+        activity_set(&shared->reduction, reducer->done, "reducing %s", reducer->id);
+    else
+        activity_clear(&shared->reduction);
 }
 
 void service_tick(struct service *service)
 {
     struct shared *shared = &service->shared;
-    if (reducer_look(&service->reducer, shared->snapshots.current->set))
-        load_again(service);
+    look_at_reducer(service);
     double now = clock_now();
     token_store_sweep(shared->tokens, now);
     reply_store_sweep(shared->replies, now);
@@ -209,6 +220,7 @@ void service_begin_drain(struct service *service)
 {
     atomic_store(&service->shared.draining, true);
     reducer_end(&service->reducer);
+    activity_clear(&service->shared.reduction);
     status_announce(&service->shared);
 }
 

@@ -42,6 +42,7 @@ bool shared_create(struct shared *shared, const struct settings *settings, struc
     shared->started = clock_now();
     ensembles_create(&shared->ensembles);
     activity_create(&shared->activity);
+    activity_create(&shared->reduction);
     if (snapshots_open(&shared->snapshots, settings->catalogue, &shared->tables, settings->bodies,
                        fault))
         return false;
@@ -59,6 +60,7 @@ void shared_release(struct shared *shared)
     reply_store_free(shared->replies);
     token_store_free(shared->tokens);
     snapshots_close(&shared->snapshots);
+    activity_release(&shared->reduction);
     activity_release(&shared->activity);
     ensembles_release(&shared->ensembles);
 }

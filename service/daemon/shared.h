@@ -37,6 +37,7 @@ struct shared {
     struct table_cache tables;
     struct ensembles ensembles; /* in the long lane */
     struct activity activity;   /* of the long lane's worker */
+    struct activity reduction;  /* of percuss-reduce, which the main thread runs */
     struct queue *lanes[LANE_COUNT];
 
     /* for the threads that their headers name */

@@ -33,8 +33,11 @@ void status_announce(struct shared *shared)
         .uptime = clock_now() - shared->started,
         .specimens = shared->specimens ? (uint32_t)specimen_lane_count(shared->specimens) : 0,
     };
-    /* its texts */
+    /* its texts; what somebody waits for first */
     activity_read(&shared->activity, status.activity, sizeof status.activity, &status.progress);
+    if (!status.activity[0])
+        activity_read(&shared->reduction, status.activity, sizeof status.activity,
+                      &status.progress);
     COPY_TEXT(status.version, PERCUSS_VERSION);
     COPY_TEXT(status.state, atomic_load(&shared->draining) ? "draining" : "ready");
     COPY_TEXT(status.catalogue_revision, snapshot->set->revision);

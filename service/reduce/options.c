@@ -12,7 +12,20 @@
 #include "mesh/mesh_read.h"
 #include "model/limits.h"
 
-enum { USAGE = 2, YOUNG = 256, POISSON, DENSITY, SIZE, SITE, STIFFNESS, MASS, FREEDOMS, VTK, JSON };
+enum {
+    USAGE = 2,
+    YOUNG = 256,
+    POISSON,
+    DENSITY,
+    SIZE,
+    SITE,
+    STIFFNESS,
+    MASS,
+    FREEDOMS,
+    VTK,
+    JSON,
+    PROGRESS
+};
 
 const char *argp_program_version = "percuss-reduce " PERCUSS_VERSION;
 
@@ -39,6 +52,10 @@ static const struct argp_option list[] = {
     {NULL, 0, NULL, 0, "What is told:", 3},
     {"vtk", VTK, "FILE.vtu", 0, "Also write mesh and modes for ParaView", 3},
     {"json", JSON, NULL, 0, "The report as one JSON object", 3},
+    {"progress", PROGRESS, "S", 0,
+     "A line of progress for each stage and every S seconds; default 30 s without stages, if "
+     "standard error is no terminal",
+     3},
     {0},
 };
 
@@ -186,6 +203,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case JSON:
         options->json = true;
+        return 0;
+    case PROGRESS:
+        options->progress = parse_number(state, "progress", text, 0.1, 86400.0);
         return 0;
     case ARGP_KEY_ARG:
         if (options->file)

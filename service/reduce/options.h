@@ -27,6 +27,7 @@ struct options {
     const char *fixed[OPTIONS_MOST];
     struct part_option parts[OPTIONS_MOST];
     double sites[OPTIONS_MOST][3]; /* in the unit of the mesh */
+    double progress;               /* s between its lines; 0: not given */
     bool json;
 };
 

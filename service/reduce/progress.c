@@ -17,10 +17,19 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-struct progress progress_begin(void)
+struct progress progress_begin(double pause)
 {
     double start = now();
-    return (struct progress){"", isatty(STDERR_FILENO), start, start, 0.0, 1.0};
+    bool terminal = isatty(STDERR_FILENO);
+    return (struct progress){.label = "",
+                             .terminal = terminal,
+                             .stages = terminal || pause > 0.0,
+                             .pause = pause > 0.0 ? pause
+                                      : terminal  ? TERMINAL_PAUSE
+                                                  : OTHER_PAUSE,
+                             .start = start,
+                             .told = start,
+                             .share = 1.0};
 }
 
 double progress_seconds(const struct progress *progress)
@@ -49,15 +58,14 @@ void progress_stage(struct progress *progress, const char *label, double from, d
     progress->label = label;
     progress->from = from;
     progress->share = share;
-    if (progress->terminal)
+    if (progress->stages)
         write_line(progress, from);
 }
 
 bool progress_show(void *context, double done)
 {
     struct progress *progress = context;
-    double pause = progress->terminal ? TERMINAL_PAUSE : OTHER_PAUSE;
-    if (now() - progress->told >= pause)
+    if (now() - progress->told >= progress->pause)
         write_line(progress, progress->from + progress->share * done);
     return true;
 }

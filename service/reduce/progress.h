@@ -9,13 +9,15 @@
 #include <stdbool.h>
 
 struct progress {
-    const char *label; /* what is done now */
-    bool terminal;
-    double start, told; /* s of a clock */
-    double from, share; /* of the whole: before what is told now, and its own */
+    const char *label;     /* what is done now */
+    bool terminal, stages; /* a line for each stage too */
+    double pause;          /* s between lines */
+    double start, told;    /* s of a clock */
+    double from, share;    /* of the whole: before what is told now, and its own */
 };
 
-struct progress progress_begin(void);
+/* `pause` in s; 0: what is good for a reader of standard error. */
+struct progress progress_begin(double pause);
 
 /* What comes now is so much of the whole, from there. */
 void progress_stage(struct progress *progress, const char *label, double from, double share);

@@ -322,7 +322,8 @@ static enum percuss_status check_output(const char *path, struct fault *fault)
 enum percuss_status reduction_run(const struct options *options, struct reduction *reduction,
                                   struct fault *fault)
 {
-    *reduction = (struct reduction){.options = options, .progress = progress_begin()};
+    *reduction =
+        (struct reduction){.options = options, .progress = progress_begin(options->progress)};
     progress_stage(&reduction->progress, "reading", 0.0, READ);
     enum percuss_status status = check_output(options->body, fault);
     if (!status && options->vtk)

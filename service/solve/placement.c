@@ -46,13 +46,8 @@ static enum percuss_status vary(struct problem *problem, size_t index, struct fa
 static enum percuss_status refuse_order(const struct body_order *order, size_t index,
                                         struct fault *fault)
 {
-    if (order->reason[0])
-        return fault_set(fault, PERCUSS_UNKNOWN_BODY,
-                         "bodies[%zu].id: '%s': its mesh could not be reduced: %s", index,
-                         order->id, order->reason);
-    return fault_set(fault, PERCUSS_BUSY,
-                     "bodies[%zu].id: '%s': its mesh is being reduced: ask again later", index,
-                     order->id);
+    struct body_news news = body_order_news(order);
+    return fault_set(fault, news.status, "bodies[%zu].id: '%s': %s", index, order->id, news.text);
 }
 
 static enum percuss_status find_bodies(struct problem *problem, const struct body_set *catalogue,

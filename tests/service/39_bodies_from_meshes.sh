@@ -51,7 +51,7 @@ asks() {
 say "others are answered meanwhile; who asks for it is told"
 start_daemon
 asks
-says "its mesh is being reduced: ask again later"
+says "ask again later"
 expect 0 query
 
 say "then it is there, of the catalogue's material"

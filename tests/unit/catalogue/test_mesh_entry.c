@@ -294,6 +294,15 @@ static struct body_order order_of(const char *lines)
     return order;
 }
 
+/* What who asks for it is told. */
+static struct body_news news_of(const char *lines)
+{
+    struct body_set *set = ordering(lines);
+    struct body_news news = body_order_news(body_set_order(set, "part"));
+    body_set_free(set);
+    return news;
+}
+
 static void a_mesh_is_ordered_until_its_body_is_there(void **state)
 {
     (void)state;
@@ -310,16 +319,24 @@ static void a_mesh_is_ordered_until_its_body_is_there(void **state)
                             first.name);
     assert_non_null(strstr(first.material, "yield: 300000000"));
     /* why there is none */
-    assert_string_equal(first.reason, "");
-    snprintf(name, sizeof name, "%s.failed", first.name);
-    write_file(name, "no such set");
-    assert_string_equal(order_of("unit: mm, material: alloy").reason, "no such set");
-    remove_in_folder(name);
+    static const char *const kinds[] = {"failed", "killed"};
+    assert_false(first.made);
+    for (int i = 0; i < 2; i++) {
+        struct body_news news = news_of("unit: mm, material: alloy");
+        assert_int_equal(news.status, PERCUSS_BUSY);
+        assert_string_equal(news.text, "its mesh waits to be reduced: ask again later");
+        snprintf(name, sizeof name, "%s.%s", first.name, kinds[i]);
+        write_file(name, "no such set");
+        news = news_of("unit: mm, material: alloy");
+        assert_int_equal(news.status, PERCUSS_UNKNOWN_BODY);
+        assert_string_equal(news.text, "its mesh could not be reduced: no such set");
+        remove_in_folder(name);
+    }
     /* its body */
     snprintf(path, sizeof path, "%s/%s.h5", folder, first.name);
     assert_int_equal(symlink("rod.h5", path), 0);
     struct body_set *set = ordering("unit: mm, material: alloy");
-    assert_int_equal(set->order_count, 0);
+    assert_true(body_set_order(set, "part")->made);
     near_relative(body_set_find(set, "part")->mass, 2800.0 * M_PI * 1e-4 * 0.3, 1e-14);
     body_set_free(set);
     remove(path);
