@@ -20,7 +20,8 @@ enum { CATALOGUE_MAX_BYTES = 16 * 1024 * 1024 };
 enum percuss_status catalogue_load(const char *path, struct body_set **set, struct fault *fault);
 
 /* The same, where bodies may be given as meshes: they are taken from the folder of reduced bodies,
- * and those that it lacks become orders of the set. Without a folder (NULL) they are refused. */
+ * and those that it lacks become orders of the set, all of them if the folder is empty text.
+ * Without a folder (NULL) they are refused. */
 enum percuss_status catalogue_load_reducing(const char *path, const char *folder,
                                             struct body_set **set, struct fault *fault);
 

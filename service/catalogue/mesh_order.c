@@ -212,8 +212,9 @@ enum percuss_status mesh_order_read(struct reader *reader, struct entry entry, s
      * there
      */
     if (!status) {
-        order.made = access(reduced, F_OK) == 0;
-        if (!order.made)
+        bool somewhere = reader->folder[0];
+        order.made = somewhere && access(reduced, F_OK) == 0;
+        if (somewhere && !order.made)
             read_reason(reader->folder, &order);
         if (keep(set, &order)) {
             *path = order.made ? reduced : NULL;

@@ -70,9 +70,16 @@ static enum percuss_status find_body(const struct body_set *set, const char *id,
                                      const struct body **body, struct fault *fault)
 {
     *body = body_set_find(set, id);
-    return *body ? PERCUSS_OK
-                 : fault_set(fault, PERCUSS_UNKNOWN_BODY,
-                             "%s: must be the id of a body in the catalogue", id);
+    if (*body)
+        return PERCUSS_OK;
+    if (body_set_order(set, id))
+        return fault_set(
+            fault, PERCUSS_UNKNOWN_BODY,
+            "%s: its mesh is not reduced: --bodies DIR must be a folder where percussd "
+            "has reduced it",
+            id);
+    return fault_set(fault, PERCUSS_UNKNOWN_BODY, "%s: must be the id of a body in the catalogue",
+                     id);
 }
 
 /* The pair that was asked for. */
@@ -106,6 +113,9 @@ static enum percuss_status make_all(const struct options *options, const struct 
         status = name_pair(options, set, &named, fault);
         return status ? status : make(options, &named, fault);
     }
+    for (size_t i = 0; i < set->order_count; i++)
+        if (!set->orders[i].made)
+            printf("%s: left out, as its mesh is not reduced yet\n", set->orders[i].id);
     if (!table_pairs_find(set, &pairs, &count))
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     else if (count == 0)
@@ -121,8 +131,11 @@ int main(int argc, char **argv)
     struct options options = options_read(argc, argv);
     struct fault fault;
     struct body_set *set = NULL;
-    enum percuss_status status = options.family ? family_compute(options.folder, &fault)
-                                                : catalogue_load(options.catalogue, &set, &fault);
+    enum percuss_status status;
+    if (options.family)
+        status = family_compute(options.folder, &fault);
+    else
+        status = catalogue_load_reducing(options.catalogue, options.bodies, &set, &fault);
     if (!status && !options.family)
         status = make_all(&options, set, &fault);
     body_set_free(set);

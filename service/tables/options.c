@@ -14,6 +14,7 @@ const char *argp_program_version = "percuss-tables " PERCUSS_VERSION;
 
 static const struct argp_option list[] = {
     {"catalogue", 'C', "FILE", 0, "Bodies and materials, as percussd reads them", 0},
+    {"bodies", 'B', "DIR", 0, "Bodies reduced from meshes; `bodies` in percussd's settings", 0},
     {"folder", 'f', "DIR", 0, "Where the tables go; `tables` in percussd's settings", 0},
     {"a", 'a', "ID", 0, "Only for the materials of this body ...", 0},
     {"b", 'b', "ID", 0, "... and this one", 0},
@@ -39,6 +40,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
     switch (key) {
     case 'C':
         options->catalogue = text;
+        return 0;
+    case 'B':
+        options->bodies = text;
         return 0;
     case 'f':
         options->folder = text;
@@ -83,10 +87,11 @@ struct options options_read(int argc, char **argv)
         .doc = "Computes tables of elastic-plastic contacts ahead of time, for the contact model "
                "`table`: finite elements of the contact region, some seconds to minutes each. "
                "Without --a and --b: of every two materials in the catalogue whose bodies can meet "
-               "in a circular contact and of which one may yield."
+               "in a circular contact and of which one may yield. A body that is given as a mesh "
+               "and not reduced yet is left out."
                "\vA table holds for bodies of any size. What is there already is left as it is.",
     };
-    struct options options = {.speed = 1.0, .resolution = TABLE_RESOLUTION};
+    struct options options = {.bodies = "", .speed = 1.0, .resolution = TABLE_RESOLUTION};
     argp_err_exit_status = USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &options);
     return options;

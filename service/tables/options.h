@@ -10,8 +10,9 @@
 
 struct options {
     const char *catalogue, *folder;
-    const char *a, *b; /* NULL: every pair that needs a table */
-    double speed;      /* m/s */
+    const char *bodies; /* folder of what percussd has reduced; "": none */
+    const char *a, *b;  /* NULL: every pair that needs a table */
+    double speed;       /* m/s */
     size_t resolution;
     bool family; /* the family of all metals, and nothing else */
 };

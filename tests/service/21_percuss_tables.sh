@@ -36,6 +36,32 @@ YAML
 expect 0 tables
 [ "$(wc -l <"$out")" -eq 1 ] || fail "not one pair"
 shows 'glass on al-575: is there'
+
+say "bodies that are given as meshes: those that are reduced count, others are named"
+. "$here/block_deck.sh"
+block 4 2 2 >"$work/block.inp"
+cp "$work/catalogue.yaml" "$work/plain.yaml"
+cat >>"$work/catalogue.yaml" <<YAML
+  block: {shape: mesh, file: block.inp, unit: mm, material: glass}
+YAML
+expect 0 tables
+shows 'block: left out, as its mesh is not reduced yet'
+shows 'glass on al-575: is there'
+expect 1 tables --a rod --b block
+says 'block: its mesh is not reduced: --bodies DIR must be'
+settings "bodies: reduced"
+start_daemon
+reduced() {
+    logged "block: reduced"
+}
+wait_for 100 reduced || fail "not reduced"
+stop_daemon
+expect 0 tables --bodies "$work/reduced"
+[ "$(wc -l <"$out")" -eq 1 ] || fail "not one pair"
+expect 1 tables --bodies "$work/reduced" --a rod --b block
+says 'rod on block: one must be a sphere'
+cp "$work/plain.yaml" "$work/catalogue.yaml"
+
 settings "tables: tables"
 start_daemon
 logged 'tables: 1 from' || fail "the daemon does not take it"
