@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "daemon/body_cache.h"
 #include "daemon/dispatch.h"
 #include "daemon/log.h"
 #include "daemon/neighbours.h"
@@ -19,6 +20,8 @@
 
 static const int LONG_LANE_NICE = 10;
 static const double FLUSH_SECONDS = 1.0, CUT_SECONDS = 2.0;
+/* A body that is in use looks it, to daemons that begin meanwhile. */
+static const double TIDY_SECONDS = 86400.0;
 
 struct service {
     struct shared shared;
@@ -28,6 +31,7 @@ struct service {
     struct pool *pool;
     struct neighbours neighbours;
     struct reducer reducer;
+    double tidied;               /* the folder of bodies; monotonic, s */
     unsigned long long reported; /* of the undelivered replies: those that are in the log */
 };
 
@@ -114,6 +118,15 @@ static void announce_bodies(struct service *service, const struct body_set *set,
         log_line(LEVEL_WARNING, "not all bodies could be announced");
 }
 
+static void tidy_bodies(struct service *service)
+{
+    const struct settings *settings = service->shared.settings;
+    service->tidied = clock_now();
+    if (settings->bodies[0])
+        body_cache_tidy(settings->bodies, service->shared.snapshots.current->set,
+                        settings->bodies_days);
+}
+
 struct service *service_create(const struct settings *settings, struct fault *fault)
 {
     struct service *service = calloc(1, sizeof *service);
@@ -132,6 +145,7 @@ struct service *service_create(const struct settings *settings, struct fault *fa
     /* bodies before the status: whoever sees a server finds its catalogue */
     const struct body_set *set = shared->snapshots.current->set;
     announce_bodies(service, set, NULL);
+    tidy_bodies(service);
     status_announce(shared);
     log_line(LEVEL_INFO, "ready: domain %u, %zu bodies, catalogue revision %s", settings->domain,
              set->count, set->revision);
@@ -178,6 +192,7 @@ static void load_again(struct service *service)
     log_line(LEVEL_INFO, "reload: %zu bodies, catalogue revision %s%s", now->count, now->revision,
              strcmp(now->revision, before->set->revision) ? "" : " as before");
     snapshots_release(&shared->snapshots, before);
+    tidy_bodies(service);
     status_announce(shared);
 }
 
@@ -204,6 +219,8 @@ void service_tick(struct service *service)
     struct shared *shared = &service->shared;
     look_at_reducer(service);
     double now = clock_now();
+    if (now - service->tidied > TIDY_SECONDS)
+        tidy_bodies(service);
     token_store_sweep(shared->tokens, now);
     reply_store_sweep(shared->replies, now);
     unsigned long long undelivered = atomic_load(&shared->undelivered);

@@ -41,6 +41,7 @@ static const struct setting table[] = {
     {"drain_seconds", KIND_NUMBER, AT(drain_seconds), 0, 86400},
     {"tables", KIND_PATH, AT(tables), 0, 0},
     {"bodies", KIND_PATH, AT(bodies), 0, 0},
+    {"bodies_days", KIND_NUMBER, AT(bodies_days), 0.001, 100000},
     {"log_level", KIND_LEVEL, AT(log_level), 0, 0},
 };
 enum { SETTING_COUNT = sizeof table / sizeof *table };
@@ -52,6 +53,7 @@ struct settings settings_default(void)
         .workers = processors < 1     ? 1
                    : processors > 256 ? 256
                                       : (unsigned)processors,
+        .bodies_days = 30.0,
         .queue_capacity = 1024,
         .inline_solves = true,
         .token_count = 65536,

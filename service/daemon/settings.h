@@ -16,6 +16,7 @@ struct settings {
     char catalogue[SETTINGS_PATH_SIZE]; /* empty: not given */
     char tables[SETTINGS_PATH_SIZE];    /* folder of contact tables; empty: none */
     char bodies[SETTINGS_PATH_SIZE];    /* folder of reduced bodies; empty: none */
+    double bodies_days;                 /* that one stays there unused */
     unsigned domain;
     unsigned workers;
     unsigned queue_capacity;

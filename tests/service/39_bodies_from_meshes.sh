@@ -72,7 +72,11 @@ stop_daemon
 say "once and for all: the next daemon has it from its start"
 expect 0 check
 [ "$(cat "$out")" = ok ] || fail "it is reduced again"
+old=$work/reduced/$(printf '%064d' 0).h5
+touch -d "40 days ago" "$old" "$work"/reduced/*.h5
 start_daemon
+[ ! -e "$old" ] || fail "what nobody names stays for ever"
+[ "$(ls "$work/reduced" | wc -l)" -eq 1 ] || fail "what is used has gone"
 expect 0 percuss query --a steel-sphere --b block --at-b top --speed 0.2
 
 say "one that cannot be reduced: log and requests say why"
