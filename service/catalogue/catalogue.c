@@ -37,6 +37,7 @@ static enum percuss_status load_document(const char *text, size_t size, const ch
 struct product {
     struct body_set *set;
     const char *folder; /* of reduced bodies; NULL: none */
+    bool lenient;       /* with bodies whose files lack */
     const char *name;   /* of the material wanted; NULL: the whole set is */
     struct material *material;
 };
@@ -58,8 +59,11 @@ static enum percuss_status parse(const char *text, size_t size, const char *name
         status = load_document(text, size, name, &document, fault);
     if (status)
         return status;
-    struct reader reader = {
-        .document = &document, .name = name, .folder = product->folder, .fault = fault};
+    struct reader reader = {.document = &document,
+                            .name = name,
+                            .folder = product->folder,
+                            .lenient = product->lenient,
+                            .fault = fault};
     status = read_product(&reader, product);
     yaml_document_delete(&document);
     return status;
@@ -83,14 +87,15 @@ static enum percuss_status parse_plainly(const char *text, size_t size, const ch
 }
 
 static enum percuss_status parse_set(const char *text, size_t size, const char *name,
-                                     const char *folder, struct body_set **set, struct fault *fault)
+                                     struct product product, struct body_set **set,
+                                     struct fault *fault)
 {
     /* the caller gets a whole set or none */
     struct body_set *fresh = calloc(1, sizeof *fresh);
     *set = NULL;
     if (!fresh)
         return out_of_memory(name, fault);
-    const struct product product = {.set = fresh, .folder = folder};
+    product.set = fresh;
     enum percuss_status status = parse_plainly(text, size, name, &product, fault);
     if (status)
         body_set_free(fresh);
@@ -102,7 +107,7 @@ static enum percuss_status parse_set(const char *text, size_t size, const char *
 enum percuss_status catalogue_parse(const char *text, size_t size, const char *name,
                                     struct body_set **set, struct fault *fault)
 {
-    return parse_set(text, size, name, NULL, set, fault);
+    return parse_set(text, size, name, (struct product){.set = NULL}, set, fault);
 }
 
 static enum percuss_status unreadable(const char *path, struct fault *fault)
@@ -138,13 +143,8 @@ close:
     return status;
 }
 
-enum percuss_status catalogue_load(const char *path, struct body_set **set, struct fault *fault)
-{
-    return catalogue_load_reducing(path, NULL, set, fault);
-}
-
-enum percuss_status catalogue_load_reducing(const char *path, const char *folder,
-                                            struct body_set **set, struct fault *fault)
+static enum percuss_status load(const char *path, struct product product, struct body_set **set,
+                                struct fault *fault)
 {
     char *text;
     size_t size;
@@ -152,9 +152,20 @@ enum percuss_status catalogue_load_reducing(const char *path, const char *folder
     enum percuss_status status = read_file(path, &text, &size, fault);
     if (status)
         return status;
-    status = parse_set(text, size, path, folder, set, fault);
+    status = parse_set(text, size, path, product, set, fault);
     free(text);
     return status;
+}
+
+enum percuss_status catalogue_load(const char *path, struct body_set **set, struct fault *fault)
+{
+    return load(path, (struct product){.set = NULL}, set, fault);
+}
+
+enum percuss_status catalogue_load_reducing(const char *path, const char *folder,
+                                            struct body_set **set, struct fault *fault)
+{
+    return load(path, (struct product){.folder = folder, .lenient = true}, set, fault);
 }
 
 enum percuss_status catalogue_material(const char *path, const char *name,

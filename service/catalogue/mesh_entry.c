@@ -3,10 +3,12 @@
 
 #include "catalogue/mesh_entry.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "catalogue/keys.h"
 #include "catalogue/mesh_order.h"
@@ -247,10 +249,15 @@ enum percuss_status mesh_entry_read(struct reader *reader, struct entry entry,
     if (!path)
         return sites ? read_sites(reader, sites, body) : PERCUSS_OK;
     size_t mark = reader_enter(reader, "file");
+    bool missing = access(path, F_OK) != 0 && errno == ENOENT;
     status = read_file(reader, file, files, set, path, body);
+    if (status == PERCUSS_BAD_REQUEST && missing && reader->lenient)
+        status = mesh_order_missing(reader, set, body);
     if (status)
         return status;
     reader_leave(reader, mark);
+    if (!body->mesh)
+        return sites ? read_sites(reader, sites, body) : PERCUSS_OK;
     /* one material may stand for another, all of a body's not */
     if (material && !is_mesh && body->mesh->material_count > 1)
         return reader_refuse(reader, material,

@@ -229,3 +229,20 @@ enum percuss_status mesh_order_read(struct reader *reader, struct entry entry, s
     body_order_clear(&order);
     return status;
 }
+
+enum percuss_status mesh_order_missing(const struct reader *reader, struct body_set *set,
+                                       const struct body *body)
+{
+    struct body_order order = {.missing = true};
+    memcpy(order.id, body->id, sizeof order.id);
+    bool begun = body_order_begin(&order);
+    if (begun)
+        body_order_tell(&order, PERCUSS_UNKNOWN_BODY, "its file is missing: %s",
+                        reader->fault->text);
+    if (begun && keep(set, &order)) {
+        reader->fault->text[0] = '\0';
+        return PERCUSS_OK;
+    }
+    body_order_clear(&order);
+    return out_of_memory(reader);
+}

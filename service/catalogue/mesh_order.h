@@ -22,4 +22,9 @@ enum percuss_status mesh_order_refuse(struct reader *reader, struct entry entry)
 enum percuss_status mesh_order_read(struct reader *reader, struct entry entry, struct body_set *set,
                                     const struct body *body, char **path);
 
+/* Gives the set an order for a body whose file is not there, as the fault says. PERCUSS_OK, or
+ * PERCUSS_INTERNAL. */
+enum percuss_status mesh_order_missing(const struct reader *reader, struct body_set *set,
+                                       const struct body *body);
+
 #endif

@@ -18,6 +18,7 @@ struct reader {
     yaml_document_t *document;
     const char *name;   /* of the file */
     const char *folder; /* of bodies reduced from meshes; NULL: none */
+    bool lenient;       /* a body whose file is not there is left out, with an order that says so */
     struct fault *fault;
     char path[256]; /* of the value being read: bodies.al-rod.radius */
 };

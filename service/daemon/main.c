@@ -58,13 +58,20 @@ static int check_config(const struct settings *settings)
         return EXIT_FAILURE;
     }
     remark_sites(set);
-    /* what is not there yet */
-    for (size_t i = 0; i < set->order_count; i++)
-        if (!set->orders[i].made)
-            printf("%s: will be reduced from %s\n", set->orders[i].id, set->orders[i].mesh);
+    /* what is not there, or not yet */
+    bool whole = true;
+    for (size_t i = 0; i < set->order_count; i++) {
+        const struct body_order *order = &set->orders[i];
+        whole = whole && !order->missing;
+        if (order->missing)
+            fprintf(stderr, "percussd: %s: %s\n", order->id, body_order_news(order).text);
+        else if (!order->made)
+            printf("%s: will be reduced from %s\n", order->id, order->mesh);
+    }
     body_set_free(set);
-    puts("ok");
-    return EXIT_SUCCESS;
+    if (whole)
+        puts("ok");
+    return whole ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 /* The signals the main thread waits for; threads started later inherit that they are blocked. */

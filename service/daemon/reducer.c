@@ -289,7 +289,8 @@ void reducer_unloaded(const struct reducer *reducer, const struct body_set *set,
 {
     for (size_t i = 0; i < set->order_count; i++) {
         const struct body_order *order = &set->orders[i];
-        char *path = order->made ? NULL : result_path(reducer, order->name, ".h5");
+        char *path =
+            order->made || order->missing ? NULL : result_path(reducer, order->name, ".h5");
         if (path && access(path, F_OK) == 0)
             body_order_tell(
                 order, PERCUSS_UNKNOWN_BODY,
@@ -303,7 +304,7 @@ void reducer_unloaded(const struct reducer *reducer, const struct body_set *set,
 static bool is_open(const struct reducer *reducer, const struct body_order *order)
 {
     static const char *const suffixes[] = {".h5", REFUSED, KILLED};
-    bool open = true;
+    bool open = !order->missing;
     for (size_t i = 0; open && i < sizeof suffixes / sizeof *suffixes; i++) {
         char *path = result_path(reducer, order->name, suffixes[i]);
         open = path && access(path, F_OK) != 0;

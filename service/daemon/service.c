@@ -118,6 +118,14 @@ static void announce_bodies(struct service *service, const struct body_set *set,
         log_line(LEVEL_WARNING, "not all bodies could be announced");
 }
 
+static void complain_of_missing(const struct body_set *set)
+{
+    for (size_t i = 0; i < set->order_count; i++)
+        if (set->orders[i].missing)
+            log_line(LEVEL_ERROR, "%s is left out: %s", set->orders[i].id,
+                     body_order_news(&set->orders[i]).text);
+}
+
 static void tidy_bodies(struct service *service)
 {
     const struct settings *settings = service->shared.settings;
@@ -145,6 +153,7 @@ struct service *service_create(const struct settings *settings, struct fault *fa
     /* bodies before the status: whoever sees a server finds its catalogue */
     const struct body_set *set = shared->snapshots.current->set;
     announce_bodies(service, set, NULL);
+    complain_of_missing(set);
     tidy_bodies(service);
     status_announce(shared);
     log_line(LEVEL_INFO, "ready: domain %u, %zu bodies, catalogue revision %s", settings->domain,
@@ -192,6 +201,7 @@ static void load_again(struct service *service)
     log_line(LEVEL_INFO, "reload: %zu bodies, catalogue revision %s%s", now->count, now->revision,
              strcmp(now->revision, before->set->revision) ? "" : " as before");
     snapshots_release(&shared->snapshots, before);
+    complain_of_missing(now);
     tidy_bodies(service);
     status_announce(shared);
 }

@@ -103,7 +103,7 @@ struct body_set {
     size_t count;
     struct mesh_body **meshes; /* of the bodies, each once */
     size_t mesh_count;
-    struct body_order *orders; /* of the bodies that are given as meshes */
+    struct body_order *orders; /* of bodies that are given as meshes, or lack */
     size_t order_count;
     enum percuss_compliance compliance; /* HALF_SPACE; MATCHED: where it is known */
     char revision[PERCUSS_ID_SIZE];     /* hash of everything that can change an answer */

@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A body of the catalogue that is given as a mesh, and what is heard of its reduction. */
+/* A body of the catalogue that is given as a mesh, or whose file is not there, and what is heard of
+ * it. */
 #ifndef PERCUSS_MODEL_BODY_ORDER_H
 #define PERCUSS_MODEL_BODY_ORDER_H
 
@@ -24,6 +25,7 @@ struct body_order {
     char id[PERCUSS_ID_SIZE];
     char name[65]; /* of the body's file: hash of all that it is made from */
     bool made;     /* that file is there: the set has the body itself */
+    bool missing;  /* there is no mesh to reduce: the catalogue names a body's file, which lacks */
     char *mesh;    /* path of the mesh */
     char *arguments[BODY_ORDER_ARGUMENTS]; /* options of percuss-reduce, but for files */
     size_t argument_count;

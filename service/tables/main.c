@@ -72,7 +72,10 @@ static enum percuss_status find_body(const struct body_set *set, const char *id,
     *body = body_set_find(set, id);
     if (*body)
         return PERCUSS_OK;
-    if (body_set_order(set, id))
+    const struct body_order *order = body_set_order(set, id);
+    if (order && order->missing)
+        return fault_set(fault, PERCUSS_UNKNOWN_BODY, "%s: %s", id, body_order_news(order).text);
+    if (order)
         return fault_set(
             fault, PERCUSS_UNKNOWN_BODY,
             "%s: its mesh is not reduced: --bodies DIR must be a folder where percussd "
@@ -115,7 +118,8 @@ static enum percuss_status make_all(const struct options *options, const struct 
     }
     for (size_t i = 0; i < set->order_count; i++)
         if (!set->orders[i].made)
-            printf("%s: left out, as its mesh is not reduced yet\n", set->orders[i].id);
+            printf("%s: left out, as its %s\n", set->orders[i].id,
+                   set->orders[i].missing ? "file is missing" : "mesh is not reduced yet");
     if (!table_pairs_find(set, &pairs, &count))
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     else if (count == 0)

@@ -347,6 +347,36 @@ static void a_mesh_is_ordered_until_its_body_is_there(void **state)
     remove_in_folder("ordering.yaml");
 }
 
+/* Strictly it is refused; a daemon does without the body. */
+static void a_file_that_lacks_leaves_its_body_out(void **state)
+{
+    (void)state;
+    char path[96];
+    struct body_set *set;
+    struct fault fault = {""};
+    write_file("lacking.yaml",
+               "materials: {steel: {young: 210e9, poisson: 0.3, density: 7800}}\n"
+               "bodies:\n"
+               "  part: {shape: mesh, file: none.h5, sites: {tip: {point: [0, 0, 0]}}}\n"
+               "  ball: {shape: sphere, material: steel, radius: 0.01}\n");
+    snprintf(path, sizeof path, "%s/lacking.yaml", folder);
+    assert_int_equal(catalogue_load(path, &set, &fault), PERCUSS_BAD_REQUEST);
+    assert_non_null(strstr(fault.text, "lacking.yaml:3: bodies.part.file: "));
+    assert_int_equal(catalogue_load_reducing(path, NULL, &set, &fault), PERCUSS_OK);
+    assert_true(set->count == 1 && body_set_find(set, "ball") && set->order_count == 1);
+    const struct body_order *order = body_set_order(set, "part");
+    struct body_news news = body_order_news(order);
+    assert_true(order->missing && !order->made && news.status == PERCUSS_UNKNOWN_BODY);
+    assert_non_null(strstr(news.text, "its file is missing: "));
+    assert_non_null(strstr(news.text, "none.h5: cannot be opened"));
+    body_set_free(set);
+    /* one that is there and no body is refused all the same */
+    write_file("none.h5", "none");
+    assert_int_equal(catalogue_load_reducing(path, NULL, &set, &fault), PERCUSS_BAD_REQUEST);
+    remove_in_folder("none.h5");
+    remove_in_folder("lacking.yaml");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -357,6 +387,7 @@ int main(void)
         cmocka_unit_test(a_material_is_found_by_its_name),
         cmocka_unit_test(says_what_is_wrong),
         cmocka_unit_test(a_mesh_is_ordered_until_its_body_is_there),
+        cmocka_unit_test(a_file_that_lacks_leaves_its_body_out),
     };
     return cmocka_run_group_tests(tests, make_file, remove_file);
 }
