@@ -13,6 +13,7 @@
 #include "catalogue/keys.h"
 #include "catalogue/mesh_order.h"
 #include "catalogue/names.h"
+#include "catalogue/shipped.h"
 #include "mesh/body_file.h"
 #include "model/mesh_surface.h"
 #include "model/vector.h"
@@ -51,15 +52,23 @@ void mesh_files_free(struct mesh_files *files, const struct body_set *set)
     files->paths = NULL;
 }
 
-/* From the folder of the catalogue's file. For free(); NULL: out of memory. */
+/* From the folder of the catalogue's file, else from what ships with the program: catalogues are
+ * copied, and their files left behind. For free(); NULL: out of memory. */
 static char *resolve(const struct reader *reader, const char *file)
 {
     const char *slash = strrchr(reader->name, '/');
     size_t folder = file[0] == '/' || !slash ? 0 : (size_t)(slash - reader->name) + 1;
     char *path = malloc(folder + strlen(file) + 1);
-    if (path)
-        sprintf(path, "%.*s%s", (int)folder, reader->name, file);
-    return path;
+    if (!path)
+        return NULL;
+    sprintf(path, "%.*s%s", (int)folder, reader->name, file);
+    if (file[0] == '/' || access(path, F_OK) == 0)
+        return path;
+    char *shipped = shipped_find(file);
+    if (!shipped)
+        return path;
+    free(path);
+    return shipped;
 }
 
 /* Adds a file's body to the set. */

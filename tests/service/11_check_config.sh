@@ -27,7 +27,7 @@ shows "ok"
 say "every setting is understood"
 settings "domain: 7" "workers: 3" "queue_capacity: 10" "inline_solves: false" \
     "tokens: {count: 10, megabytes: 1, minutes: 0.5}" "replies: {per_client: 10, megabytes: 1}" \
-    "session_minutes: 1" "drain_seconds: 0" "log_level: debug" "tables: somewhere" \
+    "session_minutes: 1" "drain_seconds: 0" "log_level: debug" "tables: somewhere" "bodies_days: 2.5" \
     "store: dents.db" "stored_replies: 10" "bodies: reduced"
 expect 0 check
 

@@ -4,8 +4,7 @@
 # The paper's bodies, its half-circular plates from their files among them: Fig. 2 in one command.
 . "$(dirname "$0")/lib.sh"
 
-cp -r "$source_dir/client/examples/paper/bodies" "$work/bodies"
-cp "$source_dir/client/examples/paper/catalogue.yaml" "$work/catalogue.yaml"
+# the catalogue lies elsewhere: the plates ship with the program
 start_daemon
 
 say "a plate of 20 mm gives back all but a thousandth, one of 10 mm a hundredth less"

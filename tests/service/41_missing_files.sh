@@ -21,6 +21,7 @@ say "the daemon starts without it; log and requests say why"
 start_daemon
 logged "error *plate is left out: its file is missing: .*plate.h5" || fail "not in the log"
 expect 0 query
+expect 0 percuss query --a steel-sphere --b al-half-plate --speed 0.3
 expect 5 percuss query --request "$work/request.json"
 says "plate.h5: cannot be opened: No such file"
 expect 0 percuss bodies
@@ -43,7 +44,7 @@ refused() {
     logged "reload: .*bodies.plate.file.*the old catalogue stays"
 }
 wait_for 10 refused || fail "a damaged file is taken"
-cp "$source_dir/client/examples/paper/bodies/half-plate-20.h5" "$work/plate.h5"
+cp "$source_dir/config/bodies/half-plate-20.h5" "$work/plate.h5"
 kill -HUP "$daemon"
 loaded() {
     logged "reload: [0-9]* bodies"

@@ -23,7 +23,7 @@ for file in bin/percuss share/man/man1/percuss.1 share/man/man8/percussd.8 share
     share/man/man8/percuss-reduce.8 sbin/percuss-reduce \
     include/percuss/percuss.h include/percuss/vocabulary.h include/percuss/slowscale.h \
     include/percuss/slow_equations.h share/percuss/percuss_wire.idl share/percuss/catalogue.yaml \
-    share/percuss/percussd.yaml share/percuss/examples/query.c share/percuss/python/pyproject.toml \
+    share/percuss/percussd.yaml share/percuss/bodies/half-plate-20.h5 share/percuss/examples/query.c share/percuss/python/pyproject.toml \
     share/percuss/python/percuss/__init__.py share/percuss/python/examples/speed_sweep.py \
     share/doc/percuss/README.md share/doc/percuss/integrating.md share/doc/percuss/LICENSE; do
     [ -f "$prefix/$file" ] || fail "$file is not installed"
@@ -34,6 +34,9 @@ for name in percussd.yaml catalogue.yaml; do
 done
 "$prefix/bin/percuss" --version
 expect 0 "$prefix"/sbin/percussd --config "$prefix/share/percuss/percussd.yaml" --check-config
+# a copy of the catalogue has left its bodies' files behind
+expect 0 "$prefix"/sbin/percussd --config "$prefix/share/percuss/percussd.yaml" \
+    --catalogue "$work/catalogue.yaml" --check-config
 
 say "the documents' links and files are there"
 dead_links "$prefix" >"$out"

@@ -2,13 +2,13 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# The paper's half-circular plates, as bodies/ beside this script holds them: meshes by Gmsh, reduced to their modes.
-# usage: bodies.sh [BUILD [FOLDER]]    (default: build/ of this source tree, and bodies/ beside this script)
+# The paper's half-circular plates, as config/bodies holds them: meshes by Gmsh, reduced to their modes.
+# usage: bodies.sh [BUILD [FOLDER]]    (default: build/ and config/bodies of this source tree)
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../../.." && pwd)
 build=${1:-$source/build}
-folder=${2:-$here/bodies}
+folder=${2:-$source/config/bodies}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -18,7 +18,7 @@ plate() {
         cat "$work/log" >&2
         exit 1
     }
-    "$build/bin/percuss-reduce" "$work/half-plate-$2.msh" --unit mm --catalogue "$here/catalogue.yaml" \
+    "$build/bin/percuss-reduce" "$work/half-plate-$2.msh" --unit mm --catalogue "$source/config/catalogue.yaml" \
         --material aluminium --max-frequency "$3" --site 0,0,0 -o "$folder/half-plate-$2.h5"
 }
 

@@ -18,7 +18,7 @@ mkdir -p "$output"
 # a domain of its own, so that nothing else on the machine is met
 domain=$((100 + $$ % 100))
 log=$output/percussd.log
-"$build/bin/percussd" --config "$source/config/percussd.yaml" --catalogue "$here/catalogue.yaml" --domain "$domain" 2>"$log" &
+"$build/bin/percussd" --config "$source/config/percussd.yaml" --domain "$domain" 2>"$log" &
 daemon=$!
 trap 'kill "$daemon" 2>/dev/null || true; wait "$daemon" 2>/dev/null || true' EXIT
 waited=0

@@ -58,6 +58,9 @@ static void loads_the_shipped_bodies(void **state)
 
     /* bodies of equal mass, to the digits of the file */
     assert_true(fabs(get(set, "al-cylinder")->mass / rod->mass - 1.0) < 1e-8);
+    /* the plates' round rims are of parabolas, which takes 5e-6 of the thinner one */
+    assert_true(fabs(get(set, "al-half-plate")->mass / rod->mass - 1.0) < 1e-4);
+    assert_true(fabs(get(set, "al-half-plate-10")->mass / rod->mass - 1.0) < 1e-4);
     assert_true(isinf(get(set, "steel-wall")->mass));
     is_read_as(get(set, "timoshenko-beam")->mass, 7960.0 * 0.01 * 0.01 * 0.1535);
     assert_int_equal(get(set, "timoshenko-beam")->supports[1], SUPPORT_PINNED);
@@ -279,13 +282,28 @@ static size_t read_shipped(char *text, size_t room)
     return size;
 }
 
+/* Without the bodies that have files, which would be read each time. */
+static size_t leave_meshes_out(char *text, size_t size)
+{
+    static const char mark[] = "shape: mesh";
+    char *found;
+    text[size] = '\0';
+    while ((found = strstr(text, mark))) {
+        char *end = strchr(found, '\n') + 1;
+        while (found > text && found[-1] != '\n')
+            found--;
+        memmove(found, end, strlen(end) + 1);
+    }
+    return strlen(text);
+}
+
 /* 20000 damaged catalogues, 1 to 8 bytes each: an answer or a message, and every body finite. */
 static void survives_damaged_files(void **state)
 {
     (void)state;
     enum { ROOM = 16384, CHANGES = 8 };
     static char shipped[ROOM], text[ROOM + CHANGES];
-    size_t shipped_size = read_shipped(shipped, ROOM), good = 0;
+    size_t shipped_size = leave_meshes_out(shipped, read_shipped(shipped, ROOM)), good = 0;
     uint64_t random = 1;
     for (int i = 0; i < 20000; i++) {
         size_t size = shipped_size;

@@ -1,0 +1,12 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Files that come with the program, wherever its tree is installed or built. */
+#ifndef PERCUSS_CATALOGUE_SHIPPED_H
+#define PERCUSS_CATALOGUE_SHIPPED_H
+
+/* The path of a file by its name in share/percuss, for free(); NULL: it is not there, or there is
+ * no memory. */
+char *shipped_find(const char *name);
+
+#endif
