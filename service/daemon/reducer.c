@@ -252,6 +252,16 @@ static void last_message(const char *path, char text[400])
     fclose(file);
 }
 
+/* A body that has its name is whole, whatever becomes of the machine. */
+static bool keep(const char *from, const char *to)
+{
+    int file = open(from, O_RDONLY | O_CLOEXEC);
+    bool good = file >= 0 && fsync(file) == 0;
+    if (file >= 0)
+        close(file);
+    return good && rename(from, to) == 0;
+}
+
 /* Puts what the child has made, or why it has made nothing, where the catalogue finds it. */
 static void conclude(struct reducer *reducer, const struct body_set *set, int status)
 {
@@ -262,7 +272,7 @@ static void conclude(struct reducer *reducer, const struct body_set *set, int st
                              : WIFSIGNALED(status) ? KILLED
                                                    : REFUSED);
     if (made) {
-        noted = path && rename(reducer->files[BODY], path) == 0;
+        noted = path && keep(reducer->files[BODY], path);
         tell(reducer, set, PERCUSS_BUSY, "its mesh is reduced and being loaded: ask again");
     } else {
         if (WIFSIGNALED(status))
@@ -337,8 +347,7 @@ bool reducer_look(struct reducer *reducer, const struct body_set *set)
         if (reducer->child)
             break;
         body_order_tell(order, PERCUSS_UNKNOWN_BODY,
-                        "its mesh cannot be reduced: %s; the server's "
-                        "log says more",
+                        "its mesh cannot be reduced: %s; the server's log says more",
                         reducer->halted);
     }
     return false;
