@@ -3,29 +3,34 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Bodies meshed by Gmsh, reduced and struck, beside numbers of other programs: what docs/mesh.md states. Takes
-# some ten minutes of one core and 2 GB.
-# usage: mesh_values.sh BUILD OUTPUT [rod-end|rod|beam|plate|cylinder]...    (default: all)
+# some fifteen minutes of one core and 3 GB.
+# usage: mesh_values.sh BUILD OUTPUT [rod-end|patch|frequencies|rod|beam|plate|cylinder]...
+# (default: all)
 set -eu
 build=$(cd "$1" && pwd)
 mkdir -p "$2"
 cd "$2"
 shift 2
-[ $# -gt 0 ] || set -- rod-end rod beam plate cylinder
-here=$(cd "$build" && sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' CMakeCache.txt)
+[ $# -gt 0 ] || set -- rod-end patch frequencies rod beam plate cylinder
 export OMP_NUM_THREADS=1
 domain=$((100 + $$ % 100))
 daemon=
 trap '[ -z "$daemon" ] || kill "$daemon" 2>/dev/null || true' EXIT
 
+# name, drawing
+mesh() {
+    printf 'SetFactory("OpenCASCADE");\nMesh.ElementOrder = 2;\nMesh.HighOrderOptimize = 2;\n%s\n' "$2" >"$1.geo"
+    gmsh -3 -format msh41 -o "$1.msh" "$1.geo" >"$1.log" 2>&1 || {
+        cat "$1.log" >&2
+        exit 1
+    }
+}
+
 # name, drawing, the options of percuss-reduce
 reduce() {
     name=$1
-    printf 'SetFactory("OpenCASCADE");\nMesh.ElementOrder = 2;\nMesh.HighOrderOptimize = 2;\n%s\n' "$2" >"$name.geo"
+    mesh "$1" "$2"
     shift 2
-    gmsh -3 -format msh41 -o "$name.msh" "$name.geo" >"$name.log" 2>&1 || {
-        cat "$name.log" >&2
-        exit 1
-    }
     "$build/bin/percuss-reduce" "$name.msh" --unit mm -o "$name.h5" "$@" >"$name.txt" 2>"$name.log" || {
         cat "$name.log" >&2
         exit 1
@@ -79,6 +84,56 @@ rod_end() {
     end "rod 40 b nu .3 end" end-30 73e9 0.4 "-.600 +- .003"
     reduce end-0 "$(bar 400 4)" --young 73e9 --poisson 0 --density 2780 --modes 60 --site 400,0,0
     end "rod 40 b nu 0 end" end-0 73e9 0.4 "-.648 +- .003"
+}
+
+# elements of so many mm within 4 mm of a point: size, x, y, z
+finer() {
+    echo "Mesh.MeshSizeFromPoints = 0; Mesh.MeshSizeExtendFromBoundary = 0; Field[1] = Ball;
+Field[1].XCenter = $2; Field[1].YCenter = $3; Field[1].ZCenter = $4; Field[1].Radius = 4;
+Field[1].VIn = $1; Field[1].VOut = 6; Field[1].Thickness = 12; Background Field = 1;"
+}
+
+# what, name, E, length that flexibility is stated in, what is taken off it (1/(E length)), place, radii in mm: pressures
+# on the elements, and beside each of them the mean of point forces
+press() {
+    what=$1 name=$2 young=$3 length=$4 less=$5
+    shift 5
+    "$build/tests/bench/mesh_patch" "$name.msh" mm "$young" 0.33 "$@" 2>>"$name.log" |
+        awk -F , -v what="$what" -v E="$young" -v l="$length" -v less="$less" '
+            $1 == "point" { printf "%s by a point force,,%.4f,,,,\n", what, $2 * E * l - less }
+            $1 == "patch" {
+                printf "%s by a pressure of %s mm on elements of %s mm,,%.4f,,,,points %.4f\n", what, $2, $3,
+                    $4 * E * l - less, $5 * E * l - less }'
+}
+
+patch() {
+    stretch=$(awk 'BEGIN { print 100 / (3 * 3.14159265358979) }')
+    for size in 6 1 0.5 0.35; do
+        radii=3
+        [ "$size" != 0.5 ] || radii="1 1.5 2 3 4"
+        [ "$size" != 6 ] || radii=
+        mesh "patch-end-$size" "$(bar 1000 6) Mesh.MeshSizeMin = $size; $(finer $size 1000 0 0)"
+        # radii are words on purpose
+        # shellcheck disable=SC2086
+        press "rod 1 m nu .33 end" "patch-end-$size" 73e9 0.010 "$stretch" 1000 0 0 $radii
+        mesh "patch-plate-$size" "Box(1) = {0, 0, 0, 120, 80, 12}; Mesh.MeshSizeMin = $size;
+Mesh.MeshSizeMax = 6; $(finer $size 60 15 12)"
+        # shellcheck disable=SC2086
+        press "plate 120 x 80 x 12 mm 15 mm from its edge" "patch-plate-$size" 73e9 0.012 0 60 15 12 $radii
+    done
+}
+
+# each frequency once, in Hz, beside its theory
+frequencies() {
+    PERCUSS_FINE=1 PERCUSS_MEASURE=1 "$build/tests/physics_mesh_test_bars" >frequencies.txt 2>frequencies.log || {
+        cat frequencies.log >&2
+        exit 1
+    }
+    awk '/ RUN / { number = 0 }
+        $2 == "frequency" && $5 != last {
+            last = $5
+            printf "%s frequency %d,,%.2f,,,,%.2f: off by %.1e\n", $1, ++number, $3 / 6.28318530717959,
+                $5 / 6.28318530717959, $3 / $5 - 1 }' frequencies.txt
 }
 
 rod() {
