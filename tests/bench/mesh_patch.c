@@ -3,13 +3,16 @@
 
 /* The regular flexibility of a place on plane ground two ways (physics/reduce/patch.h): by the
  * half-space's field split off, and by a Hertz pressure on the elements less the half-space.
- * usage: mesh_patch MESH UNIT YOUNG POISSON X Y Z [RADIUS]...  (places and radii in mm)
+ * usage: mesh_patch [--matrices STI MAS DOF] MESH UNIT YOUNG POISSON X Y Z [RADIUS]...
+ * with places and radii in mm and, if they are named, matrices of another program for the material;
  * prints, in m/N: point,C   and   patch,RADIUS,LONGEST EDGE,C,C BY POINTS */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "mesh/bulk.h"
+#include "mesh/matrices_read.h"
 #include "mesh/mesh_read.h"
 #include "physics/reduce/patch.h"
 #include "reduce/rigid_modes.h"
@@ -20,6 +23,7 @@ static const double SHIFT = 0.1;
 static const double DENSITY = 2700.0;
 
 struct patched {
+    struct matrices_files files; /* NULL: none are named */
     struct solid_mesh mesh;
     struct surface surface;
     struct matrices matrices;
@@ -46,7 +50,9 @@ static enum percuss_status make(char **arguments, struct patched *all, struct fa
     size_t rigid_count = 0;
     status = surface_make(&all->mesh, &all->surface, fault);
     if (!status)
-        status = matrices_make(&all->mesh, &all->matrices, fault);
+        status = all->files.stiffness
+                     ? matrices_read(&all->files, &all->mesh, &all->matrices, fault)
+                     : matrices_make(&all->mesh, &all->matrices, fault);
     if (!status)
         status =
             rigid_modes_make(&all->mesh, &all->matrices, scale, &rigid_count, &all->rigid, fault);
@@ -111,8 +117,14 @@ int main(int argc, char **argv)
 {
     struct fault fault = {""};
     struct patched all = {0};
+    if (argc > 4 && strcmp(argv[1], "--matrices") == 0) {
+        all.files = (struct matrices_files){argv[2], argv[3], argv[4]};
+        argc -= 4;
+        argv += 4;
+    }
     if (argc < 8) {
-        fprintf(stderr, "usage: mesh_patch MESH UNIT YOUNG POISSON X Y Z [RADIUS]...\n");
+        fprintf(stderr, "usage: mesh_patch [--matrices STI MAS DOF] MESH UNIT YOUNG POISSON X Y Z "
+                        "[RADIUS]...\n");
         return 2;
     }
     enum percuss_status status = run(argc - 1, argv + 1, &all, &fault);

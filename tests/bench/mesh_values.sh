@@ -93,12 +93,14 @@ Field[1].XCenter = $2; Field[1].YCenter = $3; Field[1].ZCenter = $4; Field[1].Ra
 Field[1].VIn = $1; Field[1].VOut = 6; Field[1].Thickness = 12; Background Field = 1;"
 }
 
-# what, name, E, length that flexibility is stated in, what is taken off it (1/(E length)), place, radii in mm: pressures
-# on the elements, and beside each of them the mean of point forces
+# what, mesh with what goes before it, E, length that flexibility is stated in, what is taken off it (1/(E length)),
+# place, radii in mm: pressures on the elements, and beside each of them the mean of point forces
 press() {
-    what=$1 name=$2 young=$3 length=$4 less=$5
+    what=$1 mesh=$2 young=$3 length=$4 less=$5
     shift 5
-    "$build/tests/bench/mesh_patch" "$name.msh" mm "$young" 0.33 "$@" 2>>"$name.log" |
+    # words on purpose
+    # shellcheck disable=SC2086
+    "$build/tests/bench/mesh_patch" $mesh mm "$young" 0.33 "$@" 2>>patch.log |
         awk -F , -v what="$what" -v E="$young" -v l="$length" -v less="$less" '
             $1 == "point" { printf "%s by a point force,,%.4f,,,,\n", what, $2 * E * l - less }
             $1 == "patch" {
@@ -113,14 +115,33 @@ patch() {
         [ "$size" != 0.5 ] || radii="1 1.5 2 3 4"
         [ "$size" != 6 ] || radii=
         mesh "patch-end-$size" "$(bar 1000 6) Mesh.MeshSizeMin = $size; $(finer $size 1000 0 0)"
-        # radii are words on purpose
         # shellcheck disable=SC2086
-        press "rod 1 m nu .33 end" "patch-end-$size" 73e9 0.010 "$stretch" 1000 0 0 $radii
+        press "rod 1 m nu .33 end" "patch-end-$size.msh" 73e9 0.010 "$stretch" 1000 0 0 $radii
         mesh "patch-plate-$size" "Box(1) = {0, 0, 0, 120, 80, 12}; Mesh.MeshSizeMin = $size;
 Mesh.MeshSizeMax = 6; $(finer $size 60 15 12)"
         # shellcheck disable=SC2086
-        press "plate 120 x 80 x 12 mm 15 mm from its edge" "patch-plate-$size" 73e9 0.012 0 60 15 12 $radii
+        press "plate 120 x 80 x 12 mm 15 mm from its edge" "patch-plate-$size.msh" 73e9 0.012 0 60 15 12 $radii
     done
+    patch_calculix
+}
+
+# the rod's end again, by the matrices that CalculiX makes of that mesh
+patch_calculix() {
+    command -v ccx >/dev/null || return 0
+    { cat patch-end-0.5.geo && echo 'Physical Volume("part") = {1};'; } >patch-ccx.geo
+    gmsh -3 -format inp -o patch-ccx.mesh patch-ccx.geo >patch-ccx.log 2>&1
+    {
+        sed '/^\*ELSET/,$d' patch-ccx.mesh
+        printf '*MATERIAL, NAME=metal\n*ELASTIC\n73000, 0.33\n*DENSITY\n2.7e-9\n'
+        printf '*SOLID SECTION, ELSET=Volume1, MATERIAL=metal\n'
+        printf '*STEP\n*FREQUENCY, SOLVER=MATRIXSTORAGE\n5\n*END STEP\n'
+    } >patch-ccx.inp
+    ccx patch-ccx >>patch-ccx.log 2>&1 || {
+        cat patch-ccx.log >&2
+        exit 1
+    }
+    press "rod 1 m nu .33 end by CalculiX's matrices" \
+        "--matrices patch-ccx.sti patch-ccx.mas patch-ccx.dof patch-ccx.inp" 73e9 0.010 "$stretch" 1000 0 0 3
 }
 
 # each frequency once, in Hz, beside its theory
