@@ -26,7 +26,8 @@ struct oscillators *oscillators_create(size_t count, const double *omega, double
         return NULL;
     }
     memset(set->omega, 0, bytes);
-    memcpy(set->omega, omega, count * sizeof *omega);
+    if (omega)
+        memcpy(set->omega, omega, count * sizeof *omega);
     return set;
 }
 
@@ -37,8 +38,27 @@ void oscillators_free(struct oscillators *set)
     for (int level = 0; level < STEP_LEVELS; level++)
         free(set->tables[level]);
     oscillators_free(set->undamped);
+    free(set->which);
     free(set->omega);
     free(set);
+}
+
+struct oscillators *oscillators_part(struct oscillators *whole, const size_t *which, size_t count)
+{
+    struct oscillators *part = oscillators_create(count, NULL, whole->damping);
+    size_t *kept = malloc((count + 1) * sizeof *kept);
+    if (!part || !kept) {
+        oscillators_free(part);
+        free(kept);
+        return NULL;
+    }
+    for (size_t i = 0; i < count; i++) {
+        part->omega[i] = whole->omega[which[i]];
+        kept[i] = which[i];
+    }
+    part->whole = whole;
+    part->which = kept;
+    return part;
 }
 
 struct oscillators *oscillators_undamped(struct oscillators *set)
@@ -68,11 +88,16 @@ int step_level(double h)
     return level < 0 ? 0 : level >= STEP_LEVELS ? STEP_LEVELS - 1 : level;
 }
 
+static size_t array_count(bool damped)
+{
+    return 2 * NODES + 4 + 2 * NODES + NODES * NODES + (damped ? LOSS_TERMS : 0);
+}
+
 /* One block: the table, then its arrays, each `stride` long and aligned. */
 static struct step_table *table_allocate(size_t stride, bool damped)
 {
     /* zero throughout: the modes that only fill the last lanes never move */
-    size_t arrays = 2 * NODES + 4 + 2 * NODES + NODES * NODES + (damped ? LOSS_TERMS : 0);
+    size_t arrays = array_count(damped);
     size_t header = (sizeof(struct step_table) + 31) / 32 * 32;
     size_t bytes = header + arrays * stride * sizeof(double);
     unsigned char *block = aligned_alloc(32, (bytes + 31) / 32 * 32);
@@ -126,17 +151,35 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
     }
 }
 
+/* A part's numbers are the whole's: array after array, as they lie in its block. */
+static void gather(struct step_table *table, const struct oscillators *part,
+                   const struct step_table *whole)
+{
+    size_t arrays = array_count(part->damping > 0.0);
+    for (size_t a = 0; a < arrays; a++) {
+        const double *from = whole->node_q[0] + a * part->whole->stride;
+        double *to = table->node_q[0] + a * part->stride;
+        for (size_t i = 0; i < part->count; i++)
+            to[i] = from[part->which[i]];
+    }
+}
+
 const struct step_table *oscillators_table(struct oscillators *set, int level)
 {
-    if (!set->tables[level]) {
-        struct step_table *table = table_allocate(set->stride, set->damping > 0.0);
-        if (!table)
-            return NULL;
-        for (size_t k = 0; k < set->count; k++)
-            fill_mode(table, set, step_length(level), k);
-        set->tables[level] = table;
+    if (set->tables[level])
+        return set->tables[level];
+    const struct step_table *whole = set->whole ? oscillators_table(set->whole, level) : NULL;
+    struct step_table *table = table_allocate(set->stride, set->damping > 0.0);
+    if (!table || (set->whole && !whole)) {
+        free(table);
+        return NULL;
     }
-    return set->tables[level];
+    if (whole)
+        gather(table, set, whole);
+    for (size_t k = 0; !whole && k < set->count; k++)
+        fill_mode(table, set, step_length(level), k);
+    set->tables[level] = table;
+    return table;
 }
 
 enum percuss_status oscillators_prepare(struct oscillators *set, int level, struct pace *pace)

@@ -33,6 +33,8 @@ struct oscillators {
     double *omega;                          /* ascending, rad/s; 0 beyond count */
     struct step_table *tables[STEP_LEVELS]; /* filled on first use */
     struct oscillators *undamped;           /* the same frequencies; NULL: not asked for yet */
+    struct oscillators *whole;              /* those that these are a part of; NULL: of none */
+    size_t *which;                          /* [count] of a part: index among the whole's */
 };
 
 enum { LANES = 4 };
@@ -40,6 +42,10 @@ enum { LANES = 4 };
 /* Copies the frequencies. NULL: out of memory. */
 struct oscillators *oscillators_create(size_t count, const double *omega, double damping);
 void oscillators_free(struct oscillators *set);
+
+/* Those of `whole` with the indices which[0 .. count - 1], ascending. Their tables have the same
+ * bits, gathered from the whole's, which must outlive them. NULL: out of memory. */
+struct oscillators *oscillators_part(struct oscillators *whole, const size_t *which, size_t count);
 
 /* The same without damping, its own where it has none; belongs to it. NULL: out of memory. */
 struct oscillators *oscillators_undamped(struct oscillators *set);

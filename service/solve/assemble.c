@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "impact/oscillator.h"
+#include "solve/mode_share.h"
 #include "solve/radiation.h"
 
 /* A group whose shapes all vanish at every contact, up to rounding, does not exist for the scene.
@@ -77,39 +78,7 @@ static double participation_scale(const struct body *body)
     return 1.0 / sqrt(body->mass);
 }
 
-/* The group if a contact excites it; *added tells. */
-static bool add_group(const struct addition *add, const struct prepared_group *source, bool *added)
-{
-    struct assembly *assembly = add->assembly;
-    size_t n = add->problem->contact_count;
-    struct scene_group *group = &assembly->groups[assembly->scene.groups];
-    /* as many modes of it as take part */
-    *group = (struct scene_group){.set = source->set, .body = add->body};
-    while (group->count < source->set->count && source->mode[group->count] < add->count)
-        group->count++;
-    group->stride = (group->count + LANES - 1) / LANES * LANES;
-    group->participation = arena_take(add->problem->arena, n, sizeof *group->participation);
-    if (!group->participation)
-        return false;
-    /* a row for every contact that excites one of them */
-    double scale = participation_scale(add->problem->bodies[add->body]);
-    *added = false;
-    for (size_t c = 0; c < n && group->count; c++) {
-        const struct family_load *load = problem_load(add->problem, c, add->body, add->family);
-        if (!load)
-            continue;
-        double *row = arena_take(add->problem->arena, group->stride, sizeof *row);
-        if (!row)
-            return false;
-        if (fill_row(add, source, load, group->count, row) <= NODE_SHARE * scale)
-            continue;
-        group->participation[c] = row;
-        *added = true;
-    }
-    return !*added || set_initial(add, group, source);
-}
-
-/* What the modal sum already holds of the compliance between two contacts. */
+/* What the modal sum holds of the compliance between two contacts. */
 static double held_compliance(const struct scene_group *group, size_t i, size_t j)
 {
     const double *a = group->participation[i];
@@ -121,8 +90,74 @@ static double held_compliance(const struct scene_group *group, size_t i, size_t 
     return sum;
 }
 
-/* What the modes from add->count on hold at each contact and the groups from `first` do not. */
-static void add_omitted(const struct addition *add, size_t first)
+/* The group as the contacts see it, with rows of those alone that excite it; *excited: any. */
+static bool make_group(const struct addition *add, const struct prepared_group *source,
+                       struct scene_group *group, bool *excited)
+{
+    size_t n = add->problem->contact_count;
+    *group = (struct scene_group){.set = source->set, .body = add->body};
+    /* the modes that the scene asks for */
+    while (group->count < source->set->count && source->mode[group->count] < add->count)
+        group->count++;
+    group->stride = (group->count + LANES - 1) / LANES * LANES;
+    group->participation = arena_take(add->problem->arena, n, sizeof *group->participation);
+    if (!group->participation)
+        return false;
+    /* a row for every contact that excites one of them */
+    double scale = participation_scale(add->problem->bodies[add->body]);
+    *excited = false;
+    for (size_t c = 0; c < n && group->count; c++) {
+        const struct family_load *load = problem_load(add->problem, c, add->body, add->family);
+        if (!load)
+            continue;
+        double *row = arena_take(add->problem->arena, group->stride, sizeof *row);
+        if (!row)
+            return false;
+        if (fill_row(add, source, load, group->count, row) <= NODE_SHARE * scale)
+            continue;
+        group->participation[c] = row;
+        *excited = true;
+    }
+    return true;
+}
+
+/* A group that a contact excites, and what it holds of each contact's static compliance. */
+static bool add_group(const struct addition *add, const struct prepared_group *source,
+                      double *residual, double *left)
+{
+    struct assembly *assembly = add->assembly;
+    size_t n = add->problem->contact_count;
+    struct scene_group *group = &assembly->groups[assembly->scene.groups];
+    bool excited;
+    if (!make_group(add, source, group, &excited))
+        return false;
+    if (!excited)
+        return true;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            residual[i * n + j] -= held_compliance(group, i, j);
+    for (size_t i = 0; i < n; i++)
+        left[i] -= held_compliance(group, i, i);
+    /* without those of a mesh that hardly take part: families of bars are what a place excites */
+    assembly->offered[add->body] += group->count;
+    if (add->problem->bodies[add->body]->mesh &&
+        !mode_share_leave_out(add->problem, add->state, add->family, &source, group))
+        return false;
+    if (group->count == 0)
+        return true;
+    if (!set_initial(add, group, source))
+        return false;
+    assembly->sources[assembly->scene.groups] = source;
+    assembly->families[assembly->scene.groups] = add->family;
+    assembly->scene.groups++;
+    assembly->modes[add->body] += group->count;
+    assembly->all_modes += group->count;
+    assembly->highest = fmax(assembly->highest, group->set->omega[group->count - 1]);
+    return true;
+}
+
+/* What the modes from add->count on hold at each contact, `left` by the groups of the family. */
+static void add_omitted(const struct addition *add, const double *left)
 {
     struct assembly *assembly = add->assembly;
     const struct body *body = add->problem->bodies[add->body];
@@ -132,59 +167,44 @@ static void add_omitted(const struct addition *add, size_t first)
         const struct family_load *load = problem_load(add->problem, i, add->body, add->family);
         if (!load)
             continue;
-        /* static compliance that no group holds; rounding may leave it below zero */
-        double left = modal_compliance(body, add->family, load, load);
-        for (size_t g = first; g < assembly->scene.groups; g++)
-            left -= held_compliance(&assembly->groups[g], i, i);
-        left = fmax(left, 0.0);
-        left = modal_beyond(body, add->prepared->modes, add->count, load, left);
+        /* rounding may leave it below zero */
+        double beyond =
+            modal_beyond(body, add->prepared->modes, add->count, load, fmax(left[i], 0.0));
         /* the sums of struct omitted as integrals, shapes alike and frequencies evenly spaced:
-         * phi^2/omega^2 adds up to left, 2 damping phi^2/omega^3 to damping left/omega */
-        assembly->omitted[i].inertia += left / (stand_in * stand_in);
-        assembly->omitted[i].viscosity += body->damping * left / omega;
+         * phi^2/omega^2 adds up to beyond, 2 damping phi^2/omega^3 to damping beyond/omega */
+        assembly->omitted[i].inertia += beyond / (stand_in * stand_in);
+        assembly->omitted[i].viscosity += body->damping * beyond / omega;
         /* kept for assemble_remainder */
         assembly->parts[assembly->part_count++] =
-            (struct omitted_part){add->body, i, add->family, add->count, left};
+            (struct omitted_part){add->body, i, add->family, add->count, beyond};
     }
     assembly->lowest_omitted = fmin(assembly->lowest_omitted, omega);
 }
 
 static bool add_family(const struct addition *add, double *residual)
 {
-    struct assembly *assembly = add->assembly;
     const struct problem *problem = add->problem;
     const struct body *body = problem->bodies[add->body];
     size_t n = problem->contact_count;
-    size_t first_group = assembly->scene.groups;
+    double *left = arena_take(problem->arena, n, sizeof *left);
+    if (!left)
+        return false;
     /* all of its static compliance */
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j < n; j++) {
             const struct family_load *a = problem_load(problem, i, add->body, add->family);
             const struct family_load *b = problem_load(problem, j, add->body, add->family);
-            if (a && b)
-                residual[i * n + j] += modal_compliance(body, add->family, a, b);
+            double all = a && b ? modal_compliance(body, add->family, a, b) : 0.0;
+            residual[i * n + j] += all;
+            left[i] = i == j ? all : left[i];
         }
     }
     /* less what its modes hold */
-    for (size_t g = 0; g < add->prepared->group_count; g++) {
-        bool added;
-        if (!add_group(add, &add->prepared->groups[g], &added))
+    for (size_t g = 0; g < add->prepared->group_count; g++)
+        if (!add_group(add, &add->prepared->groups[g], residual, left))
             return false;
-        if (!added)
-            continue;
-        struct scene_group *group = &assembly->groups[assembly->scene.groups];
-        for (size_t i = 0; i < n; i++)
-            for (size_t j = 0; j < n; j++)
-                residual[i * n + j] -= held_compliance(group, i, j);
-        assembly->sources[assembly->scene.groups] = &add->prepared->groups[g];
-        assembly->families[assembly->scene.groups] = add->family;
-        assembly->scene.groups++;
-        assembly->modes[add->body] += group->count;
-        assembly->all_modes += group->count;
-        assembly->highest = fmax(assembly->highest, group->set->omega[group->count - 1]);
-    }
     /* what none of them holds does not follow a force at once */
-    add_omitted(add, first_group);
+    add_omitted(add, left);
     return true;
 }
 
@@ -290,9 +310,13 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
 bool assembly_same_modes(const struct assembly *a, const struct assembly *b)
 {
     bool same = a->scene.groups == b->scene.groups;
-    for (size_t g = 0; same && g < a->scene.groups; g++)
-        same = a->groups[g].count == b->groups[g].count && a->families[g] == b->families[g] &&
+    for (size_t g = 0; same && g < a->scene.groups; g++) {
+        size_t count = a->groups[g].count;
+        same = count == b->groups[g].count && a->families[g] == b->families[g] &&
                a->groups[g].body == b->groups[g].body;
+        if (same && a->sources[g])
+            same = memcmp(a->sources[g]->mode, b->sources[g]->mode, count * sizeof(size_t)) == 0;
+    }
     return same;
 }
 

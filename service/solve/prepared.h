@@ -42,6 +42,13 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
                                                   const struct body *body, size_t family,
                                                   size_t count);
 
+/* Of a family's group the modes with the indices which[0 .. count - 1], ascending, as a group of
+ * their own, kept for a few of those asked for last. It is valid as long as the family. NULL: out
+ * of memory. */
+const struct prepared_group *prepared_part_get(struct prepared_cache *cache,
+                                               const struct prepared_group *whole,
+                                               const size_t *which, size_t count);
+
 /* The oscillator of modal_remainder_frequency, with its step tables. NULL: out of memory. */
 struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
                                            size_t family, size_t first);

@@ -177,8 +177,8 @@ static void fill_model(const struct problem *problem, const struct solution *sol
 static bool all_of_a_file(const struct problem *problem, const struct assembly *assembly)
 {
     for (size_t b = 0; b < problem->body_count; b++)
-        if (problem->bodies[b]->mesh && assembly->modes[b] > 0 &&
-            assembly->modes[b] == problem->bodies[b]->mesh->mode_count)
+        if (problem->bodies[b]->mesh && assembly->offered[b] > 0 &&
+            assembly->offered[b] == problem->bodies[b]->mesh->mode_count)
             return true;
     return false;
 }

@@ -82,6 +82,31 @@ static void padding_is_zero(void **state)
     oscillators_free(NULL);
 }
 
+/* Some of a set's oscillators have the whole's numbers. */
+static void a_part_has_the_tables_of_the_whole(void **state)
+{
+    (void)state;
+    const size_t which[] = {0, 2, 3, 5};
+    struct oscillators *whole = oscillators_create(MODES, omegas, 0.02);
+    struct oscillators *part = oscillators_part(whole, which, 4);
+    assert_non_null(part);
+    assert_int_equal(part->stride, 4);
+    const struct step_table *some = oscillators_table(part, 15);
+    const struct step_table *all = oscillators_table(whole, 15);
+    assert_non_null(some);
+    for (size_t i = 0; i < 4; i++) {
+        size_t k = which[i];
+        assert_true(part->omega[i] == omegas[k]);
+        assert_true(some->node_q[3][i] == all->node_q[3][k]);
+        assert_true(some->end_qv[i] == all->end_qv[k] && some->end_vv[i] == all->end_vv[k]);
+        assert_true(some->force_v[2][i] == all->force_v[2][k]);
+        assert_true(some->response[1][3][i] == all->response[1][3][k]);
+        assert_true(some->loss[LOSS_TERMS - 1][i] == all->loss[LOSS_TERMS - 1][k]);
+    }
+    oscillators_free(part);
+    oscillators_free(whole);
+}
+
 static void an_empty_set_is_a_set(void **state)
 {
     (void)state;
@@ -98,6 +123,7 @@ int main(void)
         cmocka_unit_test(the_ladder_halves),
         cmocka_unit_test(tables_hold_the_maps),
         cmocka_unit_test(padding_is_zero),
+        cmocka_unit_test(a_part_has_the_tables_of_the_whole),
         cmocka_unit_test(an_empty_set_is_a_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
