@@ -25,7 +25,7 @@ struct mode_family {
     /* Slow transverse waves: a body hit so comes back, and sub-impacts follow each other. */
     bool bends;
 
-    /* It may do so in other ways: sequences of sub-impacts are expected. */
+    /* It may do so in some places: where slow modes take enough of a blow. */
     bool returns;
 
     size_t shape_size; /* bytes of modal_family's shapes, each */

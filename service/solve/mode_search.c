@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "solve/mode_share.h"
 #include "solve/nearby.h"
 
 /* Each takes at least half of the error, as a rule a hundredth: more do not come. */
@@ -80,7 +81,8 @@ bool mode_search_expects_sequence(const struct problem *problem)
             const struct body_kind *kind = problem->bodies[side->body]->kind;
             for (size_t f = 0; f < kind->family_count; f++)
                 if (side->load.family[f].acts &&
-                    (kind->families[f]->bends || kind->families[f]->returns))
+                    (kind->families[f]->bends ||
+                     (kind->families[f]->returns && mode_share_returns(problem, c, side->body, f))))
                     return true;
         }
     return false;

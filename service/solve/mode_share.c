@@ -3,12 +3,20 @@
 
 #include "solve/mode_share.h"
 
+#include "impact/impact_scale.h"
+
 /* Share of the energy at hand that what is left out gets at most, in tolerances. A single blow
  * changes by as much over 2 e; three to four sub-impacts amplify that a thousandfold at worst. */
 static const double LEFT_OUT = 1e-4;
 /* The rest becomes a group of its own where that saves at least so many of the group's modes: its
  * tables are put together anew for every place that leaves out others. */
 static const double WORTH = 0.25;
+
+/* What slow modes add to the rigid 1/mass that a contact feels, from which on a body is expected to
+ * come back: on a rod's end they add a fourth or less, on a beam's middle nearly as much again. */
+static const double RETURNS = 0.5;
+/* Slow modes that are looked at: as many add that much, or the contact is among higher ones. */
+enum { LOWEST = 32 };
 
 /* Whether a mode vibrates already. */
 static bool is_ringing(const struct body_state *state, size_t family, size_t mode)
@@ -90,4 +98,32 @@ bool mode_share_leave_out(const struct problem *problem, const struct body_state
             is_ringing(state, family, (*source)->mode[k]))
             which[count++] = k;
     return count == group->count || keep(problem, which, count, source, group);
+}
+
+/* Slower than the contact, as in impact_scale.c: omega duration < 1. */
+bool mode_share_returns(const struct problem *problem, size_t contact, size_t body, size_t family)
+{
+    const struct scene rigid = {
+        .contacts = problem->contact_count, .w = problem->w, .laws = problem->contact_model.laws};
+    double w = problem->w[contact * (problem->contact_count + 1)];
+    double duration = impact_scale_of(&rigid, contact, problem->gap_rate[contact]).duration;
+    const struct prepared_family *known =
+        prepared_family_get(problem->cache, problem->bodies[body], family, LOWEST);
+    const struct family_load *load = problem_load(problem, contact, body, family);
+    if (!known || !load)
+        return true;
+    /* the lowest of them, as they are in the file */
+    size_t which[LOWEST];
+    double row[LOWEST];
+    size_t count = 0;
+    while (count < LOWEST && count < known->modes->count &&
+           known->modes->omega[count] * duration < 1.0) {
+        which[count] = count;
+        count++;
+    }
+    modal_participations(problem->bodies[body], known->modes, which, count, load, row);
+    double sum = 0.0;
+    for (size_t k = 0; k < count; k++)
+        sum += row[k] * row[k];
+    return count == LOWEST || sum > RETURNS * w;
 }

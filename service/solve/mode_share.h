@@ -18,4 +18,8 @@ bool mode_share_leave_out(const struct problem *problem, const struct body_state
                           size_t family, const struct prepared_group **source,
                           struct scene_group *group);
 
+/* Whether the slow modes of a body that a contact's load acts on get so much that sub-impacts are
+ * to be expected. */
+bool mode_share_returns(const struct problem *problem, size_t contact, size_t body, size_t family);
+
 #endif

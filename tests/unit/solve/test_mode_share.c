@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/mode_share.c: which modes of a mesh are left out, and that the answer does
- * not notice. */
+/* Mirrors service/solve/mode_share.c: which modes of a mesh are left out, that the answer does not
+ * notice, and where the body is expected to come back. */
 #include "bodies/made_mesh.h"
 #include "model/bar.h"
 #include "model/mesh_surface.h"
@@ -136,12 +136,26 @@ static void modes_that_vibrate_stay(void **state)
     meshed_free(&meshed);
 }
 
+/* A bar hit on its end gives way once, hit on its side it swings back. */
+static void a_beam_s_mesh_comes_back(void **state)
+{
+    (void)state;
+    struct meshed rod = meshed_create(&rod_kind), beam = meshed_create(&beam_kind);
+    const struct solve_request on_end = search_on_rod("mesh", 1e-3), side = on_side(0.0);
+    assert_false(mode_search_expects_sequence(search_begin(rod.search, &on_end)->problem));
+    assert_true(mode_search_expects_sequence(search_begin(beam.search, &side)->problem));
+    assert_false(mode_search_expects_sequence(search_begin(beam.search, &on_end)->problem));
+    meshed_free(&rod);
+    meshed_free(&beam);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_bends_in_the_other_plane_stays_out),
         cmocka_unit_test(the_answer_does_not_notice),
         cmocka_unit_test(modes_that_vibrate_stay),
+        cmocka_unit_test(a_beam_s_mesh_comes_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
