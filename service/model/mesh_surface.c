@@ -25,14 +25,16 @@ static const double ENOUGH = 1e-12;
 /* Share of a face's shape function below which a node does not count. */
 static const double NO_SHARE = 1e-9;
 
-static double box_distance(const struct mesh_box *box, const double p[3])
+/* Squared; 0 inside. */
+static double box_distance2(const struct mesh_box *box, const double p[3])
 {
     double sum = 0.0;
     for (int k = 0; k < 3; k++) {
-        double out = fmax(fmax(box->low[k] - p[k], p[k] - box->high[k]), 0.0);
-        sum += out * out;
+        double below = (double)box->low[k] - p[k], above = p[k] - (double)box->high[k];
+        double out = below > above ? below : above;
+        sum += out > 0.0 ? out * out : 0.0;
     }
-    return sqrt(sum);
+    return sum;
 }
 
 static void face_points(const struct mesh_body *body, const struct mesh_body_face *face,
@@ -244,30 +246,33 @@ static void take_later(struct finding *finding)
 static void search_boxes(struct finding *finding, bool inside)
 {
     const struct mesh_box *boxes = finding->body->boxes;
-    unsigned stack[MOST_DEPTH];
+    struct {
+        unsigned box;
+        double distance2;
+    } stack[MOST_DEPTH];
     int depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
+    stack[depth].box = 0;
+    stack[depth++].distance2 = box_distance2(&boxes[0], finding->p);
+    while (depth > 0 && !(finding->within <= finding->enough)) {
         /* too far: holds nothing nearer */
-        const struct mesh_box *box = &boxes[stack[--depth]];
-        double distance = box_distance(box, finding->p);
-        if (finding->within <= finding->enough)
-            return;
-        if (inside ? distance > 0.0 : distance > finding->within)
+        const struct mesh_box *box = &boxes[stack[--depth].box];
+        double distance2 = stack[depth].distance2;
+        double reach = inside ? 0.0 : finding->within;
+        if (distance2 > reach * reach)
             continue;
         /* a leaf: its faces */
-        for (unsigned i = 0; i < box->count && inside == (distance == 0.0); i++)
+        for (unsigned i = 0; i < box->count && inside == (distance2 == 0.0); i++)
             take_face(finding, finding->body->order[box->first + i]);
         if (box->count > 0 || depth + 2 > MOST_DEPTH)
             continue;
         /* two parts: the nearer comes next */
-        unsigned near = box->first, far = box->first + 1;
-        if (box_distance(&boxes[far], finding->p) < box_distance(&boxes[near], finding->p)) {
-            near++;
-            far--;
-        }
-        stack[depth++] = far;
-        stack[depth++] = near;
+        double first2 = box_distance2(&boxes[box->first], finding->p);
+        double second2 = box_distance2(&boxes[box->first + 1], finding->p);
+        unsigned nearer = second2 < first2;
+        stack[depth].box = box->first + 1 - nearer;
+        stack[depth++].distance2 = nearer ? first2 : second2;
+        stack[depth].box = box->first + nearer;
+        stack[depth++].distance2 = nearer ? second2 : first2;
     }
 }
 
