@@ -117,7 +117,7 @@ double contact_step_loss(const struct scene *scene, const struct motion *motion,
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         size_t used = 0;
-        if (!(group->set->damping > 0.0))
+        if (!(group->set->most_damping > 0.0))
             continue;
         for (size_t c = 0; c < scene->contacts; c++)
             if (group->participation[c])

@@ -80,7 +80,7 @@ static void find_remainders(struct flight *flight, const struct scene *scene, in
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         /* how many are slow enough to be followed */
-        double stiffer = sqrt(1.0 + 4.0 * group->set->damping * group->set->damping);
+        double stiffer = sqrt(1.0 + 4.0 * group->set->most_damping * group->set->most_damping);
         size_t followed = count_slow(group, h);
         flight->slow_count[g * STEP_LEVELS + (size_t)level] = followed;
         for (size_t c = 0; c < scene->contacts; c++) {

@@ -65,7 +65,7 @@ VECTOR_CLONES void kernel_dot2(size_t length, const double *a, const double *x, 
     *ay = TOTAL(sy);
 }
 
-VECTOR_CLONES void kernel_derivatives(size_t length, const double *omega, double damping,
+VECTOR_CLONES void kernel_derivatives(size_t length, const double *omega, const double *damping,
                                       const double *phi, const double *q, const double *v,
                                       double sums[DERIVATIVES])
 {
@@ -73,7 +73,7 @@ VECTOR_CLONES void kernel_derivatives(size_t length, const double *omega, double
     for (size_t k = 0; k < length; k += LANES) {
         lanes w = AT(omega, k);
         /* n-th derivative of its equation: q^(n+2) = -2 zeta omega q^(n+1) - omega^2 q^(n) */
-        lanes brake = -2.0 * damping * w;
+        lanes brake = -2.0 * AT(damping, k) * w;
         lanes spring = -(w * w);
         lanes now = AT(phi, k) * AT(q, k);
         lanes next = AT(phi, k) * AT(v, k);

@@ -56,9 +56,9 @@ void motion_copy(struct motion *to, const struct motion *from, const struct scen
 }
 
 /* Damping counts forward only, see motion_rewind. */
-static double damping_towards(const struct scene_group *group, double time)
+static double damping_towards(const struct scene_group *group, size_t mode, double time)
 {
-    return time < 0.0 ? 0.0 : group->set->damping;
+    return time < 0.0 ? 0.0 : group->set->damping[mode];
 }
 
 static void move(struct motion *motion, const struct scene *scene, double time)
@@ -71,11 +71,10 @@ static void move(struct motion *motion, const struct scene *scene, double time)
     }
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
-        double damping = damping_towards(group, time);
         for (size_t k = 0; k < group->count; k++)
             if (motion->q[g][k] != 0.0 || motion->v[g][k] != 0.0)
-                oscillator_advance(group->set->omega[k], damping, time, &motion->q[g][k],
-                                   &motion->v[g][k]);
+                oscillator_advance(group->set->omega[k], damping_towards(group, k, time), time,
+                                   &motion->q[g][k], &motion->v[g][k]);
     }
 }
 
@@ -174,7 +173,7 @@ void motion_approach_at(const struct motion *motion, const struct scene *scene, 
             double v = motion->v[g][k];
             if (phi[k] == 0.0 || (q == 0.0 && v == 0.0))
                 continue;
-            oscillator_advance(group->set->omega[k], damping_towards(group, time), time, &q, &v);
+            oscillator_advance(group->set->omega[k], damping_towards(group, k, time), time, &q, &v);
             d += phi[k] * q;
             d_rate += phi[k] * v;
         }
@@ -205,8 +204,8 @@ double motion_free_loss(const struct motion *motion, const struct scene *scene, 
     double sum = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
-        for (size_t k = 0; group->set->damping > 0.0 && k < group->count; k++)
-            sum += oscillator_free_loss(group->set->omega[k], group->set->damping, time,
+        for (size_t k = 0; group->set->most_damping > 0.0 && k < group->count; k++)
+            sum += oscillator_free_loss(group->set->omega[k], group->set->damping[k], time,
                                         motion->q[g][k], motion->v[g][k]);
     }
     return sum;

@@ -110,9 +110,9 @@ void reference_system_rates(double t, const double *y, double *rate, void *conte
     double *next = rate + 3 * n + 1;
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
-        double damping = group->set->damping;
         for (size_t k = 0; k < group->count; k++) {
             double omega = group->set->omega[k];
+            double damping = group->set->damping[k];
             double q = system->motion.q[g][k];
             double v = system->motion.v[g][k];
             double push = 0.0;

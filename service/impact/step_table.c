@@ -11,23 +11,47 @@
 #include "impact/oscillator.h"
 #include "impact/oscillator_loss.h"
 
-struct oscillators *oscillators_create(size_t count, const double *omega, double damping)
+/* Frequencies and ratios of 0. */
+static struct oscillators *allocate(size_t count)
 {
     struct oscillators *set = calloc(1, sizeof *set);
     if (!set)
         return NULL;
     set->count = count;
     set->stride = (count + LANES - 1) / LANES * LANES;
-    set->damping = damping;
-    size_t bytes = (set->stride + LANES) * sizeof *set->omega;
-    set->omega = aligned_alloc(32, bytes);
+    /* both in one block */
+    size_t length = set->stride + LANES;
+    set->omega = aligned_alloc(32, 2 * length * sizeof *set->omega);
     if (!set->omega) {
         free(set);
         return NULL;
     }
-    memset(set->omega, 0, bytes);
-    if (omega)
-        memcpy(set->omega, omega, count * sizeof *omega);
+    memset(set->omega, 0, 2 * length * sizeof *set->omega);
+    set->damping = set->omega + length;
+    return set;
+}
+
+static void set_one(struct oscillators *set, size_t k, double omega, double damping)
+{
+    set->omega[k] = omega;
+    set->damping[k] = damping;
+    set->most_damping = fmax(set->most_damping, damping);
+}
+
+struct oscillators *oscillators_create(size_t count, const double *omega, double damping)
+{
+    struct oscillators *set = allocate(count);
+    for (size_t k = 0; set && k < count; k++)
+        set_one(set, k, omega[k], damping);
+    return set;
+}
+
+struct oscillators *oscillators_create_each(size_t count, const double *omega,
+                                            const double *damping)
+{
+    struct oscillators *set = allocate(count);
+    for (size_t k = 0; set && k < count; k++)
+        set_one(set, k, omega[k], damping[k]);
     return set;
 }
 
@@ -45,7 +69,7 @@ void oscillators_free(struct oscillators *set)
 
 struct oscillators *oscillators_part(struct oscillators *whole, const size_t *which, size_t count)
 {
-    struct oscillators *part = oscillators_create(count, NULL, whole->damping);
+    struct oscillators *part = allocate(count);
     size_t *kept = malloc((count + 1) * sizeof *kept);
     if (!part || !kept) {
         oscillators_free(part);
@@ -53,7 +77,7 @@ struct oscillators *oscillators_part(struct oscillators *whole, const size_t *wh
         return NULL;
     }
     for (size_t i = 0; i < count; i++) {
-        part->omega[i] = whole->omega[which[i]];
+        set_one(part, i, whole->omega[which[i]], whole->damping[which[i]]);
         kept[i] = which[i];
     }
     part->whole = whole;
@@ -63,7 +87,7 @@ struct oscillators *oscillators_part(struct oscillators *whole, const size_t *wh
 
 struct oscillators *oscillators_undamped(struct oscillators *set)
 {
-    if (set->damping == 0.0)
+    if (set->most_damping == 0.0)
         return set;
     if (!set->undamped)
         set->undamped = oscillators_create(set->count, set->omega, 0.0);
@@ -125,14 +149,14 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
     double to_v[NODES + 2];
     /* at the nodes: of the motion before, and of forces there */
     for (int i = 0; i < NODES; i++) {
-        oscillator_map(set->omega[k], set->damping, h, collocation.node[i], to_q, to_v);
+        oscillator_map(set->omega[k], set->damping[k], h, collocation.node[i], to_q, to_v);
         table->node_q[i][k] = to_q[0];
         table->node_v[i][k] = to_q[1];
         for (int j = 0; j < NODES; j++)
             table->response[i][j][k] = to_q[j + 2];
     }
     /* at the end */
-    oscillator_map(set->omega[k], set->damping, h, 1.0, to_q, to_v);
+    oscillator_map(set->omega[k], set->damping[k], h, 1.0, to_q, to_v);
     table->end_qq[k] = to_q[0];
     table->end_qv[k] = to_q[1];
     table->end_vq[k] = to_v[0];
@@ -142,9 +166,9 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
         table->force_v[j][k] = to_v[j + 2];
     }
     /* what damping takes */
-    if (set->damping > 0.0) {
+    if (set->most_damping > 0.0) {
         double form[LOSS_INPUTS][LOSS_INPUTS];
-        oscillator_loss_form(set->omega[k], set->damping, h, form);
+        oscillator_loss_form(set->omega[k], set->damping[k], h, form);
         for (int r = 0, term = 0; r < LOSS_INPUTS; r++)
             for (int s = 0; s <= r; s++, term++)
                 table->loss[term][k] = form[r][s];
@@ -155,7 +179,7 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
 static void gather(struct step_table *table, const struct oscillators *part,
                    const struct step_table *whole)
 {
-    size_t arrays = array_count(part->damping > 0.0);
+    size_t arrays = array_count(part->most_damping > 0.0);
     for (size_t a = 0; a < arrays; a++) {
         const double *from = whole->node_q[0] + a * part->whole->stride;
         double *to = table->node_q[0] + a * part->stride;
@@ -169,7 +193,7 @@ const struct step_table *oscillators_table(struct oscillators *set, int level)
     if (set->tables[level])
         return set->tables[level];
     const struct step_table *whole = set->whole ? oscillators_table(set->whole, level) : NULL;
-    struct step_table *table = table_allocate(set->stride, set->damping > 0.0);
+    struct step_table *table = table_allocate(set->stride, set->most_damping > 0.0);
     if (!table || (set->whole && !whole)) {
         free(table);
         return NULL;

@@ -26,11 +26,12 @@ struct step_table {
                                                   (q, v, f_1..f_4), lower triangle; damped only */
 };
 
-/* A set of oscillators with a common damping ratio and its tables. */
+/* A set of oscillators with its tables. */
 struct oscillators {
-    size_t count, stride; /* stride: count rounded up to lanes */
-    double damping;
+    size_t count, stride;                   /* stride: count rounded up to lanes */
+    double most_damping;                    /* the largest ratio; 0: undamped */
     double *omega;                          /* ascending, rad/s; 0 beyond count */
+    double *damping;                        /* ratio of each; 0 beyond count */
     struct step_table *tables[STEP_LEVELS]; /* filled on first use */
     struct oscillators *undamped;           /* the same frequencies; NULL: not asked for yet */
     struct oscillators *whole;              /* those that these are a part of; NULL: of none */
@@ -39,8 +40,10 @@ struct oscillators {
 
 enum { LANES = 4 };
 
-/* Copies the frequencies. NULL: out of memory. */
+/* Copies the frequencies; with one damping ratio for all, or one of each. NULL: out of memory. */
 struct oscillators *oscillators_create(size_t count, const double *omega, double damping);
+struct oscillators *oscillators_create_each(size_t count, const double *omega,
+                                            const double *damping);
 void oscillators_free(struct oscillators *set);
 
 /* Those of `whole` with the indices which[0 .. count - 1], ascending. Their tables have the same

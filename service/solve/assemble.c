@@ -53,7 +53,8 @@ static bool set_initial(const struct addition *add, struct scene_group *group,
             continue;
         q[k] = pairs[2 * mode];
         v[k] = pairs[2 * mode + 1];
-        oscillator_advance(group->set->omega[k], group->set->damping, add->elapsed, &q[k], &v[k]);
+        oscillator_advance(group->set->omega[k], group->set->damping[k], add->elapsed, &q[k],
+                           &v[k]);
     }
     group->q = q;
     group->v = v;

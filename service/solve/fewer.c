@@ -16,7 +16,7 @@ static double effect(const struct problem *problem, const struct impact_outcome 
     double omega = group->set->omega[k];
     double share = group->participation[contact][k] / omega;
     double inertia = share * share / (omega * omega) * track->inertia;
-    double viscosity = 2.0 * group->set->damping * share * share / omega * track->viscosity;
+    double viscosity = 2.0 * group->set->damping[k] * share * share / omega * track->viscosity;
     double rate = compression * problem->w[contact * (problem->contact_count + 1)];
     return compression > 0.0 ? (fabs(inertia) + viscosity / rate) / compression : 0.0;
 }

@@ -19,7 +19,7 @@ bool contact_ode_create(struct contact_ode *ode, const struct scene *scene, stru
 {
     size_t count = 1;
     for (size_t g = 0; g < scene->groups; g++) {
-        if (scene->group[g].set->damping != 0.0)
+        if (scene->group[g].set->most_damping != 0.0)
             return false;
         count += scene->group[g].count;
     }

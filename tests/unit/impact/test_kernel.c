@@ -82,16 +82,20 @@ static void derivatives_are_a_series_of_the_motion(void **state)
     for (size_t i = 0; i < 3; i++) {
         struct vectors x;
         make(&x, 13);
+        /* a third of them less damped than the others */
+        _Alignas(32) double damping[16] = {0.0};
+        for (size_t k = 0; k < 13; k++)
+            damping[k] = k % 3 ? dampings[i] : 0.1 * dampings[i];
         double sums[DERIVATIVES] = {0.0};
         double t = 0.5 / x.set->omega[12];
         double series = 0.0, power = 1.0, expected = 0.0;
-        kernel_derivatives(x.stride, x.set->omega, dampings[i], x.phi, x.q, x.v, sums);
+        kernel_derivatives(x.stride, x.set->omega, damping, x.phi, x.q, x.v, sums);
         for (int n = 0; n < DERIVATIVES; n++) {
             series += power * sums[n];
             power *= t / (n + 1);
         }
         for (size_t k = 0; k < 13; k++) {
-            oscillator_advance(x.set->omega[k], dampings[i], t, &x.q[k], &x.v[k]);
+            oscillator_advance(x.set->omega[k], damping[k], t, &x.q[k], &x.v[k]);
             expected += x.phi[k] * x.q[k];
         }
         agrees(series, expected);

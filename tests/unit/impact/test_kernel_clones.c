@@ -35,8 +35,9 @@ void kernel_dot2(size_t length, const double *a, const double *x, const double *
                  double *ay);
 void kernel_response(const struct step_table *table, size_t length, const double *phi_a,
                      const double *phi_b, double sums[NODES][NODES]);
-void kernel_derivatives(size_t length, const double *omega, double damping, const double *phi,
-                        const double *q, const double *v, double sums[DERIVATIVES]);
+void kernel_derivatives(size_t length, const double *omega, const double *damping,
+                        const double *phi, const double *q, const double *v,
+                        double sums[DERIVATIVES]);
 double kernel_loss(const struct step_table *table, size_t length, const double *const state[2],
                    const struct kernel_load *loads, size_t count);
 
@@ -91,8 +92,8 @@ static void every_vector_unit_gives_the_same_bits(void **state)
         baseline_response(table, n, phi, psi, response[1]);
         same(response[0][0], response[1][0], NODES * NODES);
         double derivatives[2][DERIVATIVES] = {{0.0}};
-        kernel_derivatives(n, set->omega, 0.01, phi, q, v, derivatives[0]);
-        baseline_derivatives(n, set->omega, 0.01, phi, q, v, derivatives[1]);
+        kernel_derivatives(n, set->omega, set->damping, phi, q, v, derivatives[0]);
+        baseline_derivatives(n, set->omega, set->damping, phi, q, v, derivatives[1]);
         same(derivatives[0], derivatives[1], DERIVATIVES);
         const double *const q_and_v[2] = {q, v};
         const struct kernel_load loads[2] = {{phi, force}, {psi, force}};

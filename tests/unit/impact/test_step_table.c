@@ -29,9 +29,11 @@ static void the_ladder_halves(void **state)
 static void tables_hold_the_maps(void **state)
 {
     (void)state;
-    struct oscillators *set = oscillators_create(MODES, omegas, 0.02);
+    const double damping[MODES] = {0.02, 0.0, 0.5, 1e-3, 0.02, 0.1};
+    struct oscillators *set = oscillators_create_each(MODES, omegas, damping);
     assert_non_null(set);
     assert_int_equal(set->stride, 8);
+    assert_true(set->most_damping == 0.5);
     for (int level = 8; level < 24; level += 5) {
         const struct step_table *table = oscillators_table(set, level);
         assert_non_null(table);
@@ -40,19 +42,19 @@ static void tables_hold_the_maps(void **state)
         for (size_t k = 0; k < MODES; k++) {
             double to_q[NODES + 2], to_v[NODES + 2];
             for (int i = 0; i < NODES; i++) {
-                oscillator_map(omegas[k], 0.02, h, collocation.node[i], to_q, to_v);
+                oscillator_map(omegas[k], damping[k], h, collocation.node[i], to_q, to_v);
                 assert_true(table->node_q[i][k] == to_q[0] && table->node_v[i][k] == to_q[1]);
                 for (int j = 0; j < NODES; j++)
                     assert_true(table->response[i][j][k] == to_q[2 + j]);
             }
-            oscillator_map(omegas[k], 0.02, h, 1.0, to_q, to_v);
+            oscillator_map(omegas[k], damping[k], h, 1.0, to_q, to_v);
             assert_true(table->end_qq[k] == to_q[0] && table->end_qv[k] == to_q[1]);
             assert_true(table->end_vq[k] == to_v[0] && table->end_vv[k] == to_v[1]);
             for (int j = 0; j < NODES; j++)
                 assert_true(table->force_q[j][k] == to_q[2 + j] &&
                             table->force_v[j][k] == to_v[2 + j]);
             double form[LOSS_INPUTS][LOSS_INPUTS];
-            oscillator_loss_form(omegas[k], 0.02, h, form);
+            oscillator_loss_form(omegas[k], damping[k], h, form);
             for (int r = 0, term = 0; r < LOSS_INPUTS; r++)
                 for (int s = 0; s <= r; s++, term++)
                     assert_true(table->loss[term][k] == form[r][s]);
@@ -87,7 +89,8 @@ static void a_part_has_the_tables_of_the_whole(void **state)
 {
     (void)state;
     const size_t which[] = {0, 2, 3, 5};
-    struct oscillators *whole = oscillators_create(MODES, omegas, 0.02);
+    const double damping[MODES] = {0.02, 0.3, 0.0, 1e-3, 0.02, 0.1};
+    struct oscillators *whole = oscillators_create_each(MODES, omegas, damping);
     struct oscillators *part = oscillators_part(whole, which, 4);
     assert_non_null(part);
     assert_int_equal(part->stride, 4);
@@ -96,13 +99,14 @@ static void a_part_has_the_tables_of_the_whole(void **state)
     assert_non_null(some);
     for (size_t i = 0; i < 4; i++) {
         size_t k = which[i];
-        assert_true(part->omega[i] == omegas[k]);
+        assert_true(part->omega[i] == omegas[k] && part->damping[i] == damping[k]);
         assert_true(some->node_q[3][i] == all->node_q[3][k]);
         assert_true(some->end_qv[i] == all->end_qv[k] && some->end_vv[i] == all->end_vv[k]);
         assert_true(some->force_v[2][i] == all->force_v[2][k]);
         assert_true(some->response[1][3][i] == all->response[1][3][k]);
         assert_true(some->loss[LOSS_TERMS - 1][i] == all->loss[LOSS_TERMS - 1][k]);
     }
+    assert_true(part->most_damping == 0.1);
     oscillators_free(part);
     oscillators_free(whole);
 }
