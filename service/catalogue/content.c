@@ -176,6 +176,7 @@ static enum percuss_status read_bodies(struct reader *reader, const yaml_node_t 
         /* what is not there yet is no body of the set */
         if (!status && is_ordered(body)) {
             free(body->sites);
+            free(body->damping_shares);
             set->count--;
         }
     }

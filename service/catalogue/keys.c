@@ -3,7 +3,9 @@
 
 #include "catalogue/keys.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "model/body.h"
@@ -96,6 +98,30 @@ static enum percuss_status read_list(struct reader *reader, const yaml_node_t *l
     return PERCUSS_OK;
 }
 
+/* One ratio of all modes, or a list of theirs: kept as shares of the largest. */
+static enum percuss_status read_damping(struct reader *reader, const yaml_node_t *value,
+                                        const struct key *key, struct body *body)
+{
+    if (value->type != YAML_SEQUENCE_NODE)
+        return read_number(value, key, &body->damping) ? PERCUSS_OK : refuse(reader, value, key);
+    size_t count = reader_count(value);
+    if (count == 0)
+        return refuse(reader, value, key);
+    body->damping_shares = calloc(count, sizeof *body->damping_shares);
+    if (!body->damping_shares)
+        return fault_set(reader->fault, PERCUSS_INTERNAL, "%s: out of memory",
+                         reader_short_name(reader->name));
+    body->damping_count = count;
+    enum percuss_status status = read_list(reader, value, key, count, (char *)body->damping_shares);
+    if (status)
+        return status;
+    for (size_t k = 0; k < count; k++)
+        body->damping = fmax(body->damping, body->damping_shares[k]);
+    for (size_t k = 0; k < count && body->damping > 0.0; k++)
+        body->damping_shares[k] /= body->damping;
+    return PERCUSS_OK;
+}
+
 static enum percuss_status read_ends(struct reader *reader, const yaml_node_t *value,
                                      const struct key *key, char *field)
 {
@@ -127,6 +153,8 @@ enum percuss_status keys_read_value(struct reader *reader, const yaml_node_t *va
     case KEY_SHEAR:
         good = read_shear(value, key, object);
         break;
+    case KEY_DAMPING:
+        return read_damping(reader, value, key, object);
     case KEY_KIND:
         good = read_kind(value, (const struct body_kind **)field);
         break;

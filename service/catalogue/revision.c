@@ -67,6 +67,9 @@ static void hash_mesh(struct hash *hash, const struct body *body)
     hash_text(hash, body->mesh->source);
     hash_double(hash, body->scale);
     hash_number(hash, body->rigid);
+    if (body->damping_count > 0)
+        hash_number(hash, body->damping_count);
+    hash_doubles(hash, body->damping_shares, body->damping_count);
     hash_number(hash, body->site_count);
     for (size_t i = 0; i < body->site_count; i++) {
         const struct body_site *site = &body->sites[i];

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "model/damping.h"
+
 static const double NEGLIGIBLE = 1e-9;
 
 void bar_complete_round(struct body *body)
@@ -64,8 +66,7 @@ void bar_describe_ends(const struct body *body, struct body_description *descrip
 {
     static const char *const names[] = {"free", "pinned", "clamped"};
     describe_add(description, "ends %s and %s", names[body->supports[0]], names[body->supports[1]]);
-    if (body->damping > 0.0)
-        describe_add(description, "modal damping ratio %g", body->damping);
+    damping_describe(body, description);
     if (body->modes > 0)
         describe_add(description, "%u modes", body->modes);
 }

@@ -38,6 +38,7 @@ static enum percuss_status check_key(const struct key *key, const void *field, s
     /* numbers by their limits; none stated is good where it may be absent */
     switch (key->type) {
     case KEY_NUMBER:
+    case KEY_DAMPING:
         if (!key->required && *number == key->absent)
             return PERCUSS_OK;
         return limit_check(key->limit, key->name, *number, fault);
@@ -162,8 +163,10 @@ void body_site_point(const struct body *body, const struct body_site *site, doub
 
 void body_set_clear(struct body_set *set)
 {
-    for (size_t i = 0; i < set->count; i++)
+    for (size_t i = 0; i < set->count; i++) {
         free(set->bodies[i].sites);
+        free(set->bodies[i].damping_shares);
+    }
     for (size_t i = 0; i < set->mesh_count; i++)
         mesh_body_free(set->meshes[i]);
     for (size_t i = 0; i < set->order_count; i++)

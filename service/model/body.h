@@ -35,14 +35,15 @@ struct body {
     enum shear_rule shear_rule;
     double shear_number;          /* SHEAR_NUMBER: the factor */
     enum support supports[2];     /* rod, beam: at x = -length/2, +length/2 */
-    double damping;               /* modal damping ratio, [0, 1) */
+    double damping;               /* modal damping ratio, [0, 1); of several the largest */
+    double *damping_shares;       /* mesh: [damping_count], see damping.h; borrowed from the set */
     unsigned modes;               /* fixed number of modes a family; 0: from the tolerance */
     bool varied;                  /* by body_vary */
     const struct mesh_body *mesh; /* mesh: borrowed from the set */
     double scale;                 /* mesh: its size over the file's; 0: not stated, 1 */
     bool rigid;                   /* mesh: its vibration is left out */
     struct body_site *sites;      /* mesh: [site_count], borrowed from the set */
-    size_t site_count;
+    size_t site_count, damping_count;
 
     /* Set by body_complete. */
     double mass;             /* kg; INFINITY: half-space */
@@ -50,9 +51,8 @@ struct body {
     double products[3];      /* mesh: yz, zx, xy of the same tensor */
     double area;             /* rod, beam: of the section */
     double second_moment[2]; /* beam: of the section for bending along y, along z */
-    double torsion_constant; /* beam: of the section, m^4 */
-    double warping_constant; /* beam: of the section, m^6 */
-    double shear_factor[2];  /* beam: for bending along y, along z; NAN for Euler-Bernoulli */
+    double torsion_constant, warping_constant; /* beam: of the section, m^4, m^6 */
+    double shear_factor[2]; /* beam: for bending along y, along z; NAN for Euler-Bernoulli */
 };
 
 /* Computes what follows from the dimensions and the material. PERCUSS_OK, or PERCUSS_BAD_REQUEST

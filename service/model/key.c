@@ -96,6 +96,10 @@ struct key_text key_allowed(const struct key *key)
         grow_words(&growing, key);
         grow(&growing, " or ", key->limit->text);
         break;
+    case KEY_DAMPING:
+        grow(&growing, key->limit->text,
+             ", or a list of such, of the modes from the lowest up, the last one of all others");
+        break;
     case KEY_KIND:
         grow_kinds(&growing);
         break;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "model/body.h"
+#include "model/damping.h"
 #include "model/describe.h"
 #include "model/face.h"
 #include "model/facet.h"
@@ -42,7 +43,7 @@ static const double MUCH_BENT = 0.1;
 
 static const struct key keys[] = {
     {"file", KEY_TEXT, .required = true},
-    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping)},
+    {"damping", KEY_DAMPING, &limit_damping, KEY_OF(body, damping)},
     {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes)},
     {"rigid", KEY_FLAG, KEY_OF(body, rigid)},
     {"scale", KEY_NUMBER, &limit_scale, KEY_OF(body, scale), .absent = 0.0},
@@ -64,6 +65,10 @@ static enum percuss_status check(const struct body *body, struct fault *fault)
                          "poisson: %.9g: must be %.9g, with which the mesh was reduced: reduce it "
                          "again for another one",
                          body->material.poisson, poisson);
+    if (body->damping_count > body->mesh->mode_count)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "damping: %zu ratios: must be at most %zu, one of each mode in its file",
+                         body->damping_count, body->mesh->mode_count);
     return PERCUSS_OK;
 }
 
@@ -333,8 +338,7 @@ static void describe(const struct body *body, struct body_description *descripti
                      mesh->omega[mesh->mode_count - 1] *
                          sqrt(mesh_ratio_of(body).young / mesh_ratio_of(body).density) /
                          (body->scale * 2.0 * M_PI));
-    if (body->damping > 0.0)
-        describe_add(description, "modal damping ratio %g", body->damping);
+    damping_describe(body, description);
     if (body->modes > 0)
         describe_add(description, "%u of them taking part", body->modes);
     describe_moved(body, description);

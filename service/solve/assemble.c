@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "impact/oscillator.h"
+#include "model/damping.h"
 #include "solve/mode_share.h"
 #include "solve/radiation.h"
 
@@ -164,6 +165,7 @@ static void add_omitted(const struct addition *add, const double *left)
     const struct body *body = add->problem->bodies[add->body];
     double omega = add->prepared->modes->omega[add->count];
     double stand_in = modal_remainder_frequency(body, add->prepared->modes, add->count);
+    double damping = damping_from(body, add->count);
     for (size_t i = 0; i < add->problem->contact_count; i++) {
         const struct family_load *load = problem_load(add->problem, i, add->body, add->family);
         if (!load)
@@ -174,7 +176,7 @@ static void add_omitted(const struct addition *add, const double *left)
         /* the sums of struct omitted as integrals, shapes alike and frequencies evenly spaced:
          * phi^2/omega^2 adds up to beyond, 2 damping phi^2/omega^3 to damping beyond/omega */
         assembly->omitted[i].inertia += beyond / (stand_in * stand_in);
-        assembly->omitted[i].viscosity += body->damping * beyond / omega;
+        assembly->omitted[i].viscosity += damping * beyond / omega;
         /* kept for assemble_remainder */
         assembly->parts[assembly->part_count++] =
             (struct omitted_part){add->body, i, add->family, add->count, beyond};

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "impact/impact_scale.h"
+#include "model/damping.h"
 
 /* Integrals over an elastic collision, see make_demand: of K' F', and of F'^2 against it. */
 static const double HERTZ_INERTIA = 1.78;
@@ -61,7 +62,7 @@ static bool suffices(const struct body *body, const struct modal_family *modes, 
     double stand_in = modal_remainder_frequency(body, modes, first);
     for (size_t i = 0; i < count; i++) {
         double inertia = demands[i].left / (stand_in * stand_in);
-        double viscosity = body->damping * demands[i].left / modes->omega[first];
+        double viscosity = damping_from(body, first) * demands[i].left / modes->omega[first];
         if (!((inertia + viscosity * demands[i].delay) * demands[i].weight <= allowed))
             return false;
     }
@@ -90,10 +91,13 @@ static size_t count_of_few(const struct mode_choice *choice, const struct proble
         double inertia =
             modal_beyond(body, modes, modes->count, demands[i].load, 0.0) / (end * end);
         size_t k = modes->count;
+        double damping = damping_from(body, k);
         for (; k > enough; k--) {
+            if (k <= body->damping_count)
+                damping = fmax(damping, damping_of(body, k - 1));
             double square = omega[k - 1] * omega[k - 1];
             double with = inertia + row[k - 1] * row[k - 1] / (square * square);
-            double viscosity = body->damping * with * omega[k - 1];
+            double viscosity = damping * with * omega[k - 1];
             if (!((with + viscosity * demands[i].delay) * demands[i].weight <= choice->allowed))
                 break;
             inertia = with;

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "fe/matched.h"
+#include "model/damping.h"
 #include "model/roll.h"
 
 /* Patches from a half of a sphere's radius down to 1/1024; smaller ones are extrapolated. */
@@ -76,17 +77,20 @@ static bool group_create(struct prepared_group *group, const struct body *body,
                          const struct modal_family *modes, int parity)
 {
     double *omega = calloc(modes->count + 1, sizeof *omega);
+    double *damping = calloc(modes->count + 1, sizeof *damping);
     group->mode = calloc(modes->count + 1, sizeof *group->mode);
     size_t count = 0;
-    for (size_t k = 0; omega && group->mode && k < modes->count; k++) {
+    for (size_t k = 0; omega && damping && group->mode && k < modes->count; k++) {
         if (modes->odd[k] != parity)
             continue;
         omega[count] = modes->omega[k];
+        damping[count] = damping_of(body, k);
         group->mode[count++] = k;
     }
-    if (omega && group->mode)
-        group->set = oscillators_create(count, omega, body->damping);
+    if (omega && damping && group->mode)
+        group->set = oscillators_create_each(count, omega, damping);
     free(omega);
+    free(damping);
     return group->set != NULL;
 }
 
@@ -309,7 +313,7 @@ struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const s
         return NULL;
     double omega = modal_remainder_frequency(body, modes->modes, first);
     made->first = first;
-    made->set = oscillators_create(1, &omega, body->damping);
+    made->set = oscillators_create(1, &omega, damping_from(body, first));
     made->next = entry->remainders[family];
     if (!made->set) {
         free(made);

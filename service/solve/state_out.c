@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "impact/oscillator.h"
+#include "model/damping.h"
 #include "solve/contact_model.h"
 
 /* How many modes of a family the new state holds. */
@@ -32,7 +33,8 @@ static void move_freely(const struct body *body, size_t family, const struct bod
     arena->lacks = arena->lacks || !modes;
     memcpy(pairs, body_state_family(before, family), 2 * count * sizeof *pairs);
     for (size_t k = 0; modes && k < count && k < modes->count; k++)
-        oscillator_advance(modes->omega[k], body->damping, time, &pairs[2 * k], &pairs[2 * k + 1]);
+        oscillator_advance(modes->omega[k], damping_of(body, k), time, &pairs[2 * k],
+                           &pairs[2 * k + 1]);
     modal_family_free(modes);
 }
 

@@ -40,6 +40,8 @@ static void refuses_impossible_sizes(void **state)
          "bodies.r.tip_radius: 0.005: must be at least radius (0.01 m)"},
         {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, damping: 1}",
          "bodies.r.damping: 1: must be a ratio >= 0 and < 1"},
+        {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, damping: [0.1, 0.2]}",
+         "must be a ratio >= 0 and < 1"},
         {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, modes: 5001}",
          "bodies.r.modes: 5001: must be a whole number, 1 to 5000"},
         {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, modes: 0}", "modes: 0: must"},

@@ -9,7 +9,7 @@
 
 #include "bodies/made_mesh.h"
 #include "mesh/body_file.h"
-#include "model/describe.h"
+#include "model/damping.h"
 #include "unit/catalogue/parse.h"
 
 static char folder[64];
@@ -108,6 +108,40 @@ static void a_file_is_a_body(void **state)
     assert_int_equal(set->mesh_count, 1);
     assert_ptr_equal(body_set_find(set, "part")->mesh, body_set_find(set, "twin")->mesh);
     body_set_free(set);
+}
+
+/* One ratio of each mode, the last one's of all others. */
+static void modes_have_damping_of_their_own(void **state)
+{
+    (void)state;
+    static const double wanted[] = {0.01, 0.04, 0.002, 0.002};
+    struct body_set *set = good("{shape: mesh, file: rod.h5, damping: [0.01, 0.04, 0.002]}");
+    const struct body *part = body_set_find(set, "part");
+    assert_true(part->damping == 0.04);
+    for (size_t k = 0; k < 4; k++)
+        near_relative(damping_of(part, k), wanted[k], 2e-16); /* kept over the largest */
+    struct body_description description = {.text = ""};
+    part->kind->describe(part, &description);
+    assert_non_null(strstr(description.text,
+                           "ratios 0.002 to 0.04 of the lowest 3 modes, 0.002 of the others"));
+    char revision[PERCUSS_ID_SIZE];
+    memcpy(revision, set->revision, sizeof revision);
+    body_set_free(set);
+    set = good("{shape: mesh, file: rod.h5, damping: [0.01, 0.04, 0.003]}");
+    assert_string_not_equal(set->revision, revision);
+    body_set_free(set);
+    set = good("{shape: mesh, file: rod.h5, damping: [0, 0]}");
+    assert_true(damping_of(body_set_find(set, "part"), 0) == 0.0);
+    body_set_free(set);
+    /* what is none */
+    bad("{shape: mesh, file: rod.h5, damping: []}",
+        "must be a ratio >= 0 and < 1, or a list of such, of the modes from the lowest up, the "
+        "last one of all others");
+    bad("{shape: mesh, file: rod.h5, damping: [0.1, 1]}",
+        "bodies.part.damping[1]: 1: must be a ratio >= 0 and < 1");
+    bad("{shape: mesh, file: rod.h5, damping: [0.1, no]}", "damping[1]: no: must be a ratio");
+    bad("{shape: mesh, file: rod.h5, damping: [0, 0, 0, 0, 0, 0, 0, 0, 0.1]}",
+        "damping: 9 ratios: must be at most 8, one of each mode in its file");
 }
 
 static void sites_stand_in_the_mesh_s_frame(void **state)
@@ -381,6 +415,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_file_is_a_body),
+        cmocka_unit_test(modes_have_damping_of_their_own),
         cmocka_unit_test(sites_stand_in_the_mesh_s_frame),
         cmocka_unit_test(sites_beside_the_surface_are_moved),
         cmocka_unit_test(revisions_follow_what_is_said),
