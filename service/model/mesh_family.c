@@ -144,30 +144,44 @@ static double compliance(const struct body *body, size_t family, const struct fa
                           : removed + between * mesh_ratio_flexibility(body);
 }
 
+/* phi^2/omega^4, mode by mode. */
+VECTOR_CLONES static void find_inertias(size_t count, const double *row, const double *omega,
+                                        double *inertia)
+{
+    for (size_t k = 0; k < count; k++) {
+        double square = omega[k] * omega[k];
+        inertia[k] = row[k] * row[k] / (square * square);
+    }
+}
+
 static double beyond(const struct body *body, const struct modal_family *modes, size_t first,
                      const struct family_load *load)
 {
+    const double *omega = body->mesh->omega;
     size_t all = body->mesh->mode_count;
     struct mesh_ratio ratio = mesh_ratio_of(body);
     double factor = sqrt(ratio.young / ratio.density) / ratio.size;
-    double last = all > 0 ? factor * body->mesh->omega[all - 1] : 0.0;
+    double row[AT_ONCE], inertia[AT_ONCE];
+    /* the last octave begins at its lowest mode, or at the file's */
+    size_t last = all;
+    while (last > 0 && omega[last - 1] >= OCTAVE * omega[all - 1])
+        last--;
+    /* sums from the last mode back: of the octave, and from `first` on */
     double sum = 0.0, octave = 0.0;
-    double row[AT_ONCE];
-    for (size_t k = all, begin = all; k-- > 0;) {
-        double omega = factor * body->mesh->omega[k];
-        if (k < first && omega < OCTAVE * last)
-            break;
-        if (k < begin) {
-            begin = k + 1 > AT_ONCE ? k + 1 - AT_ONCE : 0;
-            fill_row(body, begin, k + 1 - begin, load, row);
-        }
-        double shape = row[k - begin];
-        double inertia = shape * shape / (omega * omega * omega * omega);
-        sum += k >= first ? inertia : 0.0;
-        octave += omega >= OCTAVE * last ? inertia : 0.0;
+    size_t low = first < last ? first : last;
+    for (size_t end = all; end > low;) {
+        size_t begin = end > low + AT_ONCE ? end - AT_ONCE : low;
+        fill_row(body, begin, end - begin, load, row);
+        find_inertias(end - begin, row, omega + begin, inertia);
+        for (size_t k = end; k > begin && k > first; k--)
+            sum += inertia[k - 1 - begin];
+        for (size_t k = end; k > begin && k > last; k--)
+            octave += inertia[k - 1 - begin];
+        end = begin;
     }
-    double square = modes->omega[first] * modes->omega[first];
-    return (sum + TAIL * octave) * square;
+    /* of frequencies that are `factor` times the file's */
+    double scale = modes->omega[first] / (factor * factor);
+    return (sum + TAIL * octave) * scale * scale;
 }
 
 static bool crowds(const struct body *body)

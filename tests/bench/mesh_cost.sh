@@ -2,8 +2,9 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# What a warm solve with 160 modes of each family costs on a bar's mesh against the built-in bar, in
-# instructions: more than a tenth above it fails. Finding the place on the mesh is what is left.
+# What a warm solve costs on a bar's mesh against the built-in bar, in instructions: with 160 modes of
+# each family more than a tenth above it fails; with as many of them as a tolerance of 1e-3 asks for,
+# which are few and cheap, more than a third. Finding the place on the mesh is what is left.
 # usage: mesh_cost.sh PROGRAM    (build/tests/bench/mesh_once)
 set -eu
 [ $# -eq 1 ] || {
@@ -17,7 +18,7 @@ command -v valgrind >/dev/null || {
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-count() { # count PROGRAM SCENE bar|mesh MODES
+count() { # count PROGRAM SCENE bar|mesh MODES [free]
     valgrind --tool=callgrind --toggle-collect=counted_solve --callgrind-out-file="$work/out" \
         "$@" >"$work/log" 2>&1 || {
         cat "$work/log" >&2
@@ -27,18 +28,26 @@ count() { # count PROGRAM SCENE bar|mesh MODES
 }
 
 bad=0
-for scene in rod beam; do
-    bar=$(count "$1" "$scene" bar 160)
-    mesh=$(count "$1" "$scene" mesh 160)
-    echo "$scene: bar $bar, mesh $mesh instructions, ratio $(awk -v b="$bar" -v m="$mesh" \
+# compare SCENE MOST [free]: at most MOST percent
+compare() {
+    scene=$1 most=$2
+    shift 2
+    bar=$(count "$program" "$scene" bar 160 "$@")
+    mesh=$(count "$program" "$scene" mesh 160 "$@")
+    echo "$scene $*: bar $bar, mesh $mesh instructions, ratio $(awk -v b="$bar" -v m="$mesh" \
         'BEGIN { printf "%.3f", m / b }')"
     [ "${bar:-0}" -gt 10000 ] && [ "${mesh:-0}" -gt 10000 ] || {
         echo "mesh_cost: nothing counted" >&2
         bad=1
     }
-    [ $((20 * mesh)) -le $((22 * bar)) ] || {
-        echo "mesh_cost: a mesh of the $scene costs more than a tenth above the built-in one" >&2
+    [ $((100 * mesh)) -le $((most * bar)) ] || {
+        echo "mesh_cost: a mesh of the $scene costs more than $most % of the built-in one" >&2
         bad=1
     }
-done
+}
+program=$1
+compare rod 110
+compare beam 110
+compare rod 133 free
+compare beam 110 free
 exit $bad

@@ -55,15 +55,18 @@ static struct body *find_body(struct bench_catalogue *catalogue, const char *id)
     return NULL;
 }
 
-/* mesh_once rod|beam bar|mesh MODES: the scene with so many modes of each family. */
+/* mesh_once rod|beam bar|mesh MODES [free]: the scene with so many modes of each family; free: of
+ * them as many as the tolerance asks for. */
 int main(int argc, char **argv)
 {
     static struct bench_catalogue catalogue;
     static struct solve_result result;
-    const struct bench_scene *scene = argc == 4 ? bench_scene_find(argv[1]) : NULL;
-    unsigned modes = argc == 4 ? (unsigned)strtoul(argv[3], NULL, 10) : 0;
-    if (!scene || !modes || (strcmp(argv[2], "bar") != 0 && strcmp(argv[2], "mesh") != 0)) {
-        fprintf(stderr, "usage: mesh_once SCENE bar|mesh MODES\n");
+    const struct bench_scene *scene = argc >= 4 ? bench_scene_find(argv[1]) : NULL;
+    unsigned modes = argc >= 4 ? (unsigned)strtoul(argv[3], NULL, 10) : 0;
+    bool free_modes = argc == 5 && strcmp(argv[4], "free") == 0;
+    if (!scene || !modes || argc != 4 + free_modes ||
+        (strcmp(argv[2], "bar") != 0 && strcmp(argv[2], "mesh") != 0)) {
+        fprintf(stderr, "usage: mesh_once SCENE bar|mesh MODES [free]\n");
         return 2;
     }
     const struct solve_means means = {.catalogue = &catalogue.set};
@@ -73,6 +76,8 @@ int main(int argc, char **argv)
     bool good = workspace && bench_catalogue_make(&catalogue, modes);
     if (good && strcmp(argv[2], "mesh") == 0)
         good = (made = make_mesh(find_body(&catalogue, scene->b))) != NULL;
+    for (size_t i = 0; free_modes && i < catalogue.set.count; i++)
+        catalogue.bodies[i].modes = 0;
     /* as a beam's mesh asks for by itself, closed forms of flexibility apart */
     request.options.compliance = PERCUSS_COMPLIANCE_HALF_SPACE;
     enum percuss_status status = good ? PERCUSS_OK : PERCUSS_INTERNAL;
