@@ -14,7 +14,7 @@
 #include "mesh/mesh_digest.h"
 
 /* Of what percuss-reduce makes of the same mesh: raise it where that changes. */
-static const char METHOD[] = "percuss reduced body 1";
+static const char METHOD[] = "percuss reduced body 2";
 static const double MOST_FREQUENCY = 1e12; /* Hz, as far as percuss-reduce takes it */
 
 static enum percuss_status out_of_memory(const struct reader *reader)

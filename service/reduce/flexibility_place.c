@@ -20,6 +20,16 @@ static const double OFF_RIM = 0.15;
 /* of a curved face's radius: within it the surface's bend is its curvature alone */
 static const double CUT = 0.02;
 
+/* Of a face's reach: at a third of an element from a right edge the solution on it is good to
+ * .02/(E distance), at an eighth to .05, and a quadratic face follows 1/distance from about there
+ * on. */
+static const double KNOWN_FROM = 0.3;
+
+/* Walls thinner than this part of an element (flexibility_place_thin), and the cosine from which on
+ * a surface is the far side of one. */
+static const double THIN = 0.4;
+static const double OPPOSITE = 0.7;
+
 /* ---- sharp edges ---- */
 
 struct half_edge {
@@ -102,6 +112,19 @@ static bool is_hollow(const struct surface_rule *rule, const struct half_edge *o
     return dot3(across, rule->areas[rule->first[own->face]]) > 0.0;
 }
 
+/* How far the face reaches from the edge, at most the mesh's size. */
+static double find_reach_of(const struct flexibility_edges *edges, const struct surface_rule *rule,
+                            size_t face)
+{
+    const struct surface_face *f = &rule->surface->faces[face];
+    double size = rule->surface->size;
+    double reach = flexibility_edges_distance(edges, f->patch, rule->centres[face]);
+    for (size_t n = 0; n < f->count && reach < size; n++)
+        reach = fmax(reach,
+                     flexibility_edges_distance(edges, f->patch, rule->mesh->points[f->nodes[n]]));
+    return fmin(reach, size);
+}
+
 bool flexibility_edges_make(struct flexibility_edges *edges, const struct surface_rule *rule)
 {
     *edges = (struct flexibility_edges){0};
@@ -128,7 +151,8 @@ bool flexibility_edges_make(struct flexibility_edges *edges, const struct surfac
     edges->patches = malloc((kept ? kept : 1) * sizeof *edges->patches);
     edges->hollow = malloc((kept ? kept : 1) * sizeof *edges->hollow);
     edges->plane = malloc(rule->surface->patch_count * sizeof *edges->plane);
-    if (!edges->points || !edges->patches || !edges->hollow || !edges->plane) {
+    edges->reach = malloc(rule->surface->face_count * sizeof *edges->reach);
+    if (!edges->points || !edges->patches || !edges->hollow || !edges->plane || !edges->reach) {
         free(all);
         flexibility_edges_free(edges);
         return false;
@@ -143,6 +167,8 @@ bool flexibility_edges_make(struct flexibility_edges *edges, const struct surfac
         edges->hollow[i] = all[i].hollow;
     }
     free(all);
+    for (size_t face = 0; face < rule->surface->face_count; face++)
+        edges->reach[face] = find_reach_of(edges, rule, face);
     return true;
 }
 
@@ -152,6 +178,7 @@ void flexibility_edges_free(struct flexibility_edges *edges)
     free(edges->patches);
     free(edges->hollow);
     free(edges->plane);
+    free(edges->reach);
     *edges = (struct flexibility_edges){0};
 }
 
@@ -282,6 +309,47 @@ static double find_reach(const struct surface_rule *rule, const struct boussines
     return 0.5 * lowest;
 }
 
+/* Depth of the nearest surface that faces the other way, seen within some 17 degrees of the inward
+ * normal: of what rises beside an edge none counts. */
+static double find_wall(const struct surface_rule *rule, const struct boussinesq3 *load)
+{
+    double size = rule->surface->size, nearest = INFINITY;
+    for (size_t i = 0; i < rule->first[rule->surface->face_count]; i++) {
+        double r[3];
+        sub3(rule->points[i], load->point, r);
+        double depth = dot3(r, load->inward);
+        if (depth <= 0.0 || depth >= nearest ||
+            dot3(rule->areas[i], load->inward) < OPPOSITE * norm3(rule->areas[i]))
+            continue;
+        double aside = sqrt(fmax(dot3(r, r) - depth * depth, 0.0));
+        if (aside < fmax(0.3 * depth, 0.5 * size))
+            nearest = depth;
+    }
+    return nearest;
+}
+
+static double mean_edge(int count, const double (*nodes)[3])
+{
+    int corners = count == FACE_TRIANGLE6 ? 3 : 4;
+    double sum = 0.0;
+    for (int i = 0; i < corners; i++) {
+        double edge[3];
+        sub3(nodes[(i + 1) % corners], nodes[i], edge);
+        sum += norm3(edge);
+    }
+    return sum / corners;
+}
+
+bool flexibility_place_thin(const struct flexibility_place *place)
+{
+    return place->wall < THIN * place->element;
+}
+
+double flexibility_edges_known(const struct flexibility_edges *edges, size_t face)
+{
+    return KNOWN_FROM * edges->reach[face];
+}
+
 struct flexibility_place flexibility_place_make(const struct surface_rule *rule,
                                                 const struct flexibility_edges *edges, size_t face,
                                                 double u, double v)
@@ -311,5 +379,7 @@ struct flexibility_place flexibility_place_make(const struct surface_rule *rule,
     measure_rim(f->count, derivative, u, v, &least, &place.rim);
     place.cut = place.flat ? 0.0 : CUT * least;
     place.edge = flexibility_edges_distance(edges, f->patch, place.load.point);
+    place.wall = find_wall(rule, &place.load);
+    place.element = mean_edge(f->count, nodes);
     return place;
 }

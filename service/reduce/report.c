@@ -64,7 +64,19 @@ static void tell_flexibility(const struct reduction *reduction)
            sites->count, 1e3 * sites->spacing, sites->removed, sites->usual_error,
            sites->largest_error, sites->imbalance);
     if (sites->unknown)
-        printf("                unknown at %zu of them\n", sites->unknown);
+        printf("                unknown at %zu of them and on %zu of %zu faces%s\n", sites->unknown,
+               sites->withdrawn, reduction->body->face_count,
+               sites->thin ? ": walls too thin for the mesh" : "");
+    else if (sites->withdrawn)
+        printf(
+            "                unknown on %zu of %zu faces: a finer mesh there, or --site where it "
+            "is hit\n",
+            sites->withdrawn, reduction->body->face_count);
+    if (isfinite(sites->thinnest))
+        printf("walls           as thin as %.3g mm: elements of %.3g mm there make flexibility "
+               "good to "
+               "2 %%\n",
+               1e3 * sites->thinnest, 1.5e3 * sites->thinnest);
 }
 
 void report_text(const struct reduction *reduction)
@@ -152,6 +164,9 @@ void report_json(const struct reduction *reduction)
     /* its surface */
     put_count("sites", sites->count);
     put_count("sites_unknown", sites->unknown);
+    put_count("sites_on_thin_walls", sites->thin);
+    put_number("thinnest_wall", sites->thinnest);
+    put_count("faces_unknown", sites->withdrawn);
     put_number("site_spacing", sites->spacing);
     put_count("modes_removed", sites->removed);
     put_number("flexibility_error", sites->usual_error);

@@ -10,10 +10,9 @@
 #include "model/vector.h"
 
 /* Flexibilities change like 1/distance from an edge: places near one stand in rows, each this many
- * times as far from it as the last, from as near as the mesh knows them (a face's size) out to
- * where they change little (the spacing). */
+ * times as far from it as the last, from as near as they are known out to where they change little
+ * (the spacing). */
 static const double ROWS = 1.7;
-static const double FIRST_ROW = 0.3;
 static const double LAST_ROW = 1.5;
 
 /* A place that may be chosen. */
@@ -21,6 +20,7 @@ struct candidate {
     size_t face, patch;
     double u, v, point[3];
     double row;      /* logarithm of the distance from the edge, in rows */
+    double spacing;  /* wanted about it, m */
     double distance; /* from the nearest chosen place of the patch, in units of the spacing */
 };
 
@@ -28,15 +28,16 @@ struct candidate {
 struct candidates {
     size_t count;
     struct candidate *all;
-    double spacing;           /* m */
-    double nearest, farthest; /* rows, m from an edge */
-    double least;             /* m from an edge: no candidates nearer */
+    double spacing;  /* m */
+    double farthest; /* row, m from an edge */
+    bool any;        /* candidates nearer to an edge than flexibility is known too */
 };
 
-static double row_of(const struct candidates *candidates, double edge)
+static double row_of(const struct candidates *candidates, const struct flexibility_edges *edges,
+                     size_t face, double edge)
 {
-    double within = fmin(fmax(edge, candidates->nearest), candidates->farthest);
-    return log(within / candidates->nearest) / log(ROWS);
+    double within = fmin(fmax(edge, flexibility_edges_known(edges, face)), candidates->farthest);
+    return log(within / candidates->farthest) / log(ROWS);
 }
 
 /* middles of the parts when each side of a face is cut in `cuts` */
@@ -69,8 +70,9 @@ static bool add(struct candidates *candidates, const struct surface_rule *rule,
         .face = face, .patch = f->patch, .u = at[0], .v = at[1], .distance = INFINITY};
     facet_place(f->count, (const double(*)[3])nodes, at[0], at[1], next->point, NULL);
     double edge = flexibility_edges_distance(edges, f->patch, next->point);
-    next->row = row_of(candidates, edge);
-    candidates->count += edge >= candidates->least;
+    next->row = row_of(candidates, edges, face, edge);
+    next->spacing = candidates->spacing * sqrt(edges->reach[face] / rule->surface->size);
+    candidates->count += candidates->any || edge >= flexibility_edges_known(edges, face);
     return edge < candidates->farthest;
 }
 
@@ -91,7 +93,7 @@ static bool collect(struct candidates *candidates, const struct surface_rule *ru
     }
     /* away from edges first; then, in patches without any, at any distance */
     for (int pass = 0; pass < 2; pass++) {
-        candidates->least = pass == 0 ? candidates->nearest : 0.0;
+        candidates->any = pass > 0;
         for (size_t f = 0; f < surface->face_count; f++) {
             const struct surface_face *face = &surface->faces[f];
             if (pass == 1 && served[face->patch])
@@ -115,17 +117,17 @@ static bool collect(struct candidates *candidates, const struct surface_rule *ru
 }
 
 static void choose(struct candidates *candidates, const struct surface_rule *rule,
-                   const struct flexibility_place *place)
+                   const struct flexibility_edges *edges, const struct flexibility_place *place)
 {
     size_t patch = rule->surface->faces[place->face].patch;
-    double row = row_of(candidates, place->edge);
+    double row = row_of(candidates, edges, place->face, place->edge);
     for (size_t i = 0; i < candidates->count; i++) {
         struct candidate *c = &candidates->all[i];
         if (c->patch != patch)
             continue;
         double offset[3];
         sub3(c->point, place->load.point, offset);
-        c->distance = fmin(c->distance, hypot(norm3(offset) / candidates->spacing, c->row - row));
+        c->distance = fmin(c->distance, hypot(norm3(offset) / c->spacing, c->row - row));
     }
 }
 
@@ -135,7 +137,6 @@ struct flexibility_place *site_choice_make(const struct site_choice *choice,
                                            double *spacing)
 {
     struct candidates candidates = {.spacing = choice->spacing,
-                                    .nearest = FIRST_ROW * rule->surface->size,
                                     .farthest = LAST_ROW * choice->spacing};
     size_t room = choice->wanted_count + choice->most;
     struct flexibility_place *places = malloc((room + 1) * sizeof *places);
@@ -147,7 +148,7 @@ struct flexibility_place *site_choice_make(const struct site_choice *choice,
     }
     for (; *count < choice->wanted_count; (*count)++) {
         places[*count] = choice->wanted[*count];
-        choose(&candidates, rule, &places[*count]);
+        choose(&candidates, rule, edges, &places[*count]);
     }
 
     /* the farthest one, again and again (Gonzalez 1985): twice as many as the best choice at most
@@ -162,7 +163,7 @@ struct flexibility_place *site_choice_make(const struct site_choice *choice,
             break;
         places[*count] =
             flexibility_place_make(rule, edges, farthest->face, farthest->u, farthest->v);
-        choose(&candidates, rule, &places[*count]);
+        choose(&candidates, rule, edges, &places[*count]);
         farthest->distance = 0.0; /* one that was moved would be chosen for ever */
         (*count)++;
     }

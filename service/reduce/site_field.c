@@ -23,6 +23,9 @@ static const double RIDGE = 1e-7;
 static const double OWN = 0.02;
 /* of the spacing: beyond, nothing is known */
 static const double KNOWN = 2.5;
+/* of the mesh's size: nearer to an edge the field stays as it is there; it is asked about farther
+ * ones, but places may lie anywhere */
+static const double BLUNT = 0.02;
 /* cosine beyond which a place lies on another side of the body */
 static const double OTHER_SIDE = -0.2;
 
@@ -33,7 +36,7 @@ static void edge_terms(const struct site_field *field, size_t patch, const doubl
                        double terms[SITE_FIELD_EDGE_TERMS])
 {
     const struct flexibility_edges *edges = field->edges;
-    double sums[2] = {0.0}; /* sharp, hollow */
+    double sums[2] = {0.0}, blunt = BLUNT * field->size; /* sharp, hollow */
     /* each edge as two straight lines through its middle */
     for (size_t i = 0; i < edges->count; i++) {
         if (edges->patches[i] != patch)
@@ -46,14 +49,14 @@ static void edge_terms(const struct site_field *field, size_t patch, const doubl
             sub3(x, from, offset);
             double length = norm3(along), start = -dot3(offset, along) / length;
             double square = dot3(offset, offset) - start * start;
-            double aside = sqrt(fmax(square, field->blunt * field->blunt));
+            double aside = sqrt(fmax(square, blunt * blunt));
             sums[edges->hollow[i]] +=
                 (atan((start + length) / aside) - atan(start / aside)) / aside;
         }
     }
-    /* over that bluntness, and the logarithm */
+    /* by the mesh's size, and the logarithm */
     for (int k = 0; k < 2; k++) {
-        terms[2 * k] = field->blunt * sums[k] / M_PI;
+        terms[2 * k] = field->size * sums[k] / M_PI;
         terms[2 * k + 1] = sums[k] > 0.0 ? log(terms[2 * k]) : 0.0;
     }
 }
@@ -227,10 +230,8 @@ bool site_field_make(struct site_field *field, const struct surface_rule *rule,
                      const struct flexibility_edges *edges, size_t count,
                      const struct flexibility_place *places, const double *values, double spacing)
 {
-    /* a parabola from 1/d at a quarter, a half and one face's size follows it to a tenth from a
-     * third of the size on */
     *field = (struct site_field){
-        .edges = edges, .blunt = 0.25 * rule->surface->size, .spacing = spacing};
+        .edges = edges, .size = rule->surface->size, .spacing = spacing, .places = places};
     size_t patch_count = rule->surface->patch_count;
     field->faces = malloc((count + 1) * sizeof *field->faces);
     field->points = malloc((count + 1) * sizeof *field->points);

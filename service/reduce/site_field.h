@@ -13,13 +13,14 @@ enum { SITE_FIELD_NEIGHBOURS = 28 };
 
 enum { SITE_FIELD_EDGE_TERMS = 4 };
 
-/* Owns its arrays; edges are borrowed. */
+/* Owns its arrays; edges and places are borrowed. */
 struct site_field {
     const struct flexibility_edges *edges;
-    double blunt;   /* m: nearer to an edge the field stays as it is there */
+    double size;    /* m, of the mesh */
     double spacing; /* m, of the places */
     size_t count;
-    const struct surface_face **faces; /* [count], borrowed */
+    const struct flexibility_place *places; /* [count], borrowed */
+    const struct surface_face **faces;      /* [count], borrowed */
     double (*points)[3], (*normals)[3], *values;
     double (*edge_terms)[SITE_FIELD_EDGE_TERMS];   /* [count] */
     double (*coefficients)[SITE_FIELD_EDGE_TERMS]; /* [patch_count] */

@@ -11,6 +11,7 @@
 #include "model/vector.h"
 #include "reduce/site_choice.h"
 #include "reduce/site_field.h"
+#include "reduce/sites_check.h"
 #include "reduce/sites_spread.h"
 
 /* of the mesh's edges: closer sites gain nothing that the mesh knows, wider ones lose a percent */
@@ -92,6 +93,22 @@ static double at_cut(const struct sites *sites, const struct flexibility_place *
            flexibility_slope(young, poisson, curvature) * log(answer->radius / sites->cut);
 }
 
+/* of the wall: elements with which flexibility is good to 2 % (flexibility_place_thin) */
+static const double GOOD_ELEMENT = 1.5;
+
+/* how many places are on walls too thin for the mesh, and the thinnest that wants finer elements */
+static void look_at_walls(const struct sites *sites, struct sites_report *report)
+{
+    report->thin = 0;
+    report->thinnest = INFINITY;
+    for (size_t i = 0; i < sites->count; i++) {
+        const struct flexibility_place *place = &sites->places[i];
+        report->thin += flexibility_place_thin(place);
+        if (GOOD_ELEMENT * place->wall < place->element)
+            report->thinnest = fmin(report->thinnest, place->wall);
+    }
+}
+
 /* all sites, a block at a time */
 static enum percuss_status solve(struct sites *sites, struct sites_report *report,
                                  struct fault *fault)
@@ -113,7 +130,8 @@ static enum percuss_status solve(struct sites *sites, struct sites_report *repor
             return status;
         for (size_t c = 0; c < count; c++) {
             double value = at_cut(sites, &places[c], &answers[c]);
-            sites->values[first + c] = places[c].load.reach < least ? NAN : value;
+            bool known = places[c].load.reach >= least && !flexibility_place_thin(&places[c]);
+            sites->values[first + c] = known ? value : NAN;
             report->imbalance = fmax(report->imbalance, answers[c].imbalance);
             /* and what it does at the other sites */
             for (size_t i = 0; sites->between && i < sites->count; i++)
@@ -270,6 +288,7 @@ enum percuss_status sites_find(const struct sites_task *task, struct mesh_body *
     if (status != PERCUSS_OK)
         goto done;
     report->count = sites.count;
+    look_at_walls(&sites, report);
     status = solve(&sites, report, fault);
     if (status != PERCUSS_OK)
         goto done;
@@ -283,8 +302,10 @@ enum percuss_status sites_find(const struct sites_task *task, struct mesh_body *
     body->cut = sites.cut;
     body->removed = report->removed;
     status = sites_spread(&field, flexibility_rule(sites.flexibility), body, fault);
-    if (status == PERCUSS_OK)
+    if (status == PERCUSS_OK) {
+        report->withdrawn = sites_check(&field, flexibility_rule(sites.flexibility), body);
         status = hand_over(&sites, body, fault);
+    }
 
 done:
     site_field_free(&field);

@@ -12,18 +12,17 @@
 #include "reduce/edge_fit.h"
 #include "reduce/flexibility.h"
 
-/* of the mesh's edges: nearer to a sharp edge the field is not known (site_choice.c's first row) */
-static const double KNOWN_FROM = 0.3;
-/* nodes nearer than this get values by fit: on the edge and in the middle of a face at it */
+/* of the mesh's edges: nodes nearer to a sharp edge than this get values by fit: on the edge and in
+ * the middle of a face at it */
 static const double FITTED_TO = 0.6;
-/* how much a node's own value weighs beside one point of its face, where shape functions of the
- * order of 0.1 are what is fitted: it decides only where the points say nothing */
-static const double OWN_WEIGHT = 1e-4;
-/* how far a fit may move a value, times E and the distance from which on the field is known: what
- * an edge is worth there (0.27) ten times over, as at a corner where few points are known */
-static const double MOST_MOVED = 3.0;
+/* how much the mean of what is known about a node weighs beside one point of its face, where shape
+ * functions of the order of 0.1 are what is fitted: it decides only where the points say nothing */
+static const double MEAN_WEIGHT = 1e-4;
 
-enum { GRID = 5 };
+/* and a place that was solved for */
+static const double SITE_WEIGHT = 10.0;
+
+enum { GRID = 6 };
 
 double sites_mean_curvature(const struct surface_point *point)
 {
@@ -54,6 +53,7 @@ struct group {
     double *known; /* [nodes], of those of the group's faces */
     size_t *index; /* [nodes]: which unknown a node is; KNOWN, ELSEWHERE */
     size_t unknowns;
+    double *values, *weights; /* [unknowns]: means of what is known about them */
     struct edge_fit fit;
 };
 static const size_t KNOWN = (size_t)-1, ELSEWHERE = (size_t)-2;
@@ -74,78 +74,138 @@ static void take_nodes(struct group *group, size_t face)
         if (group->index[node] != ELSEWHERE)
             continue;
         const double *point = group->rule->mesh->points[node];
-        double value = site_field_at(group->field, f, point, surface->points[face][n].normal);
         double edge = flexibility_edges_distance(group->field->edges, f->patch, point);
-        bool unknown = edge < FITTED_TO * surface->size && !isnan(value);
-        group->known[node] = value;
+        bool unknown = edge < FITTED_TO * surface->size;
         group->index[node] = unknown ? group->unknowns++ : KNOWN;
+        group->known[node] =
+            unknown ? 0.0 : site_field_at(group->field, f, point, surface->points[face][n].normal);
     }
 }
 
-/* What the shape functions make of the nodes' values is to be the field inside the face. False: out
- * of memory. */
-static bool add_rows(struct group *group, size_t face)
+/* An error matters the more the less a flexibility is in doubt for other reasons. */
+static double weight_of(const struct group *group, double edge)
+{
+    double part = fmin(edge / group->rule->surface->size, 1.0);
+    return part * part * part;
+}
+
+/* The field at a point of a face, and how much it weighs there: 0 where it is not known. Nearer to
+ * an edge than any place it goes on as its edge terms do, and weighs little. */
+static double look_at(const struct group *group, size_t face, const double at[2], double *weight)
 {
     const struct surface_rule *rule = group->rule;
     const struct surface_face *f = &rule->surface->faces[face];
-    double nodes[FACE_MOST_NODES][3], at[GRID * GRID][2];
-    /* a face with unknowns, all of it known */
+    double nodes[FACE_MOST_NODES][3], x[3], outward[3];
+    surface_rule_nodes(rule, face, nodes);
+    facet_place(f->count, (const double(*)[3])nodes, at[0], at[1], x, outward);
+    scale3(1.0 / norm3(outward), outward, outward);
+    double edge = flexibility_edges_distance(group->field->edges, f->patch, x);
+    double value = site_field_at(group->field, f, x, outward);
+    *weight = isnan(value) ? 0.0 : weight_of(group, edge);
+    return value;
+}
+
+/* What the shape functions make of the nodes' values at a point of a face is to be the value.
+ * False: out of memory. */
+static bool add_row(struct group *group, size_t face, const double at[2], double value,
+                    double weight)
+{
+    const struct surface_face *f = &group->rule->surface->faces[face];
+    struct edge_row row = {.rest = value, .weight = weight};
+    double shape[FACE_MOST_NODES];
+    facet_shape(f->count, at[0], at[1], shape, NULL, NULL);
+    /* known nodes' parts go to the other side; unknowns get a mean */
+    for (size_t n = 0; n < f->count; n++) {
+        size_t node = f->nodes[n], index = group->index[node];
+        if (index == KNOWN) {
+            row.rest -= shape[n] * group->known[node];
+            continue;
+        }
+        row.index[row.count] = index;
+        row.shape[row.count++] = shape[n];
+        group->values[index] += weight * value;
+        group->weights[index] += weight;
+    }
+    return edge_fit_add(&group->fit, &row);
+}
+
+/* A face with nodes to be fitted, all others known. */
+static bool is_fitted(const struct group *group, size_t face)
+{
+    const struct surface_face *f = &group->rule->surface->faces[face];
     bool any = false, whole = true;
     for (size_t n = 0; n < f->count; n++) {
         any = any || group->index[f->nodes[n]] != KNOWN;
         whole = whole && !isnan(group->known[f->nodes[n]]);
     }
-    surface_rule_nodes(rule, face, nodes);
-    size_t points = any && whole ? grid_points(f->count, at) : 0;
-    for (size_t p = 0; p < points; p++) {
-        double x[3], outward[3], shape[FACE_MOST_NODES];
-        facet_place(f->count, (const double(*)[3])nodes, at[p][0], at[p][1], x, outward);
-        scale3(1.0 / norm3(outward), outward, outward);
-        double edge =
-            flexibility_edges_distance(group->field->edges, f->patch, x) / rule->surface->size;
-        double rest = site_field_at(group->field, f, x, outward);
-        if (edge < KNOWN_FROM || isnan(rest))
-            continue;
-        /* an error matters the more the less a flexibility is in doubt for other reasons */
-        struct edge_row row = {.rest = rest, .weight = edge * edge * edge};
-        facet_shape(f->count, at[p][0], at[p][1], shape, NULL, NULL);
-        for (size_t n = 0; n < f->count; n++) {
-            size_t node = f->nodes[n];
-            if (group->index[node] == KNOWN) {
-                row.rest -= shape[n] * group->known[node];
-                continue;
-            }
-            row.index[row.count] = group->index[node];
-            row.shape[row.count++] = shape[n];
-        }
-        if (!edge_fit_add(&group->fit, &row))
-            return false;
-    }
-    return true;
+    return any && whole;
 }
 
-/* Nodes near an edge get the values that serve all faces about them best. False: out of memory. */
+/* The field all over the face. False: out of memory. */
+static bool add_rows(struct group *group, size_t face)
+{
+    double at[GRID * GRID][2];
+    bool good = true;
+    size_t points =
+        is_fitted(group, face) ? grid_points(group->rule->surface->faces[face].count, at) : 0;
+    for (size_t p = 0; p < points && good; p++) {
+        double weight, value = look_at(group, face, at[p], &weight);
+        good = weight == 0.0 || add_row(group, face, at[p], value, weight);
+    }
+    return good;
+}
+
+/* What was solved for, in its own place: also nearer to the edge than the field is known, where
+ * somebody asked for it. False: out of memory. */
+static bool add_sites(struct group *group)
+{
+    const struct site_field *field = group->field;
+    bool good = true;
+    for (size_t i = 0; i < field->count && good; i++) {
+        const struct flexibility_place *place = &field->places[i];
+        const double at[2] = {place->u, place->v};
+        if (isnan(field->values[i]) || !is_in(group, place->face) || !is_fitted(group, place->face))
+            continue;
+        double weight = place->edge < flexibility_edges_known(field->edges, place->face)
+                            ? 1.0
+                            : weight_of(group, place->edge);
+        good = add_row(group, place->face, at, field->values[i], SITE_WEIGHT * weight);
+    }
+    return good;
+}
+
+/* Nodes near an edge get the values that serve all faces about them best; those about which nothing
+ * is known get none. False: out of memory. */
 static bool fit_group(struct group *group)
 {
     const struct surface *surface = group->rule->surface;
-    double *values = calloc(group->unknowns + 1, sizeof *values);
-    bool good = values;
+    bool good = true;
     for (size_t f = 0; good && f < surface->face_count; f++)
         good = !is_in(group, f) || add_rows(group, f);
-    /* from the nodes' own values */
-    for (size_t node = 0; good && node < group->rule->mesh->node_count; node++)
-        if (group->index[node] < group->unknowns)
-            values[group->index[node]] = group->known[node];
-    good = good && edge_fit_solve(&group->fit, group->unknowns, OWN_WEIGHT, values);
-    /* no further than edges account for */
-    double young = group->rule->mesh->part[group->part].material.young;
-    double most = MOST_MOVED / (young * KNOWN_FROM * surface->size);
-    for (size_t node = 0; good && node < group->rule->mesh->node_count; node++)
-        if (group->index[node] < group->unknowns) {
-            double moved = values[group->index[node]] - group->known[node];
-            group->known[node] += fmax(-most, fmin(moved, most));
-        }
-    free(values);
+    good = good && add_sites(group);
+    /* from the mean of what is known about each */
+    for (size_t i = 0; i < group->unknowns; i++)
+        group->values[i] = group->weights[i] > 0.0 ? group->values[i] / group->weights[i] : 0.0;
+    good = good && edge_fit_solve(&group->fit, group->unknowns, MEAN_WEIGHT, group->values);
+    for (size_t node = 0; good && node < group->rule->mesh->node_count; node++) {
+        size_t index = group->index[node];
+        if (index < group->unknowns)
+            group->known[node] = group->weights[index] > 0.0 ? group->values[index] : NAN;
+    }
+    return good;
+}
+
+/* The fit of all nodes near edges. False: out of memory. */
+static bool fit_unknowns(struct group *group)
+{
+    if (group->unknowns == 0)
+        return true;
+    group->values = calloc(2 * group->unknowns, sizeof *group->values);
+    if (!group->values)
+        return false;
+    group->weights = group->values + group->unknowns;
+    bool good = fit_group(group);
+    free(group->values);
     return good;
 }
 
@@ -179,7 +239,7 @@ static bool spread_group(struct group *group, struct mesh_body *body)
     if (members == 0)
         return true;
     /* what is fitted; all of it to the faces */
-    bool good = group->unknowns == 0 || fit_group(group);
+    bool good = fit_unknowns(group);
     for (size_t f = 0; good && f < surface->face_count; f++)
         if (is_in(group, f))
             fill_face(group, f, &body->faces[f]);
