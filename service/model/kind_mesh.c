@@ -257,8 +257,10 @@ static const char *why_not(const struct body *body, const struct site *site)
         return "the surface's normal and curvature are not known there within 5 degrees: declare a "
                "site with point, normal and curvatures, or refine the mesh";
     if (!body->rigid && body->mesh->mode_count > 0 && isnan(site->spot.flexibility))
-        return "the body's flexibility is not known there: the mesh is too coarse so near to an "
-               "edge, or the body too concave";
+        return "the body's flexibility is not known there: its wall is too thin for the elements, "
+               "they are too coarse so near to an edge, or it is too concave: reduce a mesh with "
+               "elements no longer than the wall is thick or the edge away, or give percuss-reduce "
+               "--site there";
     return NULL;
 }
 

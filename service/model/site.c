@@ -99,8 +99,10 @@ enum percuss_status site_locate(const struct body *body, const struct pose *pose
     const char *why = body->kind->why_not ? body->kind->why_not(body, site) : NULL;
     if (why && site->spot.on_mesh)
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
-                         "%s.point: on %s %s, %.3g m from an edge: %s", field, body->kind->name,
-                         body->id, site->spot.edge, why);
+                         "%s.point: on %s %s, %.3g m from an edge, where elements are %.3g m long: "
+                         "%s",
+                         field, body->kind->name, body->id, site->spot.edge, site->spot.element,
+                         why);
     if (why)
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY, "%s.point: on %s %s: %s", field,
                          body->kind->name, body->id, why);
