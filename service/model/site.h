@@ -36,6 +36,11 @@ enum percuss_status site_locate(const struct body *body, const struct pose *pose
                                 const double point[3], const double outward[3], double allowed,
                                 const char *field, struct site *site, struct fault *fault);
 
+/* Curvatures (1/m, > 0 where convex) of both surfaces in the direction in which their sum is least;
+ * as below. */
+void site_least_curvatures(const struct site *a, const struct pose *pose_a, const struct site *b,
+                           const struct pose *pose_b, const double normal[3], double along[2]);
+
 /* Principal relative curvatures A <= B of the gap A x^2 + B y^2 between two surfaces that touch
  * with the world normal `normal`; sites in the frames of their poses. */
 void site_relative_curvature(const struct site *a, const struct pose *pose_a, const struct site *b,

@@ -101,6 +101,36 @@ static enum percuss_status place_side(struct problem *problem, const struct solv
     return PERCUSS_OK;
 }
 
+/* Surfaces that do not touch in one point there: a line or a plane, or a hollow that is narrower
+ * than what lies in it. */
+static enum percuss_status refuse_shape(const struct problem *problem, size_t index,
+                                        const double curvature[2], struct fault *fault)
+{
+    const struct solve_contact *contact = &problem->request->contacts[index];
+    const char *ids[2] = {problem->bodies[contact->a]->id, problem->bodies[contact->b]->id};
+    double along[2];
+    site_least_curvatures(&problem->sides[index][0].site, &problem->poses[contact->a],
+                          &problem->sides[index][1].site, &problem->poses[contact->b],
+                          contact->normal, along);
+    int hollow = along[0] < along[1] ? 0 : 1;
+    double largest = fmax(fabs(along[0]), fabs(along[1]));
+    /* neither lies closer than the other leaves room for */
+    if (!(2.0 * curvature[0] < -HERTZ_LINE_RATIO * largest))
+        return fault_set(
+            fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+            "contacts[%zu]: %s on %s touch in a %s there (relative curvatures %.3g and "
+            "%.3g 1/m): only a point contact of two smooth surfaces is supported",
+            index, ids[0], ids[1], curvature[1] > 0.0 ? "line" : "face", 2.0 * curvature[0],
+            2.0 * curvature[1]);
+    return fault_set(
+        fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+        "contacts[%zu]: %s does not fit into the hollow of %s there: its radius of curvature is "
+        "%.3g m, the hollow's %.3g m; they touch %s",
+        index, ids[1 - hollow], ids[hollow], 1.0 / along[1 - hollow], -1.0 / along[hollow],
+        curvature[1] > 0.0 ? "in two places beside it, which are contacts of their own"
+                           : "along a ring about it, which is not supported");
+}
+
 static enum percuss_status place_contact(struct problem *problem, size_t index, struct fault *fault)
 {
     const struct solve_contact *contact = &problem->request->contacts[index];
@@ -125,12 +155,7 @@ static enum percuss_status place_contact(struct problem *problem, size_t index, 
                             &problem->sides[index][1].site, &problem->poses[contact->b],
                             contact->normal, curvature);
     if (!(curvature[0] > HERTZ_LINE_RATIO * curvature[1]))
-        return fault_set(
-            fault, PERCUSS_UNSUPPORTED_GEOMETRY,
-            "contacts[%zu]: %s on %s touch in a %s there (relative curvatures %.3g and "
-            "%.3g 1/m): only a point contact of two smooth surfaces is supported",
-            index, a->id, b->id, curvature[1] > 0.0 ? "line" : "face", 2.0 * curvature[0],
-            2.0 * curvature[1]);
+        return refuse_shape(problem, index, curvature, fault);
     problem->hertz[index] =
         hertz_contact_make(hertz_effective_modulus(problem_material(problem, index, 0),
                                                    problem_material(problem, index, 1)),

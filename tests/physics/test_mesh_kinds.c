@@ -95,6 +95,47 @@ static void a_face_is_of_its_own_material(void **state)
     mesh_body_free(mesh);
 }
 
+/* A hollow of the end bears a ball that is rounder than itself; with a narrower one the refusal
+ * says so, by both radii, of a groove and of a dish. */
+static void a_hollow_may_be_too_narrow(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static const struct {
+        float radius[2]; /* m, of the hollow, across and along */
+        const char *words;
+    } HOLLOWS[] = {
+        {{0.02f, 0.02f}, NULL},
+        {{0.02f, INFINITY}, NULL},
+        {{0.012f, INFINITY},
+         "ball does not fit into the hollow of mesh there: its radius of curvature is 0.015 m, the "
+         "hollow's 0.012 m; they touch in two places"},
+        {{0.014f, 0.012f}, "the hollow's 0.012 m; they touch along a ring"},
+        {{0.015f, INFINITY}, "touch in a line"},
+    };
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", make_sphere(STEEL, 0.015));
+    struct mesh_body *mesh =
+        make_mesh(lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 0.06)), 20);
+    struct body body = body_of(mesh);
+    body.rigid = true;
+    lab_add(lab, "mesh", body);
+    for (size_t i = 0; i < COUNT(HOLLOWS); i++) {
+        for (size_t f = 0; f < mesh->face_count; f++)
+            for (int n = 0; mesh->faces[f].patch == 2 && n < MESH_BODY_FACE_NODES; n++)
+                for (int k = 0; k < 2; k++)
+                    mesh->faces[f].curvature[n][1 + k] = -1.0f / HOLLOWS[i].radius[k];
+        struct solve_request request =
+            strike(sphere_spot("ball", 0.015), end_spot("mesh", 0.06), 0.1);
+        enum percuss_status status = solve(lab->workspace, &lab->means, &request, &result);
+        assert_int_equal(status, HOLLOWS[i].words ? PERCUSS_UNSUPPORTED_GEOMETRY : PERCUSS_OK);
+        if (HOLLOWS[i].words && !strstr(result.fault.text, HOLLOWS[i].words))
+            fail_msg("%s", result.fault.text);
+    }
+    lab_free(lab);
+    mesh_body_free(mesh);
+}
+
 /* A law that yields: dents on a mesh's face as on the rod's. */
 static void a_mesh_yields(void **state)
 {
@@ -131,6 +172,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_held_mesh_answers_as_the_held_beam),
         cmocka_unit_test(a_face_is_of_its_own_material),
+        cmocka_unit_test(a_hollow_may_be_too_narrow),
         cmocka_unit_test(a_mesh_yields),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
