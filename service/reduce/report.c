@@ -8,6 +8,10 @@
 
 enum { SHOWN = 10 };
 
+/* Periods of the last frequency that a contact must last for its restitution to be good to 5e-4,
+ * and to 1 %, on a rod. */
+static const double PERIODS[2] = {3.0, 2.0};
+
 static double hertz(double omega)
 {
     return omega / (2.0 * M_PI);
@@ -37,6 +41,13 @@ static void tell_mass(const struct reduction *reduction)
            reduction->mesh.element_labels[bulk->smallest_at]);
 }
 
+/* The shortest contacts that modes and mesh serve to 5e-4, and to 1 %, s. */
+static double shortest_contact(const struct reduction *reduction, int which)
+{
+    const struct modes *modes = &reduction->modes;
+    return PERIODS[which] / fmin(hertz(modes->omega[modes->count - 1]), reduction->good_to);
+}
+
 static void tell_modes(const struct reduction *reduction)
 {
     const struct modes *modes = &reduction->modes;
@@ -53,6 +64,10 @@ static void tell_modes(const struct reduction *reduction)
            hertz(modes->omega[modes->count - 1]) > 1.001 * reduction->good_to
                ? "; modes above are the mesh's"
                : "");
+    printf(
+        "serves          contacts of %.3g us and longer to 5e-4 of the restitution, of %.3g us to "
+        "1 %%\n",
+        1e6 * shortest_contact(reduction, 0), 1e6 * shortest_contact(reduction, 1));
 }
 
 static void tell_flexibility(const struct reduction *reduction)
@@ -64,14 +79,11 @@ static void tell_flexibility(const struct reduction *reduction)
            sites->count, 1e3 * sites->spacing, sites->removed, sites->usual_error,
            sites->largest_error, sites->imbalance);
     if (sites->unknown)
-        printf("                unknown at %zu of them and on %zu of %zu faces%s\n", sites->unknown,
-               sites->withdrawn, reduction->body->face_count,
+        printf("                unknown at %zu of them%s\n", sites->unknown,
                sites->thin ? ": walls too thin for the mesh" : "");
-    else if (sites->withdrawn)
-        printf(
-            "                unknown on %zu of %zu faces: a finer mesh there, or --site where it "
-            "is hit\n",
-            sites->withdrawn, reduction->body->face_count);
+    if (sites->withdrawn)
+        printf("                unknown on %zu of %zu faces: a hit there is refused\n",
+               sites->withdrawn, reduction->body->face_count);
     if (isfinite(sites->thinnest))
         printf("walls           as thin as %.3g mm: elements of %.3g mm there make flexibility "
                "good to "
@@ -161,6 +173,8 @@ void report_json(const struct reduction *reduction)
     put_number("confirmed_below", hertz(modes->confirmed_below));
     put_number("orthonormality_error", modes->doubt);
     put_list("frequencies", modes->count, modes->omega, hertz(1.0));
+    put_number("shortest_contact", shortest_contact(reduction, 0));
+    put_number("shortest_contact_one_percent", shortest_contact(reduction, 1));
     /* its surface */
     put_count("sites", sites->count);
     put_count("sites_unknown", sites->unknown);

@@ -20,6 +20,7 @@ shows 'mass            0.0468 kg'
 shows 'centre          0.02 0.0075 0.005 m'
 shows 'volume          6e-06 m^3'
 shows 'modes           12; by inertia'
+shows 'serves          contacts of'
 shows 'flexibility '
 [ -s "$work/block.h5" ] || fail "no file"
 
@@ -27,6 +28,12 @@ say "the same as JSON, with a file for ParaView; the same body has the same name
 expect 0 reduce $steel --modes 12 --json --vtk "$work/block.vtu"
 [ "$(field modes)" -eq 12 ] || fail "modes $(field modes)"
 [ "$(field rigid_motions)" -eq 6 ] || fail "rigid motions $(field rigid_motions)"
+awk -v last="$(sed -n 's/.*"frequencies": .*, \([0-9.e+]*\)\].*/\1/p' "$out")" -v good="$(field good_to)" \
+    -v least="$(field shortest_contact)" 'BEGIN {
+        f = last < good ? last : good
+        exit !(least * f > 2.999999 && least * f < 3.000001) }' ||
+    fail "shortest contact $(field shortest_contact) s"
+[ "$(field faces_unknown)" -eq 0 ] || fail "$(field faces_unknown) faces without a flexibility"
 grep -q 'Name="mode 12: ' "$work/block.vtu" || fail "no mode in the file for ParaView"
 first=$(field hash)
 expect 0 reduce $steel --modes 12 --json
