@@ -256,12 +256,15 @@ static const char *why_not(const struct body *body, const struct site *site)
     if (site->spot.doubt > MOST_DOUBT)
         return "the surface's normal and curvature are not known there within 5 degrees: declare a "
                "site with point, normal and curvatures, or refine the mesh";
-    if (!body->rigid && body->mesh->mode_count > 0 && isnan(site->spot.flexibility))
-        return "the body's flexibility is not known there: its wall is too thin for the elements, "
-               "they are too coarse so near to an edge, or it is too concave: reduce a mesh with "
-               "elements no longer than the wall is thick or the edge away, or give percuss-reduce "
-               "--site there";
-    return NULL;
+    if (body->rigid || body->mesh->mode_count == 0 || !isnan(site->spot.flexibility))
+        return NULL;
+    if (site->spot.edge < site->spot.element)
+        return "the body's flexibility is not known there: the mesh is too coarse so near to an "
+               "edge: give percuss-reduce --site there, or elements no longer than the edge is "
+               "away";
+    return "the body's flexibility is not known there: its wall is thinner than 0.4 of an element, "
+           "or its surface comes back over itself within a third of one: reduce a mesh of elements "
+           "no longer than the wall is thick or the gap wide";
 }
 
 static void load_family(const struct body *body, const struct site *site, const double direction[3],

@@ -136,6 +136,43 @@ static void a_hollow_may_be_too_narrow(void **state)
     mesh_body_free(mesh);
 }
 
+/* Where the file knows no flexibility a hit is refused, with what helps there: on a wall, near an
+ * edge. A rigid body needs none. */
+static void unknown_flexibility_is_refused(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static const struct {
+        const char *body;
+        double from_middle; /* m; the edge is at 10 mm, elements are some 4 mm */
+        const char *words;
+    } HITS[] = {{"mesh", 0.001, "its wall is thinner"},
+                {"mesh", 0.0085, "too coarse so near to an edge"},
+                {"rigid", 0.001, NULL}};
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", make_sphere(STEEL, 0.015));
+    struct mesh_body *mesh =
+        make_mesh(lab_add(lab, "rod", make_bar(&rod_kind, ALUMINIUM, 0.010, 0.06)), 20);
+    for (size_t f = 0; f < mesh->face_count; f++)
+        for (int n = 0; mesh->faces[f].patch == 2 && n < MESH_BODY_FACE_NODES; n++)
+            mesh->faces[f].flexibility[n] = NAN;
+    struct body body = body_of(mesh);
+    lab_add(lab, "mesh", body);
+    body.rigid = true;
+    lab_add(lab, "rigid", body);
+    for (size_t i = 0; i < COUNT(HITS); i++) {
+        struct spot spot = end_spot(HITS[i].body, 0.06);
+        spot.point[1] += HITS[i].from_middle;
+        struct solve_request request = strike(sphere_spot("ball", 0.015), spot, 0.1);
+        enum percuss_status status = solve(lab->workspace, &lab->means, &request, &result);
+        assert_int_equal(status, HITS[i].words ? PERCUSS_UNSUPPORTED_GEOMETRY : PERCUSS_OK);
+        if (HITS[i].words && !strstr(result.fault.text, HITS[i].words))
+            fail_msg("%s", result.fault.text);
+    }
+    lab_free(lab);
+    mesh_body_free(mesh);
+}
+
 /* A law that yields: dents on a mesh's face as on the rod's. */
 static void a_mesh_yields(void **state)
 {
@@ -173,6 +210,7 @@ int main(void)
         cmocka_unit_test(a_held_mesh_answers_as_the_held_beam),
         cmocka_unit_test(a_face_is_of_its_own_material),
         cmocka_unit_test(a_hollow_may_be_too_narrow),
+        cmocka_unit_test(unknown_flexibility_is_refused),
         cmocka_unit_test(a_mesh_yields),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
