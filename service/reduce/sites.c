@@ -248,24 +248,44 @@ static enum percuss_status smoothen(struct sites *sites, struct site_field *fiel
     return status;
 }
 
-/* sites and what is between them, which the body takes over */
+/* Rows and columns of the sites that are kept, moved to the front; `kept` ascends. */
+static void keep_between(struct sites *sites, size_t count, const size_t *kept)
+{
+    for (size_t a = 0; sites->between && a < count; a++)
+        for (size_t b = 0; b < count; b++)
+            sites->between[a * count + b] = sites->between[kept[a] * sites->count + kept[b]];
+}
+
+/* Sites and what is between them, which the body takes over; not those whose forces are out of
+ * balance, as responses to them would be too. */
 static enum percuss_status hand_over(struct sites *sites, struct mesh_body *body,
                                      struct fault *fault)
 {
     size_t count = sites->count;
-    body->site_count = count;
+    size_t *kept = malloc((count + 1) * sizeof *kept);
+    body->site_count = 0;
     body->site_face = malloc((count + 1) * sizeof *body->site_face);
     body->site_point = malloc((count + 1) * sizeof *body->site_point);
     body->site_normal = malloc((count + 1) * sizeof *body->site_normal);
-    if (!body->site_face || !body->site_point || !body->site_normal)
+    if (!kept || !body->site_face || !body->site_point || !body->site_normal) {
+        free(kept);
         return pace_fault(fault, PERCUSS_INTERNAL);
-    for (size_t i = 0; i < count; i++) {
-        body->site_face[i] = (unsigned)sites->places[i].face;
-        sub3(sites->places[i].load.point, body->centre, body->site_point[i]);
-        scale3(-1.0, sites->places[i].load.inward, body->site_normal[i]);
     }
+    /* the places */
+    for (size_t i = 0; i < count; i++) {
+        size_t at = body->site_count;
+        if (sites->between && isnan(sites->between[i * (count + 1)]))
+            continue;
+        body->site_face[at] = (unsigned)sites->places[i].face;
+        sub3(sites->places[i].load.point, body->centre, body->site_point[at]);
+        scale3(-1.0, sites->places[i].load.inward, body->site_normal[at]);
+        kept[body->site_count++] = i;
+    }
+    /* and between them */
+    keep_between(sites, body->site_count, kept);
     body->between = sites->between;
     sites->between = NULL;
+    free(kept);
     return PERCUSS_OK;
 }
 
