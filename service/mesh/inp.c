@@ -247,6 +247,7 @@ static enum percuss_status read_card(struct inp *inp, char *line)
 {
     struct card card;
     card_parse(line, &card);
+    inp->begun = true;
     /* lines of data go on in and after an included file */
     if (strcmp(card.name, "INCLUDE") != 0) {
         if (inp->read == inp_read_element && inp->filled > 0)
@@ -273,7 +274,9 @@ static enum percuss_status read_deck(struct inp *inp, const char *path)
     while (!inp->done && card_line(&scan, line, &status)) {
         status = line[0] == '*' ? read_card(inp, line)
                  : inp->read    ? inp->read(inp, line)
-                                : PERCUSS_OK;
+                 : inp->begun   ? PERCUSS_OK
+                                : scan_refuse(&scan, "must begin with a keyword, such as *NODE: is "
+                                                       "it a deck of Abaqus or CalculiX?");
         if (status != PERCUSS_OK)
             break;
     }

@@ -20,7 +20,7 @@ struct inp {
     inp_line_reader *read; /* lines of data after the last keyword; NULL: they do not matter */
     int depth, parts, instances;
     bool assembly, instance; /* within */
-    bool done;               /* a *STEP has come */
+    bool begun, done;        /* a keyword has come, a *STEP has */
     size_t set, material, part;
     bool generate, solid;
     enum element_type type;

@@ -13,6 +13,7 @@
 #include <string.h>
 
 enum { WORD_SIZE = 32 };
+static const char BYTE_ORDER_MARK[] = "\xEF\xBB\xBF";
 
 /* reads what is left of a stream into memory that grows with it */
 static enum percuss_status slurp(FILE *stream, const char *path, struct scan *scan,
@@ -35,6 +36,10 @@ static enum percuss_status slurp(FILE *stream, const char *path, struct scan *sc
     if (ferror(stream))
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s", path, strerror(errno));
     scan->text[scan->size] = '\0';
+    /* editors of Windows begin a text with this */
+    scan->at = strncmp(scan->text, BYTE_ORDER_MARK, sizeof BYTE_ORDER_MARK - 1) == 0
+                   ? sizeof BYTE_ORDER_MARK - 1
+                   : 0;
     return PERCUSS_OK;
 }
 

@@ -143,6 +143,27 @@ static void includes_files(void **state)
     file_refused(".inp", deck, ".more: No such file or directory");
 }
 
+/* a mark at the beginning and the ends of lines as editors of Windows write them */
+static void reads_text_of_windows(void **state)
+{
+    (void)state;
+    char text[2 * sizeof BRICK + 4] = "\xEF\xBB\xBF", *to = text + strlen(text);
+    for (const char *from = BRICK; *from; from++) {
+        if (*from == '\n')
+            *to++ = '\r';
+        *to++ = *from;
+    }
+    *to = '\0';
+    struct solid_mesh plain, mesh;
+    assert_int_equal(file_read(".inp", BRICK, 0.001, &plain), PERCUSS_OK);
+    assert_int_equal(file_read(".inp", text, 0.001, &mesh), PERCUSS_OK);
+    assert_int_equal(mesh.node_count, plain.node_count);
+    assert_int_equal(mesh.set_count, plain.set_count);
+    assert_memory_equal(mesh.points, plain.points, plain.node_count * sizeof *plain.points);
+    solid_mesh_free(&mesh);
+    solid_mesh_free(&plain);
+}
+
 static void refuses_with_the_line(void **state)
 {
     (void)state;
@@ -172,6 +193,8 @@ static void refuses_with_the_line(void **state)
     file_refused(".inp", file_with(BRICK, "*NODE, NSET=ALL", "*NODE, SYSTEM=C"), "must be R");
     file_refused(".inp", file_with(TETRAHEDRON, "2, 1,2,3,4", "1, 1,2,3,4"),
                  "element 1: is there twice");
+    file_refused(".inp", "\xFF\xFE*\n", ".inp:1: must begin with a keyword, such as *NODE");
+    file_refused(".inp", "1, 0, 0, 0\n*NODE\n", ".inp:1: must begin with a keyword");
     file_survives(".inp", BRICK, strlen(BRICK), 150);
     file_survives(".inp", TETRAHEDRON, strlen(TETRAHEDRON), 150);
 }
@@ -181,7 +204,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(reads_a_brick),         cmocka_unit_test(reads_a_tetrahedron),
         cmocka_unit_test(reads_one_instance),    cmocka_unit_test(includes_files),
-        cmocka_unit_test(refuses_with_the_line),
+        cmocka_unit_test(reads_text_of_windows), cmocka_unit_test(refuses_with_the_line),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
