@@ -107,6 +107,9 @@ static void last_words(const struct gmsh_file *file, char words[LOG_SHOWN])
         line[strcspn(line, "\n")] = '\0';
         if (strncmp(line, "Error", 5) != 0 && strncmp(line, "Warning", 7) != 0)
             continue;
+        /* under a rule it counts what it has said */
+        if (strstr(line, ": -----"))
+            break;
         size_t length = strlen(line);
         if (filled + length + 2 >= LOG_SHOWN)
             filled = 0;

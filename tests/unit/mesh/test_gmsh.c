@@ -218,6 +218,11 @@ static void says_why_not(void **state)
     assert_int_equal(mesh_read(path, &options, &mesh, &fault), PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(fault.text, "gmsh could not make a mesh of it: Error"));
 
+    /* no triangles: what it says of them, without the summary that it ends with */
+    file_refused(".stl", "solid nothing\nendsolid nothing\n",
+                 "gmsh could not make a mesh of it: Warning : No triangles");
+    assert_null(strstr(file_fault.text, "-----"));
+
     /* linear elements of another program */
     write_part(CYLINDER);
     convert("-3 -clmax 6", ".bdf");
