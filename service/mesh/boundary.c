@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesh/joined.h"
+
 /* faces of the elements in Gmsh's order of nodes, outward: corners, mid nodes, middle */
 static const unsigned char TET_FACES[4][6] = {
     {0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 9, 7}, {1, 2, 3, 5, 8, 9}, {0, 3, 2, 7, 8, 6}};
@@ -127,21 +129,32 @@ static enum percuss_status pick(const struct solid_mesh *mesh, const struct entr
     return PERCUSS_OK;
 }
 
-enum percuss_status boundary_faces(const struct solid_mesh *mesh, struct surface_face **faces,
-                                   size_t *count, struct fault *fault)
+/* the faces of all elements, those with the same corners beside each other; NULL: out of memory */
+static struct entry *sorted_faces(const struct solid_mesh *mesh, size_t *total, struct fault *fault)
 {
-    size_t total = 0;
+    *total = 0;
     for (size_t e = 0; e < mesh->element_count; e++)
-        total += (size_t)face_number(mesh->types[e]);
-    struct entry *entries = malloc((total + 1) * sizeof *entries);
-    if (!entries)
-        return fault_set(fault, PERCUSS_INTERNAL, "%zu faces: out of memory", total);
-
+        *total += (size_t)face_number(mesh->types[e]);
+    struct entry *entries = malloc((*total + 1) * sizeof *entries);
+    if (!entries) {
+        fault_set(fault, PERCUSS_INTERNAL, "%zu faces: out of memory", *total);
+        return NULL;
+    }
     size_t filled = 0;
     for (size_t e = 0; e < mesh->element_count; e++)
         for (int i = 0; i < face_number(mesh->types[e]); i++)
             entries[filled++] = make_entry(mesh, e, i);
-    qsort(entries, total, sizeof *entries, compare);
+    qsort(entries, *total, sizeof *entries, compare);
+    return entries;
+}
+
+enum percuss_status boundary_faces(const struct solid_mesh *mesh, struct surface_face **faces,
+                                   size_t *count, struct fault *fault)
+{
+    size_t total;
+    struct entry *entries = sorted_faces(mesh, &total, fault);
+    if (!entries)
+        return PERCUSS_INTERNAL;
 
     /* how many there will be at most: those alone */
     size_t alone = 0;
@@ -160,5 +173,20 @@ enum percuss_status boundary_faces(const struct solid_mesh *mesh, struct surface
         return status;
     }
     qsort(*faces, *count, sizeof **faces, compare_places);
+    return PERCUSS_OK;
+}
+
+enum percuss_status boundary_join(const struct solid_mesh *mesh, size_t *parent,
+                                  struct fault *fault)
+{
+    size_t total;
+    struct entry *entries = sorted_faces(mesh, &total, fault);
+    if (!entries)
+        return PERCUSS_INTERNAL;
+    joined_begin(parent, mesh->element_count);
+    for (size_t i = 1; i < total; i++)
+        if (compare_corners(&entries[i - 1], &entries[i]) == 0)
+            joined_unite(parent, entries[i - 1].element, entries[i].element);
+    free(entries);
     return PERCUSS_OK;
 }

@@ -25,4 +25,8 @@ struct surface_face {
 enum percuss_status boundary_faces(const struct solid_mesh *mesh, struct surface_face **faces,
                                    size_t *count, struct fault *fault);
 
+/* Elements that hang together by whole faces, in `parent` [element_count] as of mesh/joined.h. */
+enum percuss_status boundary_join(const struct solid_mesh *mesh, size_t *parent,
+                                  struct fault *fault);
+
 #endif

@@ -5,11 +5,14 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesh/boundary.h"
 #include "mesh/bulk.h"
+#include "mesh/joined.h"
 #include "model/vector.h"
 
 /* nodes nearer than this part of an edge are one place */
@@ -126,44 +129,78 @@ static enum percuss_status check_places(const struct solid_mesh *mesh, double si
                      pairs, one, other);
 }
 
-static size_t root_of(size_t *parent, size_t node)
+/* elements of other pieces than that of the first one, in `parent`; the first of them */
+static size_t count_apart(size_t *parent, size_t count, size_t *example)
 {
-    while (parent[node] != node)
-        node = parent[node] = parent[parent[node]];
-    return node;
+    size_t apart = 0, whole = joined_root(parent, 0);
+    for (size_t e = 0; e < count; e++)
+        if (joined_root(parent, e) != whole && apart++ == 0)
+            *example = e;
+    return apart;
 }
 
-/* elements that hang together by shared nodes are one piece */
-static enum percuss_status check_pieces(const struct solid_mesh *mesh, struct fault *fault)
+/* the first element of each node, or of all that share nodes, is joined with the others */
+static bool join_by_nodes(const struct solid_mesh *mesh, size_t *parent)
 {
-    size_t *parent = malloc((mesh->node_count + 1) * sizeof *parent);
-    if (!parent)
-        return fault_set(fault, PERCUSS_INTERNAL, "%zu nodes: out of memory", mesh->node_count);
+    size_t *owner = malloc((mesh->node_count + 1) * sizeof *owner);
+    if (!owner)
+        return false;
     for (size_t i = 0; i < mesh->node_count; i++)
-        parent[i] = i;
+        owner[i] = SIZE_MAX;
+    joined_begin(parent, mesh->element_count);
     for (size_t e = 0; e < mesh->element_count; e++)
-        for (size_t i = mesh->first[e] + 1; i < mesh->first[e + 1]; i++) {
-            size_t a = root_of(parent, mesh->nodes[mesh->first[e]]);
-            size_t b = root_of(parent, mesh->nodes[i]);
-            parent[a < b ? b : a] = a < b ? a : b;
+        for (size_t i = mesh->first[e]; i < mesh->first[e + 1]; i++) {
+            size_t *first = &owner[mesh->nodes[i]];
+            if (*first == SIZE_MAX)
+                *first = e;
+            joined_unite(parent, *first, e);
         }
+    free(owner);
+    return true;
+}
 
-    /* how many, and how much does not hang at the first one */
-    size_t pieces = 0, apart = 0, example = 0, whole = root_of(parent, mesh->nodes[0]);
-    for (size_t i = 0; i < mesh->node_count; i++)
-        pieces += parent[i] == i;
-    for (size_t e = 0; e < mesh->element_count; e++)
-        if (root_of(parent, mesh->nodes[mesh->first[e]]) != whole && apart++ == 0)
-            example = mesh->element_labels[e];
-    free(parent);
+/* elements that share no node are two bodies; those that share an edge or a corner alone turn about
+ * it */
+static enum percuss_status refuse_pieces(const struct solid_mesh *mesh, size_t *parent,
+                                         struct fault *fault)
+{
+    size_t pieces = 0, apart = 0, count = mesh->element_count, example = 0;
+    /* a hinge: all hang together by nodes */
+    size_t hinged = count_apart(parent, count, &example);
+    size_t label = mesh->element_labels[example];
+    if (hinged > 0 && !join_by_nodes(mesh, parent))
+        return fault_set(fault, PERCUSS_INTERNAL, "%zu elements: out of memory", count);
+    apart = hinged > 0 ? count_apart(parent, count, &example) : 0;
+    if (hinged > 0 && apart == 0)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "%zu elements (element %zu first) hang on the other %zu by an edge or a "
+                         "node alone, as on a hinge: must be one body, whose elements share faces",
+                         hinged, label, count - hinged);
     if (apart == 0)
         return PERCUSS_OK;
+    /* pieces by themselves */
+    for (size_t e = 0; e < count; e++)
+        pieces += parent[e] == e;
     return fault_set(
         fault, PERCUSS_BAD_REQUEST,
         "%zu pieces that do not hang together: %zu elements (element %zu first) share "
         "no node with the other %zu: must be one body; in CAD unite the parts, in Gmsh "
         "BooleanFragments, or mesh one of them",
-        pieces, apart, example, mesh->element_count - apart);
+        pieces, apart, mesh->element_labels[example], count - apart);
+}
+
+/* elements that hang together by shared faces are one piece */
+static enum percuss_status check_pieces(const struct solid_mesh *mesh, struct fault *fault)
+{
+    size_t *parent = malloc(mesh->element_count * sizeof *parent);
+    if (!parent)
+        return fault_set(fault, PERCUSS_INTERNAL, "%zu elements: out of memory",
+                         mesh->element_count);
+    enum percuss_status status = boundary_join(mesh, parent, fault);
+    if (status == PERCUSS_OK)
+        status = refuse_pieces(mesh, parent, fault);
+    free(parent);
+    return status;
 }
 
 static void check_extent(const struct solid_mesh *mesh, struct mesh_findings *findings)

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "mesh/boundary.h"
+#include "mesh/joined.h"
 #include "model/vector.h"
 
 /* faces that turn by more at an edge do not continue each other: cos 35 degrees */
@@ -80,14 +81,6 @@ static int compare_numbers(const void *left, const void *right)
     return a < b ? -1 : a > b;
 }
 
-/* the face that stands for all that are joined with it so far */
-static size_t root_of(size_t *parent, size_t face)
-{
-    while (parent[face] != face)
-        face = parent[face] = parent[parent[face]];
-    return face;
-}
-
 /* joins faces that meet smoothly; where more than two meet in an edge the body only touches itself
  */
 static void join(const struct edge *edges, size_t count, size_t *parent)
@@ -98,8 +91,7 @@ static void join(const struct edge *edges, size_t count, size_t *parent)
             n++;
         if (n != 2 || !(dot3(edges[i].normal, edges[i + 1].normal) >= SMOOTH_COSINE))
             continue;
-        size_t a = root_of(parent, edges[i].face), b = root_of(parent, edges[i + 1].face);
-        parent[a < b ? b : a] = a < b ? a : b;
+        joined_unite(parent, edges[i].face, edges[i + 1].face);
     }
 }
 
@@ -108,7 +100,7 @@ static void number_patches(struct surface *surface, size_t *parent)
 {
     surface->patch_count = 0;
     for (size_t f = 0; f < surface->face_count; f++) {
-        size_t root = root_of(parent, f);
+        size_t root = joined_root(parent, f);
         surface->faces[f].patch = root == f ? surface->patch_count++ : surface->faces[root].patch;
     }
 }
@@ -134,8 +126,7 @@ static enum percuss_status make_patches(const struct solid_mesh *mesh, struct su
         surface->size = lengths[count / 2];
 
         /* faces that are joined across a smooth edge make a patch */
-        for (size_t f = 0; f < surface->face_count; f++)
-            parent[f] = f;
+        joined_begin(parent, surface->face_count);
         qsort(edges, count, sizeof *edges, compare_edges);
         join(edges, count, parent);
         number_patches(surface, parent);

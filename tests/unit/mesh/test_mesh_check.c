@@ -103,29 +103,46 @@ static void refuses_nodes_that_are_there_twice(void **state)
     refused(&mesh, "8 pairs of nodes are in one place");
 }
 
-static void refuses_two_bodies(void **state)
+/* the first element and another one, with the nodes that they use */
+static struct solid_mesh two_of(const struct block *block, size_t other)
 {
-    (void)state;
-    /* the middle one of three cells is taken out */
-    struct solid_mesh mesh = block_make(&(struct block){ELEMENT_HEX27, {3, 1, 1}, brick, false});
-    memcpy(mesh.nodes + 27, mesh.nodes + 54, 27 * sizeof *mesh.nodes);
-    mesh.element_labels[1] = 3;
+    struct solid_mesh mesh = block_make(block);
+    size_t each = mesh.first[1];
+    memcpy(mesh.nodes + each, mesh.nodes + other * each, each * sizeof *mesh.nodes);
+    mesh.element_labels[1] = mesh.element_labels[other];
     mesh.element_count = 2;
     bool *used = calloc(mesh.node_count, sizeof *used);
     size_t *number = calloc(mesh.node_count, sizeof *number), count = 0;
-    for (size_t i = 0; i < 54; i++)
+    for (size_t i = 0; i < 2 * each; i++)
         used[mesh.nodes[i]] = true;
     for (size_t i = 0; i < mesh.node_count; i++)
         if (used[i]) {
             memcpy(mesh.points[count], mesh.points[i], sizeof mesh.points[i]);
             number[i] = count++;
         }
-    for (size_t i = 0; i < 54; i++)
+    for (size_t i = 0; i < 2 * each; i++)
         mesh.nodes[i] = number[mesh.nodes[i]];
     mesh.node_count = count;
     free(used);
     free(number);
+    return mesh;
+}
+
+static void refuses_two_bodies(void **state)
+{
+    (void)state;
+    struct solid_mesh mesh = two_of(&(struct block){ELEMENT_HEX27, {3, 1, 1}, brick, false}, 2);
     refused(&mesh, "2 pieces that do not hang together: 1 elements (element 3 first)");
+}
+
+static void refuses_hinges(void **state)
+{
+    (void)state;
+    /* cells that have an edge in common, and cells that have a corner */
+    struct solid_mesh mesh = two_of(&(struct block){ELEMENT_HEX20, {2, 2, 1}, brick, false}, 3);
+    refused(&mesh, "1 elements (element 4 first) hang on the other 1 by an edge or a node alone");
+    mesh = two_of(&(struct block){ELEMENT_HEX27, {2, 2, 2}, brick, false}, 7);
+    refused(&mesh, "1 elements (element 8 first) hang on the other 1 by an edge or a node alone");
 }
 
 static void remarks(struct solid_mesh *mesh, const char *words)
@@ -159,6 +176,7 @@ int main(void)
         cmocka_unit_test(refuses_elements_inside_out),
         cmocka_unit_test(refuses_nodes_that_are_there_twice),
         cmocka_unit_test(refuses_two_bodies),
+        cmocka_unit_test(refuses_hinges),
         cmocka_unit_test(remarks_upon_what_is_odd),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
