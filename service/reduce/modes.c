@@ -95,6 +95,30 @@ static enum percuss_status seek(const struct modes_task *task, struct factor *fa
     return lanczos_modes(&input, &modes->omega, &modes->shapes, fault);
 }
 
+/* Frequencies nearer to each other are taken for copies of one: a mesh is not quite as symmetric as
+ * its body (a ring of 60 elements splits its pairs by 1e-4). */
+static const double COPIES = 1e-3;
+
+static bool are_copies(const double *omega, size_t i)
+{
+    return omega[i] <= (1.0 + COPIES) * omega[i - 1];
+}
+
+/* So many modes that no frequency is left with some of its copies: the rest of them too where they
+ * end among those that are found, else none of them; those that were wanted where it is the first.
+ */
+static size_t whole_frequencies(const double *omega, size_t wanted, size_t found)
+{
+    size_t up = wanted, down = wanted;
+    while (up < found && are_copies(omega, up))
+        up++;
+    if (up < found)
+        return up;
+    while (down > 0 && are_copies(omega, down))
+        down--;
+    return down > 0 ? down : wanted;
+}
+
 /* Where to count below: the widest gap after the wanted modes; how many lie below it. */
 static size_t widest_gap(const double *omega, size_t wanted, size_t found, double *below)
 {
@@ -138,12 +162,12 @@ static enum percuss_status find_most(const struct modes_task *task, struct modes
         /* one factor at a time fits where two might not */
         factor_free(*factor);
         *factor = NULL;
+        modes->count = whole_frequencies(modes->omega, task->most, task->most + SPARE);
         modes->confirmed =
-            widest_gap(modes->omega, task->most, task->most + SPARE, &modes->confirmed_below);
+            widest_gap(modes->omega, modes->count, task->most + SPARE, &modes->confirmed_below);
         status = modes_count(task, modes->confirmed_below, &counted, fault);
         if (status)
             return status;
-        modes->count = task->most;
         if (counted == modes->confirmed)
             return make_factor(task, factor, fault);
     }

@@ -46,10 +46,11 @@ struct modes_cost modes_cost(const struct factor *factor, size_t n, size_t count
 enum percuss_status modes_count(const struct modes_task *task, double omega, size_t *count,
                                 struct fault *fault);
 
-/* `factor` becomes that of K + shift M, for what comes after: the caller's to free.
- * PERCUSS_TIMEOUT: the watch stopped it; PERCUSS_BAD_REQUEST: the mesh has
- * fewer modes, or its matrices are not those of a body; PERCUSS_INTERNAL without memory, or when
- * the number of modes is not confirmed however often they are sought. */
+/* Frequencies within 1e-3 stay together where `most` would cut between them: then there are a few
+ * modes more, or fewer. `factor` becomes that of K + shift M, for what comes after: the caller's to
+ * free. PERCUSS_TIMEOUT: the watch stopped it; PERCUSS_BAD_REQUEST: the mesh has fewer modes, or
+ * its matrices are not those of a body; PERCUSS_INTERNAL without memory, or when the number of
+ * modes is not confirmed however often they are sought. */
 enum percuss_status modes_find(const struct modes_task *task, struct modes *modes,
                                struct factor **factor, struct fault *fault);
 

@@ -53,6 +53,11 @@ static void tell_modes(const struct reduction *reduction)
     const struct modes *modes = &reduction->modes;
     printf("modes           %zu; by inertia %zu lie below %.6g Hz; largest |x'Mx - I| %.1e\n",
            modes->count, modes->confirmed, hertz(modes->confirmed_below), modes->doubt);
+    if (reduction->options->modes && modes->count != reduction->options->modes)
+        printf(
+            "                %zu were asked for, the last of which has the frequency of the next: "
+            "copies stay together\n",
+            reduction->options->modes);
     printf("frequencies    ");
     for (size_t i = 0; i < modes->count && i < SHOWN; i++)
         printf(" %.6g", hertz(modes->omega[i]));

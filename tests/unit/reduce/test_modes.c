@@ -51,6 +51,24 @@ static void test_square_bar(void **state)
     solid_mesh_free(&mesh);
 }
 
+/* A number that ends between the copies of a frequency takes both. */
+static void test_copies_stay_together(void **state)
+{
+    (void)state;
+    struct solid_mesh mesh;
+    struct solved solved;
+    solid_shape_block(ELEMENT_HEX20, (double[3]){0.5, 0.02, 0.02}, (size_t[3]){20, 2, 2}, &STEEL,
+                      &mesh);
+    /* bendings lie lowest, in pairs: two and two */
+    for (size_t most = 1; most <= 4; most++) {
+        solve_mesh(&mesh, 0, INFINITY, most, &solved);
+        assert_int_equal(solved.modes.count, most + most % 2);
+        assert_true(solved.modes.confirmed >= solved.modes.count);
+        solved_free(&solved);
+    }
+    solid_mesh_free(&mesh);
+}
+
 /* The same modes by their number and by a frequency between two of them; same bits each time. */
 static void test_by_frequency(void **state)
 {
@@ -165,9 +183,9 @@ static void test_can_be_stopped(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_square_bar),     cmocka_unit_test(test_by_frequency),
-        cmocka_unit_test(test_supports),       cmocka_unit_test(test_one_element),
-        cmocka_unit_test(test_can_be_stopped),
+        cmocka_unit_test(test_square_bar),   cmocka_unit_test(test_copies_stay_together),
+        cmocka_unit_test(test_by_frequency), cmocka_unit_test(test_supports),
+        cmocka_unit_test(test_one_element),  cmocka_unit_test(test_can_be_stopped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
