@@ -30,6 +30,8 @@ static const double POWER = 0.8;
 static const double SAFETY = 4.0;
 /* Of ATTEMPT_LONGER: rounding. */
 static const double ALMOST = 0.99;
+/* Of the effort allowed: for shorter steps where those that it sufficed for lose the energy. */
+static const double LAST_EFFORT = 0.5;
 /* From here down longer steps are tried for comparison, for sequences always. */
 static const double COMPARE_BELOW = 1e-5;
 /* Of a long one, or a group, another solution is asked for. */
@@ -128,6 +130,7 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
 {
     /* how well the energy must close */
     double tolerance = context->problem->tolerance;
+    enum percuss_method method = context->problem->request->options.method;
     double closure_allowed =
         tolerance <= AUDITED ? AUDIT : fmin(CLOSURE * tolerance, OUTCOME_WORST_DEFECT);
     const struct attempt *coarse = modes->longer;
@@ -148,8 +151,12 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         /* a hundred times finer ones */
         struct attempt finer = *best;
         finer.accuracy = fmax(best->accuracy / ATTEMPT_LONGER, ATTEMPT_FINEST);
+        /* what does not keep its energy is no answer: as far as shorter steps come is one */
+        bool lost = !outcome_keeps_energy(error->energy_defect);
+        if (lost)
+            context->work = fmax(context->work, LAST_EFFORT * attempt_work_allowed(method));
         status = attempt_run(context, &finer, &best->assembly->scene);
-        if (status || attempt_is_spent(&finer))
+        if (status || (attempt_is_spent(&finer) && !lost))
             return status;
         before = *best;
         *best = finer;
