@@ -289,7 +289,9 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
     struct model_blow blow = {.duration = convergence->result.end_time};
     for (size_t i = 0; i < result->contacts[0].sub_impacts_listed; i++)
         blow.force = fmax(blow.force, result->contacts[0].sub_impacts[i].peak_force);
-    report_model_error(model_error_complete(problem, &blow), result);
+    double e = result->contacts[0].restitution;
+    report_model_error(model_error_complete(problem, &blow),
+                       result->complete ? fmax(e, 1.0 - e) : 2.0, result);
     /* where small strains end */
     struct warnings warnings = {0};
     validity_find_speed(problem, &warnings);

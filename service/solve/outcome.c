@@ -27,8 +27,24 @@ double outcome_restitution(const struct problem *problem, const struct impact_ou
     return compression > 0.0 ? outcome->tracks[contact].impulse / compression - 1.0 : NAN;
 }
 
+/* A blow that nothing but the approach has energy for, solved to its end. */
+static bool is_plain_blow(const struct problem *problem, const struct impact_outcome *outcome)
+{
+    const struct contact_side *sides = problem->sides[0];
+    return problem->contact_count == 1 && problem->impulse_compression[0] > 0.0 &&
+           problem->request->contacts[0].gap_acceleration == 0.0 &&
+           !problem->states[sides[0].body] && !problem->states[sides[1].body] &&
+           outcome_is_complete(outcome);
+}
+
 double outcome_range(const struct problem *problem, const struct impact_outcome *outcome)
 {
+    /* from 0 to 1, of which this answer is somewhere */
+    if (is_plain_blow(problem, outcome)) {
+        double e = outcome_restitution(problem, outcome, 0);
+        return fmax(e, 1.0 - e);
+    }
+    /* from -1 to 1, or to what they are */
     double most = 1.0;
     for (size_t c = 0; c < problem->contact_count; c++)
         most = fmax(most, outcome_restitution(problem, outcome, c));

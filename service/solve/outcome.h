@@ -19,8 +19,9 @@ bool outcome_is_unsolved(const struct problem *problem, const struct impact_outc
 double outcome_restitution(const struct problem *problem, const struct impact_outcome *outcome,
                            size_t contact);
 
-/* The width of what restitutions can be, from no impulse (-1) to a full rebound, or what they are.
- */
+/* How far a restitution can be from the true one: of one contact of bodies at rest in themselves,
+ * which have separated, that is from 0 to 1; else the width from no impulse (-1) to a full rebound,
+ * or to what they are. */
 double outcome_range(const struct problem *problem, const struct impact_outcome *outcome);
 
 /* Largest force (N) and indentation (m) of a contact's listed sub-impacts. */

@@ -14,8 +14,9 @@ void report_fill(const struct problem *problem, const struct solution *solution,
                  struct solve_result *result);
 
 /* Fills what the models may be wrong by, on the restitution, and what that makes in all with the
- * errors that are there: their sum, since modes and steps are no accidents. */
-void report_model_error(double model, struct solve_result *result);
+ * errors that are there: their sum, since modes and steps are no accidents, but not more than the
+ * answer can be wrong by, `range`. */
+void report_model_error(double model, double range, struct solve_result *result);
 
 /* Fills the bodies' velocities after all impulses of result->contacts, by the bodies' own masses.
  */

@@ -134,7 +134,7 @@ static enum percuss_status answer(struct solve_workspace *workspace,
         status = pace_fault(&result->fault, model_error_find(problem, solution, &pace, &model));
     if (!status) {
         report_fill(problem, solution, result);
-        report_model_error(model, result);
+        report_model_error(model, outcome_range(problem, &solution->outcome), result);
         if (concurrent)
             concurrent_report(&effort, problem, solution, result);
         status = result->status;

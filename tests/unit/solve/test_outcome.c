@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests solve/outcome.c: when a solution that was cut off says something of the restitution. */
+/* Tests solve/outcome.c: when a solution that was cut off says something of the restitution, and
+ * how wrong that can be. */
 #include "check.h"
 #include "solve/outcome.h"
 
@@ -39,10 +40,40 @@ static void only_what_met_no_force_at_all_is_unsolved(void **state)
     assert_false(outcome_is_unsolved(&at_hand.problem, &at_hand.outcome));
 }
 
+static void a_restitution_is_wrong_by_no_more_than_it_can_be(void **state)
+{
+    (void)state;
+    struct case_at_hand at_hand;
+    struct contact_side sides[1][2] = {{{.body = 0}, {.body = 1}}};
+    static struct solve_request request;
+    set(&at_hand, PERCUSS_END_SEPARATED, 0.0);
+    at_hand.problem.sides = sides;
+    at_hand.problem.request = &request;
+    /* two contacts pass impulse on to each other: from -1 to 1 */
+    assert_true(outcome_range(&at_hand.problem, &at_hand.outcome) == 2.0);
+    /* one, e = .75 and .125: it may be 0, or 1 */
+    at_hand.problem.contact_count = 1;
+    at_hand.tracks[0].impulse = 1.75;
+    assert_true(outcome_range(&at_hand.problem, &at_hand.outcome) == 0.75);
+    at_hand.tracks[0].impulse = 1.125;
+    assert_true(outcome_range(&at_hand.problem, &at_hand.outcome) == 0.875);
+    /* cut off, pressed, or struck while it vibrates, it may be anything */
+    at_hand.outcome.end_reason = PERCUSS_END_LIMIT;
+    assert_true(outcome_range(&at_hand.problem, &at_hand.outcome) == 2.0);
+    at_hand.outcome.end_reason = PERCUSS_END_HANDED_BACK;
+    request.contacts[0].gap_acceleration = -1.0;
+    assert_true(outcome_range(&at_hand.problem, &at_hand.outcome) == 2.0);
+    request.contacts[0].gap_acceleration = 0.0;
+    struct body_state ringing = {.dents = 0};
+    at_hand.problem.states[1] = &ringing;
+    assert_true(outcome_range(&at_hand.problem, &at_hand.outcome) == 2.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_what_met_no_force_at_all_is_unsolved),
+        cmocka_unit_test(a_restitution_is_wrong_by_no_more_than_it_can_be),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
