@@ -21,6 +21,7 @@ struct face_spot {
     double edge;        /* distance from the nearest sharp edge of its patch, m; INFINITY: none */
     double element;     /* how long the facet is, m */
     double doubt;       /* of the normal and the curvature, rad; 0 where they are declared */
+    bool fitted;        /* the curvature is that of a fit, not declared */
     double flexibility; /* regular, m/N, see struct mesh_body_face; NAN: not known */
     double slope;
     const char *remark; /* of the named site there; NULL: none */

@@ -232,6 +232,7 @@ static struct face face_at(const struct body *body, const struct mesh_place *pla
         .edge = edge,
         .element = element,
         .doubt = normal && curvature ? 0.0 : spot.doubt,
+        .fitted = !curvature,
         .flexibility = spot.flexibility * mesh_ratio_flexibility(body),
         .slope = spot.slope * mesh_ratio_flexibility(body),
         .remark = site && site->remark[0] ? site->remark : NULL,

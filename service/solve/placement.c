@@ -25,6 +25,9 @@ static const double ASYMMETRY = 1e-9;
 static const double INDEFINITE = 1e-9;
 /* Eigenvalues that count as zero, of the largest. */
 static const double NULL_EIGENVALUE = 1e-12;
+/* A contact that a mesh takes part in counts as a line below this ratio of its curvatures: across a
+ * cylinder a fit leaves up to 2 % of its curvature along it (docs/mesh.md). */
+static const double FITTED_LINE_RATIO = 0.03;
 
 /* Puts the body with the request's own parameters in its place. */
 static enum percuss_status vary(struct problem *problem, size_t index, struct fault *fault)
@@ -161,6 +164,22 @@ static enum percuss_status place_contact(struct problem *problem, size_t index, 
                                                    problem_material(problem, index, 1)),
                            curvature[0], curvature[1]);
     return PERCUSS_OK;
+}
+
+/* Whether the curvatures make a point as far as a mesh's fit knows them. */
+static enum percuss_status check_fit(const struct problem *problem, size_t index,
+                                     struct fault *fault)
+{
+    const struct contact_side *sides = problem->sides[index];
+    const double *curvature = problem->hertz[index].curvature;
+    bool fitted = sides[0].site.spot.fitted || sides[1].site.spot.fitted;
+    if (!fitted || curvature[0] > FITTED_LINE_RATIO * curvature[1])
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+                     "contacts[%zu]: %s on %s touch in a line there (relative curvatures %.3g and "
+                     "%.3g 1/m, whose ratio a mesh does not know below %g: declare the site's)",
+                     index, problem->bodies[sides[0].body]->id, problem->bodies[sides[1].body]->id,
+                     2.0 * curvature[0], 2.0 * curvature[1], FITTED_LINE_RATIO);
 }
 
 static void find_rates(struct problem *problem, size_t index)
@@ -343,8 +362,11 @@ enum percuss_status placement_find(struct problem *problem, const struct body_se
     if (!allocate(problem))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     enum percuss_status status = find_bodies(problem, catalogue, fault);
-    for (size_t i = 0; !status && i < problem->contact_count; i++)
+    for (size_t i = 0; !status && i < problem->contact_count; i++) {
         status = place_contact(problem, i, fault);
+        if (!status)
+            status = check_fit(problem, i, fault);
+    }
     if (!status && !choose_all_planes(problem))
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     if (!status)

@@ -204,6 +204,45 @@ static void a_mesh_yields(void **state)
     mesh_body_free(mesh);
 }
 
+/* Two round bars that cross at an angle have relative curvatures of tan^2(angle/2) to one. What a
+ * fit leaves of a mesh's curvature along its axis does not tell .01 from a line; a declared one
+ * does. */
+static void a_line_is_told_by_what_a_mesh_knows(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct lab *lab = lab_create();
+    struct body beam = make_bar(&beam_kind, ALUMINIUM, 0.010, 0.5);
+    struct mesh_body *mesh = make_mesh(lab_add(lab, "beam", beam), 20);
+    struct body fitted = body_of(mesh), declared = fitted;
+    /* in the mesh's frame and unit as the bar's file has them */
+    struct body_site round = {.name = "side", .has_curvature = true, .curvature = {[4] = 100.0}};
+    for (int k = 0; k < 3; k++)
+        round.point[k] = ((double[3]){0.0, 0.0, 0.010}[k] + mesh->centre[k]) / mesh->unit;
+    declared.site_count = 1;
+    declared.sites = &round;
+    lab_add(lab, "fitted", fitted);
+    lab_add(lab, "declared", declared);
+    const struct {
+        const char *id;
+        double angle;
+        const char *words; /* NULL: answered */
+    } cases[] = {{"fitted", 0.2, "whose ratio a mesh does not know below 0.03"},
+                 {"fitted", 0.5, NULL},
+                 {"declared", 0.2, NULL}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct spot above = side_spot("beam", 0.0, 0.010, 0.0);
+        above.roll = cases[i].angle;
+        struct solve_request request = strike(above, side_spot(cases[i].id, 0.0, 0.010, 0.0), 0.1);
+        solve(lab->workspace, &lab->means, &request, &result);
+        assert_int_equal(result.status, cases[i].words ? PERCUSS_UNSUPPORTED_GEOMETRY : PERCUSS_OK);
+        if (cases[i].words && !strstr(result.fault.text, cases[i].words))
+            fail_msg("\"%s\" has not \"%s\"", result.fault.text, cases[i].words);
+    }
+    lab_free(lab);
+    mesh_body_free(mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -212,6 +251,7 @@ int main(void)
         cmocka_unit_test(a_hollow_may_be_too_narrow),
         cmocka_unit_test(unknown_flexibility_is_refused),
         cmocka_unit_test(a_mesh_yields),
+        cmocka_unit_test(a_line_is_told_by_what_a_mesh_knows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
