@@ -93,10 +93,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct calibrate *calibrate = state->input;
     switch (key) {
+    /* options that all commands share */
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &calibrate->scene;
         state->child_inputs[1] = calibrate->common;
         return 0;
+    /* what is fitted, and how well it was measured */
     case KEY_FIT:
         parse_fit(text, calibrate, state);
         return 0;
@@ -105,11 +107,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
         if (!(calibrate->noise > 0.0 && calibrate->noise < 1.0))
             argp_error(state, "--noise: '%s': a number between 0 and 1 is needed", text);
         return 0;
+    /* the file with what was measured */
     case ARGP_KEY_ARG:
         if (calibrate->file)
             argp_error(state, "one file is needed, not '%s' as well", text);
         calibrate->file = text;
         return 0;
+    /* all are read */
     case ARGP_KEY_END:
         check(calibrate, state);
         return 0;

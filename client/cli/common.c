@@ -75,6 +75,7 @@ static error_t parse_common(int key, char *text, struct argp_state *state)
 {
     struct common *common = state->input;
     switch (key) {
+    /* which server, and how long it is waited for */
     case OPTION_DOMAIN:
         common->domain = parse_count("domain", text, HIGHEST_DOMAIN, state);
         return 0;
@@ -86,6 +87,7 @@ static error_t parse_common(int key, char *text, struct argp_state *state)
     case OPTION_SERVER:
         parse_server(text, common->server, state);
         return 0;
+    /* how it is told */
     case OPTION_JSON:
         common->json = true;
         return 0;

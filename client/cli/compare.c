@@ -45,10 +45,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct compare *compare = state->input;
     switch (key) {
+    /* options that all commands share */
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &compare->scene;
         state->child_inputs[1] = compare->common;
         return 0;
+    /* what is written */
     case KEY_CSV:
         compare->csv = true;
         return 0;
@@ -56,17 +58,20 @@ static error_t parse(int key, char *text, struct argp_state *state)
         plot_check(text, state);
         compare->plot = text;
         return 0;
+    /* the test by permutations */
     case KEY_PERMUTATIONS:
         compare->permutations = parse_count("permutations", text, MOST_PERMUTATIONS, state);
         return 0;
     case KEY_SEED:
         compare->seed = parse_count("seed", text, MOST_SEED, state);
         return 0;
+    /* the file with what was measured */
     case ARGP_KEY_ARG:
         if (compare->file)
             argp_error(state, "one file is needed, not '%s' as well", text);
         compare->file = text;
         return 0;
+    /* all are read */
     case ARGP_KEY_END:
         check(compare, state);
         return 0;

@@ -28,15 +28,18 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct dents *dents = state->input;
     switch (key) {
+    /* options that all commands share */
     case ARGP_KEY_INIT:
         state->child_inputs[0] = dents->common;
         return 0;
+    /* whose dents, and what becomes of them */
     case KEY_SPECIMEN:
         dents->specimen = text;
         return 0;
     case KEY_CLEAR:
         dents->clear = true;
         return 0;
+    /* all are read */
     case ARGP_KEY_END:
         if (dents->clear && !dents->specimen)
             argp_error(state, "--clear needs --specimen NAME: what is to be forgotten");

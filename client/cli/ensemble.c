@@ -175,15 +175,11 @@ static void settle(struct ensemble *ensemble, struct argp_state *state)
     request->list_samples = ensemble->csv || ensemble->plot;
 }
 
-static error_t parse(int key, char *text, struct argp_state *state)
+/* What is uncertain. */
+static error_t parse_input(int key, char *text, struct argp_state *state)
 {
     struct ensemble *ensemble = state->input;
-    struct percuss_ensemble_request *request = ensemble->request;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &ensemble->scene;
-        state->child_inputs[1] = ensemble->common;
-        return 0;
     case KEY_SPEED:
         add_input(ensemble, text, true, state);
         return 0;
@@ -196,6 +192,18 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_CORRELATE:
         add_correlation(ensemble, text, state);
         return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+/* Which samples, and how many. */
+static error_t parse_samples(int key, char *text, struct argp_state *state)
+{
+    struct ensemble *ensemble = state->input;
+    struct percuss_ensemble_request *request = ensemble->request;
+    switch (key) {
+    /* at most so many of them */
     case KEY_SAMPLES:
         request->samples = parse_count("samples", text, PERCUSS_MAX_SAMPLES, state);
         ensemble->has_samples = true;
@@ -206,17 +214,36 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_SAMPLING:
         request->sampling = parse_sampling(text, state);
         return 0;
+    /* fewer where these suffice */
     case KEY_HALF_WIDTH:
         request->half_width = parse_width("half-width", text, state);
         return 0;
     case KEY_QUANTILE_HALF_WIDTH:
         request->quantile_half_width = parse_width("quantile-half-width", text, state);
         return 0;
+    case KEY_DEADLINE:
+        ensemble->scene.options.deadline = parse_width("deadline", text, state);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct ensemble *ensemble = state->input;
+    switch (key) {
+    /* options that all commands share */
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &ensemble->scene;
+        state->child_inputs[1] = ensemble->common;
+        return 0;
+    /* what is told of the samples */
     case KEY_QUANTILES:
-        parse_quantiles(request, text, state);
+        parse_quantiles(ensemble->request, text, state);
         return 0;
     case KEY_BINS:
-        request->bins = parse_count("bins", text, 1000, state);
+        ensemble->request->bins = parse_count("bins", text, 1000, state);
         return 0;
     case KEY_CSV:
         output_file_check("csv", text, state);
@@ -226,17 +253,15 @@ static error_t parse(int key, char *text, struct argp_state *state)
         plot_check(text, state);
         ensemble->plot = text;
         return 0;
-    case KEY_DEADLINE:
-        ensemble->scene.options.deadline = parse_width("deadline", text, state);
-        return 0;
     case KEY_PROGRESS:
         ensemble->progress = true;
         return 0;
+    /* all are read */
     case ARGP_KEY_END:
         settle(ensemble, state);
         return 0;
     default:
-        return ARGP_ERR_UNKNOWN;
+        return parse_input(key, text, state) == 0 ? 0 : parse_samples(key, text, state);
     }
 }
 

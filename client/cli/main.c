@@ -32,6 +32,7 @@ static error_t parse_main(int key, char *text, struct argp_state *state)
     struct invocation *invocation = state->input;
     (void)text;
     switch (key) {
+    /* options before the command */
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &invocation->common;
         return 0;
@@ -40,6 +41,7 @@ static error_t parse_main(int key, char *text, struct argp_state *state)
         invocation->command = state->next - 1;
         state->next = state->argc;
         return 0;
+    /* no command */
     case ARGP_KEY_NO_ARGS:
         argp_state_help(state, stderr, ARGP_HELP_STD_HELP & ~ARGP_HELP_EXIT_OK);
         exit(EXIT_USAGE);

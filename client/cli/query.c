@@ -97,10 +97,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct query *query = state->input;
     switch (key) {
+    /* options that all commands share */
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &query->scene;
         state->child_inputs[1] = query->common;
         return 0;
+    /* the impact */
     case KEY_SPEED:
         query->speed = parse_number("speed", text, state);
         if (!(query->speed > 0.0))
@@ -118,6 +120,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
                        PERCUSS_ID_SIZE - 1);
         query->specimens[key - KEY_SPECIMEN_A] = text;
         return 0;
+    /* files to read and to write */
     case KEY_REQUEST:
         query->file = text;
         return 0;
@@ -133,6 +136,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_MEASURED:
         read_measured(text, query, state);
         return 0;
+    /* all are read */
     case ARGP_KEY_END:
         check(query, state);
         return 0;

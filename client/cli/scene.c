@@ -96,6 +96,7 @@ static error_t parse_scene(int key, char *text, struct argp_state *state)
     struct scene *scene = state->input;
     struct percuss_options *options = &scene->options;
     switch (key) {
+    /* the bodies, and where they touch */
     case KEY_A:
         scene->a = text;
         break;
@@ -111,6 +112,7 @@ static error_t parse_scene(int key, char *text, struct argp_state *state)
     case KEY_AT_B:
         scene->at_b = text;
         break;
+    /* how it is solved */
     case KEY_TOLERANCE:
         options->tolerance = parse_positive("tolerance", text, state);
         break;

@@ -27,9 +27,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct choice *choice = state->input;
     switch (key) {
+    /* options that all commands share */
     case ARGP_KEY_INIT:
         state->child_inputs[0] = choice->common;
         return 0;
+    /* of what: the first argument alone */
     case ARGP_KEY_ARG:
         for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
             if (!choice->kind && !strcmp(kinds[i].name, text))

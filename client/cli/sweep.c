@@ -80,13 +80,16 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct sweep *sweep = state->input;
     switch (key) {
+    /* options that all commands share */
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &sweep->scene;
         state->child_inputs[1] = sweep->common;
         return 0;
+    /* what is swept */
     case KEY_SPEED:
         parse_speeds(text, sweep, state);
         return 0;
+    /* what is read and written */
     case KEY_CSV:
         sweep->csv = true;
         return 0;
@@ -97,6 +100,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_MEASURED:
         read_measured(text, sweep, state);
         return 0;
+    /* all are read */
     case ARGP_KEY_END:
         check(sweep, state);
         return 0;

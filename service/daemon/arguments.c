@@ -44,6 +44,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
     switch (key) {
+    /* files and the domain */
     case 'c':
         arguments->config = text;
         return 0;
@@ -53,9 +54,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'd':
         arguments->domain = parse_domain(state, "--domain", text);
         return 0;
+    /* only a check */
     case KEY_CHECK:
         arguments->check_config = true;
         return 0;
+    /* all are read */
     case ARGP_KEY_ARG:
         argp_error(state, "%s: must be an option", text);
         return 0;

@@ -101,6 +101,7 @@ static error_t parse_material(int key, char *text, struct argp_state *state)
 {
     struct options *options = state->input;
     switch (key) {
+    /* by names of a catalogue */
     case 'm':
         options->material = text;
         return 0;
@@ -110,6 +111,7 @@ static error_t parse_material(int key, char *text, struct argp_state *state)
     case 'C':
         options->catalogue = text;
         return 0;
+    /* by numbers */
     case YOUNG:
         options->young = parse_number(state, "young", text, 1.0, 1e15);
         return 0;
@@ -146,6 +148,7 @@ static error_t parse_method(int key, char *text, struct argp_state *state)
 {
     struct options *options = state->input;
     switch (key) {
+    /* lengths */
     case 'u':
         options->unit = mesh_read_unit(text);
         if (!(options->unit > 0.0))
@@ -154,12 +157,14 @@ static error_t parse_method(int key, char *text, struct argp_state *state)
     case SIZE:
         options->size = parse_number(state, "size", text, 1e-9, 1e9);
         return 0;
+    /* which modes */
     case 'f':
         options->max_frequency = parse_number(state, "max-frequency", text, 1e-3, 1e12);
         return 0;
     case 'n':
         options->modes = (size_t)parse_number(state, "modes", text, 1.0, LIMIT_MODES);
         return 0;
+    /* places */
     case 'x':
         check_room(state, "fixed", options->fixed_count);
         options->fixed[options->fixed_count++] = text;
@@ -195,6 +200,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct options *options = state->input;
     switch (key) {
+    /* what is written */
     case 'o':
         options->body = text;
         return 0;
@@ -215,6 +221,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         check(state, options);
         return 0;
+    /* what it is made of, and how */
     default:
         if (parse_material(key, text, state) == 0 || parse_matrices(key, text, state) == 0)
             return 0;

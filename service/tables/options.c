@@ -38,6 +38,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct options *options = state->input;
     switch (key) {
+    /* from where, and to where */
     case 'C':
         options->catalogue = text;
         return 0;
@@ -47,12 +48,14 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'f':
         options->folder = text;
         return 0;
+    /* of which bodies */
     case 'a':
         options->a = text;
         return 0;
     case 'b':
         options->b = text;
         return 0;
+    /* how far and how finely */
     case 's':
         options->speed = parse_number(state, "speed", text, 1e-3, 1e3);
         return 0;
@@ -63,6 +66,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'F':
         options->family = true;
         return 0;
+    /* all are read */
     case ARGP_KEY_ARG:
         argp_error(state, "%s: must be an option", text);
         return 0;

@@ -25,6 +25,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     struct choice *choice = state->input;
     char *end = NULL;
     switch (key) {
+    /* numbers, checked below */
     case 'd':
         choice->domain = (unsigned)strtoul(text, &end, 10);
         break;
@@ -34,6 +35,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 't':
         choice->tolerance = strtod(text, &end);
         break;
+    /* how impacts are taken */
     case 'n':
         choice->alone = true;
         break;
@@ -43,6 +45,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'f':
         choice->falls_back = true;
         break;
+    /* which scenes, and where they go */
     case 's':
         choice->scenes = text;
         break;
