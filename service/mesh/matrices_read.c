@@ -275,6 +275,26 @@ static enum percuss_status check_mass(const struct matrices *matrices, const cha
                      file, mass[0], mass[1], mass[2]);
 }
 
+/* a row that nothing was read of is not held by anything, or moves without mass */
+static enum percuss_status check_diagonal(const struct sparse *matrix,
+                                          const struct freedoms *freedoms, const char *file,
+                                          const struct solid_mesh *mesh, struct fault *fault)
+{
+    for (size_t row = 0; row < freedoms->count; row++) {
+        uint32_t at = freedoms->of_row[row];
+        /* columns ascend from the diagonal on */
+        size_t first = matrix->start[at];
+        bool there = first < matrix->start[at + 1] && matrix->column[first] == at;
+        if (!there || !(matrix->value[first] > 0.0))
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "%s: row %zu (node %zu, direction %u): %g on the diagonal: must be "
+                             "> 0; is the file whole?",
+                             file, row + 1, mesh->labels[at / 3], at % 3 + 1,
+                             there ? matrix->value[first] : 0.0);
+    }
+    return PERCUSS_OK;
+}
+
 enum percuss_status matrices_read(const struct matrices_files *files, const struct solid_mesh *mesh,
                                   struct matrices *matrices, struct fault *fault)
 {
@@ -299,7 +319,11 @@ enum percuss_status matrices_read(const struct matrices_files *files, const stru
                              &matrices->stiffness, fault);
     if (status == PERCUSS_OK)
         status = read_matrix(files->mass, &freedoms, mesh, NULL, &matrices->mass, fault);
-    /* all that moves has one mass */
+    /* each row is there, and all that moves has one mass */
+    if (status == PERCUSS_OK)
+        status = check_diagonal(&matrices->stiffness, &freedoms, files->stiffness, mesh, fault);
+    if (status == PERCUSS_OK)
+        status = check_diagonal(&matrices->mass, &freedoms, files->mass, mesh, fault);
     if (status == PERCUSS_OK)
         status = check_mass(matrices, files->mass, fault);
     free(labels);

@@ -183,13 +183,20 @@ static void refuses_what_does_not_fit(void **state)
     refused(&mesh, "row 1, column 2000: must be 1 to ");
     put(stiffness, "1 1 1e3\n2 2 nan\n");
     refused(&mesh, "row 2, column 2: nan: must be a finite number");
-    /* a mass along x only */
+    /* a file that ends between two lines */
     put(stiffness, "1 1 1e3\n");
-    char line[64];
-    snprintf(line, sizeof line, "%zu %zu 1e-3\n", row_of(0, ours.mass.n) + 1,
-             row_of(0, ours.mass.n) + 1);
-    put(mass, line);
-    refused(&mesh, "moves with 1, 0 and 0 kg along x, y and z: must be one mass");
+    put(mass, "1 1 1e3\n");
+    refused(&mesh, ": row 2 (node ");
+    refused(&mesh, "0 on the diagonal: must be > 0; is the file whole?");
+    /* a mass along x only, as good as */
+    write_matrix(stiffness, &ours.stiffness, NULL);
+    FILE *stream = fopen(mass, "w");
+    assert_non_null(stream);
+    for (size_t row = 0; row < ours.mass.n; row++)
+        fprintf(stream, "%zu %zu %s\n", row + 1, row + 1,
+                row == row_of(0, ours.mass.n) ? "1e-3" : "1e-30");
+    fclose(stream);
+    refused(&mesh, "moves with 1, 4.5e-26 and 4.5e-26 kg along x, y and z: must be one mass");
     forget_files();
 
     name_files(".mtx", ".mtx");
