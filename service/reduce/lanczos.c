@@ -14,6 +14,9 @@
  */
 static const double LOST = 1e-13, EXHAUSTED = 1e-8;
 
+/* Vectors of the basis for each that there is: some blocks are zero or dependent at the end. */
+enum { EXHAUSTIVE = 2 };
+
 /* The basis grows block by block; T is its projection, banded, kept whole. */
 struct lanczos {
     const struct lanczos_input *input;
@@ -243,6 +246,15 @@ size_t lanczos_expected_vectors(size_t count)
     return 2 * count + 8 * LANCZOS_BLOCK;
 }
 
+/* Unknowns that can move elastically. */
+static size_t free_count(const struct lanczos_input *input)
+{
+    size_t n = input->matrices->stiffness.n, moving = n;
+    for (size_t i = 0; input->matrices->held && i < n; i++)
+        moving -= input->matrices->held[i];
+    return moving - input->rigid.count;
+}
+
 /* Until all that are wanted have converged; looks each time the basis has grown by a tenth. */
 static enum percuss_status iterate(struct lanczos *state, struct fault *fault)
 {
@@ -269,6 +281,13 @@ static enum percuss_status iterate(struct lanczos *state, struct fault *fault)
             continue;
         if (!look(state))
             return no_memory(fault);
+        /* a basis of all there is holds them, unless rounding hides them */
+        if (state->converged < wanted &&
+            state->size > EXHAUSTIVE * free_count(state->input) + wanted)
+            return fault_set(fault, PERCUSS_BAD_REQUEST,
+                             "%zu modes: all %zu vectors that there are do not hold them: are "
+                             "stiffness and mass whole, and of one body?",
+                             wanted, free_count(state->input));
         look_at = state->size + state->size / 10;
     }
     return PERCUSS_OK;
@@ -297,15 +316,6 @@ static enum percuss_status collect(struct lanczos *state, double **omega, double
     dense_combine(basis_of(state), 1.0, turned, 0.0, count, *shapes);
     free(turned);
     return PERCUSS_OK;
-}
-
-/* Unknowns that can move elastically. */
-static size_t free_count(const struct lanczos_input *input)
-{
-    size_t n = input->matrices->stiffness.n, moving = n;
-    for (size_t i = 0; input->matrices->held && i < n; i++)
-        moving -= input->matrices->held[i];
-    return moving - input->rigid.count;
 }
 
 enum percuss_status lanczos_modes(const struct lanczos_input *input, double **omega,

@@ -147,6 +147,37 @@ static void test_one_element(void **state)
     solid_mesh_free(&mesh);
 }
 
+/* A stiffness of a few degrees of freedom alone: all others move without any, in such number that
+ * rounding hides the modes, and the search ends. */
+static void test_missing_stiffness(void **state)
+{
+    (void)state;
+    enum { STIFF = 20 };
+    struct solid_mesh mesh;
+    struct solved solved;
+    struct fault fault;
+    solid_shape_block(ELEMENT_HEX20, (double[3]){0.1, 0.05, 0.05}, (size_t[3]){2, 1, 1}, &STEEL,
+                      &mesh);
+    solve_mesh(&mesh, 0, INFINITY, 4, &solved);
+    struct sparse *stiffness = &solved.matrices.stiffness;
+    for (size_t i = 0; i < stiffness->start[stiffness->n]; i++)
+        if (stiffness->column[i] >= STIFF)
+            stiffness->value[i] = 0.0;
+    struct modes modes;
+    struct factor *factor;
+    struct modes_task task = {.matrices = &solved.matrices,
+                              .rigid = {solved.modes.n, 0, NULL},
+                              .scale = solved.scale,
+                              .below = INFINITY,
+                              .most = 20,
+                              .known = SIZE_MAX};
+    assert_int_equal(modes_find(&task, &modes, &factor, &fault), PERCUSS_BAD_REQUEST);
+    assert_non_null(strstr(fault.text, "24 modes: all 96 vectors that there are do not hold them"));
+    assert_null(factor);
+    solved_free(&solved);
+    solid_mesh_free(&mesh);
+}
+
 static bool objects(void *context, double done)
 {
     *(double *)context = done;
@@ -183,9 +214,10 @@ static void test_can_be_stopped(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_square_bar),   cmocka_unit_test(test_copies_stay_together),
-        cmocka_unit_test(test_by_frequency), cmocka_unit_test(test_supports),
-        cmocka_unit_test(test_one_element),  cmocka_unit_test(test_can_be_stopped),
+        cmocka_unit_test(test_square_bar),     cmocka_unit_test(test_copies_stay_together),
+        cmocka_unit_test(test_by_frequency),   cmocka_unit_test(test_supports),
+        cmocka_unit_test(test_one_element),    cmocka_unit_test(test_missing_stiffness),
+        cmocka_unit_test(test_can_be_stopped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
