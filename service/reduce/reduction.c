@@ -33,6 +33,10 @@ enum { REMOVED = 120, SITES = 1500 };
 /* Of an element's size: how far a site may be off the surface. */
 static const double OFF_SURFACE = 0.5;
 
+/* Matrices' scale over the mesh's: 1 to 100 by shapes and orders of elements; another unit of
+ * length makes 1e6 of mass, exchanged ones 1e20. */
+static const double OTHER_SCALE = 1e5;
+
 /* Shares of the time, for the progress. */
 static const double READ = 0.02, MODES = 0.55;
 
@@ -119,6 +123,29 @@ static enum percuss_status hold(struct reduction *reduction, struct fault *fault
     return status;
 }
 
+/* Foreign matrices that are not those of this mesh: what their diagonals say of the frequency of an
+ * element by itself, against a shear wave across it. */
+static enum percuss_status check_scale(const struct reduction *reduction, struct fault *fault)
+{
+    const struct matrices *matrices = &reduction->matrices;
+    double stiffness = 0.0, mass = 0.0;
+    for (size_t i = 0; i < matrices->stiffness.n; i++) {
+        if (matrices->held && matrices->held[i])
+            continue;
+        stiffness += matrices->stiffness.value[matrices->stiffness.start[i]];
+        mass += matrices->mass.value[matrices->mass.start[i]];
+    }
+    double wave = 2.0 * M_PI * ELEMENTS_PER_WAVE * reduction->good_to;
+    double ratio = stiffness / mass / (wave * wave);
+    if (ratio > 1.0 / OTHER_SCALE && ratio < OTHER_SCALE)
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "--stiffness, --mass: %g 1/s^2 from one to the other on the diagonals, %.1g "
+                     "times what the mesh lets expect: are they exchanged, of another mesh, or in "
+                     "other units?",
+                     stiffness / mass, ratio);
+}
+
 static enum percuss_status assemble(struct reduction *reduction, struct fault *fault)
 {
     /* matrices from files, which hold what they hold, or from the mesh */
@@ -129,6 +156,8 @@ static enum percuss_status assemble(struct reduction *reduction, struct fault *f
                         : matrices_make(&reduction->mesh, &reduction->matrices, fault);
     if (!status && reduction->matrices.held)
         snprintf(reduction->supports, sizeof reduction->supports, "(matrices)");
+    if (!status && files.stiffness)
+        status = check_scale(reduction, fault);
     /* and what the command line holds */
     if (!status)
         status = hold(reduction, fault);
@@ -178,8 +207,9 @@ static enum percuss_status estimate(struct reduction *reduction, size_t count, b
     double gigabytes = 1e-9 * reduction->cost.memory, room = 1e-9 * free_memory();
     progress_clear(&reduction->progress);
     fprintf(stderr,
-            "percuss-reduce: %zu unknowns, %s%zu modes: about %.2g GB of memory and %.2g s\n", n,
-            counted ? "" : "up to ", count, gigabytes, reduction->cost.seconds);
+            "percuss-reduce: %zu unknowns, %s%zu modes: about %.2g GB of memory, and %.2g s for "
+            "the modes\n",
+            n, counted ? "" : "up to ", count, gigabytes, reduction->cost.seconds);
     if (gigabytes > room)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "needs %.2g GB of memory, of which %.2g GB are free: fewer modes "

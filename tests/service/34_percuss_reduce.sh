@@ -86,7 +86,19 @@ INP
         NR == 1 { split($0, one, " ") }
         NR == 2 { for (i = 2; i <= NF; i++) if (($i / one[i] - 1) ^ 2 > 1e-18) bad = 1 }
         END { exit bad || NR != 2 }' || fail "other frequencies"
+    expect 1 reduce_ccx --stiffness "$work/ccx.mas" --mass "$work/ccx.sti" --freedoms "$work/ccx.dof"
+    says 'are they exchanged, of another mesh, or in other units?'
+    head -n 200 "$work/ccx.sti" >"$work/short.sti"
+    expect 1 reduce_ccx --stiffness "$work/short.sti" --mass "$work/ccx.mas" --freedoms "$work/ccx.dof"
+    says 'on the diagonal: must be > 0; is the file whole?'
 fi
+
+say "a number of modes that would cut between the copies of a frequency takes both"
+block 6 2 2 | awk -F, '/^\*/ { nodes = /^\*NODE/ } nodes && NF == 4 { printf "%s,%.9g,%s,%s\n", $1, 4 * $2, $3, $4; next }
+    { print }' >"$work/square.inp"
+expect 0 "$bin/percuss-reduce" "$work/square.inp" --unit mm -o "$work/square.h5" $steel --modes 1
+shows 'modes           2; by inertia'
+shows '1 were asked for, the last of which has the frequency of the next: copies stay together'
 
 say "a slender bar held at one end and a single mode: statics converge far above its first frequency"
 awk -F, '/^\*/ { nodes = /^\*NODE/ } nodes && NF == 4 { printf "%s,%.9g,%s,%s\n", $1, 3 * $2, $3, $4; next }
