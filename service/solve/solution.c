@@ -46,6 +46,20 @@ static enum percuss_status find_conditioning(struct attempt_context *context,
     return PERCUSS_OK;
 }
 
+/* SEQUENCE_FACTOR is for so many other solutions. */
+static const double OTHERS = 4.0;
+
+/* How many times its largest distance from the n others a solution may be wrong by. Of a long
+ * sequence they may lie anywhere in a range: all are within a sixth of it from the answer once in
+ * 3^4 times if there are four, within a sixth/3^(4/n - 1) if there are n. */
+static double distance_factor(const struct attempt_context *context, const struct attempt *best)
+{
+    double others = (double)context->nearby->solutions - 1.0;
+    if (!attempt_is_long(best) || others < 1.0 || others >= OTHERS)
+        return SEQUENCE_FACTOR;
+    return SEQUENCE_FACTOR * pow(3.0, OTHERS / others - 1.0);
+}
+
 /* An answer that does not meet its tolerance is one of those beside it. What is unknown is no less
  * than the tolerance. */
 static void widen(const struct attempt_context *context, const struct attempt *best, bool unknown,
@@ -54,7 +68,7 @@ static void widen(const struct attempt_context *context, const struct attempt *b
     struct mode_error *modes = &solution->modes;
     double distance = nearby_distance(context->nearby, context->problem, &best->outcome);
     bool alone = context->nearby->solutions < 2;
-    double error = alone && !unknown ? 0.0 : SEQUENCE_FACTOR * distance;
+    double error = alone && !unknown ? 0.0 : distance_factor(context, best) * distance;
     error = fmax(error, unknown ? context->problem->tolerance : 0.0) - solution->steps.restitution;
     if (error > modes->restitution) {
         modes->restitution = error;
