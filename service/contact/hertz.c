@@ -56,20 +56,24 @@ struct hertz_contact hertz_contact_make(double effective_modulus, double a, doub
 {
     double q = axis_ratio_squared(b / a);
     double k = elliptic_rf0(q, 1.0);
-    double g = elliptic_rd0(q, 1.0) / (3.0 * a);
+    double integral = elliptic_rd0(q, 1.0);
+    double g = integral / (3.0 * a);
+    /* the axis ratio gives q back but for rounding */
+    double axis_ratio = sqrt(q);
+    double again = axis_ratio * axis_ratio;
     return (struct hertz_contact){
         .effective_modulus = effective_modulus,
         .stiffness = 2.0 * M_PI / 3.0 * effective_modulus * sqrt(g) / (k * sqrt(k)),
-        .axis_ratio = sqrt(q),
+        .axis_ratio = axis_ratio,
         .curvature = {a, b},
+        .integral = again == q ? integral : elliptic_rd0(again, 1.0),
     };
 }
 
 void hertz_ellipse(const struct hertz_contact *contact, double force, double axes[2])
 {
     /* a^3 = 3 F G / (2 pi E-star), with G as above (Johnson, eqs. 4.25 and 4.26) */
-    double q = contact->axis_ratio * contact->axis_ratio;
-    double g = elliptic_rd0(q, 1.0) / (3.0 * contact->curvature[0]);
+    double g = contact->integral / (3.0 * contact->curvature[0]);
     axes[0] = cbrt(1.5 * force * g / (M_PI * contact->effective_modulus));
     axes[1] = axes[0] * contact->axis_ratio;
 }

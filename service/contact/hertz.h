@@ -20,6 +20,7 @@ struct hertz_contact {
     double stiffness;         /* k of F = k d^(3/2), N/m^(3/2) */
     double axis_ratio;        /* b / a <= 1 of the contact ellipse */
     double curvature[2];      /* A <= B of the gap A x^2 + B y^2, 1/m */
+    double integral;          /* R_D(0, q, 1) with q = axis_ratio^2 */
 };
 
 /* 1/E* = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b. */
