@@ -5,6 +5,7 @@
  * freedom, solved by its energy. Nothing is lost, so e = 1 to the last bits at any tolerance. */
 #include <math.h>
 
+#include "contact/hertz.h"
 #include "contact/plastic.h"
 #include "impact/energy.h"
 #include "impact/impact.h"
@@ -13,6 +14,12 @@
 /* Newton's method from within a few times the solution takes some six rounds to the last bit. */
 enum { MAX_ROUNDS = 60 };
 static const double ROUNDING = 1e-16;
+
+/* Of the compression by a force k d^(3/2), with B Euler's beta function: its duration over depth by
+ * speed, int dx / sqrt(1 - x^(5/2)) = 2/5 B(2/5, 1/2), and int F'^2 dt over K^2 at the largest
+ * indentation times depth by speed, int x sqrt(1 - x^(5/2)) dx = 2/5 B(4/5, 3/2). */
+static const double HERTZ_TIME = 1.4716375921623523;
+static const double HERTZ_VISCOSITY = 0.35373658745353381;
 
 /* Panels of four Gauss nodes: the integrands are smooth, and their error is that of rounding. */
 enum { PANELS = 24 };
@@ -32,6 +39,25 @@ bool impact_is_rigid_pair(const struct scene *scene)
            scene->residual[0] == 0.0 && scene->gap_rate[0] < 0.0 && stays_elastic(scene);
 }
 
+/* What the integrals of a compression give. */
+struct compression {
+    double indentation; /* largest, m */
+    double duration;    /* s */
+    double viscosity;   /* int F'^2 dt, which omitted viscosity counts by, N^2/s */
+};
+
+static struct compression compress_hertz(const struct contact_law *law, double energy, double speed)
+{
+    double stiffness;
+    double k = contact_law_force(law, 1.0, &stiffness);
+    struct compression compression = {.indentation = pow(energy / (HERTZ_WORK * k), 0.4)};
+    contact_law_force(law, compression.indentation, &stiffness);
+    compression.duration = HERTZ_TIME * compression.indentation / speed;
+    compression.viscosity =
+        HERTZ_VISCOSITY * stiffness * stiffness * compression.indentation * speed;
+    return compression;
+}
+
 /* Largest indentation: the law stores all the energy. Newton's method; the force is the derivative.
  */
 static double largest_indentation(const struct contact_law *law, double start, double energy)
@@ -48,12 +74,13 @@ static double largest_indentation(const struct contact_law *law, double start, d
     return d;
 }
 
-/* From touch to the largest indentation: the time int dd / sqrt(v^2 (1 - U(d)/E)), and int F'^2 dt,
- * which omitted viscosity counts by. With d = d_max sin^2(phi) the integrands are smooth at both
- * ends for a force like d^(3/2) or d. */
-static double compression_time(const struct contact_law *law, double largest, double energy,
-                               double speed, double *viscosity)
+/* From touch to the largest indentation: the time int dd / sqrt(v^2 (1 - U(d)/E)), and int F'^2 dt.
+ * With d = d_max sin^2(phi) the integrands are smooth at both ends for a force like d^(3/2) or d.
+ */
+static struct compression compress(const struct contact_law *law, double start, double energy,
+                                   double speed)
 {
+    double largest = largest_indentation(law, start, energy);
     double sum = 0.0;
     double squares = 0.0;
     for (int p = 0; p < PANELS; p++) {
@@ -69,8 +96,8 @@ static double compression_time(const struct contact_law *law, double largest, do
             squares += weight * sqrt(left) * stiffness * stiffness;
         }
     }
-    *viscosity = squares * 0.5 * M_PI / PANELS * largest * speed;
-    return sum * 0.5 * M_PI / PANELS * largest / speed;
+    double panel = 0.5 * M_PI / PANELS * largest;
+    return (struct compression){largest, sum * panel / speed, squares * panel * speed};
 }
 
 enum percuss_status impact_rigid_pair(const struct scene *scene,
@@ -89,21 +116,22 @@ enum percuss_status impact_rigid_pair(const struct scene *scene,
     outcome->end_reason = PERCUSS_END_SEPARATED;
     /* how deep, and for how long: rebound takes the time of compression */
     const struct contact_law *law = &scene->laws[0];
-    double start = impact_scale_of(scene, 0, speed).indentation;
-    double largest = largest_indentation(law, start, energy);
-    double viscosity;
-    double half = compression_time(law, largest, energy, speed, &viscosity);
+    struct compression compression =
+        law->operations == &contact_law_HERTZ
+            ? compress_hertz(law, energy, speed)
+            : compress(law, impact_scale_of(scene, 0, speed).indentation, energy, speed);
+    double half = compression.duration;
     if (touch + 2.0 * half > settings->horizon)
         return impact_modal(scene, settings, arena, outcome);
 
     /* the one sub-impact */
-    outcome->tracks[0].viscosity = 2.0 * viscosity;
+    outcome->tracks[0].viscosity = 2.0 * compression.viscosity;
     track_open(&outcome->tracks[0], touch, -speed);
     struct sub_impact *open = &outcome->tracks[0].open;
     open->compression_end = touch + half;
     open->compression_impulse = speed / w;
     open->impulse = 2.0 * speed / w;
-    open->max_indentation = largest;
+    open->max_indentation = compression.indentation;
     track_close(&outcome->tracks[0], law, touch + 2.0 * half, speed);
     /* and the motion at its end */
     outcome->motion.gap[0] = 0.0;

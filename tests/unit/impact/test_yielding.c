@@ -98,6 +98,10 @@ static void a_weak_blow_is_hertz(void **state)
     assert_true(outcome[0].tracks[0].impulse == outcome[1].tracks[0].impulse);
     measured("depth", outcome[0].tracks[0].list[0].max_indentation * 1e6,
              outcome[1].tracks[0].list[0].max_indentation * 1e6, 1e-14);
+    /* by quadrature and by closed form: rounding */
+    measured("duration", outcome[0].window / outcome[1].window, 1.0, 1e-14);
+    measured("viscosity", outcome[0].tracks[0].viscosity / outcome[1].tracks[0].viscosity, 1.0,
+             1e-14);
     toy_free(&toy);
     toy_on_soft(&toy, 0.012);
     assert_false(impact_is_rigid_pair(&toy.scene));
