@@ -4,9 +4,6 @@
 #include "solve/contact_model.h"
 
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "contact/law_closed_form.h"
 #include "contact/plastic.h"
@@ -244,16 +241,6 @@ const struct contact_law_operations *contact_model_used(const struct problem *pr
     return used;
 }
 
-__attribute__((format(printf, 3, 4))) static void append(char *text, size_t size,
-                                                         const char *format, ...)
-{
-    size_t used = strlen(text);
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text + used, size - used, format, args);
-    va_end(args);
-}
-
 /* The contact whose indentation is largest against that of its yield. */
 static size_t hardest_hit(const struct problem *problem, const struct impact_outcome *outcome)
 {
@@ -270,7 +257,7 @@ static size_t hardest_hit(const struct problem *problem, const struct impact_out
 }
 
 static void explain_elastic(const struct problem *problem, const struct impact_outcome *outcome,
-                            char *text, size_t size)
+                            struct text *text)
 {
     double pressure = 0.0;
     size_t hardest = hardest_hit(problem, outcome);
@@ -278,19 +265,21 @@ static void explain_elastic(const struct problem *problem, const struct impact_o
     for (size_t c = 0; c < problem->contact_count; c++)
         pressure =
             fmax(pressure, hertz_peak_pressure(&problem->hertz[c], outcome_peak_force(outcome, c)));
-    append(text, size, "%s (peak pressure %.3g MPa) on a half-space",
-           contact_model_used(problem)->title, pressure / 1e6);
+    text_add(text, contact_model_used(problem)->title);
+    text_add(text, " (peak pressure ");
+    text_add_number(text, pressure / 1e6, 3);
+    text_add(text, " MPa) on a half-space");
     double share = outcome_deepest(outcome, hardest) / choice->yield;
     const struct contact_law_operations *asked = asked_of(problem);
     if (choice->side < 0 && asked->curve && asked->tables == CONTACT_TABLES_NONE)
-        append(text, size, ", as neither material has a yield stress");
+        text_add(text, ", as neither material has a yield stress");
     if (choice->side >= 0 && share <= 1.0)
-        append(text, size, ", below yield (%.2g of the indentation at which %s yields)", share,
-               problem_body(problem, hardest, choice->side)->id);
+        text_format(text, ", below yield (%.2g of the indentation at which %s yields)", share,
+                    problem_body(problem, hardest, choice->side)->id);
 }
 
 static void explain_plastic(const struct problem *problem, const struct impact_outcome *outcome,
-                            char *text, size_t size)
+                            struct text *text)
 {
     size_t c = hardest_hit(problem, outcome);
     const struct contact_choice *choice = &problem->contact_model.choices[c];
@@ -299,35 +288,34 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
     const struct contact_law_operations *used = contact_model_used(problem);
     bool tabulated = used->tables == CONTACT_TABLES_ONLY;
     /* which law, and how deep it went */
-    append(text, size, "elastic-plastic contact by %s",
-           tabulated && choice->family ? "the family of tables of the contact region"
-                                       : used->title);
+    text_add(text, "elastic-plastic contact by ");
+    text_add(text, tabulated && choice->family ? "the family of tables of the contact region"
+                                               : used->title);
     if (history->max_indentation > 0.0)
-        append(text, size, ": indented %.3g times as deep as where %s yields, dent %.3g um",
-               history->max_indentation / choice->yield, body->id, 1e6 * history->dent);
+        text_format(text, ": indented %.3g times as deep as where %s yields, dent %.3g um",
+                    history->max_indentation / choice->yield, body->id, 1e6 * history->dent);
     else
-        append(text, size, ", below yield");
+        text_add(text, ", below yield");
     /* what it starts from and where it ends */
     if (choice->dented)
-        append(text, size, ", in the dent of earlier impacts");
+        text_add(text, ", in the dent of earlier impacts");
     if (contact_model_beyond_table(outcome, c) > 0.0)
-        append(text, size, "; the table ends before that and goes on as a fully plastic contact");
+        text_add(text, "; the table ends before that and goes on as a fully plastic contact");
     /* what is approximated */
     if (!tabulated && asked_of(problem)->tables == CONTACT_TABLES_IF_ANY)
-        append(text, size, "; no table for these bodies");
+        text_add(text, "; no table for these bodies");
     if (problem->hertz[c].axis_ratio < HERTZ_CIRCULAR_RATIO && !used->elliptic)
-        append(text, size, "; elliptic: by the sphere of equal stiffness, %.3g m, an approximation",
-               closed_form_radius(&problem->hertz[c]));
+        text_format(text, "; elliptic: by the sphere of equal stiffness, %.3g m, an approximation",
+                    closed_form_radius(&problem->hertz[c]));
     if (!tabulated && body->material.tangent > 0.0)
-        append(text, size, "; hardening of %s left out", body->id);
+        text_format(text, "; hardening of %s left out", body->id);
 }
 
 void contact_model_explain(const struct problem *problem, const struct impact_outcome *outcome,
-                           char *text, size_t size)
+                           struct text *text)
 {
-    *text = '\0';
     if (contact_model_used(problem)->curve)
-        explain_plastic(problem, outcome, text, size);
+        explain_plastic(problem, outcome, text);
     else
-        explain_elastic(problem, outcome, text, size);
+        explain_elastic(problem, outcome, text);
 }

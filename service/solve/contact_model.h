@@ -5,6 +5,7 @@
 #ifndef PERCUSS_SOLVE_CONTACT_MODEL_H
 #define PERCUSS_SOLVE_CONTACT_MODEL_H
 
+#include "base/text.h"
 #include "contact/family.h"
 #include "impact/impact.h"
 #include "solve/problem.h"
@@ -46,6 +47,6 @@ double contact_model_beyond_table(const struct impact_outcome *outcome, size_t c
 
 /* Writes why, and what it approximates. */
 void contact_model_explain(const struct problem *problem, const struct impact_outcome *outcome,
-                           char *text, size_t size);
+                           struct text *text);
 
 #endif

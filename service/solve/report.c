@@ -131,6 +131,21 @@ static double largest_restitution(const struct solve_result *result)
     return largest;
 }
 
+static void explain_modes(const struct assembly *assembly, struct text *reason)
+{
+    if (assembly->all_modes) {
+        text_add(reason, "; ");
+        text_add_count(reason, assembly->all_modes);
+        text_add(reason, " modes up to ");
+        text_add_number(reason, assembly->highest / (2.0 * M_PI), 4);
+        text_add(reason, " Hz, residual flexibility for the others");
+    } else if (isfinite(assembly->lowest_omitted)) {
+        text_add(reason, "; every mode is too fast to matter (lowest ");
+        text_add_number(reason, assembly->lowest_omitted / (2.0 * M_PI), 4);
+        text_add(reason, " Hz): static flexibility only");
+    }
+}
+
 static void fill_model(const struct problem *problem, const struct solution *solution,
                        struct solve_result *result)
 {
@@ -143,24 +158,13 @@ static void fill_model(const struct problem *problem, const struct solution *sol
     const struct assembly *assembly = solution->assembly;
     double unmodelled = assembly->radiated_error + validity_wave_loss(problem);
     /* why, in words */
-    contact_model_explain(problem, &solution->outcome, result->reason, sizeof result->reason);
-    size_t used = strlen(result->reason);
-    if (assembly->all_modes)
-        snprintf(result->reason + used, sizeof result->reason - used,
-                 "; %zu modes up to %.4g Hz, residual flexibility for the others",
-                 assembly->all_modes, assembly->highest / (2.0 * M_PI));
-    else if (isfinite(assembly->lowest_omitted))
-        snprintf(result->reason + used, sizeof result->reason - used,
-                 "; every mode is too fast to matter (lowest %.4g Hz): static flexibility only",
-                 assembly->lowest_omitted / (2.0 * M_PI));
-    used = strlen(result->reason);
+    struct text reason = text_begin(result->reason, sizeof result->reason);
+    contact_model_explain(problem, &solution->outcome, &reason);
+    explain_modes(assembly, &reason);
     if (radiation_is_in(problem, &assembly->scene))
-        snprintf(result->reason + used, sizeof result->reason - used,
-                 "; waves leave through the half-space: their energy counts as damping");
-    used = strlen(result->reason);
+        text_add(&reason, "; waves leave through the half-space: their energy counts as damping");
     if (problem->compliance.reason[0])
-        snprintf(result->reason + used, sizeof result->reason - used, "; half-space: %s",
-                 problem->compliance.reason);
+        text_format(&reason, "; half-space: %s", problem->compliance.reason);
     /* what it leaves out */
     result->omitted_error =
         solution->modes.restitution + unmodelled +
