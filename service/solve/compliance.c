@@ -83,7 +83,9 @@ static void use_half_space(struct problem *problem, const char *why)
     compliance->by_speed = false;
     memset(compliance->series, 0, problem->contact_count * sizeof *compliance->series);
     memset(compliance->sides, 0, problem->contact_count * sizeof *compliance->sides);
-    snprintf(compliance->reason, sizeof compliance->reason, "%s", why);
+    compliance->reason[0] = '\0';
+    if (*why) /* usually nothing is to be said */
+        snprintf(compliance->reason, sizeof compliance->reason, "%s", why);
 }
 
 static bool any_flexible(const struct problem *problem, size_t c)

@@ -4,9 +4,9 @@
 #include "solve/placement.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "model/rigid.h"
 #include "model/vector.h"
 #include "numeric/lcp.h"
@@ -92,8 +92,11 @@ static enum percuss_status place_side(struct problem *problem, const struct solv
     char field[32];
     scale3(which == 0 ? 1.0 : -1.0, contact->normal, push);
     scale3(-1.0, push, outward);
+    struct text name = text_begin(field, sizeof field);
+    text_add(&name, "contacts[");
+    text_add_count(&name, index);
+    text_add(&name, "]");
     /* the point on the body, and how it loads the modes */
-    snprintf(field, sizeof field, "contacts[%zu]", index);
     enum percuss_status status =
         site_locate(body, pose, contact->point, outward, allowed, field, &side->site, fault);
     if (status)

@@ -17,7 +17,14 @@ struct problem *problem_create(const struct solve_request *request, struct prepa
     problem->tolerance = solve_tolerance(&request->options);
     problem->body_count = request->body_count;
     problem->contact_count = request->contact_count;
-    return problem;
+    /* what there is of each body */
+    size_t bodies = request->body_count;
+    problem->bodies = arena_take(arena, bodies, sizeof *problem->bodies);
+    problem->poses = arena_take(arena, bodies, sizeof *problem->poses);
+    problem->rolls = arena_take(arena, bodies, sizeof *problem->rolls);
+    problem->states = arena_take(arena, bodies, sizeof *problem->states);
+    bool whole = problem->bodies && problem->poses && problem->rolls && problem->states;
+    return whole ? problem : NULL;
 }
 
 double problem_approach(const struct problem *problem)

@@ -53,19 +53,19 @@ struct problem {
     struct arena *arena;                 /* of all arrays, and of the scenes made of it */
     double tolerance;                    /* on the restitution */
     size_t body_count, contact_count;
-    const struct body *bodies[PERCUSS_MAX_BODIES];
-    struct pose poses[PERCUSS_MAX_BODIES];
-    struct roll rolls[PERCUSS_MAX_BODIES];               /* of their planes of bending */
-    const struct body_state *states[PERCUSS_MAX_BODIES]; /* initial, in those planes; NULL: none */
-    struct contact_side (*sides)[2];                     /* [contact]: a, b */
-    struct hertz_contact *hertz;                         /* [contact] */
-    double *gap_rate;                                    /* [contact], rigid, m/s */
-    double (*sliding)[3];        /* [contact]: velocity of a's point against b's along the
-                                    surface, world, m/s; nothing but a warning follows from it */
-    double *service_w;           /* contacts^2, from the bodies */
-    double *w;                   /* the one in use */
-    double *impulse_compression; /* [contact], Eq. (4) or its complementarity problem, N s */
-    bool from_client;            /* that W */
+    const struct body **bodies;
+    struct pose *poses;
+    struct roll *rolls;               /* of their planes of bending */
+    const struct body_state **states; /* initial, in those planes; NULL: none */
+    struct contact_side (*sides)[2];  /* [contact]: a, b */
+    struct hertz_contact *hertz;      /* [contact] */
+    double *gap_rate;                 /* [contact], rigid, m/s */
+    double (*sliding)[3];             /* [contact]: velocity of a's point against b's along the
+                                         surface, world, m/s; nothing but a warning follows from it */
+    double *service_w;                /* contacts^2, from the bodies */
+    double *w;                        /* the one in use */
+    double *impulse_compression;      /* [contact], Eq. (4) or its complementarity problem, N s */
+    bool from_client;                 /* that W */
     struct contact_model contact_model;
     struct compliance compliance;
     double *shift; /* [contact], m/N: in series besides, of a shifted model; NULL: none */

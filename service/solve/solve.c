@@ -107,7 +107,7 @@ static enum percuss_status answer(struct solve_workspace *workspace,
 {
     /* memory of the request */
     struct problem *problem = problem_create(request, workspace->cache, &workspace->arena);
-    struct solution *solution = arena_take(&workspace->arena, 1, sizeof *solution);
+    struct solution *solution = arena_reserve(&workspace->arena, 1, sizeof *solution);
     if (!problem || !solution)
         return fault_set(&result->fault, PERCUSS_INTERNAL, "out of memory");
     /* the request as a problem */

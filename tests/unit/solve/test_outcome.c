@@ -49,6 +49,8 @@ static void a_restitution_is_wrong_by_no_more_than_it_can_be(void **state)
     set(&at_hand, PERCUSS_END_SEPARATED, 0.0);
     at_hand.problem.sides = sides;
     at_hand.problem.request = &request;
+    const struct body_state *states[2] = {NULL, NULL};
+    at_hand.problem.states = states;
     /* two contacts pass impulse on to each other: from -1 to 1 */
     assert_true(outcome_range(&at_hand.problem, &at_hand.outcome) == 2.0);
     /* one, e = .75 and .125: it may be 0, or 1 */
