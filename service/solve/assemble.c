@@ -67,8 +67,8 @@ static double fill_row(const struct addition *add, const struct prepared_group *
                        const struct family_load *load, size_t count, double *row)
 {
     double largest = 0.0;
-    modal_participations(add->problem->bodies[add->body], add->prepared->modes, source->mode, count,
-                         load, row);
+    participations_get(add->prepared->participations, add->problem->bodies[add->body],
+                       add->prepared->modes, source->mode, count, load, row);
     for (size_t k = 0; k < count; k++)
         largest = fmax(largest, fabs(row[k]));
     return largest;

@@ -72,9 +72,10 @@ static bool suffices(const struct body *body, const struct modal_family *modes, 
 /* Of a family of so many modes and no more: all at once, what those from each on do being sums from
  * the last back. */
 static size_t count_of_few(const struct mode_choice *choice, const struct problem *problem,
-                           const struct body *body, const struct modal_family *modes,
+                           const struct body *body, const struct prepared_family *all,
                            const struct demand *demands, size_t loads)
 {
+    const struct modal_family *modes = all->modes;
     size_t most = modes->count < choice->most ? modes->count : choice->most;
     size_t enough = 0;
     double *row = arena_take(problem->arena, modes->count + 1, sizeof *row);
@@ -86,7 +87,8 @@ static size_t count_of_few(const struct mode_choice *choice, const struct proble
     for (size_t i = 0; i < loads; i++) {
         const double *omega = modes->omega;
         double end = omega[modes->count];
-        modal_participations(body, modes, which, modes->count, demands[i].load, row);
+        participations_get(all->participations, body, modes, which, modes->count, demands[i].load,
+                           row);
         /* those that the family does not have, then back to the last that matters */
         double inertia =
             modal_beyond(body, modes, modes->count, demands[i].load, 0.0) / (end * end);
@@ -119,16 +121,16 @@ size_t mode_choice_count(const struct mode_choice *choice, const struct problem 
     if (modal_family_most(owner, family) <= MODE_CHOICE_MOST) {
         const struct prepared_family *all =
             prepared_family_get(problem->cache, owner, family, MODE_CHOICE_MOST);
-        return all ? count_of_few(choice, problem, owner, all->modes, demands, loads)
+        return all ? count_of_few(choice, problem, owner, all, demands, loads)
                    : MODE_CHOICE_MOST + 1;
     }
     /* mode after mode, until the others do not matter */
+    const struct prepared_family *known = NULL;
     const struct modal_family *modes = NULL;
     for (size_t k = 0; k < choice->most; k++) {
         /* asked for in powers of two: outgrown families are remade */
         if (!modes || k >= modes->count) {
-            const struct prepared_family *known =
-                prepared_family_get(problem->cache, owner, family, modes ? 2 * k : FIRST_MODES);
+            known = prepared_family_get(problem->cache, owner, family, modes ? 2 * k : FIRST_MODES);
             if (!known)
                 return MODE_CHOICE_MOST + 1;
             modes = known->modes;
@@ -138,7 +140,8 @@ size_t mode_choice_count(const struct mode_choice *choice, const struct problem 
             return k;
         /* compliance left to those */
         for (size_t i = 0; i < loads; i++) {
-            double shape = modal_participation(owner, modes, k, demands[i].load);
+            double shape;
+            participations_get(known->participations, owner, modes, &k, 1, demands[i].load, &shape);
             demands[i].left -= shape * shape / (modes->omega[k] * modes->omega[k]);
         }
     }

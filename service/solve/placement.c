@@ -163,9 +163,10 @@ static enum percuss_status place_contact(struct problem *problem, size_t index, 
     if (!(curvature[0] > HERTZ_LINE_RATIO * curvature[1]))
         return refuse_shape(problem, index, curvature, fault);
     problem->hertz[index] =
-        hertz_contact_make(hertz_effective_modulus(problem_material(problem, index, 0),
-                                                   problem_material(problem, index, 1)),
-                           curvature[0], curvature[1]);
+        prepared_contact_get(problem->cache,
+                             hertz_effective_modulus(problem_material(problem, index, 0),
+                                                     problem_material(problem, index, 1)),
+                             curvature);
     return PERCUSS_OK;
 }
 

@@ -4,6 +4,7 @@
 #include "solve/prepared.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -52,7 +53,11 @@ struct entry {
     double matched[OCTAVES]; /* [k]: with the patch radius/2^k; [0] where it does not matter */
 };
 
+/* Contacts whose ellipse is kept: those of a scene, and of some scenes asked by turns. */
+enum { CONTACTS = 16 };
+
 struct prepared_cache {
+    struct hertz_contact contacts[CONTACTS]; /* by what they are made of; all zero: none */
     char revision[PERCUSS_ID_SIZE];
     struct entry *buckets[BUCKETS];
     struct prepared_family *retired; /* outgrown, but a scene may still point at them */
@@ -70,6 +75,7 @@ static void family_free(struct prepared_family *family)
         free(family->groups[g].mode);
     }
     modal_family_free(family->modes);
+    participations_free(family->participations);
     free(family);
 }
 
@@ -100,7 +106,8 @@ static struct prepared_family *family_create(const struct body *body, size_t whi
     if (!family)
         return NULL;
     family->modes = modal_family_create(body, which, count);
-    if (!family->modes) {
+    family->participations = participations_create(count);
+    if (!family->modes || !family->participations) {
         family_free(family);
         return NULL;
     }
@@ -344,6 +351,20 @@ struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const s
     }
     entry->radiation = made;
     return made->set;
+}
+
+struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double effective_modulus,
+                                          const double curvature[2])
+{
+    /* where such a one would be */
+    uint64_t bits[2];
+    memcpy(bits, curvature, sizeof bits);
+    uint64_t mixed = (bits[0] ^ bits[1] * 0x9e3779b97f4a7c15u) * 0xff51afd7ed558ccdu;
+    struct hertz_contact *known = &cache->contacts[mixed >> 32 & (CONTACTS - 1)];
+    if (known->effective_modulus != effective_modulus || known->curvature[0] != curvature[0] ||
+        known->curvature[1] != curvature[1])
+        *known = hertz_contact_make(effective_modulus, curvature[0], curvature[1]);
+    return *known;
 }
 
 /* Asks for the compliance at an octave. False: out of memory. */

@@ -7,8 +7,10 @@
 #ifndef PERCUSS_SOLVE_PREPARED_H
 #define PERCUSS_SOLVE_PREPARED_H
 
+#include "contact/hertz.h"
 #include "impact/step_table.h"
 #include "model/modal_basis.h"
+#include "solve/participation.h"
 
 /* Modes whose shapes are all even, all odd, or (longitudinal, unlike supports) anything. */
 struct prepared_group {
@@ -20,6 +22,7 @@ struct prepared_family {
     struct modal_family *modes;
     size_t group_count;
     struct prepared_group groups[2];
+    struct participations *participations; /* at the loads asked of last */
     struct prepared_family *next_retired;
 };
 
@@ -61,6 +64,10 @@ static const double PREPARED_STEPS = 4.0;
  * waves that leave through a half-space, with its step tables. NULL: out of memory. */
 struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const struct body *body,
                                            int step);
+
+/* hertz_contact_make; of the last ones what an ellipse takes to find is kept. */
+struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double effective_modulus,
+                                          const double curvature[2]);
 
 /* matched_compliance of a sphere, or of a rod's or cylinder's end, with the contact radius `patch`
  * (m). It takes milliseconds when first asked for. A sphere's is linear in the logarithm of the

@@ -28,10 +28,14 @@ static struct problem *find(struct lab *lab, const struct solve_request *request
                             struct arena *arena)
 {
     struct fault fault = {""};
-    struct problem *problem = problem_create(request, NULL, arena);
+    struct prepared_cache *cache = prepared_cache_create();
+    struct problem *problem = problem_create(request, cache, arena);
+    assert_non_null(cache);
     assert_non_null(problem);
     if (placement_find(problem, &lab->set, &fault))
         fail_msg("%s", fault.text);
+    prepared_cache_free(cache);
+    problem->cache = NULL;
     return problem;
 }
 

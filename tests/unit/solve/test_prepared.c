@@ -66,6 +66,22 @@ static void groups_split_by_parity(void **state)
     prepared_cache_free(cache);
 }
 
+/* Ellipses and circles asked for by turns, more than are kept. */
+static void contacts_are_those_made_anew(void **state)
+{
+    (void)state;
+    struct prepared_cache *cache = prepared_cache_create();
+    assert_non_null(cache);
+    for (int i = 0; i < 400; i++) {
+        double modulus = i % 3 ? 5e10 : 7e10;
+        double curvature[2] = {20.0, 20.0 + 3.0 * (i % 7) * (i % 11)};
+        struct hertz_contact kept = prepared_contact_get(cache, modulus, curvature);
+        struct hertz_contact made = hertz_contact_make(modulus, curvature[0], curvature[1]);
+        assert_memory_equal(&kept, &made, sizeof kept);
+    }
+    prepared_cache_free(cache);
+}
+
 static void bodies_and_revisions_are_kept_apart(void **state)
 {
     (void)state;
@@ -106,6 +122,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(more_modes_change_no_bit),
         cmocka_unit_test(groups_split_by_parity),
+        cmocka_unit_test(contacts_are_those_made_anew),
         cmocka_unit_test(bodies_and_revisions_are_kept_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
