@@ -12,6 +12,7 @@
 #include "endpoint/clock.h"
 #include "endpoint/decode.h"
 #include "endpoint/encode.h"
+#include "endpoint/text.h"
 
 struct responder *responder_create(struct shared *shared, bool makes_tables)
 {
@@ -57,20 +58,20 @@ static struct token_subject subject_of(const struct question *question, size_t i
                                        struct subject_name *name)
 {
     const percuss_v1_BodyMotion *body = &question->request->bodies._buffer[index];
-    /* what the overrides say, whatever their number */
+    struct token_subject subject = {question->snapshot->set->revision, name->text};
+    COPY_TEXT(name->text, body->id);
+    if (body->overrides._length == 0)
+        return subject;
+    /* and what the overrides say, whatever their number */
     struct hasher hasher = {0};
     for (uint32_t i = 0; i < body->overrides._length; i++) {
         hash_number(&hasher, body->overrides._buffer[i].parameter);
         hash_bytes(&hasher, &body->overrides._buffer[i].value, sizeof(double));
     }
     struct digest digest = hash_digest(&hasher);
-    /* the body, and that */
-    if (body->overrides._length > 0)
-        snprintf(name->text, sizeof name->text, "%s/%016llx%016llx", body->id,
-                 (unsigned long long)digest.first, (unsigned long long)digest.second);
-    else
-        snprintf(name->text, sizeof name->text, "%s", body->id);
-    return (struct token_subject){question->snapshot->set->revision, name->text};
+    snprintf(name->text, sizeof name->text, "%s/%016llx%016llx", body->id,
+             (unsigned long long)digest.first, (unsigned long long)digest.second);
+    return subject;
 }
 
 /* Whether a question is to be answered, and if not, what it is refused with. */
@@ -168,11 +169,13 @@ static bool name_states(struct responder *responder, const struct question *ques
     double now = clock_now();
     for (size_t i = 0; i < responder->result.body_count; i++) {
         const struct solve_body_result *body = &responder->result.bodies[i];
+        responder->states_after[i][0] = '\0';
+        if (!body->state_after)
+            continue;
         struct subject_name name;
         struct token_subject subject = subject_of(question, i, &name);
-        responder->states_after[i][0] = '\0';
-        if (body->state_after && !token_store_put(responder->tokens, &subject, body->state_after,
-                                                  now, responder->states_after[i]))
+        if (!token_store_put(responder->tokens, &subject, body->state_after, now,
+                             responder->states_after[i]))
             return false;
     }
     return true;
