@@ -27,9 +27,6 @@ static const char usage[] =
     "  --trips N      of each kind and scene (1000)\n"
     "  --once NAME    answers one question warm, for callgrind (--toggle-collect=counted_answer)\n";
 
-/* Questions answered one after the other, to be warm. */
-enum { BLOCK = 32 };
-
 struct options {
     bool csv;
     unsigned trips;
@@ -60,26 +57,25 @@ static void times_free(struct times *times)
     }
 }
 
-/* Answers questions of their own speeds, or solves the last one so often; the time of each. */
-static bool repeat(struct answering *answering, const struct query *query, unsigned long *variation,
-                   unsigned count, double *seconds)
+/* Answers a question of its own speed. */
+static bool answer(struct answering *answering, const struct query *query, unsigned long variation,
+                   struct samples *samples)
 {
-    double sum = 0.0;
-    for (unsigned i = 0; i < count; i++) {
-        if (!answering_put(answering, query, ++*variation))
-            return false;
-        double start = samples_now();
-        if (!answering_answer(answering))
-            return false;
-        sum += samples_now() - start;
-    }
-    seconds[0] = sum / count;
+    if (!answering_put(answering, query, variation))
+        return false;
     double start = samples_now();
-    for (unsigned i = 0; i < count; i++)
-        if (!answering_solve(answering))
-            return false;
-    seconds[1] = (samples_now() - start) / count;
-    return true;
+    bool good = answering_answer(answering);
+    samples_add(samples, samples_now() - start);
+    return good;
+}
+
+/* Solves the one that was answered last. */
+static bool solve(struct answering *answering, struct samples *samples)
+{
+    double start = samples_now();
+    bool good = answering_solve(answering);
+    samples_add(samples, samples_now() - start);
+    return good;
 }
 
 /* A bare round trip of the question's sizes. */
@@ -92,45 +88,48 @@ static bool trip(struct raw_link *raw, const struct answering *answering, struct
     return seconds >= 0.0;
 }
 
-static bool measure(struct answering *answering, struct raw_link *raw, const struct query *query,
-                    unsigned trips, struct times *times)
+/* Answers and solutions in turn, each right after a trip: as in the service, something else was on
+ * this processor meanwhile. */
+static bool measure_after_trips(struct answering *answering, struct raw_link *raw,
+                                const struct query *query, unsigned trips, struct times *times)
 {
-    unsigned long variation = 0;
-    double seconds[2];
-    bool good = repeat(answering, query, &variation, BLOCK, seconds);
-    for (unsigned i = 0; good && i < trips; i++) {
-        /* as in the service: something else was on this processor meanwhile */
-        good = trip(raw, answering, &times->raw) && answering_put(answering, query, ++variation);
-        double start = samples_now();
-        good = good && answering_answer(answering);
-        samples_add(&times->answer[0], samples_now() - start);
-        good = good && trip(raw, answering, &times->raw);
-        start = samples_now();
-        good = good && answering_solve(answering);
-        samples_add(&times->solve[0], samples_now() - start);
-        /* one after the other */
-        good = good && repeat(answering, query, &variation, BLOCK, seconds);
-        samples_add(&times->answer[1], seconds[0]);
-        samples_add(&times->solve[1], seconds[1]);
+    bool good = answer(answering, query, 0, &times->answer[0]);
+    times->answer[0].count = 0;
+    for (unsigned i = 1; good && i <= trips; i++) {
+        good = trip(raw, answering, &times->raw) &&
+               answer(answering, query, i, &times->answer[0]) &&
+               trip(raw, answering, &times->raw) && solve(answering, &times->solve[0]);
     }
+    return good;
+}
+
+/* So many one after the other, and again. */
+static bool measure_warm(struct answering *answering, const struct query *query, unsigned trips,
+                         struct times *times)
+{
+    bool good = true;
+    for (unsigned i = 1; good && i <= trips; i++)
+        good = answer(answering, query, trips + i, &times->answer[1]);
+    for (unsigned i = 0; good && i < trips; i++)
+        good = solve(answering, &times->solve[1]);
     return good;
 }
 
 static void print(const struct options *options, const char *scene, struct times *times)
 {
-    double raw = samples_quantile(&times->raw, 0.5), answer[2], solve[2];
+    double raw = samples_quantile(&times->raw, 0.5), whole[2], alone[2];
     for (int i = 0; i < 2; i++) {
-        answer[i] = samples_quantile(&times->answer[i], 0.5);
-        solve[i] = samples_quantile(&times->solve[i], 0.5);
+        whole[i] = samples_quantile(&times->answer[i], 0.5);
+        alone[i] = samples_quantile(&times->solve[i], 0.5);
     }
     if (options->csv)
-        printf("%s,%.6e,%.6e,%.6e,%.6e,%.6e,%.6e,%.6e\n", scene, raw, answer[0], solve[0],
-               answer[0] - solve[0], answer[1], solve[1], answer[1] - solve[1]);
+        printf("%s,%.6e,%.6e,%.6e,%.6e,%.6e,%.6e,%.6e\n", scene, raw, whole[0], alone[0],
+               whole[0] - alone[0], whole[1], alone[1], whole[1] - alone[1]);
     else
         printf("%-14s %7.1f %9.2f %7.2f %7.2f %7.3f %9.2f %7.2f %7.2f %7.3f\n", scene, 1e6 * raw,
-               1e6 * answer[0], 1e6 * solve[0], 1e6 * (answer[0] - solve[0]),
-               (answer[0] - solve[0]) / raw, 1e6 * answer[1], 1e6 * solve[1],
-               1e6 * (answer[1] - solve[1]), (answer[1] - solve[1]) / raw);
+               1e6 * whole[0], 1e6 * alone[0], 1e6 * (whole[0] - alone[0]),
+               (whole[0] - alone[0]) / raw, 1e6 * whole[1], 1e6 * alone[1],
+               1e6 * (whole[1] - alone[1]), (whole[1] - alone[1]) / raw);
     fflush(stdout);
 }
 
@@ -165,7 +164,8 @@ static bool run(const struct options *options, struct answering *answering)
         if (!query->b || (options->scene && strcmp(options->scene, query->name) != 0))
             continue;
         struct times times = times_create(2 * options->trips);
-        good = measure(answering, raw, query, options->trips, &times);
+        good = measure_after_trips(answering, raw, query, options->trips, &times) &&
+               measure_warm(answering, query, options->trips, &times);
         if (good)
             print(options, query->name, &times);
         times_free(&times);
@@ -175,7 +175,7 @@ static bool run(const struct options *options, struct answering *answering)
 }
 
 /* The third question of its kind is what callgrind shall count: it counts all, so no others. */
-static bool answer_once(struct answering *answering, const struct query *query)
+static bool count_one(struct answering *answering, const struct query *query)
 {
     bool good = true;
     for (unsigned long i = 0; good && i < 3; i++)
@@ -215,7 +215,7 @@ int main(int argc, char **argv)
     struct answering *answering = answering_create(PERCUSS_SOURCE_DIR "/config/percussd.yaml");
     bool good = answering != NULL;
     if (good && options.once)
-        good = answer_once(answering, query_find(options.once));
+        good = count_one(answering, query_find(options.once));
     else if (good)
         good = run(&options, answering);
     answering_free(answering);

@@ -215,18 +215,30 @@ static bool build(struct fixed_scene *fixed, bool residual)
     return true;
 }
 
-struct fixed_scene *fixed_scene_create(const struct bench_scene *scene, unsigned modes,
-                                       bool residual)
+static struct fixed_scene *create(const struct solve_request *request, unsigned modes,
+                                  bool residual)
 {
     struct fixed_scene *fixed = calloc(1, sizeof *fixed);
     if (!fixed)
         return NULL;
-    fixed->request = bench_request(scene, 1e-6);
+    fixed->request = *request;
     if (!bench_catalogue_make(&fixed->catalogue, modes) || !build(fixed, residual)) {
         fixed_scene_free(fixed);
         return NULL;
     }
     return fixed;
+}
+
+struct fixed_scene *fixed_scene_create(const struct bench_scene *scene, unsigned modes,
+                                       bool residual)
+{
+    struct solve_request request = bench_request(scene, 1e-6);
+    return create(&request, modes, residual);
+}
+
+struct fixed_scene *fixed_scene_of(const struct solve_request *request, unsigned modes)
+{
+    return create(request, modes, true);
 }
 
 void fixed_scene_free(struct fixed_scene *fixed)

@@ -56,6 +56,8 @@ struct fixed_scene {
  */
 struct fixed_scene *fixed_scene_create(const struct bench_scene *scene, unsigned modes,
                                        bool residual);
+/* The same of a request of one's own, with the residual flexibility. */
+struct fixed_scene *fixed_scene_of(const struct solve_request *request, unsigned modes);
 void fixed_scene_free(struct fixed_scene *fixed);
 
 #endif

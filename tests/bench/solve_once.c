@@ -157,7 +157,10 @@ int main(int argc, char **argv)
         if (status)
             break;
     }
-    printf("%s %s: e = %.9f\n", argv[1], argv[2], result.contacts[0].restitution);
+    unsigned modes = 0;
+    for (size_t b = 0; b < result.body_count; b++)
+        modes += result.bodies[b].modes;
+    printf("%s %s: e = %.9f, %u modes\n", argv[1], argv[2], result.contacts[0].restitution, modes);
     solve_workspace_free(workspace);
     return status ? EXIT_FAILURE : EXIT_SUCCESS;
 }
