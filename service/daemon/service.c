@@ -10,6 +10,7 @@
 #include "daemon/body_cache.h"
 #include "daemon/dispatch.h"
 #include "daemon/log.h"
+#include "daemon/memory.h"
 #include "daemon/neighbours.h"
 #include "daemon/pool.h"
 #include "daemon/reducer.h"
@@ -19,6 +20,8 @@
 #include "endpoint/clock.h"
 
 static const int LONG_LANE_NICE = 10;
+/* Bytes: a thousand replies and what DDS keeps of them. */
+static const size_t READER_MEMORY = 8 * 1024 * 1024;
 static const double FLUSH_SECONDS = 1.0, CUT_SECONDS = 2.0;
 /* A body that is in use looks it, to daemons that begin meanwhile. */
 static const double TIDY_SECONDS = 86400.0;
@@ -95,6 +98,7 @@ static void *read_requests(void *argument)
 {
     struct service *service = argument;
     struct endpoint_handler handler = dispatch_handler(service->dispatch);
+    memory_keep(READER_MEMORY);
     endpoint_run(service->shared.endpoint, &handler);
     return NULL;
 }
