@@ -47,8 +47,10 @@ static struct arena_block *block_with_room(struct arena *arena, size_t bytes)
 
 void *arena_reserve(struct arena *arena, size_t count, size_t size)
 {
-    bool possible = !size || count <= (SIZE_MAX - 2 * ALIGNMENT) / size;
-    size_t bytes = (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    size_t bytes;
+    bool possible =
+        !__builtin_mul_overflow(count, size, &bytes) && bytes <= SIZE_MAX - 2 * ALIGNMENT;
+    bytes = (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     struct arena_block *block = possible ? block_with_room(arena, bytes) : NULL;
     if (!block) {
         arena->lacks = true;

@@ -341,7 +341,7 @@ static bool choose_all_planes(struct problem *problem)
 static bool allocate(struct problem *problem)
 {
     size_t n = problem->contact_count;
-    problem->sides = arena_take(problem->arena, n, sizeof *problem->sides);
+    problem->sides = arena_reserve(problem->arena, n, sizeof *problem->sides); /* large */
     problem->hertz = arena_take(problem->arena, n, sizeof *problem->hertz);
     problem->gap_rate = arena_take(problem->arena, n, sizeof(double));
     problem->sliding = arena_take(problem->arena, n, sizeof *problem->sliding);
