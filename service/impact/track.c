@@ -4,6 +4,7 @@
 #include "impact/track.h"
 
 #include <math.h>
+#include <string.h>
 
 bool track_create(struct track *track, struct arena *arena)
 {
@@ -29,9 +30,8 @@ void track_open(struct track *track, double time, double gap_rate)
 
 enum { POINTS = NODES + 2 }; /* start, nodes, end of a step */
 
-/* The peak of a polynomial of degree five: differences over so much of the step, from a start so
- * far within it, and rounds of Newton's method, of which each squares the error. */
-static const double DIFFERENCE = 0.01;
+/* The peak of a polynomial of degree five: from a start so far within the step, rounds of Newton's
+ * method, of which each squares the error. */
 static const double WITHIN = 0.05;
 enum { PEAK_ROUNDS = 4 };
 
@@ -39,38 +39,49 @@ enum { PEAK_ROUNDS = 4 };
  * rises by less between the points. */
 static const double PAST_PEAK = 0.999;
 
-/* Polynomial through the step's six values at s in 0..1 (Lagrange). */
-static double through_points(const double place[POINTS], const double value[POINTS], double s)
+/* Newton's form of the polynomial through the step's six values: value[i] becomes the divided
+ * difference of the first i + 1. */
+static void divide(const double place[POINTS], double value[POINTS])
 {
-    double sum = 0.0;
-    for (int i = 0; i < POINTS; i++) {
-        double term = value[i];
-        for (int j = 0; j < POINTS; j++)
-            if (j != i)
-                term *= (s - place[j]) / (place[i] - place[j]);
-        sum += term;
-    }
-    return sum;
+    for (int order = 1; order < POINTS; order++)
+        for (int i = POINTS - 1; i >= order; i--)
+            value[i] = (value[i] - value[i - 1]) / (place[i] - place[i - order]);
 }
 
-/* Where that polynomial is largest around point i: Newton's method on central differences, kept
- * between the neighbouring points. */
-static double peak_around(const double place[POINTS], const double value[POINTS], int i)
+/* That polynomial at s, with its derivatives: d[0..2]. */
+static void differentiate(const double place[POINTS], const double divided[POINTS], double s,
+                          double d[3])
 {
+    d[0] = divided[POINTS - 1];
+    d[1] = d[2] = 0.0;
+    for (int i = POINTS - 2; i >= 0; i--) {
+        double x = s - place[i];
+        d[2] = d[2] * x + 2.0 * d[1];
+        d[1] = d[1] * x + d[0];
+        d[0] = d[0] * x + divided[i];
+    }
+}
+
+/* Where that polynomial is largest around point i, kept between the neighbouring points; *peak
+ * becomes its value there. */
+static double peak_around(const double place[POINTS], const double value[POINTS], int i,
+                          double *peak)
+{
+    double d[3];
+    double divided[POINTS];
     double low = place[i > 0 ? i - 1 : 0];
     double high = place[i + 1 < POINTS ? i + 1 : i];
     double s = fmin(fmax(place[i], WITHIN), 1.0 - WITHIN);
-    for (int iteration = 0; iteration < PEAK_ROUNDS; iteration++) {
-        const double e = DIFFERENCE;
-        double before = through_points(place, value, s - e);
-        double here = through_points(place, value, s);
-        double after = through_points(place, value, s + e);
-        double bend = before - 2.0 * here + after;
-        if (!(bend < 0.0))
-            break;
-        s = fmin(fmax(s - 0.5 * e * (after - before) / bend, low), high);
+    memcpy(divided, value, sizeof divided);
+    divide(place, divided);
+    /* a root of its slope, as far as it is bent downward */
+    differentiate(place, divided, s, d);
+    for (int round = 0; round < PEAK_ROUNDS && d[2] < 0.0; round++) {
+        s = fmin(fmax(s - d[1] / d[2], low), high);
+        differentiate(place, divided, s, d);
     }
-    return through_points(place, value, s) > value[i] ? s : place[i];
+    *peak = fmax(d[0], value[i]);
+    return d[0] > value[i] ? s : place[i];
 }
 
 void track_step(struct track *track, double time, double h, const struct track_values *values)
@@ -95,8 +106,8 @@ void track_step(struct track *track, double time, double h, const struct track_v
         open->compression_end = time + h;
         open->compression_impulse = open->impulse + h * collocation_integral(values->force, 1.0);
     } else if (value[largest] > PAST_PEAK * open->max_indentation) {
-        double s = peak_around(place, value, largest);
-        double indentation = through_points(place, value, s);
+        double indentation;
+        double s = peak_around(place, value, largest, &indentation);
         if (indentation > open->max_indentation) {
             open->max_indentation = indentation;
             open->compression_end = time + s * h;
