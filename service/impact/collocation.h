@@ -7,7 +7,8 @@
 #ifndef PERCUSS_IMPACT_COLLOCATION_H
 #define PERCUSS_IMPACT_COLLOCATION_H
 
-enum { NODES = 4 };
+/* and with the step's end */
+enum { NODES = 4, STEP_POINTS = NODES + 1 };
 
 struct collocation {
     double node[NODES];

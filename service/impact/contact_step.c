@@ -42,12 +42,13 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, s
     step->end_force = arena_take(arena, n, sizeof(double));
     return step->indentation && step->force && step->stiffness && step->end_indentation &&
            step->matrix && step->excess && step->target && step->approach && step->end_force &&
-           motion_create(&step->end, scene, arena);
+           carrier_create(&step->carrier, scene, arena);
 }
 
 /* What a unit force of contact b at node j does to the approach of contact a at node i, with the
- * residual flexibility: rigid double integral, modes, and the series compliance at the same node.
- * OK, INTERNAL without memory, TIMEOUT where the pace stopped it. */
+ * residual flexibility: rigid double integral, modes, and the series compliance at the same node;
+ * and to the approach at the end, without that compliance. OK, INTERNAL without memory, TIMEOUT
+ * where the pace stopped it. */
 static enum percuss_status find_coupling(struct contact_step *step, const struct scene *scene,
                                          int level)
 {
@@ -59,7 +60,7 @@ static enum percuss_status find_coupling(struct contact_step *step, const struct
         if (status != PERCUSS_OK)
             return status;
     }
-    double(*all)[NODES][NODES] = arena_take(step->arena, n * n, sizeof *all);
+    double(*all)[STEP_POINTS][NODES] = arena_take(step->arena, n * n, sizeof *all);
     if (!all)
         return PERCUSS_INTERNAL;
     /* pairs of contacts */
@@ -67,6 +68,8 @@ static enum percuss_status find_coupling(struct contact_step *step, const struct
         for (size_t b = 0; b <= a; b++) {
             double(*m)[NODES] = all[a * n + b];
             /* the rigid bodies, and the series compliance */
+            for (int j = 0; j < NODES; j++)
+                m[NODES][j] = scene->w[a * n + b] * h * h * collocation.position_end[j];
             for (int i = 0; i < NODES; i++) {
                 for (int j = 0; j < NODES; j++)
                     m[i][j] = scene->w[a * n + b] * h * h * collocation.position[i][j];
@@ -89,24 +92,43 @@ static enum percuss_status find_coupling(struct contact_step *step, const struct
     return PERCUSS_OK;
 }
 
-/* Approach at the nodes if no force acted on this step. */
-static void free_approach(const struct scene *scene, const struct motion *motion, size_t contact,
-                          int level, double approach[NODES])
+/* Approaches at the nodes and the end if no force acted on this step. */
+static void free_approaches(struct contact_step *step, const struct scene *scene,
+                            const struct motion *motion, int level)
 {
     double h = step_length(level);
-    double modes[NODES] = {0};
-    for (size_t g = 0; g < scene->groups; g++) {
-        const struct scene_group *group = &scene->group[g];
-        if (group->participation[contact])
-            kernel_nodes(group->set->tables[level], group->stride, group->participation[contact],
-                         motion->q[g], motion->v[g], modes);
+    carrier_enter(&step->carrier, scene, motion, level, step->force, step->target);
+    for (size_t c = 0; c < scene->contacts; c++)
+        for (int i = 0; i < STEP_POINTS; i++) {
+            double t = i < NODES ? collocation.node[i] * h : h;
+            double a = scene->gap_acceleration[c];
+            step->target[c][i] =
+                -(motion->gap[c] + t * (motion->gap_rate[c] + 0.5 * a * t)) - step->target[c][i];
+        }
+}
+
+/* Approach at the end of the step under its forces. */
+static double end_approach(const struct contact_step *step, const struct scene *scene,
+                           size_t contact, int level)
+{
+    double approach = step->target[contact][NODES];
+    for (size_t b = 0; b < scene->contacts; b++) {
+        const double *to_end = step->coupling[level][contact * scene->contacts + b][NODES];
+        const double *force = step->force[b];
+        approach -= (to_end[0] * force[0] + to_end[1] * force[1]) +
+                    (to_end[2] * force[2] + to_end[3] * force[3]);
     }
-    for (int i = 0; i < NODES; i++) {
-        double t = collocation.node[i] * h;
-        double a = scene->gap_acceleration[contact];
-        approach[i] =
-            -(motion->gap[contact] + t * (motion->gap_rate[contact] + 0.5 * a * t)) - modes[i];
-    }
+    return approach;
+}
+
+void contact_step_take(struct contact_step *step, const struct scene *scene, struct motion *motion)
+{
+    carrier_take(&step->carrier, scene, motion, step->force);
+}
+
+void contact_step_leave(struct contact_step *step, const struct scene *scene, struct motion *motion)
+{
+    carrier_leave(&step->carrier, scene, motion, step->force);
 }
 
 double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,
@@ -209,9 +231,9 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
             return status == PERCUSS_TIMEOUT ? STEP_STOPPED : STEP_MEMORY;
     }
     /* approaches without force, and indentations as the step before has it */
+    free_approaches(step, scene, motion, level);
     for (size_t c = 0; c < scene->contacts; c++) {
         const struct contact_start *from = &start[c];
-        free_approach(scene, motion, c, level, step->target[c]);
         for (int i = 0; i < NODES; i++) {
             double t = collocation.node[i] * h;
             step->indentation[c][i] =
@@ -223,22 +245,18 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
     struct node_problem problem = {
         .laws = scene->laws,
         .contacts = scene->contacts,
-        .coupling = (const double(*)[NODES][NODES])step->coupling[level],
-        .target = (const double(*)[NODES])step->target,
+        .coupling = (const double(*)[STEP_POINTS][NODES])step->coupling[level],
+        .target = (const double(*)[STEP_POINTS])step->target,
         .matrix = step->matrix,
         .excess = step->excess,
         .last_change = node_solver_last_change(step->accuracy),
     };
     if (!node_solve(&problem, step->indentation, step->force, step->stiffness, &step->iterations))
         return STEP_UNSOLVED;
-    /* the state at the end, which follows from the forces */
-    motion_step(&step->end, motion, scene, level);
-    motion_push(&step->end, scene, level, step->force);
     step->loss = contact_step_loss(scene, motion, level, step->force);
-    /* the contacts there: Newton's method from where the cubics end */
+    /* the contacts at the end: Newton's method from where the cubics end */
     for (size_t c = 0; c < scene->contacts; c++) {
-        double ignored;
-        motion_approach(&step->end, scene, c, &step->approach[c], &ignored);
+        step->approach[c] = end_approach(step, scene, c, level);
         step->end_indentation[c] = collocation_value(step->indentation[c], 1.0);
     }
     return contact_local_indentation(scene, step->approach, step->end_indentation, step->end_force,

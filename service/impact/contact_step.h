@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* One step of the contact phase: the forces at the nodes are the only unknowns, the modes between
+/* The steps of a contact phase: the forces at the nodes are the only unknowns, the modes between
  * them are exact. */
 #ifndef PERCUSS_IMPACT_CONTACT_STEP_H
 #define PERCUSS_IMPACT_CONTACT_STEP_H
@@ -9,10 +9,9 @@
 #include <stdbool.h>
 
 #include "base/watch.h"
-#include "impact/motion.h"
+#include "impact/carrier.h"
 
 struct contact_step {
-    struct motion end;            /* the state after the step */
     double (*indentation)[NODES]; /* [contact] local, at the nodes */
     double (*force)[NODES];
     double (*stiffness)[NODES]; /* of the law, dF/d(indentation) */
@@ -21,8 +20,10 @@ struct contact_step {
     unsigned long iterations;   /* Newton's, since creation */
     double accuracy;            /* relative, of the forces; 0: to rounding */
 
-    double (*coupling[STEP_LEVELS])[NODES][NODES]; /* [contact][contact], m/N; NULL: not yet */
-    double (*target)[NODES];                       /* scratch */
+    struct carrier carrier;
+    /* [contact][contact], m/N: of the approach at the nodes and the end; NULL: not yet */
+    double (*coupling[STEP_LEVELS])[STEP_POINTS][NODES];
+    double (*target)[STEP_POINTS]; /* approaches without force */
     double *matrix, *excess;
     double *approach, *end_force;
     struct arena *arena;
@@ -47,10 +48,18 @@ enum contact_step_end {
     STEP_MEMORY    /* it ran out */
 };
 
-/* Solves a step of a level from `motion`, which is not changed; `start` by contact. */
+/* Solves a step of a level from `motion`, which is not changed; `start` by contact. From the first
+ * one on the motion's modes are the step's, until contact_step_leave. */
 enum contact_step_end contact_step_solve(struct contact_step *step, const struct scene *scene,
                                          const struct motion *motion, int level,
                                          const struct contact_start *start);
+
+/* Makes the end of the step just solved the present. */
+void contact_step_take(struct contact_step *step, const struct scene *scene, struct motion *motion);
+
+/* Ends a phase, after any step, solved, taken or not: the motion is whole at the present. */
+void contact_step_leave(struct contact_step *step, const struct scene *scene,
+                        struct motion *motion);
 
 /* Energy (J) that damping takes on a step from `motion`, at a level whose tables are ready, under
  * the contacts' forces at the nodes: the quadratic forms of the tables. */

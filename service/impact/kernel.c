@@ -11,9 +11,9 @@ typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 #define TOTAL(x)     (((x)[0] + (x)[1]) + ((x)[2] + (x)[3]))
 
 VECTOR_CLONES void kernel_nodes(const struct step_table *table, size_t length, const double *phi,
-                                const double *q, const double *v, double sums[NODES])
+                                const double *q, const double *v, double sums[STEP_POINTS])
 {
-    lanes s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
+    lanes s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0}, end = {0};
     for (size_t k = 0; k < length; k += LANES) {
         lanes pq = AT(phi, k) * AT(q, k);
         lanes pv = AT(phi, k) * AT(v, k);
@@ -21,11 +21,13 @@ VECTOR_CLONES void kernel_nodes(const struct step_table *table, size_t length, c
         s1 += AT(table->node_q[1], k) * pq + AT(table->node_v[1], k) * pv;
         s2 += AT(table->node_q[2], k) * pq + AT(table->node_v[2], k) * pv;
         s3 += AT(table->node_q[3], k) * pq + AT(table->node_v[3], k) * pv;
+        end += AT(table->end_qq, k) * pq + AT(table->end_qv, k) * pv;
     }
     sums[0] += TOTAL(s0);
     sums[1] += TOTAL(s1);
     sums[2] += TOTAL(s2);
     sums[3] += TOTAL(s3);
+    sums[NODES] += TOTAL(end);
 }
 
 VECTOR_CLONES void kernel_advance(const struct step_table *table, size_t length, const double *q,
@@ -90,16 +92,17 @@ VECTOR_CLONES void kernel_derivatives(size_t length, const double *omega, const 
 
 VECTOR_CLONES void kernel_response(const struct step_table *table, size_t length,
                                    const double *phi_a, const double *phi_b,
-                                   double sums[NODES][NODES])
+                                   double sums[STEP_POINTS][NODES])
 {
-    for (int i = 0; i < NODES; i++) {
+    for (int i = 0; i < STEP_POINTS; i++) {
+        double *const *row = i < NODES ? table->response[i] : table->force_q;
         lanes s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
         for (size_t k = 0; k < length; k += LANES) {
             lanes p = AT(phi_a, k) * AT(phi_b, k);
-            s0 += p * AT(table->response[i][0], k);
-            s1 += p * AT(table->response[i][1], k);
-            s2 += p * AT(table->response[i][2], k);
-            s3 += p * AT(table->response[i][3], k);
+            s0 += p * AT(row[0], k);
+            s1 += p * AT(row[1], k);
+            s2 += p * AT(row[2], k);
+            s3 += p * AT(row[3], k);
         }
         sums[i][0] += TOTAL(s0);
         sums[i][1] += TOTAL(s1);
@@ -126,4 +129,114 @@ VECTOR_CLONES double kernel_loss(const struct step_table *table, size_t length,
         }
     }
     return TOTAL(sum);
+}
+
+#define TERM(at, t) AT(at, (t)*LANES)
+
+/* The forces of the pairs of nodes: what is odd and what is even around the middle. */
+struct pairs {
+    double odd[2], even[2];
+};
+
+static inline struct pairs pair_up(const double force[NODES])
+{
+    return (struct pairs){{force[3] - force[0], force[2] - force[1]},
+                          {force[0] + force[3], force[1] + force[2]}};
+}
+
+/* The same three on the modes of a group of lanes, `at` their terms. */
+static inline void kick(const double *at, const lanes *phi, const struct pairs *force, lanes *q,
+                        lanes *v)
+{
+    *q += *phi *
+          (TERM(at, MIDDLE_KICK_Q) * force->odd[0] + TERM(at, MIDDLE_KICK_Q + 1) * force->odd[1]);
+    *v += *phi *
+          (TERM(at, MIDDLE_KICK_V) * force->even[0] + TERM(at, MIDDLE_KICK_V + 1) * force->even[1]);
+}
+
+static inline void turn_by(const double *term, lanes *q, lanes *v)
+{
+    lanes turned = TERM(term, 0) * *q + TERM(term, 1) * *v;
+    *v = TERM(term, 2) * *q + TERM(term, 0) * *v;
+    *q = turned;
+}
+
+struct swing {
+    lanes cosine[2], sine[2], end;
+};
+
+static inline void swing(const double *at, const lanes *phi, const lanes *q, const lanes *v,
+                         struct swing *sum)
+{
+    lanes pq = *phi * *q;
+    lanes pv = *phi * *v;
+    sum->cosine[0] += TERM(at, MIDDLE_COSINE) * pq;
+    sum->cosine[1] += TERM(at, MIDDLE_COSINE + 1) * pq;
+    sum->sine[0] += TERM(at, MIDDLE_SINE) * pv;
+    sum->sine[1] += TERM(at, MIDDLE_SINE + 1) * pv;
+    sum->end += TERM(at, TURN_HALF) * pq + TERM(at, TURN_HALF + 1) * pv;
+}
+
+static inline void swing_total(const struct swing *sum, double sums[STEP_POINTS])
+{
+    for (int pair = 0; pair < 2; pair++) {
+        double cosine = TOTAL(sum->cosine[pair]);
+        double sine = TOTAL(sum->sine[pair]);
+        sums[pair] += cosine - sine;
+        sums[NODES - 1 - pair] += cosine + sine;
+    }
+    sums[NODES] += TOTAL(sum->end);
+}
+
+VECTOR_CLONES void kernel_turn(const double *middle, enum middle_term turn, double way,
+                               size_t length, const double *const state[2], double *const to[2])
+{
+    for (size_t k = 0; k < length; k += LANES) {
+        const double *term = middle + k * MIDDLE_TERMS + turn * LANES;
+        lanes q = AT(state[0], k);
+        lanes v = way * AT(state[1], k);
+        turn_by(term, &q, &v);
+        *(lanes *)(to[0] + k) = q;
+        *(lanes *)(to[1] + k) = way * v;
+    }
+}
+
+VECTOR_CLONES void kernel_kick(const double *middle, size_t length, const double *phi,
+                               const double force[NODES], double *const state[2])
+{
+    struct pairs pairs = pair_up(force);
+    for (size_t k = 0; k < length; k += LANES)
+        kick(middle + k * MIDDLE_TERMS, &AT(phi, k), &pairs, (lanes *)(state[0] + k),
+             (lanes *)(state[1] + k));
+}
+
+VECTOR_CLONES void kernel_swing(const double *middle, size_t length, const double *phi,
+                                const double *const state[2], double sums[STEP_POINTS])
+{
+    struct swing sum = {0};
+    for (size_t k = 0; k < length; k += LANES)
+        swing(middle + k * MIDDLE_TERMS, &AT(phi, k), &AT(state[0], k), &AT(state[1], k), &sum);
+    swing_total(&sum, sums);
+}
+
+VECTOR_CLONES void kernel_carry(const struct kernel_carry *carry, size_t length, const double *phi,
+                                double *const state[2], double sums[STEP_POINTS])
+{
+    struct pairs pairs = pair_up(carry->force);
+    struct swing sum = {0};
+    const double *from = carry->from;
+    const double *next = carry->next;
+    for (size_t k = 0; k < length; k += LANES) {
+        lanes p = AT(phi, k);
+        lanes q = AT(state[0], k);
+        lanes v = AT(state[1], k);
+        kick(from, &p, &pairs, &q, &v);
+        turn_by(from + carry->turn * LANES, &q, &v);
+        *(lanes *)(state[0] + k) = q;
+        *(lanes *)(state[1] + k) = v;
+        swing(next, &p, &q, &v, &sum);
+        from += LANES * MIDDLE_TERMS;
+        next += LANES * MIDDLE_TERMS;
+    }
+    swing_total(&sum, sums);
 }

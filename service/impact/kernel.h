@@ -9,9 +9,10 @@
 
 #include "impact/step_table.h"
 
-/* sums[i] += sum_k phi_k (node_q[i]_k q_k + node_v[i]_k v_k): free displacement at the nodes. */
+/* sums[i] += sum_k phi_k (node_q[i]_k q_k + node_v[i]_k v_k): free displacement at the nodes, and
+ * at the end of the step. */
 void kernel_nodes(const struct step_table *table, size_t length, const double *phi, const double *q,
-                  const double *v, double sums[NODES]);
+                  const double *v, double sums[STEP_POINTS]);
 
 /* Free motion to the end of the step, into q_end and v_end. */
 void kernel_advance(const struct step_table *table, size_t length, const double *q, const double *v,
@@ -32,9 +33,9 @@ void kernel_derivatives(size_t length, const double *omega, const double *dampin
                         const double *phi, const double *q, const double *v,
                         double sums[DERIVATIVES]);
 
-/* sums[i][j] += sum_k phi_a_k phi_b_k response[i][j]_k. */
+/* sums[i][j] += sum_k phi_a_k phi_b_k response[i][j]_k; the last row is of q at the end. */
 void kernel_response(const struct step_table *table, size_t length, const double *phi_a,
-                     const double *phi_b, double sums[NODES][NODES]);
+                     const double *phi_b, double sums[STEP_POINTS][NODES]);
 
 /* A contact's forces at the nodes, and how they reach the modes. */
 struct kernel_load {
@@ -46,5 +47,29 @@ struct kernel_load {
  * the sum over the loads of phi_k force_j. Damped tables only. */
 double kernel_loss(const struct step_table *table, size_t length, const double *const state[2],
                    const struct kernel_load *loads, size_t count);
+
+/* The same of undamped modes, whose state is that of the middle of the step (enum middle_term).
+ * Turns a state on, or back for way = -1. */
+void kernel_turn(const double *middle, enum middle_term turn, double way, size_t length,
+                 const double *const state[2], double *const to[2]);
+
+/* Adds what the forces at the nodes through `phi` do: the state is that without them before the
+ * middle and that with all of them behind it. */
+void kernel_kick(const double *middle, size_t length, const double *phi, const double force[NODES],
+                 double *const state[2]);
+
+/* As kernel_nodes. */
+void kernel_swing(const double *middle, size_t length, const double *phi,
+                  const double *const state[2], double sums[STEP_POINTS]);
+
+/* From one step to the next, at once: kernel_kick and the turn by the tables of the one,
+ * kernel_swing by those of the next. */
+struct kernel_carry {
+    const double *from, *next;
+    enum middle_term turn;
+    const double *force; /* [NODES] */
+};
+void kernel_carry(const struct kernel_carry *carry, size_t length, const double *phi,
+                  double *const state[2], double sums[STEP_POINTS]);
 
 #endif

@@ -252,12 +252,10 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
 static void accept(struct modal_run *run, int level)
 {
     struct impact_outcome *outcome = run->march.outcome;
-    struct motion old = outcome->motion;
-    double start = old.time;
+    double start = outcome->motion.time;
     if (run->settings->log)
         force_log_add(run->settings->log, start, level, run->step.force, run->step.indentation);
-    outcome->motion = run->step.end;
-    run->step.end = old;
+    contact_step_take(&run->step, &run->march.scene, &outcome->motion);
     run->march.damping += run->step.loss;
     outcome->steps++;
     for (size_t c = 0; c < run->march.scene.contacts; c++)
@@ -302,12 +300,10 @@ static enum contact_step_end solve_step(struct modal_run *run, int level)
     return end;
 }
 
-/* From the first touch until every contact is open again, the horizon, or the limit. */
-static enum percuss_end_reason contact_phase(void *state, size_t contact)
+/* Steps until every contact is open again, the horizon, or the limit. */
+static enum percuss_end_reason go_through(struct modal_run *run)
 {
-    struct modal_run *run = state;
     struct march *march = &run->march;
-    begin_phase(run, contact);
     int level = finest_level(run);
     while (march_in_contact(march)) {
         if (++march->used > march->most || !pace_keeps(march->pace, march->cost))
@@ -350,6 +346,16 @@ static enum percuss_end_reason contact_phase(void *state, size_t contact)
             return PERCUSS_END_LIMIT;
     }
     return PERCUSS_END_NONE;
+}
+
+/* From the first touch on. */
+static enum percuss_end_reason contact_phase(void *state, size_t contact)
+{
+    struct modal_run *run = state;
+    begin_phase(run, contact);
+    enum percuss_end_reason end = go_through(run);
+    contact_step_leave(&run->step, &run->march.scene, &run->march.outcome->motion);
+    return end;
 }
 
 /* The window ends: contacts that are being loaded yield so far, and all keep what they store. */

@@ -88,7 +88,8 @@ void motion_rewind(struct motion *motion, const struct scene *scene, double time
     move(motion, scene, -time);
 }
 
-void motion_step(struct motion *to, const struct motion *from, const struct scene *scene, int level)
+void motion_step_gaps(struct motion *to, const struct motion *from, const struct scene *scene,
+                      int level)
 {
     double h = step_length(level);
     to->time = from->time + h;
@@ -97,6 +98,11 @@ void motion_step(struct motion *to, const struct motion *from, const struct scen
         to->gap[c] = from->gap[c] + h * (from->gap_rate[c] + 0.5 * a * h);
         to->gap_rate[c] = from->gap_rate[c] + a * h;
     }
+}
+
+void motion_step(struct motion *to, const struct motion *from, const struct scene *scene, int level)
+{
+    motion_step_gaps(to, from, scene, level);
     for (size_t g = 0; g < scene->groups; g++)
         kernel_advance(scene->group[g].set->tables[level], scene->group[g].stride, from->q[g],
                        from->v[g], to->q[g], to->v[g]);
@@ -111,25 +117,30 @@ static bool bears_force(const double force[NODES])
     return false;
 }
 
+void motion_push_gaps(struct motion *end, const struct scene *scene, int level, size_t contact,
+                      const double force[NODES])
+{
+    double h = step_length(level);
+    double impulse = 0.0;
+    double travel = 0.0;
+    /* by the force's integral and its double integral */
+    for (int j = 0; j < NODES; j++) {
+        impulse += h * collocation.weight[j] * force[j];
+        travel += h * h * collocation.position_end[j] * force[j];
+    }
+    for (size_t a = 0; a < scene->contacts; a++) {
+        end->gap[a] += scene->w[a * scene->contacts + contact] * travel;
+        end->gap_rate[a] += scene->w[a * scene->contacts + contact] * impulse;
+    }
+}
+
 void motion_push(struct motion *end, const struct scene *scene, int level,
                  double (*const force)[NODES])
 {
-    double h = step_length(level);
     for (size_t b = 0; b < scene->contacts; b++) {
-        double impulse = 0.0;
-        double travel = 0.0;
         if (!bears_force(force[b]))
             continue;
-        /* the rigid gaps by the force's integral and its double integral */
-        for (int j = 0; j < NODES; j++) {
-            impulse += h * collocation.weight[j] * force[b][j];
-            travel += h * h * collocation.position_end[j] * force[b][j];
-        }
-        for (size_t a = 0; a < scene->contacts; a++) {
-            end->gap[a] += scene->w[a * scene->contacts + b] * travel;
-            end->gap_rate[a] += scene->w[a * scene->contacts + b] * impulse;
-        }
-        /* the modes by their tables */
+        motion_push_gaps(end, scene, level, b, force[b]);
         for (size_t g = 0; g < scene->groups; g++) {
             const struct scene_group *group = &scene->group[g];
             if (group->participation[b])

@@ -41,6 +41,12 @@ void motion_step(struct motion *to, const struct motion *from, const struct scen
 void motion_push(struct motion *end, const struct scene *scene, int level,
                  double (*const force)[NODES]);
 
+/* The rigid part of the two, and the time. */
+void motion_step_gaps(struct motion *to, const struct motion *from, const struct scene *scene,
+                      int level);
+void motion_push_gaps(struct motion *end, const struct scene *scene, int level, size_t contact,
+                      const double force[NODES]);
+
 /* d and its rate at one contact. */
 void motion_approach(const struct motion *motion, const struct scene *scene, size_t contact,
                      double *approach, double *rate);

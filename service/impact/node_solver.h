@@ -18,10 +18,11 @@
 struct node_problem {
     const struct contact_law *laws; /* [contact] */
     size_t contacts;
-    const double (*coupling)[NODES][NODES]; /* [contact a][contact b]: approach of a at node i by
-                                               the force of b at node j, m/N */
-    const double (*target)[NODES];          /* [contact]: approaches without force */
-    double *matrix, *excess;                /* scratch: (contacts NODES)^2, contacts NODES */
+    /* [contact a][contact b]: approach of a at node i by the force of b at node j, m/N, and
+     * [contact]: approaches without force; what belongs to the step's end is not used */
+    const double (*coupling)[STEP_POINTS][NODES];
+    const double (*target)[STEP_POINTS];
+    double *matrix, *excess; /* scratch: (contacts NODES)^2, contacts NODES */
     double last_change; /* the iteration ends with a relative change of the indentations below */
 };
 

@@ -112,6 +112,7 @@ int step_level(double h)
     return level < 0 ? 0 : level >= STEP_LEVELS ? STEP_LEVELS - 1 : level;
 }
 
+/* What lies mode after mode. */
 static size_t array_count(bool damped)
 {
     return 2 * NODES + 4 + 2 * NODES + NODES * NODES + (damped ? LOSS_TERMS : 0);
@@ -121,7 +122,7 @@ static size_t array_count(bool damped)
 static struct step_table *table_allocate(size_t stride, bool damped)
 {
     /* zero throughout: the modes that only fill the last lanes never move */
-    size_t arrays = array_count(damped);
+    size_t arrays = array_count(damped) + (damped ? 0 : MIDDLE_TERMS);
     size_t header = (sizeof(struct step_table) + 31) / 32 * 32;
     size_t bytes = header + arrays * stride * sizeof(double);
     unsigned char *block = aligned_alloc(32, (bytes + 31) / 32 * 32);
@@ -140,7 +141,50 @@ static struct step_table *table_allocate(size_t stride, bool damped)
         for (size_t j = 0; j < lengths[i]; j++, next += stride)
             first[i][j] = next;
     }
+    table->middle = damped ? NULL : next;
     return table;
+}
+
+/* A turn of the mode over a time, see middle_term. */
+static void fill_turn(double *term, double omega, double time)
+{
+    term[0] = cos(omega * time);
+    term[LANES] = sin(omega * time) / omega;
+    term[2 * LANES] = -omega * sin(omega * time);
+}
+
+/* The terms of a mode. */
+static double *middle_of(const struct step_table *table, size_t k)
+{
+    return table->middle + k / LANES * LANES * MIDDLE_TERMS + k % LANES;
+}
+
+static void fill_middle(struct step_table *table, double omega, double h, size_t k)
+{
+    double *term = middle_of(table, k);
+    fill_turn(term + TURN_HALF * LANES, omega, 0.5 * h);
+    fill_turn(term + TURN_WHOLE * LANES, omega, h);
+    fill_turn(term + TURN_SHORTER * LANES, omega, 0.75 * h);
+    fill_turn(term + TURN_LONGER * LANES, omega, 1.5 * h);
+    const double *half = term + TURN_HALF * LANES;
+    for (int pair = 0; pair < NODES / 2; pair++) {
+        double x = (0.5 - collocation.node[pair]) * h;
+        term[(MIDDLE_COSINE + pair) * LANES] = cos(omega * x);
+        term[(MIDDLE_SINE + pair) * LANES] = sin(omega * x) / omega;
+        /* what the forces of the pair do until the end, turned back by half a step; of the sum only
+         * the even part is left, of the difference the odd one */
+        double q[2];
+        double v[2];
+        for (int side = 0; side < 2; side++) {
+            int j = side ? NODES - 1 - pair : pair;
+            double to_q = table->force_q[j][k];
+            double to_v = table->force_v[j][k];
+            q[side] = half[0] * to_q - half[LANES] * to_v;
+            v[side] = half[0] * to_v - half[2 * LANES] * to_q;
+        }
+        term[(MIDDLE_KICK_Q + pair) * LANES] = 0.5 * (q[1] - q[0]);
+        term[(MIDDLE_KICK_V + pair) * LANES] = 0.5 * (v[0] + v[1]);
+    }
 }
 
 static void fill_mode(struct step_table *table, const struct oscillators *set, double h, size_t k)
@@ -172,12 +216,15 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
         for (int r = 0, term = 0; r < LOSS_INPUTS; r++)
             for (int s = 0; s <= r; s++, term++)
                 table->loss[term][k] = form[r][s];
+    } else {
+        fill_middle(table, set->omega[k], h, k);
     }
 }
 
-/* A part's numbers are the whole's: array after array, as they lie in its block. */
+/* A part's numbers are the whole's: array after array, as they lie in its block, and the terms of
+ * undamped modes, which a damped whole does not have. */
 static void gather(struct step_table *table, const struct oscillators *part,
-                   const struct step_table *whole)
+                   const struct step_table *whole, double h)
 {
     size_t arrays = array_count(part->most_damping > 0.0);
     for (size_t a = 0; a < arrays; a++) {
@@ -185,6 +232,14 @@ static void gather(struct step_table *table, const struct oscillators *part,
         double *to = table->node_q[0] + a * part->stride;
         for (size_t i = 0; i < part->count; i++)
             to[i] = from[part->which[i]];
+    }
+    for (size_t i = 0; table->middle && i < part->count; i++) {
+        size_t k = part->which[i];
+        double *to = middle_of(table, i);
+        for (int term = 0; whole->middle && term < MIDDLE_TERMS; term++)
+            to[term * LANES] = middle_of(whole, k)[term * LANES];
+        if (!whole->middle)
+            fill_middle(table, part->omega[i], h, i);
     }
 }
 
@@ -199,7 +254,7 @@ const struct step_table *oscillators_table(struct oscillators *set, int level)
         return NULL;
     }
     if (whole)
-        gather(table, set, whole);
+        gather(table, set, whole, step_length(level));
     for (size_t k = 0; !whole && k < set->count; k++)
         fill_mode(table, set, step_length(level), k);
     set->tables[level] = table;

@@ -13,7 +13,24 @@
 #include "base/watch.h"
 #include "impact/collocation.h"
 
+enum { LANES = 4 };
+
 enum { STEP_LEVELS = 72, LOSS_TERMS = (NODES + 2) * (NODES + 3) / 2 };
+
+/* Undamped modes are carried through a contact from the middle of one step to the middle of the
+ * next: the nodes lie in pairs at -x and +x around it, so that a pair takes two products of a mode
+ * instead of four. c, s/omega and -s omega with c, s = cos, sin of omega t turn a state on by t. */
+enum middle_term {
+    MIDDLE_COSINE = 0, /* cos omega x of the outer and the inner nodes */
+    MIDDLE_SINE = 2,   /* sin omega x / omega of them */
+    MIDDLE_KICK_Q = 4, /* on q at the middle by the difference of the forces of a pair */
+    MIDDLE_KICK_V = 6, /* on v there by their sum */
+    TURN_HALF = 8,     /* turns: half a step, */
+    TURN_WHOLE = 11,   /* to the middle of a step as long, */
+    TURN_SHORTER = 14, /* half as long, */
+    TURN_LONGER = 17,  /* and twice as long */
+    MIDDLE_TERMS = 20
+};
 
 /* Arrays over the modes, padded to a multiple of LANES with zeros. q'' + 2 zeta omega q' + omega^2
  * q = f. */
@@ -24,6 +41,7 @@ struct step_table {
     double *response[NODES][NODES];            /* on q at node i by the force at node j */
     double *loss[LOSS_TERMS];                  /* 2 zeta omega int v^2 dt as a quadratic form of
                                                   (q, v, f_1..f_4), lower triangle; damped only */
+    double *middle; /* undamped only: LANES modes together, LANES numbers of each term */
 };
 
 /* A set of oscillators with its tables. */
@@ -37,8 +55,6 @@ struct oscillators {
     struct oscillators *whole;              /* those that these are a part of; NULL: of none */
     size_t *which;                          /* [count] of a part: index among the whole's */
 };
-
-enum { LANES = 4 };
 
 /* Copies the frequencies; with one damping ratio for all, or one of each. NULL: out of memory. */
 struct oscillators *oscillators_create(size_t count, const double *omega, double damping);

@@ -52,15 +52,16 @@ static void nodes_and_dots(void **state)
     (void)state;
     for (size_t count = 1; count <= LONGEST; count += 3) {
         struct vectors x;
-        double sums[NODES] = {1.0, 2.0, 3.0, 4.0};
+        double sums[STEP_POINTS] = {1.0, 2.0, 3.0, 4.0, 5.0};
         double a = 0.0, b = 0.0, pq = 0.0, pv = 0.0;
         make(&x, count);
         kernel_nodes(x.table, x.stride, x.phi, x.q, x.v, sums);
-        for (int i = 0; i < NODES; i++) {
+        for (int i = 0; i < STEP_POINTS; i++) {
             double expected = i + 1.0; /* adds to what is there */
+            const double *by_q = i < NODES ? x.table->node_q[i] : x.table->end_qq;
+            const double *by_v = i < NODES ? x.table->node_v[i] : x.table->end_qv;
             for (size_t k = 0; k < count; k++)
-                expected +=
-                    x.phi[k] * (x.table->node_q[i][k] * x.q[k] + x.table->node_v[i][k] * x.v[k]);
+                expected += x.phi[k] * (by_q[k] * x.q[k] + by_v[k] * x.v[k]);
             agrees(sums[i], expected);
         }
         kernel_dot2(x.stride, x.phi, x.q, x.v, &a, &b);
@@ -140,17 +141,66 @@ static void responses(void **state)
     (void)state;
     for (size_t count = 1; count <= LONGEST; count += 3) {
         struct vectors x;
-        double sums[NODES][NODES] = {{0.0}};
+        double sums[STEP_POINTS][NODES] = {{0.0}};
         make(&x, count);
         sums[1][2] = 7.0;
         kernel_response(x.table, x.stride, x.phi, x.psi, sums);
-        for (int i = 0; i < NODES; i++) {
+        for (int i = 0; i < STEP_POINTS; i++) {
             for (int j = 0; j < NODES; j++) {
+                const double *by = i < NODES ? x.table->response[i][j] : x.table->force_q[j];
                 double expected = i == 1 && j == 2 ? 7.0 : 0.0;
                 for (size_t k = 0; k < count; k++)
-                    expected += x.phi[k] * x.psi[k] * x.table->response[i][j][k];
+                    expected += x.phi[k] * x.psi[k] * by[k];
                 agrees(sums[i][j], expected);
             }
+        }
+        oscillators_free(x.set);
+    }
+}
+
+/* From the start of a step to its middle, kicked there, and on to its end: what kernel_advance and
+ * kernel_push do; and from middle to middle at once, by any turn, what the parts do. */
+static void steps_by_their_middle(void **state)
+{
+    (void)state;
+    const double force[NODES] = {0.5, -1.0, 2.0, 0.25};
+    for (size_t count = 1; count <= LONGEST; count += 3) {
+        struct vectors x;
+        _Alignas(32) double q[LONGEST] = {0.0}, v[LONGEST] = {0.0};
+        double *const middle[2] = {q, v};
+        const double *const start[2] = {x.q, x.v}, *const there[2] = {q, v};
+        double sums[2][STEP_POINTS] = {{0.0}};
+        make(&x, count);
+        const double *terms = x.table->middle;
+        kernel_advance(x.table, x.stride, x.q, x.v, x.q_end, x.v_end);
+        kernel_push(x.table, x.stride, x.phi, force, x.q_end, x.v_end);
+        kernel_nodes(x.table, x.stride, x.phi, x.q, x.v, sums[0]);
+        kernel_turn(terms, TURN_HALF, 1.0, x.stride, start, middle);
+        kernel_swing(terms, x.stride, x.phi, there, sums[1]);
+        for (int i = 0; i < STEP_POINTS; i++)
+            agrees(sums[1][i], sums[0][i]);
+        kernel_kick(terms, x.stride, x.phi, force, middle);
+        kernel_turn(terms, TURN_HALF, 1.0, x.stride, there, middle);
+        for (size_t k = 0; k < x.stride; k++) {
+            agrees(q[k], x.q_end[k]);
+            /* q of order one, turned twice by rounded turns */
+            near(v[k], x.v_end[k], 1e-15 * (1.0 + fabs(x.v_end[k]) + x.set->omega[k]));
+        }
+        /* back again, and to the middle of each next step */
+        static const enum middle_term turns[] = {TURN_WHOLE, TURN_SHORTER, TURN_LONGER};
+        for (int i = 0; i < 3; i++) {
+            int level = i == 0 ? 13 : i == 1 ? 14 : 12;
+            const double *next = oscillators_table(x.set, level)->middle;
+            struct kernel_carry carry = {terms, next, turns[i], force};
+            double carried[STEP_POINTS] = {0.0}, apart[STEP_POINTS] = {0.0};
+            kernel_turn(terms, TURN_HALF, 1.0, x.stride, start, middle);
+            kernel_carry(&carry, x.stride, x.phi, middle, carried);
+            kernel_nodes(oscillators_table(x.set, level), x.stride, x.phi, x.q_end, x.v_end, apart);
+            for (int j = 0; j < STEP_POINTS; j++)
+                agrees(carried[j], apart[j]);
+            kernel_turn(next, TURN_HALF, -1.0, x.stride, there, middle);
+            for (size_t k = 0; k < x.stride; k++)
+                agrees(q[k], x.q_end[k]);
         }
         oscillators_free(x.set);
     }
@@ -177,6 +227,7 @@ int main(void)
         cmocka_unit_test(derivatives_are_a_series_of_the_motion),
         cmocka_unit_test(advance_and_push),
         cmocka_unit_test(responses),
+        cmocka_unit_test(steps_by_their_middle),
         cmocka_unit_test(padding_changes_no_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

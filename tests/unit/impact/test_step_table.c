@@ -63,6 +63,49 @@ static void tables_hold_the_maps(void **state)
     oscillators_free(set);
 }
 
+/* Turns are free motions; what a force does at the middle is what it does at the end, turned back.
+ */
+static void middles_hold_turns(void **state)
+{
+    (void)state;
+    static const double steps[] = {0.5, 1.0, 0.75, 1.5};
+    struct oscillators *set = oscillators_create(MODES, omegas, 0.0);
+    assert_non_null(set);
+    for (int level = 8; level < 24; level += 5) {
+        const struct step_table *table = oscillators_table(set, level);
+        double h = step_length(level);
+        assert_non_null(table);
+        for (size_t k = 0; k < MODES; k++) {
+            const double *term = table->middle + k / LANES * LANES * MIDDLE_TERMS + k % LANES;
+            for (int i = 0; i < 4; i++) {
+                const double *turn = term + (TURN_HALF + 3 * i) * LANES;
+                double q = 0.0, v = omegas[k];
+                oscillator_advance(omegas[k], 0.0, steps[i] * h, &q, &v);
+                near(turn[LANES] * omegas[k], q, 1e-15);
+                near(turn[0], v / omegas[k], 1e-15);
+                near(turn[2 * LANES], -q * omegas[k], 1e-15 * omegas[k]);
+            }
+            for (int j = 0; j < NODES; j++) {
+                int pair = j < 2 ? j : NODES - 1 - j;
+                double x = (collocation.node[j] - 0.5) * h, to_q[NODES + 2], to_v[NODES + 2];
+                double cosine = term[(MIDDLE_COSINE + pair) * LANES];
+                double sine = term[(MIDDLE_SINE + pair) * LANES] * (j < 2 ? -1.0 : 1.0);
+                double q = term[(MIDDLE_KICK_Q + pair) * LANES] * (j < 2 ? -1.0 : 1.0);
+                double v = term[(MIDDLE_KICK_V + pair) * LANES];
+                near(cosine, cos(omegas[k] * x), 1e-14 * (1.0 + omegas[k] * h));
+                near(sine * omegas[k], sin(omegas[k] * x), 1e-14 * (1.0 + omegas[k] * h));
+                oscillator_map(omegas[k], 0.0, h, 1.0, to_q, to_v);
+                double back = -0.5 * h;
+                oscillator_advance(omegas[k], 0.0, back, &to_q[2 + j], &to_v[2 + j]);
+                /* a force of one for a time h */
+                near(v, to_v[2 + j], 1e-14 * h);
+                near(q, to_q[2 + j], 1e-14 * h * fmin(h, 1.0 / omegas[k]));
+            }
+        }
+    }
+    oscillators_free(set);
+}
+
 /* Vector loops read whole lanes: padding must be zero and rows aligned. */
 static void padding_is_zero(void **state)
 {
@@ -80,6 +123,11 @@ static void padding_is_zero(void **state)
             assert_true(rows[i][k] == 0.0);
     }
     assert_null(table->loss[0]); /* undamped: none */
+    assert_int_equal((uintptr_t)table->middle % 32, 0);
+    for (int term = 0; term < MIDDLE_TERMS; term++)
+        for (size_t k = MODES; k < set->stride; k++)
+            assert_true(table->middle[LANES * MIDDLE_TERMS + term * LANES + (int)(k % LANES)] ==
+                        0.0);
     oscillators_free(set);
     oscillators_free(NULL);
 }
@@ -128,6 +176,7 @@ int main(void)
         cmocka_unit_test(tables_hold_the_maps),
         cmocka_unit_test(padding_is_zero),
         cmocka_unit_test(a_part_has_the_tables_of_the_whole),
+        cmocka_unit_test(middles_hold_turns),
         cmocka_unit_test(an_empty_set_is_a_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

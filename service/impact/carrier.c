@@ -1,0 +1,160 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/carrier.h"
+
+#include <string.h>
+
+#include "impact/kernel.h"
+
+/* No step has been entered. */
+enum { NO_STEP = -1 };
+
+bool carrier_create(struct carrier *carrier, const struct scene *scene, struct arena *arena)
+{
+    *carrier = (struct carrier){.level = NO_STEP};
+    carrier->q = arena_take(arena, scene->groups, sizeof *carrier->q);
+    carrier->v = arena_take(arena, scene->groups, sizeof *carrier->v);
+    if (!carrier->q || !carrier->v)
+        return false;
+    for (size_t g = 0; g < scene->groups; g++) {
+        carrier->q[g] = arena_reserve(arena, scene->group[g].stride, sizeof **carrier->q);
+        carrier->v[g] = arena_reserve(arena, scene->group[g].stride, sizeof **carrier->v);
+        if (!carrier->q[g] || !carrier->v[g])
+            return false;
+    }
+    return true;
+}
+
+/* Of undamped modes; NULL: damped. */
+static const double *middle_of(const struct scene_group *group, int level)
+{
+    return group->set->tables[level]->middle;
+}
+
+/* The turn from the middle of a step to that of the next, where there is one for it. */
+static bool find_turn(int level, int next, enum middle_term *turn)
+{
+    static const enum middle_term turns[] = {TURN_LONGER, TURN_WHOLE, TURN_SHORTER};
+    int change = next - level;
+    if (change < -1 || change > 1)
+        return false;
+    *turn = turns[change + 1];
+    return true;
+}
+
+static bool bears_force(const double force[NODES])
+{
+    return force[0] != 0.0 || force[1] != 0.0 || force[2] != 0.0 || force[3] != 0.0;
+}
+
+static void kick(const struct scene *scene, const struct scene_group *group, int level,
+                 double (*const force)[NODES], double *const state[2])
+{
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (group->participation[c] && bears_force(force[c]))
+            kernel_kick(middle_of(group, level), group->stride, group->participation[c], force[c],
+                        state);
+}
+
+/* Undamped modes, from wherever they are to the middle of the step of `level`. */
+static void turn_to(const struct carrier *carrier, const struct scene_group *group,
+                    const double *const start[2], int level, double *const state[2])
+{
+    const double *const here[2] = {state[0], state[1]};
+    const double *from = carrier->level < 0 ? NULL : middle_of(group, carrier->level);
+    enum middle_term turn;
+    if (from && carrier->taken && find_turn(carrier->level, level, &turn)) {
+        kernel_turn(from, turn, 1.0, group->stride, here, state);
+        return;
+    }
+    /* by way of the step's end, or back to its start if it was not taken */
+    if (from)
+        kernel_turn(from, TURN_HALF, carrier->taken ? 1.0 : -1.0, group->stride, here, state);
+    kernel_turn(middle_of(group, level), TURN_HALF, 1.0, group->stride, from ? here : start, state);
+}
+
+static void enter(const struct carrier *carrier, const struct scene *scene, size_t g,
+                  const double *const start[2], int level, double (*const force)[NODES],
+                  double (*sums)[STEP_POINTS])
+{
+    const struct scene_group *group = &scene->group[g];
+    const double *next = middle_of(group, level);
+    double *const state[2] = {carrier->q[g], carrier->v[g]};
+    struct kernel_carry carry = {.next = next, .force = force[0]};
+    /* one contact: all at once */
+    if (scene->contacts == 1 && group->participation[0] && carrier->taken &&
+        find_turn(carrier->level, level, &carry.turn)) {
+        carry.from = middle_of(group, carrier->level);
+        kernel_carry(&carry, group->stride, group->participation[0], state, sums[0]);
+        return;
+    }
+    if (carrier->taken)
+        kick(scene, group, carrier->level, force, state);
+    turn_to(carrier, group, start, level, state);
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (group->participation[c])
+            kernel_swing(next, group->stride, group->participation[c],
+                         (const double *const[]){state[0], state[1]}, sums[c]);
+}
+
+void carrier_enter(struct carrier *carrier, const struct scene *scene, const struct motion *motion,
+                   int level, double (*const force)[NODES], double (*sums)[STEP_POINTS])
+{
+    memset(sums, 0, scene->contacts * sizeof *sums);
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        const double *const start[2] = {motion->q[g], motion->v[g]};
+        if (middle_of(group, level)) {
+            enter(carrier, scene, g, start, level, force, sums);
+            continue;
+        }
+        for (size_t c = 0; c < scene->contacts; c++)
+            if (group->participation[c])
+                kernel_nodes(group->set->tables[level], group->stride, group->participation[c],
+                             start[0], start[1], sums[c]);
+    }
+    carrier->level = level;
+    carrier->taken = false;
+}
+
+void carrier_take(struct carrier *carrier, const struct scene *scene, struct motion *motion,
+                  double (*const force)[NODES])
+{
+    carrier->taken = true;
+    motion_step_gaps(motion, motion, scene, carrier->level);
+    for (size_t c = 0; c < scene->contacts; c++)
+        motion_push_gaps(motion, scene, carrier->level, c, force[c]);
+    /* damped modes */
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        const struct step_table *table = group->set->tables[carrier->level];
+        if (table->middle)
+            continue;
+        kernel_advance(table, group->stride, motion->q[g], motion->v[g], motion->q[g],
+                       motion->v[g]);
+        for (size_t c = 0; c < scene->contacts; c++)
+            if (group->participation[c] && bears_force(force[c]))
+                kernel_push(table, group->stride, group->participation[c], force[c], motion->q[g],
+                            motion->v[g]);
+    }
+}
+
+void carrier_leave(struct carrier *carrier, const struct scene *scene, struct motion *motion,
+                   double (*const force)[NODES])
+{
+    for (size_t g = 0; carrier->level >= 0 && g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        const double *middle = middle_of(group, carrier->level);
+        double *const state[2] = {carrier->q[g], carrier->v[g]};
+        if (!middle)
+            continue;
+        if (carrier->taken)
+            kick(scene, group, carrier->level, force, state);
+        kernel_turn(middle, TURN_HALF, carrier->taken ? 1.0 : -1.0, group->stride,
+                    (const double *const[]){state[0], state[1]},
+                    (double *const[]){motion->q[g], motion->v[g]});
+    }
+    carrier->level = NO_STEP;
+    carrier->taken = false;
+}
