@@ -11,7 +11,7 @@
 
 #include "percuss/vocabulary.h"
 
-enum { CONTACT_LAW_PARAMETERS = 6 };
+enum { CONTACT_LAW_PARAMETERS = 6, CONTACT_LAW_AT_ONCE = 4 };
 
 /* What a contact remembers of its largest load; all zero: never beyond yield. Depths from the
  * surface as it was made. */
@@ -67,6 +67,9 @@ struct contact_law_operations {
     bool elliptic;     /* takes elliptic contacts as they are; else by the sphere as stiff */
     /* Force (N) at an indentation (m), 0 where indentation <= 0; *stiffness becomes its slope. */
     double (*force)(const struct contact_law *law, double indentation, double *stiffness);
+    /* The same at several indentations at once; NULL: one by one. */
+    void (*forces)(const struct contact_law *law, const double indentation[CONTACT_LAW_AT_ONCE],
+                   double force[CONTACT_LAW_AT_ONCE], double stiffness[CONTACT_LAW_AT_ONCE]);
     /* Recoverable energy (J) stored at an indentation. */
     double (*stored)(const struct contact_law *law, double indentation);
     /* Indentation at which the loading branch has the force f > 0: a starting value and a scale. */
@@ -101,6 +104,19 @@ static inline double contact_law_force(const struct contact_law *law, double ind
                                        double *stiffness)
 {
     return law->operations->force(law, indentation, stiffness);
+}
+
+static inline void contact_law_forces(const struct contact_law *law,
+                                      const double indentation[CONTACT_LAW_AT_ONCE],
+                                      double force[CONTACT_LAW_AT_ONCE],
+                                      double stiffness[CONTACT_LAW_AT_ONCE])
+{
+    if (law->operations->forces) {
+        law->operations->forces(law, indentation, force, stiffness);
+        return;
+    }
+    for (int i = 0; i < CONTACT_LAW_AT_ONCE; i++)
+        force[i] = law->operations->force(law, indentation[i], &stiffness[i]);
 }
 
 #endif

@@ -12,9 +12,17 @@ static double hertz_force(const struct contact_law *law, double indentation, dou
         *stiffness = 0.0;
         return 0.0;
     }
-    double root = sqrt(indentation);
-    *stiffness = 1.5 * law->parameters[0] * root;
-    return law->parameters[0] * indentation * root;
+    double rise = law->parameters[0] * sqrt(indentation);
+    *stiffness = 1.5 * rise;
+    return indentation * rise;
+}
+
+static void hertz_forces(const struct contact_law *law,
+                         const double indentation[CONTACT_LAW_AT_ONCE],
+                         double force[CONTACT_LAW_AT_ONCE], double stiffness[CONTACT_LAW_AT_ONCE])
+{
+    for (int i = 0; i < CONTACT_LAW_AT_ONCE; i++)
+        force[i] = hertz_force(law, indentation[i], &stiffness[i]);
 }
 
 static double hertz_stored(const struct contact_law *law, double indentation)
@@ -50,6 +58,7 @@ const struct contact_law_operations contact_law_HERTZ = {
     .title = "elastic Hertz contact",
     .elliptic = true,
     .force = hertz_force,
+    .forces = hertz_forces,
     .stored = hertz_stored,
     .indentation = hertz_indentation,
     .rescale = rescale,

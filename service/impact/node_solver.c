@@ -7,8 +7,9 @@
 
 #include "numeric/linear.h"
 
-/* One row of a 4 x 4 system; the lanes' order of operations is that of scalars. */
+/* The nodes of a contact; the lanes' order of operations is that of scalars. */
 typedef double quad __attribute__((vector_size(NODES * sizeof(double))));
+typedef long long quad_mask __attribute__((vector_size(NODES * sizeof(long long))));
 
 /* Newton's method takes two or three iterations in an ordinary step; where it takes so many it
  * would take for ever. */
@@ -23,29 +24,42 @@ static const double ROUNDING_OF_SUMS = 1e-12;
 /* Pivots, 1 where nothing couples, from which on elimination without exchanges loses a digit. */
 static const double LEAST_PIVOT = 0.1;
 
+/* A quad wherever it lies. */
+typedef double loose_quad __attribute__((vector_size(NODES * sizeof(double)), aligned(8)));
+#define QUAD(at)       (*(loose_quad *)(at))
+#define CONST_QUAD(at) (*(const loose_quad *)(at))
+
+/* A row and its right side less a multiple of another one. */
+static inline void subtract(quad *row, double *right, double factor, const quad *other,
+                            double other_right)
+{
+    *row -= factor * *other;
+    *right -= factor * other_right;
+}
+
 /* Solves a x = b by elimination in the order given; the matrix is the identity plus a small causal
  * one. False: a pivot is too small for that order. */
-static bool eliminate(quad a[NODES], double b[NODES])
+static inline bool eliminate(const quad a[NODES], const double b[NODES], quad *x)
 {
-    double inverse[NODES];
-    /* forward, without exchanges */
-    for (int c = 0; c < NODES; c++) {
-        if (!(fabs(a[c][c]) > LEAST_PIVOT))
-            return false;
-        inverse[c] = 1.0 / a[c][c];
-        for (int i = c + 1; i < NODES; i++) {
-            double factor = a[i][c] * inverse[c];
-            a[i] -= factor * a[c];
-            b[i] -= factor * b[c];
-        }
-    }
+    quad r1 = a[1], r2 = a[2], r3 = a[3];
+    double b1 = b[1], b2 = b[2], b3 = b[3];
+    /* forward, without exchanges: a pivot that is too small spoils only what is thrown away */
+    double p0 = 1.0 / a[0][0];
+    subtract(&r1, &b1, r1[0] * p0, &a[0], b[0]);
+    subtract(&r2, &b2, r2[0] * p0, &a[0], b[0]);
+    subtract(&r3, &b3, r3[0] * p0, &a[0], b[0]);
+    double p1 = 1.0 / r1[1];
+    subtract(&r2, &b2, r2[1] * p1, &r1, b1);
+    subtract(&r3, &b3, r3[1] * p1, &r1, b1);
+    double p2 = 1.0 / r2[2];
+    subtract(&r3, &b3, r3[2] * p2, &r2, b2);
     /* and back substitution */
-    for (int i = NODES - 1; i >= 0; i--) {
-        b[i] *= inverse[i];
-        for (int k = 0; k < i; k++)
-            b[k] -= a[k][i] * b[i];
-    }
-    return true;
+    double x3 = b3 / r3[3];
+    double x2 = (b2 - r2[3] * x3) * p2;
+    double x1 = (b1 - r1[3] * x3 - r1[2] * x2) * p1;
+    *x = (quad){(b[0] - a[0][3] * x3 - a[0][2] * x2 - a[0][1] * x1) * p0, x1, x2, x3};
+    return a[0][0] > LEAST_PIVOT && r1[1] > LEAST_PIVOT && r2[2] > LEAST_PIVOT &&
+           r3[3] > LEAST_PIVOT;
 }
 
 /* What an update changed, against the indentations and against the approaches without force: these
@@ -79,51 +93,65 @@ static bool settled(const struct progress *progress, double last_change)
 }
 
 /* Forces after the last, tiny update: the slope that it was made with carries them along. */
-static void follow(double force[NODES], const double stiffness[NODES], const double change[NODES])
+static inline void follow(double force[NODES], const double stiffness[NODES], const quad *change)
 {
-    for (int i = 0; i < NODES; i++)
-        force[i] = fmax(0.0, force[i] - stiffness[i] * change[i]);
+    quad after = CONST_QUAD(force) - CONST_QUAD(stiffness) * *change;
+    after = (quad)((quad_mask)after & (after > 0.0));
+    QUAD(force) = after;
+}
+
+static inline double largest_of(const quad *values)
+{
+    double low = fabs((*values)[0]) > fabs((*values)[1]) ? fabs((*values)[0]) : fabs((*values)[1]);
+    double high = fabs((*values)[2]) > fabs((*values)[3]) ? fabs((*values)[2]) : fabs((*values)[3]);
+    return low > high ? low : high;
+}
+
+/* The excess e, and the matrix 1 + coupling F'. */
+static inline void assemble_one(const struct node_problem *problem, const quad *d,
+                                const double force[NODES], const double stiffness[NODES],
+                                quad matrix[NODES], double excess[NODES])
+{
+    const double(*m)[NODES] = problem->coupling[0];
+    const double *target = problem->target[0];
+    const quad forces = CONST_QUAD(force);
+    const quad slopes = CONST_QUAD(stiffness);
+    for (int i = 0; i < NODES; i++) {
+        const quad coupling = CONST_QUAD(m[i]);
+        quad moved = coupling * forces;
+        excess[i] = (*d)[i] - target[i] + ((moved[0] + moved[2]) + (moved[1] + moved[3]));
+        matrix[i] = coupling * slopes;
+        matrix[i][i] += 1.0;
+    }
 }
 
 /* One contact: the usual case, without scratch memory. */
-static bool solve_one(const struct node_problem *problem, double d[NODES], double force[NODES],
-                      double stiffness[NODES], unsigned long *iterations)
+static bool solve_one(const struct node_problem *problem, double indentation[NODES],
+                      double force[NODES], double stiffness[NODES], unsigned long *iterations)
 {
-    const struct contact_law *law = problem->laws;
-    const double(*m)[NODES] = problem->coupling[0];
-    const double *target = problem->target[0];
-    double previous = INFINITY;
+    const quad target = CONST_QUAD(problem->target[0]);
+    quad d = CONST_QUAD(indentation);
+    struct progress progress = {.previous = INFINITY, .target = largest_of(&target)};
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        /* the excess e, and the matrix 1 + coupling F' */
         quad matrix[NODES];
-        double change[NODES];
-        for (int i = 0; i < NODES; i++)
-            force[i] = contact_law_force(law, d[i], &stiffness[i]);
-        const quad forces = {force[0], force[1], force[2], force[3]};
-        const quad slopes = {stiffness[0], stiffness[1], stiffness[2], stiffness[3]};
-        for (int i = 0; i < NODES; i++) {
-            const quad coupling = {m[i][0], m[i][1], m[i][2], m[i][3]};
-            quad moved = coupling * forces;
-            change[i] = d[i] - target[i] + ((moved[0] + moved[1]) + (moved[2] + moved[3]));
-            matrix[i] = coupling * slopes;
-            matrix[i][i] += 1.0;
-        }
-        if (!eliminate(matrix, change))
-            return false;
+        double excess[NODES];
+        quad change;
+        contact_law_forces(problem->laws, indentation, force, stiffness);
+        assemble_one(problem, &d, force, stiffness, matrix, excess);
+        bool solved = eliminate(matrix, excess, &change);
         ++*iterations;
         /* the update, and whether it was the last one */
-        struct progress progress = {.previous = previous};
-        for (int i = 0; i < NODES; i++) {
-            d[i] -= change[i];
-            look_at(&progress, change[i], d[i], target[i]);
-        }
-        if (!isfinite(progress.change))
+        d -= change;
+        QUAD(indentation) = d;
+        progress.change = largest_of(&change);
+        progress.indentation = largest_of(&d);
+        if (!solved || !isfinite((change[0] + change[1]) + (change[2] + change[3])))
             return false;
         if (settled(&progress, problem->last_change)) {
-            follow(force, stiffness, change);
+            follow(force, stiffness, &change);
             return true;
         }
-        previous = progress.change;
+        progress.previous = progress.change;
     }
     return false;
 }
@@ -143,11 +171,9 @@ static void find_forces(const struct node_problem *problem, struct system *syste
     system->pressed_count = 0;
     for (size_t c = 0; c < problem->contacts; c++) {
         bool presses = false;
-        for (int i = 0; i < NODES; i++) {
-            force[c][i] =
-                contact_law_force(&problem->laws[c], indentation[c][i], &system->stiffness[c][i]);
+        contact_law_forces(&problem->laws[c], indentation[c], force[c], system->stiffness[c]);
+        for (int i = 0; i < NODES; i++)
             presses = presses || system->stiffness[c][i] != 0.0 || force[c][i] != 0.0;
-        }
         if (presses)
             system->pressed[system->pressed_count++] = c;
     }
@@ -245,8 +271,10 @@ bool node_solve(const struct node_problem *problem, double (*indentation)[NODES]
         if (!isfinite(progress.change))
             return false;
         if (settled(&progress, problem->last_change)) {
-            for (size_t c = 0; c < problem->contacts; c++)
-                follow(force[c], stiffness[c], problem->excess + c * NODES);
+            for (size_t c = 0; c < problem->contacts; c++) {
+                const quad change = CONST_QUAD(problem->excess + c * NODES);
+                follow(force[c], stiffness[c], &change);
+            }
             return true;
         }
         previous = progress.change;

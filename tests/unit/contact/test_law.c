@@ -30,6 +30,13 @@ static void check_law(const struct contact_law *law)
         near_relative(force, (of->stored(law, d + step) - of->stored(law, d - step)) / (2.0 * step),
                       1e-9);
         near_relative(of->indentation(law, force), d, 4e-15); /* a few roundings */
+        /* at once as one by one, open ones among them */
+        double together[CONTACT_LAW_AT_ONCE], slopes[CONTACT_LAW_AT_ONCE];
+        const double places[CONTACT_LAW_AT_ONCE] = {d, -d, 0.0, d + step};
+        contact_law_forces(law, places, together, slopes);
+        assert_true(together[0] == force && slopes[0] == slope);
+        assert_true(together[1] == 0.0 && slopes[1] == 0.0 && together[2] == 0.0);
+        assert_true(together[3] == above);
         before = force;
     }
     assert_true(isnan(contact_law_force(law, NAN, &slope)) ||
