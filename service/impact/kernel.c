@@ -8,7 +8,7 @@
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 
 #define AT(array, k) (*(const lanes *)((array) + (k)))
-#define TOTAL(x)     (((x)[0] + (x)[1]) + ((x)[2] + (x)[3]))
+#define TOTAL(x)     (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
 
 VECTOR_CLONES void kernel_nodes(const struct step_table *table, size_t length, const double *phi,
                                 const double *q, const double *v, double sums[STEP_POINTS])
@@ -144,60 +144,53 @@ static inline struct pairs pair_up(const double force[NODES])
                           {force[0] + force[3], force[1] + force[2]}};
 }
 
-/* The same three on the modes of a group of lanes, `at` their terms. */
-static inline void kick(const double *at, const lanes *phi, const struct pairs *force, lanes *q,
-                        lanes *v)
-{
-    *q += *phi *
-          (TERM(at, MIDDLE_KICK_Q) * force->odd[0] + TERM(at, MIDDLE_KICK_Q + 1) * force->odd[1]);
-    *v += *phi *
-          (TERM(at, MIDDLE_KICK_V) * force->even[0] + TERM(at, MIDDLE_KICK_V + 1) * force->even[1]);
-}
+/* The same three on a group of lanes, `at` its terms; macros, as arguments that wide have no place
+ * in the baseline's calls. */
+#define KICK(at, force, p, q, v)                                                                   \
+    do {                                                                                           \
+        (q) += (p) * (TERM(at, MIDDLE_KICK_Q) * (force).odd[0] +                                   \
+                      TERM(at, MIDDLE_KICK_Q + 1) * (force).odd[1]);                               \
+        (v) += (p) * (TERM(at, MIDDLE_KICK_V) * (force).even[0] +                                  \
+                      TERM(at, MIDDLE_KICK_V + 1) * (force).even[1]);                              \
+    } while (0)
 
-static inline void turn_by(const double *term, lanes *q, lanes *v)
-{
-    lanes turned = TERM(term, 0) * *q + TERM(term, 1) * *v;
-    *v = TERM(term, 2) * *q + TERM(term, 0) * *v;
-    *q = turned;
-}
+#define TURN(at, turn, q, v)                                                                       \
+    do {                                                                                           \
+        lanes turned = TERM(at, turn) * (q) + TERM(at, (turn) + 1) * (v);                          \
+        (v) = TERM(at, (turn) + 2) * (q) + TERM(at, turn) * (v);                                   \
+        (q) = turned;                                                                              \
+    } while (0)
 
-struct swing {
-    lanes cosine[2], sine[2], end;
-};
+#define SWING(at, pq, pv)                                                                          \
+    do {                                                                                           \
+        c0 += TERM(at, MIDDLE_COSINE) * (pq);                                                      \
+        c1 += TERM(at, MIDDLE_COSINE + 1) * (pq);                                                  \
+        s0 += TERM(at, MIDDLE_SINE) * (pv);                                                        \
+        s1 += TERM(at, MIDDLE_SINE + 1) * (pv);                                                    \
+        end += TERM(at, TURN_HALF) * (pq) + TERM(at, TURN_HALF + 1) * (pv);                        \
+    } while (0)
 
-static inline void swing(const double *at, const lanes *phi, const lanes *q, const lanes *v,
-                         struct swing *sum)
+/* The nodes of the pairs from their cosines and sines. */
+static inline void add_up(const double cosine[2], const double sine[2], double end,
+                          double sums[STEP_POINTS])
 {
-    lanes pq = *phi * *q;
-    lanes pv = *phi * *v;
-    sum->cosine[0] += TERM(at, MIDDLE_COSINE) * pq;
-    sum->cosine[1] += TERM(at, MIDDLE_COSINE + 1) * pq;
-    sum->sine[0] += TERM(at, MIDDLE_SINE) * pv;
-    sum->sine[1] += TERM(at, MIDDLE_SINE + 1) * pv;
-    sum->end += TERM(at, TURN_HALF) * pq + TERM(at, TURN_HALF + 1) * pv;
-}
-
-static inline void swing_total(const struct swing *sum, double sums[STEP_POINTS])
-{
-    for (int pair = 0; pair < 2; pair++) {
-        double cosine = TOTAL(sum->cosine[pair]);
-        double sine = TOTAL(sum->sine[pair]);
-        sums[pair] += cosine - sine;
-        sums[NODES - 1 - pair] += cosine + sine;
-    }
-    sums[NODES] += TOTAL(sum->end);
+    sums[0] += cosine[0] - sine[0];
+    sums[1] += cosine[1] - sine[1];
+    sums[2] += cosine[1] + sine[1];
+    sums[3] += cosine[0] + sine[0];
+    sums[NODES] += end;
 }
 
 VECTOR_CLONES void kernel_turn(const double *middle, enum middle_term turn, double way,
                                size_t length, const double *const state[2], double *const to[2])
 {
     for (size_t k = 0; k < length; k += LANES) {
-        const double *term = middle + k * MIDDLE_TERMS + turn * LANES;
         lanes q = AT(state[0], k);
         lanes v = way * AT(state[1], k);
-        turn_by(term, &q, &v);
+        TURN(middle, turn, q, v);
         *(lanes *)(to[0] + k) = q;
         *(lanes *)(to[1] + k) = way * v;
+        middle += LANES * MIDDLE_TERMS;
     }
 }
 
@@ -205,38 +198,43 @@ VECTOR_CLONES void kernel_kick(const double *middle, size_t length, const double
                                const double force[NODES], double *const state[2])
 {
     struct pairs pairs = pair_up(force);
-    for (size_t k = 0; k < length; k += LANES)
-        kick(middle + k * MIDDLE_TERMS, &AT(phi, k), &pairs, (lanes *)(state[0] + k),
-             (lanes *)(state[1] + k));
+    for (size_t k = 0; k < length; k += LANES, middle += LANES * MIDDLE_TERMS)
+        KICK(middle, pairs, AT(phi, k), *(lanes *)(state[0] + k), *(lanes *)(state[1] + k));
 }
 
 VECTOR_CLONES void kernel_swing(const double *middle, size_t length, const double *phi,
                                 const double *const state[2], double sums[STEP_POINTS])
 {
-    struct swing sum = {0};
-    for (size_t k = 0; k < length; k += LANES)
-        swing(middle + k * MIDDLE_TERMS, &AT(phi, k), &AT(state[0], k), &AT(state[1], k), &sum);
-    swing_total(&sum, sums);
+    lanes c0 = {0}, c1 = {0}, s0 = {0}, s1 = {0}, end = {0};
+    for (size_t k = 0; k < length; k += LANES, middle += LANES * MIDDLE_TERMS) {
+        lanes pq = AT(phi, k) * AT(state[0], k);
+        lanes pv = AT(phi, k) * AT(state[1], k);
+        SWING(middle, pq, pv);
+    }
+    add_up((double[]){TOTAL(c0), TOTAL(c1)}, (double[]){TOTAL(s0), TOTAL(s1)}, TOTAL(end), sums);
 }
 
 VECTOR_CLONES void kernel_carry(const struct kernel_carry *carry, size_t length, const double *phi,
                                 double *const state[2], double sums[STEP_POINTS])
 {
-    struct pairs pairs = pair_up(carry->force);
-    struct swing sum = {0};
+    const struct pairs pairs = pair_up(carry->force);
     const double *from = carry->from;
     const double *next = carry->next;
+    double *const q_to = state[0];
+    double *const v_to = state[1];
+    lanes c0 = {0}, c1 = {0}, s0 = {0}, s1 = {0}, end = {0};
     for (size_t k = 0; k < length; k += LANES) {
-        lanes p = AT(phi, k);
-        lanes q = AT(state[0], k);
-        lanes v = AT(state[1], k);
-        kick(from, &p, &pairs, &q, &v);
-        turn_by(from + carry->turn * LANES, &q, &v);
-        *(lanes *)(state[0] + k) = q;
-        *(lanes *)(state[1] + k) = v;
-        swing(next, &p, &q, &v, &sum);
+        lanes q = AT(q_to, k);
+        lanes v = AT(v_to, k);
+        KICK(from, pairs, AT(phi, k), q, v);
+        TURN(from, carry->turn, q, v);
+        *(lanes *)(q_to + k) = q;
+        *(lanes *)(v_to + k) = v;
+        q *= AT(phi, k);
+        v *= AT(phi, k);
+        SWING(next, q, v);
         from += LANES * MIDDLE_TERMS;
         next += LANES * MIDDLE_TERMS;
     }
-    swing_total(&sum, sums);
+    add_up((double[]){TOTAL(c0), TOTAL(c1)}, (double[]){TOTAL(s0), TOTAL(s1)}, TOTAL(end), sums);
 }
