@@ -19,6 +19,7 @@ struct collocation {
     double position_end[NODES];    /* double integral from 0 to 1 */
     double highest[NODES];         /* coefficient of the Legendre polynomial of degree 3 */
     double slopes[NODES][NODES];   /* integral of the product of two polynomials' derivatives */
+    double end[4][NODES]; /* [m]: coefficient of (s - 1)^m of the polynomials, the values first */
 };
 
 extern const struct collocation collocation;

@@ -26,11 +26,14 @@ static const double AFTER_ALL = 1e-9;
 /* Share of the law's compliance that a negative series compliance may take away. */
 static const double BEARABLE = 0.5;
 
-bool contact_step_create(struct contact_step *step, const struct scene *scene, struct arena *arena)
+bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,
+                         struct arena *arena)
 {
     size_t n = scene->contacts;
     size_t unknowns = n * NODES;
-    *step = (struct contact_step){.arena = arena};
+    *step = (struct contact_step){.arena = arena, .last_change = node_solver_last_change(accuracy)};
+    for (size_t g = 0; g < scene->groups; g++)
+        step->damped = step->damped || scene->group[g].set->most_damping > 0.0;
     step->indentation = arena_take(arena, n, sizeof *step->indentation);
     step->force = arena_take(arena, n, sizeof *step->force);
     step->stiffness = arena_take(arena, n, sizeof *step->stiffness);
@@ -98,13 +101,17 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
 {
     double h = step_length(level);
     carrier_enter(&step->carrier, scene, motion, level, step->force, step->target);
-    for (size_t c = 0; c < scene->contacts; c++)
-        for (int i = 0; i < STEP_POINTS; i++) {
-            double t = i < NODES ? collocation.node[i] * h : h;
-            double a = scene->gap_acceleration[c];
-            step->target[c][i] =
-                -(motion->gap[c] + t * (motion->gap_rate[c] + 0.5 * a * t)) - step->target[c][i];
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double *target = step->target[c];
+        double gap = motion->gap[c];
+        double travel = h * motion->gap_rate[c];
+        double bend = 0.5 * h * h * scene->gap_acceleration[c];
+        for (int i = 0; i < NODES; i++) {
+            double s = collocation.node[i];
+            target[i] = -(gap + s * (travel + s * bend)) - target[i];
         }
+        target[NODES] = -(gap + (travel + bend)) - target[NODES];
+    }
 }
 
 /* Approach at the end of the step under its forces. */
@@ -150,8 +157,8 @@ double contact_step_loss(const struct scene *scene, const struct motion *motion,
     return sum;
 }
 
-/* One contact: Newton's method for d + c F(d) = approach. */
-static bool local_of_one(const struct contact_law *law, double c, double approach,
+/* One contact: Newton's method for d + c F(d) = approach, until a relative change below `last`. */
+static bool local_of_one(const struct contact_law *law, double c, double approach, double last,
                          double *indentation, double *force)
 {
     double d = *indentation;
@@ -160,9 +167,9 @@ static bool local_of_one(const struct contact_law *law, double c, double approac
         *force = contact_law_force(law, d, &stiffness);
         double change = (d + c * *force - approach) / (1.0 + c * stiffness);
         d -= change;
-        if (fabs(change) <= SQUARES_TO_ROUNDING * fabs(d) ||
-            fabs(change) <= APPROACH_ROUNDING * fabs(approach)) {
-            *force = fmax(0.0, *force - stiffness * change);
+        if (fabs(change) <= last * fabs(d) || fabs(change) <= APPROACH_ROUNDING * fabs(approach)) {
+            *force -= stiffness * change;
+            *force = *force > 0.0 ? *force : 0.0;
             *indentation = d;
             return true;
         }
@@ -213,34 +220,60 @@ bool contact_bears(const struct scene *scene, size_t contact, double stiffness)
 bool contact_local_indentation(const struct scene *scene, const double *approach,
                                double *indentation, double *force, double *matrix)
 {
-    if (scene->contacts == 1 &&
-        local_of_one(&scene->laws[0], scene->residual[0], approach[0], &indentation[0], &force[0]))
+    if (scene->contacts == 1 && local_of_one(&scene->laws[0], scene->residual[0], approach[0],
+                                             SQUARES_TO_ROUNDING, &indentation[0], &force[0]))
         return true;
     return local_of_many(scene, approach, indentation, force, matrix);
+}
+
+/* Indentations at the nodes as the step before has it: a Taylor series. */
+static void foresee(struct contact_step *step, size_t contact, const struct contact_start *from,
+                    double h)
+{
+    double *to = step->indentation[contact];
+    double indentation = from->indentation;
+    double rate = from->rate * h;
+    double curvature = 0.5 * from->curvature * (h * h);
+    double bend = from->bend * (h * h * h) * (1.0 / 6.0);
+    for (int i = 0; i < NODES; i++) {
+        double s = collocation.node[i];
+        to[i] = indentation + s * (rate + s * (curvature + s * bend));
+    }
+}
+
+/* The contacts at the end of the step, from where the cubics end: one contact as exactly as its
+ * nodes, several to rounding. */
+static bool find_end(struct contact_step *step, const struct scene *scene, int level)
+{
+    for (size_t c = 0; c < scene->contacts; c++) {
+        const double *at_end = collocation.end[0];
+        const double *d = step->indentation[c];
+        step->approach[c] = end_approach(step, scene, c, level);
+        step->end_indentation[c] =
+            (at_end[0] * d[0] + at_end[1] * d[1]) + (at_end[2] * d[2] + at_end[3] * d[3]);
+    }
+    if (scene->contacts == 1 &&
+        local_of_one(&scene->laws[0], scene->residual[0], step->approach[0], step->last_change,
+                     step->end_indentation, step->end_force))
+        return true;
+    return contact_local_indentation(scene, step->approach, step->end_indentation, step->end_force,
+                                     step->matrix);
 }
 
 enum contact_step_end contact_step_solve(struct contact_step *step, const struct scene *scene,
                                          const struct motion *motion, int level,
                                          const struct contact_start *start)
 {
-    double h = step_length(level);
     /* a level that is new to the scene */
     if (!step->coupling[level]) {
         enum percuss_status status = find_coupling(step, scene, level);
         if (status != PERCUSS_OK)
             return status == PERCUSS_TIMEOUT ? STEP_STOPPED : STEP_MEMORY;
     }
-    /* approaches without force, and indentations as the step before has it */
+    /* approaches without force, and starting values */
     free_approaches(step, scene, motion, level);
-    for (size_t c = 0; c < scene->contacts; c++) {
-        const struct contact_start *from = &start[c];
-        for (int i = 0; i < NODES; i++) {
-            double t = collocation.node[i] * h;
-            step->indentation[c][i] =
-                from->indentation +
-                t * (from->rate + t * (0.5 * from->curvature + t / 6.0 * from->bend));
-        }
-    }
+    for (size_t c = 0; c < scene->contacts; c++)
+        foresee(step, c, &start[c], step_length(level));
     /* forces and indentations at the nodes */
     struct node_problem problem = {
         .laws = scene->laws,
@@ -249,18 +282,11 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
         .target = (const double(*)[STEP_POINTS])step->target,
         .matrix = step->matrix,
         .excess = step->excess,
-        .last_change = node_solver_last_change(step->accuracy),
+        .last_change = step->last_change,
     };
     if (!node_solve(&problem, step->indentation, step->force, step->stiffness, &step->iterations))
         return STEP_UNSOLVED;
-    step->loss = contact_step_loss(scene, motion, level, step->force);
-    /* the contacts at the end: Newton's method from where the cubics end */
-    for (size_t c = 0; c < scene->contacts; c++) {
-        step->approach[c] = end_approach(step, scene, c, level);
-        step->end_indentation[c] = collocation_value(step->indentation[c], 1.0);
-    }
-    return contact_local_indentation(scene, step->approach, step->end_indentation, step->end_force,
-                                     step->matrix)
-               ? STEP_SOLVED
-               : STEP_UNSOLVED;
+    if (step->damped)
+        step->loss = contact_step_loss(scene, motion, level, step->force);
+    return find_end(step, scene, level) ? STEP_SOLVED : STEP_UNSOLVED;
 }

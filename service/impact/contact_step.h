@@ -17,8 +17,9 @@ struct contact_step {
     double (*stiffness)[NODES]; /* of the law, dF/d(indentation) */
     double *end_indentation;    /* [contact] */
     double loss;                /* taken by damping, J */
+    bool damped;                /* any mode is */
     unsigned long iterations;   /* Newton's, since creation */
-    double accuracy;            /* relative, of the forces; 0: to rounding */
+    double last_change;         /* relative, see node_solver.h */
 
     struct carrier carrier;
     /* [contact][contact], m/N: of the approach at the nodes and the end; NULL: not yet */
@@ -30,8 +31,10 @@ struct contact_step {
     struct pace *pace; /* asked before a level's tables are made; NULL (as created): nobody */
 };
 
-/* Memory for a scene from the arena. False: out of memory. */
-bool contact_step_create(struct contact_step *step, const struct scene *scene, struct arena *arena);
+/* Memory for a scene from the arena. `accuracy`: relative, of the forces; 0: to rounding. False:
+ * out of memory. */
+bool contact_step_create(struct contact_step *step, const struct scene *scene, double accuracy,
+                         struct arena *arena);
 
 /* Local values of a contact at the start of a step: starting values of the iteration. */
 struct contact_start {

@@ -47,6 +47,17 @@ enum {
     ITERATIONS_PER_STEP = 8
 };
 
+/* fmax and fmin are calls; these are for numbers. */
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* Laws have yielded: what follows has the scale of their branches, which are shorter, stiffest at
  * the top and hold less energy: the speed goes with its root. */
 static void rescale(struct modal_run *run)
@@ -101,7 +112,7 @@ static int finest_level(const struct modal_run *run)
     double shortest = SLOWEST_SHARE * run->march.horizon;
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         if (run->march.closed[c])
-            shortest = fmin(shortest, run->scales[c].duration);
+            shortest = smaller(shortest, run->scales[c].duration);
     return step_level(shortest * run->limits.event_share);
 }
 
@@ -113,7 +124,7 @@ static int limit_level(const struct modal_run *run, int level, int finest)
             continue;
         double left = run->longest[c];
         if (run->now[c].rate < 0.0)
-            left = fmin(left, SHARE_TO_OPENING * run->now[c].indentation / -run->now[c].rate);
+            left = smaller(left, SHARE_TO_OPENING * run->now[c].indentation / -run->now[c].rate);
         while (level < finest && step_length(level) > left)
             level++;
     }
@@ -129,11 +140,11 @@ static double force_scale(const struct modal_run *run, size_t contact)
     double own = run->scales[contact].force;
     double group = 0.0;
     for (int j = 0; j < NODES; j++)
-        own = fmax(own, run->step.force[contact][j]);
+        own = larger(own, run->step.force[contact][j]);
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         if (run->march.closed[c])
-            group = fmax(group, run->scales[c].force);
-    return fmax(own, SHARE_OF_GROUP * group);
+            group = larger(group, run->scales[c].force);
+    return larger(own, SHARE_OF_GROUP * group);
 }
 
 /* How much of the contacts' forces the highest coefficient of the step's cubic is. In a group a
@@ -148,7 +159,7 @@ static double step_roughness(const struct modal_run *run)
         for (int j = 0; j < NODES; j++)
             highest += collocation.highest[j] * force[j];
         double off = contacts > 1 ? run->step.end_force[c] - collocation_value(force, 1.0) : 0.0;
-        worst = fmax(worst, fmax(fabs(highest), fabs(off)) / force_scale(run, c));
+        worst = larger(worst, larger(fabs(highest), fabs(off)) / force_scale(run, c));
     }
     return worst;
 }
@@ -191,17 +202,15 @@ static double release_time(const struct modal_run *run, size_t contact, double s
 /* Local values at the end of the step: derivatives of the cubic through its nodes. */
 static struct contact_start end_values(const double values[NODES], double h, double indentation)
 {
-    double rate = 0.0;
-    double curvature = 0.0;
-    double bend = 0.0;
-    for (int j = 0; j < NODES; j++) {
-        const double *c = collocation.monomial[j];
-        rate += values[j] * (c[1] + 2.0 * c[2] + 3.0 * c[3]);
-        curvature += values[j] * (2.0 * c[2] + 6.0 * c[3]);
-        bend += values[j] * 6.0 * c[3];
-    }
     double r = 1.0 / h;
-    return (struct contact_start){indentation, rate * r, curvature * (r * r), bend * (r * r * r)};
+    double slope[NODES];
+    for (int m = 1; m < NODES; m++) {
+        const double *by = collocation.end[m];
+        slope[m] =
+            (by[0] * values[0] + by[1] * values[1]) + (by[2] * values[2] + by[3] * values[3]);
+    }
+    return (struct contact_start){indentation, slope[1] * r, 2.0 * slope[2] * (r * r),
+                                  6.0 * slope[3] * (r * r * r)};
 }
 
 /* First instant with positive indentation on the step just made, likewise. */
@@ -383,9 +392,9 @@ static bool run_create(struct modal_run *run, struct arena *arena)
                                       .scales = run->scales,
                                       .accuracy = run->settings->accuracy};
     if (!run->now || !run->scales || !run->longest ||
-        !contact_step_create(&run->step, scene, arena) || !yielding_create(&run->yielding, arena))
+        !contact_step_create(&run->step, scene, run->settings->accuracy, arena) ||
+        !yielding_create(&run->yielding, arena))
         return false;
-    run->step.accuracy = run->settings->accuracy;
     run->step.pace = run->march.pace;
     return true;
 }

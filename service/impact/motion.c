@@ -125,9 +125,11 @@ void motion_push_gaps(struct motion *end, const struct scene *scene, int level, 
     double travel = 0.0;
     /* by the force's integral and its double integral */
     for (int j = 0; j < NODES; j++) {
-        impulse += h * collocation.weight[j] * force[j];
-        travel += h * h * collocation.position_end[j] * force[j];
+        impulse += collocation.weight[j] * force[j];
+        travel += collocation.position_end[j] * force[j];
     }
+    impulse *= h;
+    travel *= h * h;
     for (size_t a = 0; a < scene->contacts; a++) {
         end->gap[a] += scene->w[a * scene->contacts + contact] * travel;
         end->gap_rate[a] += scene->w[a * scene->contacts + contact] * impulse;

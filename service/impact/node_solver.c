@@ -107,22 +107,26 @@ static inline double largest_of(const quad *values)
     return low > high ? low : high;
 }
 
-/* The excess e, and the matrix 1 + coupling F'. */
+/* The excess e, and the matrix 1 + coupling F', row by row. */
 static inline void assemble_one(const struct node_problem *problem, const quad *d,
                                 const double force[NODES], const double stiffness[NODES],
                                 quad matrix[NODES], double excess[NODES])
 {
     const double(*m)[NODES] = problem->coupling[0];
-    const double *target = problem->target[0];
     const quad forces = CONST_QUAD(force);
     const quad slopes = CONST_QUAD(stiffness);
-    for (int i = 0; i < NODES; i++) {
-        const quad coupling = CONST_QUAD(m[i]);
-        quad moved = coupling * forces;
-        excess[i] = (*d)[i] - target[i] + ((moved[0] + moved[2]) + (moved[1] + moved[3]));
-        matrix[i] = coupling * slopes;
-        matrix[i][i] += 1.0;
-    }
+    const quad bare = *d - CONST_QUAD(problem->target[0]);
+    quad moved[NODES];
+    for (int i = 0; i < NODES; i++)
+        moved[i] = CONST_QUAD(m[i]) * forces;
+    matrix[0] = CONST_QUAD(m[0]) * slopes + (quad){1.0, 0.0, 0.0, 0.0};
+    matrix[1] = CONST_QUAD(m[1]) * slopes + (quad){0.0, 1.0, 0.0, 0.0};
+    matrix[2] = CONST_QUAD(m[2]) * slopes + (quad){0.0, 0.0, 1.0, 0.0};
+    matrix[3] = CONST_QUAD(m[3]) * slopes + (quad){0.0, 0.0, 0.0, 1.0};
+    excess[0] = bare[0] + ((moved[0][0] + moved[0][2]) + (moved[0][1] + moved[0][3]));
+    excess[1] = bare[1] + ((moved[1][0] + moved[1][2]) + (moved[1][1] + moved[1][3]));
+    excess[2] = bare[2] + ((moved[2][0] + moved[2][2]) + (moved[2][1] + moved[2][3]));
+    excess[3] = bare[3] + ((moved[3][0] + moved[3][2]) + (moved[3][1] + moved[3][3]));
 }
 
 /* One contact: the usual case, without scratch memory. */

@@ -4,7 +4,6 @@
 #include "impact/step_table.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -92,24 +91,6 @@ struct oscillators *oscillators_undamped(struct oscillators *set)
     if (!set->undamped)
         set->undamped = oscillators_create(set->count, set->omega, 0.0);
     return set->undamped;
-}
-
-double step_length(int level)
-{
-    /* the bits of 2^-level: this is in the inner loop */
-    union {
-        uint64_t bits;
-        double value;
-    } power = {.bits = (uint64_t)(1023 - level) << 52};
-    return power.value;
-}
-
-int step_level(double h)
-{
-    int exponent;
-    frexp(h, &exponent); /* h = f 2^exponent, 1/2 <= f < 1 */
-    int level = 1 - exponent;
-    return level < 0 ? 0 : level >= STEP_LEVELS ? STEP_LEVELS - 1 : level;
 }
 
 /* What lies mode after mode. */

@@ -9,6 +9,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/watch.h"
 #include "impact/collocation.h"
@@ -69,11 +70,27 @@ struct oscillators *oscillators_part(struct oscillators *whole, const size_t *wh
 /* The same without damping, its own where it has none; belongs to it. NULL: out of memory. */
 struct oscillators *oscillators_undamped(struct oscillators *set);
 
-/* The step of a level, s. */
-double step_length(int level);
+/* The ladder is by the bits of a double: this is in the inner loop. */
+union step_bits {
+    double value;
+    uint64_t bits;
+};
+enum { STEP_EXPONENT_BIT = 52, STEP_EXPONENT_OF_ONE = 1023 };
 
-/* The finest level whose step is not longer than h; clamped to the ladder. */
-int step_level(double h);
+/* The step of a level, s: 2^-level. */
+static inline double step_length(int level)
+{
+    union step_bits power = {.bits = (uint64_t)(STEP_EXPONENT_OF_ONE - level) << STEP_EXPONENT_BIT};
+    return power.value;
+}
+
+/* The finest level whose step is not longer than h >= 0; clamped to the ladder. */
+static inline int step_level(double h)
+{
+    union step_bits length = {.value = h};
+    int level = STEP_EXPONENT_OF_ONE - (int)(length.bits >> STEP_EXPONENT_BIT);
+    return level < 0 ? 0 : level >= STEP_LEVELS ? STEP_LEVELS - 1 : level;
+}
 
 /* The table of a level, computed when first asked for. NULL: out of memory. */
 const struct step_table *oscillators_table(struct oscillators *set, int level);

@@ -100,11 +100,14 @@ void track_step(struct track *track, double time, double h, const struct track_v
     for (int i = 1; i < POINTS; i++)
         if (value[i] > value[largest])
             largest = i;
+    double impulse = 0.0;
+    for (int j = 0; j < NODES; j++)
+        impulse += collocation.weight[j] * values->force[j];
     /* the largest indentation: where it still rises the end will do, the next step looks closer */
     if (largest == POINTS - 1 && value[largest] > open->max_indentation) {
         open->max_indentation = value[largest];
         open->compression_end = time + h;
-        open->compression_impulse = open->impulse + h * collocation_integral(values->force, 1.0);
+        open->compression_impulse = open->impulse + h * impulse;
     } else if (value[largest] > PAST_PEAK * open->max_indentation) {
         double indentation;
         double s = peak_around(place, value, largest, &indentation);
@@ -115,16 +118,18 @@ void track_step(struct track *track, double time, double h, const struct track_v
         }
     }
     /* the impulse, and int K' F' dt and int F'^2 dt by the derivatives of the nodes' polynomials */
-    for (int j = 0; j < NODES; j++)
-        open->impulse += h * collocation.weight[j] * values->force[j];
+    open->impulse += h * impulse;
     double inertia = 0.0;
     double viscosity = 0.0;
+    double sum[NODES] = {0.0};
+    for (int j = 0; j < NODES; j++) {
+        double force = values->force[j];
+        for (int i = 0; i < NODES; i++)
+            sum[i] += collocation.slopes[j][i] * force;
+    }
     for (int i = 0; i < NODES; i++) {
-        double sum = 0.0;
-        for (int j = 0; j < NODES; j++)
-            sum += collocation.slopes[i][j] * values->force[j];
-        inertia += values->stiffness[i] * sum;
-        viscosity += values->force[i] * sum;
+        inertia += values->stiffness[i] * sum[i];
+        viscosity += values->force[i] * sum[i];
     }
     track->inertia += inertia / h;
     track->viscosity += viscosity / h;

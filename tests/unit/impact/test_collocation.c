@@ -51,6 +51,20 @@ static void values_and_integrals_of_polynomials(void **state)
     }
 }
 
+/* The Taylor series from the end is the polynomial. */
+static void series_at_the_end(void **state)
+{
+    (void)state;
+    for (double s = 0.0; s <= 2.0; s += 0.125)
+        for (int j = 0; j < NODES; j++) {
+            double x = s - 1.0;
+            double series = collocation.end[0][j] +
+                            x * (collocation.end[1][j] +
+                                 x * (collocation.end[2][j] + x * collocation.end[3][j]));
+            near(series, lagrange(j, s), 1e-13); /* terms of up to 31 cancel */
+        }
+}
+
 /* Integral and double integral of each polynomial to each node: exact on monomials, the double one
  * is int (c - s) f ds. */
 static void matrices_integrate(void **state)
@@ -98,6 +112,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nodes_and_weights_are_gauss_s),
         cmocka_unit_test(values_and_integrals_of_polynomials),
+        cmocka_unit_test(series_at_the_end),
         cmocka_unit_test(matrices_integrate),
         cmocka_unit_test(the_highest_coefficient),
     };

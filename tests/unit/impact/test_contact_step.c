@@ -101,7 +101,7 @@ static double difference(struct toy *toy, double damping, int level, int count, 
     struct contact_step step;
     struct motion motion;
     double y[STATE];
-    assert_true(contact_step_create(&step, &toy->scene, &toy->arena));
+    assert_true(contact_step_create(&step, &toy->scene, 0.0, &toy->arena));
     assert_true(motion_create(&motion, &toy->scene, &toy->arena));
     motion_start(&motion, &toy->scene);
     memcpy(y, motion.gap, 2 * sizeof *y);
@@ -179,7 +179,7 @@ static void a_mass_on_a_spring(void **state)
     toy_init(&toy, 1);
     toy.laws[0] = contact_law_linear(9.0); /* omega = 3 with w = 1 */
     toy.gap[0] = -1.0;
-    assert_true(contact_step_create(&step, &toy.scene, &toy.arena));
+    assert_true(contact_step_create(&step, &toy.scene, 0.0, &toy.arena));
     assert_true(motion_create(&motion, &toy.scene, &toy.arena));
     motion_start(&motion, &toy.scene);
     struct contact_start start = {1.0, 0.0, -9.0, 0.0};
