@@ -7,9 +7,12 @@
 
 #include "numeric/linear.h"
 
-/* The nodes of a contact; the lanes' order of operations is that of scalars. */
-typedef double quad __attribute__((vector_size(NODES * sizeof(double))));
-typedef long long quad_mask __attribute__((vector_size(NODES * sizeof(long long))));
+/* Two nodes of a contact, wherever they lie: what every vector unit has; the lanes' order of
+ * operations is that of scalars. */
+typedef double pair __attribute__((vector_size(2 * sizeof(double)), aligned(8)));
+typedef long long pair_mask __attribute__((vector_size(2 * sizeof(long long))));
+#define PAIR(at)       (*(pair *)(at))
+#define CONST_PAIR(at) (*(const pair *)(at))
 
 /* Newton's method takes two or three iterations in an ordinary step; where it takes so many it
  * would take for ever. */
@@ -24,42 +27,44 @@ static const double ROUNDING_OF_SUMS = 1e-12;
 /* Pivots, 1 where nothing couples, from which on elimination without exchanges loses a digit. */
 static const double LEAST_PIVOT = 0.1;
 
-/* A quad wherever it lies. */
-typedef double loose_quad __attribute__((vector_size(NODES * sizeof(double)), aligned(8)));
-#define QUAD(at)       (*(loose_quad *)(at))
-#define CONST_QUAD(at) (*(const loose_quad *)(at))
-
-/* A row and its right side less a multiple of another one. */
-static inline void subtract(quad *row, double *right, double factor, const quad *other,
-                            double other_right)
-{
-    *row -= factor * *other;
-    *right -= factor * other_right;
-}
+/* A row's lanes 0, 1 and 2, 3. */
+struct row {
+    pair low, high;
+};
 
 /* Solves a x = b by elimination in the order given; the matrix is the identity plus a small causal
  * one. False: a pivot is too small for that order. */
-static inline bool eliminate(const quad a[NODES], const double b[NODES], quad *x)
+static inline bool eliminate(const struct row a[NODES], const double b[NODES], double x[NODES])
 {
-    quad r1 = a[1], r2 = a[2], r3 = a[3];
-    double b1 = b[1], b2 = b[2], b3 = b[3];
     /* forward, without exchanges: a pivot that is too small spoils only what is thrown away */
-    double p0 = 1.0 / a[0][0];
-    subtract(&r1, &b1, r1[0] * p0, &a[0], b[0]);
-    subtract(&r2, &b2, r2[0] * p0, &a[0], b[0]);
-    subtract(&r3, &b3, r3[0] * p0, &a[0], b[0]);
-    double p1 = 1.0 / r1[1];
-    subtract(&r2, &b2, r2[1] * p1, &r1, b1);
-    subtract(&r3, &b3, r3[1] * p1, &r1, b1);
-    double p2 = 1.0 / r2[2];
-    subtract(&r3, &b3, r3[2] * p2, &r2, b2);
+    double p0 = 1.0 / a[0].low[0];
+    double f1 = a[1].low[0] * p0;
+    double f2 = a[2].low[0] * p0;
+    double f3 = a[3].low[0] * p0;
+    double a11 = a[1].low[1] - f1 * a[0].low[1];
+    double a21 = a[2].low[1] - f2 * a[0].low[1];
+    double a31 = a[3].low[1] - f3 * a[0].low[1];
+    pair r1 = a[1].high - f1 * a[0].high;
+    pair r2 = a[2].high - f2 * a[0].high;
+    pair r3 = a[3].high - f3 * a[0].high;
+    double b1 = b[1] - f1 * b[0];
+    double p1 = 1.0 / a11;
+    double g2 = a21 * p1;
+    double g3 = a31 * p1;
+    r2 -= g2 * r1;
+    r3 -= g3 * r1;
+    double b2 = b[2] - f2 * b[0] - g2 * b1;
+    double p2 = 1.0 / r2[0];
+    double l3 = r3[0] * p2;
+    double a33 = r3[1] - l3 * r2[1];
+    double b3 = b[3] - f3 * b[0] - g3 * b1 - l3 * b2;
     /* and back substitution */
-    double x3 = b3 / r3[3];
-    double x2 = (b2 - r2[3] * x3) * p2;
-    double x1 = (b1 - r1[3] * x3 - r1[2] * x2) * p1;
-    *x = (quad){(b[0] - a[0][3] * x3 - a[0][2] * x2 - a[0][1] * x1) * p0, x1, x2, x3};
-    return a[0][0] > LEAST_PIVOT && r1[1] > LEAST_PIVOT && r2[2] > LEAST_PIVOT &&
-           r3[3] > LEAST_PIVOT;
+    x[3] = b3 / a33;
+    x[2] = (b2 - r2[1] * x[3]) * p2;
+    x[1] = (b1 - r1[1] * x[3] - r1[0] * x[2]) * p1;
+    x[0] = (b[0] - a[0].high[1] * x[3] - a[0].high[0] * x[2] - a[0].low[1] * x[1]) * p0;
+    return a[0].low[0] > LEAST_PIVOT && a11 > LEAST_PIVOT && r2[0] > LEAST_PIVOT &&
+           a33 > LEAST_PIVOT;
 }
 
 /* What an update changed, against the indentations and against the approaches without force: these
@@ -93,66 +98,73 @@ static bool settled(const struct progress *progress, double last_change)
 }
 
 /* Forces after the last, tiny update: the slope that it was made with carries them along. */
-static inline void follow(double force[NODES], const double stiffness[NODES], const quad *change)
+static inline void follow(double force[NODES], const double stiffness[NODES],
+                          const double change[NODES])
 {
-    quad after = CONST_QUAD(force) - CONST_QUAD(stiffness) * *change;
-    after = (quad)((quad_mask)after & (after > 0.0));
-    QUAD(force) = after;
+    for (int i = 0; i < NODES; i += 2) {
+        pair after = CONST_PAIR(force + i) - CONST_PAIR(stiffness + i) * CONST_PAIR(change + i);
+        PAIR(force + i) = (pair)((pair_mask)after & (after > 0.0));
+    }
 }
 
-static inline double largest_of(const quad *values)
+static inline double largest_of(const double values[NODES])
 {
-    double low = fabs((*values)[0]) > fabs((*values)[1]) ? fabs((*values)[0]) : fabs((*values)[1]);
-    double high = fabs((*values)[2]) > fabs((*values)[3]) ? fabs((*values)[2]) : fabs((*values)[3]);
+    double low = fabs(values[0]) > fabs(values[1]) ? fabs(values[0]) : fabs(values[1]);
+    double high = fabs(values[2]) > fabs(values[3]) ? fabs(values[2]) : fabs(values[3]);
     return low > high ? low : high;
 }
 
-/* The excess e, and the matrix 1 + coupling F', row by row. */
-static inline void assemble_one(const struct node_problem *problem, const quad *d,
+/* Row i of the matrix 1 + coupling F' but for the 1, and what the forces take from the approach. */
+static inline double row_of(const double coupling[NODES], const double force[NODES],
+                            const double stiffness[NODES], struct row *row)
+{
+    const pair low = CONST_PAIR(coupling);
+    const pair high = CONST_PAIR(coupling + 2);
+    pair moved = low * CONST_PAIR(force) + high * CONST_PAIR(force + 2);
+    row->low = low * CONST_PAIR(stiffness);
+    row->high = high * CONST_PAIR(stiffness + 2);
+    return moved[0] + moved[1];
+}
+
+/* The excess e, and the matrix. */
+static inline void assemble_one(const struct node_problem *problem, const double d[NODES],
                                 const double force[NODES], const double stiffness[NODES],
-                                quad matrix[NODES], double excess[NODES])
+                                struct row a[NODES], double excess[NODES])
 {
     const double(*m)[NODES] = problem->coupling[0];
-    const quad forces = CONST_QUAD(force);
-    const quad slopes = CONST_QUAD(stiffness);
-    const quad bare = *d - CONST_QUAD(problem->target[0]);
-    quad moved[NODES];
-    for (int i = 0; i < NODES; i++)
-        moved[i] = CONST_QUAD(m[i]) * forces;
-    matrix[0] = CONST_QUAD(m[0]) * slopes + (quad){1.0, 0.0, 0.0, 0.0};
-    matrix[1] = CONST_QUAD(m[1]) * slopes + (quad){0.0, 1.0, 0.0, 0.0};
-    matrix[2] = CONST_QUAD(m[2]) * slopes + (quad){0.0, 0.0, 1.0, 0.0};
-    matrix[3] = CONST_QUAD(m[3]) * slopes + (quad){0.0, 0.0, 0.0, 1.0};
-    excess[0] = bare[0] + ((moved[0][0] + moved[0][2]) + (moved[0][1] + moved[0][3]));
-    excess[1] = bare[1] + ((moved[1][0] + moved[1][2]) + (moved[1][1] + moved[1][3]));
-    excess[2] = bare[2] + ((moved[2][0] + moved[2][2]) + (moved[2][1] + moved[2][3]));
-    excess[3] = bare[3] + ((moved[3][0] + moved[3][2]) + (moved[3][1] + moved[3][3]));
+    const double *target = problem->target[0];
+    excess[0] = d[0] - target[0] + row_of(m[0], force, stiffness, &a[0]);
+    excess[1] = d[1] - target[1] + row_of(m[1], force, stiffness, &a[1]);
+    excess[2] = d[2] - target[2] + row_of(m[2], force, stiffness, &a[2]);
+    excess[3] = d[3] - target[3] + row_of(m[3], force, stiffness, &a[3]);
+    a[0].low += (pair){1.0, 0.0};
+    a[1].low += (pair){0.0, 1.0};
+    a[2].high += (pair){1.0, 0.0};
+    a[3].high += (pair){0.0, 1.0};
 }
 
 /* One contact: the usual case, without scratch memory. */
-static bool solve_one(const struct node_problem *problem, double indentation[NODES],
-                      double force[NODES], double stiffness[NODES], unsigned long *iterations)
+static bool solve_one(const struct node_problem *problem, double d[NODES], double force[NODES],
+                      double stiffness[NODES], unsigned long *iterations)
 {
-    const quad target = CONST_QUAD(problem->target[0]);
-    quad d = CONST_QUAD(indentation);
-    struct progress progress = {.previous = INFINITY, .target = largest_of(&target)};
+    struct progress progress = {.previous = INFINITY, .target = largest_of(problem->target[0])};
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        quad matrix[NODES];
+        struct row matrix[NODES];
         double excess[NODES];
-        quad change;
-        contact_law_forces(problem->laws, indentation, force, stiffness);
-        assemble_one(problem, &d, force, stiffness, matrix, excess);
-        bool solved = eliminate(matrix, excess, &change);
+        double change[NODES];
+        contact_law_forces(problem->laws, d, force, stiffness);
+        assemble_one(problem, d, force, stiffness, matrix, excess);
+        bool solved = eliminate(matrix, excess, change);
         ++*iterations;
         /* the update, and whether it was the last one */
-        d -= change;
-        QUAD(indentation) = d;
-        progress.change = largest_of(&change);
-        progress.indentation = largest_of(&d);
+        for (int i = 0; i < NODES; i++)
+            d[i] -= change[i];
+        progress.change = largest_of(change);
+        progress.indentation = largest_of(d);
         if (!solved || !isfinite((change[0] + change[1]) + (change[2] + change[3])))
             return false;
         if (settled(&progress, problem->last_change)) {
-            follow(force, stiffness, &change);
+            follow(force, stiffness, change);
             return true;
         }
         progress.previous = progress.change;
@@ -275,10 +287,8 @@ bool node_solve(const struct node_problem *problem, double (*indentation)[NODES]
         if (!isfinite(progress.change))
             return false;
         if (settled(&progress, problem->last_change)) {
-            for (size_t c = 0; c < problem->contacts; c++) {
-                const quad change = CONST_QUAD(problem->excess + c * NODES);
-                follow(force[c], stiffness[c], &change);
-            }
+            for (size_t c = 0; c < problem->contacts; c++)
+                follow(force[c], stiffness[c], problem->excess + c * NODES);
             return true;
         }
         previous = progress.change;
