@@ -3,8 +3,6 @@
 
 #include "impact/carrier.h"
 
-#include <string.h>
-
 #include "impact/kernel.h"
 
 /* No step has been entered. */
@@ -18,6 +16,7 @@ bool carrier_create(struct carrier *carrier, const struct scene *scene, struct a
     if (!carrier->q || !carrier->v)
         return false;
     for (size_t g = 0; g < scene->groups; g++) {
+        carrier->damped = carrier->damped || scene->group[g].set->most_damping > 0.0;
         carrier->q[g] = arena_reserve(arena, scene->group[g].stride, sizeof **carrier->q);
         carrier->v[g] = arena_reserve(arena, scene->group[g].stride, sizeof **carrier->v);
         if (!carrier->q[g] || !carrier->v[g])
@@ -79,40 +78,49 @@ static void enter(const struct carrier *carrier, const struct scene *scene, size
                   double (*sums)[STEP_POINTS])
 {
     const struct scene_group *group = &scene->group[g];
-    const double *next = middle_of(group, level);
     double *const state[2] = {carrier->q[g], carrier->v[g]};
-    struct kernel_carry carry = {.next = next, .force = force[0]};
-    /* one contact: all at once */
-    if (scene->contacts == 1 && group->participation[0] && carrier->taken &&
-        find_turn(carrier->level, level, &carry.turn)) {
-        carry.from = middle_of(group, carrier->level);
-        kernel_carry(&carry, group->stride, group->participation[0], state, sums[0]);
-        return;
-    }
     if (carrier->taken)
         kick(scene, group, carrier->level, force, state);
     turn_to(carrier, group, start, level, state);
     for (size_t c = 0; c < scene->contacts; c++)
         if (group->participation[c])
-            kernel_swing(next, group->stride, group->participation[c],
+            kernel_swing(middle_of(group, level), group->stride, group->participation[c],
                          (const double *const[]){state[0], state[1]}, sums[c]);
+}
+
+/* The same of a damped group, from the start of the step. */
+static void enter_damped(const struct scene *scene, const struct scene_group *group,
+                         const double *const start[2], int level, double (*sums)[STEP_POINTS])
+{
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (group->participation[c])
+            kernel_nodes(group->set->tables[level], group->stride, group->participation[c],
+                         start[0], start[1], sums[c]);
 }
 
 void carrier_enter(struct carrier *carrier, const struct scene *scene, const struct motion *motion,
                    int level, double (*const force)[NODES], double (*sums)[STEP_POINTS])
 {
-    memset(sums, 0, scene->contacts * sizeof *sums);
+    /* one contact, from a step to one about as long: in one pass */
+    struct kernel_carry carry = {.force = force[0]};
+    bool at_once =
+        scene->contacts == 1 && carrier->taken && find_turn(carrier->level, level, &carry.turn);
+    for (size_t c = 0; c < scene->contacts; c++)
+        for (int i = 0; i < STEP_POINTS; i++)
+            sums[c][i] = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         const double *const start[2] = {motion->q[g], motion->v[g]};
-        if (middle_of(group, level)) {
+        carry.next = middle_of(group, level);
+        if (!carry.next) {
+            enter_damped(scene, group, start, level, sums);
+        } else if (at_once && group->participation[0]) {
+            carry.from = middle_of(group, carrier->level);
+            kernel_carry(&carry, group->stride, group->participation[0],
+                         (double *const[]){carrier->q[g], carrier->v[g]}, sums[0]);
+        } else {
             enter(carrier, scene, g, start, level, force, sums);
-            continue;
         }
-        for (size_t c = 0; c < scene->contacts; c++)
-            if (group->participation[c])
-                kernel_nodes(group->set->tables[level], group->stride, group->participation[c],
-                             start[0], start[1], sums[c]);
     }
     carrier->level = level;
     carrier->taken = false;
@@ -126,7 +134,7 @@ void carrier_take(struct carrier *carrier, const struct scene *scene, struct mot
     for (size_t c = 0; c < scene->contacts; c++)
         motion_push_gaps(motion, scene, carrier->level, c, force[c]);
     /* damped modes */
-    for (size_t g = 0; g < scene->groups; g++) {
+    for (size_t g = 0; carrier->damped && g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         const struct step_table *table = group->set->tables[carrier->level];
         if (table->middle)

@@ -11,6 +11,7 @@
 
 struct carrier {
     double **q, **v; /* [group][stride], of undamped modes at the middle of the step */
+    bool damped;     /* any mode is */
     int level;       /* of that step; < 0: all modes are as the motion says */
     bool taken;      /* it is behind them: its forces are still to be applied */
 };

@@ -32,8 +32,6 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
     size_t n = scene->contacts;
     size_t unknowns = n * NODES;
     *step = (struct contact_step){.arena = arena, .last_change = node_solver_last_change(accuracy)};
-    for (size_t g = 0; g < scene->groups; g++)
-        step->damped = step->damped || scene->group[g].set->most_damping > 0.0;
     step->indentation = arena_take(arena, n, sizeof *step->indentation);
     step->force = arena_take(arena, n, sizeof *step->force);
     step->stiffness = arena_take(arena, n, sizeof *step->stiffness);
@@ -286,7 +284,7 @@ enum contact_step_end contact_step_solve(struct contact_step *step, const struct
     };
     if (!node_solve(&problem, step->indentation, step->force, step->stiffness, &step->iterations))
         return STEP_UNSOLVED;
-    if (step->damped)
+    if (step->carrier.damped)
         step->loss = contact_step_loss(scene, motion, level, step->force);
     return find_end(step, scene, level) ? STEP_SOLVED : STEP_UNSOLVED;
 }

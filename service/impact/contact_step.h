@@ -17,7 +17,6 @@ struct contact_step {
     double (*stiffness)[NODES]; /* of the law, dF/d(indentation) */
     double *end_indentation;    /* [contact] */
     double loss;                /* taken by damping, J */
-    bool damped;                /* any mode is */
     unsigned long iterations;   /* Newton's, since creation */
     double last_change;         /* relative, see node_solver.h */
 

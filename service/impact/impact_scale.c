@@ -42,7 +42,7 @@ static double stored_about(const struct contact_law *law, double d, double force
 }
 
 /* Indentation at which a law stores an energy: Newton's method for log(stored) against
- * log(indentation), which one step solves for a power law, from any start. */
+ * log(indentation), which one step solves for a power law, as elastic ones are, from any start. */
 static double indentation_of_energy(const struct contact_law *law, double energy)
 {
     double d = FIRST_INDENTATION;
@@ -53,7 +53,7 @@ static double indentation_of_energy(const struct contact_law *law, double energy
         double power = force * d / stored;
         double change = log(stored / energy) / power;
         d *= exp(-change);
-        if (fabs(change) < SCALE_ACCURACY)
+        if (fabs(change) < SCALE_ACCURACY || !law->operations->curve)
             break;
     }
     return d;

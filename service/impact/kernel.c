@@ -8,7 +8,9 @@
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 
 #define AT(array, k) (*(const lanes *)((array) + (k)))
-#define TOTAL(x)     (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
+/* A term of modes that lie together, see step_table.h. */
+#define TERM(at, t) AT(at, (t)*LANES)
+#define TOTAL(x)    (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
 
 VECTOR_CLONES void kernel_nodes(const struct step_table *table, size_t length, const double *phi,
                                 const double *q, const double *v, double sums[STEP_POINTS])
@@ -95,14 +97,14 @@ VECTOR_CLONES void kernel_response(const struct step_table *table, size_t length
                                    double sums[STEP_POINTS][NODES])
 {
     for (int i = 0; i < STEP_POINTS; i++) {
-        double *const *row = i < NODES ? table->response[i] : table->force_q;
+        const double *row = table->response + i * NODES * LANES;
         lanes s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
-        for (size_t k = 0; k < length; k += LANES) {
+        for (size_t k = 0; k < length; k += LANES, row += LANES * RESPONSE_TERMS) {
             lanes p = AT(phi_a, k) * AT(phi_b, k);
-            s0 += p * AT(row[0], k);
-            s1 += p * AT(row[1], k);
-            s2 += p * AT(row[2], k);
-            s3 += p * AT(row[3], k);
+            s0 += p * TERM(row, 0);
+            s1 += p * TERM(row, 1);
+            s2 += p * TERM(row, 2);
+            s3 += p * TERM(row, 3);
         }
         sums[i][0] += TOTAL(s0);
         sums[i][1] += TOTAL(s1);
@@ -130,8 +132,6 @@ VECTOR_CLONES double kernel_loss(const struct step_table *table, size_t length,
     }
     return TOTAL(sum);
 }
-
-#define TERM(at, t) AT(at, (t)*LANES)
 
 /* The forces of the pairs of nodes: what is odd and what is even around the middle. */
 struct pairs {

@@ -21,6 +21,7 @@ struct modal_run {
     struct contact_start *now;   /* [contact], local */
     struct impact_scale *scales; /* [contact], of the sub-impact under way */
     double *longest;             /* [contact], stable step, s */
+    int finest;                  /* level that events and grading of the closed contacts need */
 };
 
 /* A contact that opens without speed has no duration of its own: its shortest step is that of a
@@ -58,6 +59,16 @@ static double smaller(double a, double b)
     return a < b ? a : b;
 }
 
+/* The contacts that are closed, or their scales, have changed. */
+static void find_finest(struct modal_run *run)
+{
+    double shortest = SLOWEST_SHARE * run->march.horizon;
+    for (size_t c = 0; c < run->march.scene.contacts; c++)
+        if (run->march.closed[c])
+            shortest = smaller(shortest, run->scales[c].duration);
+    run->finest = step_level(shortest * run->limits.event_share);
+}
+
 /* Laws have yielded: what follows has the scale of their branches, which are shorter, stiffest at
  * the top and hold less energy: the speed goes with its root. */
 static void rescale(struct modal_run *run)
@@ -74,6 +85,7 @@ static void rescale(struct modal_run *run)
         scale->force = force;
         run->longest[c] = step_limits_stable(&run->march.scene, c, scale, run->limits.coupling);
     }
+    find_finest(run);
 }
 
 /* Laws have yielded. False: one has begun an unloading that its series compliance does not bear. */
@@ -94,6 +106,7 @@ static void open_contact(struct modal_run *run, size_t contact, double time, dou
     run->longest[contact] =
         step_limits_stable(&march->scene, contact, &run->scales[contact], run->limits.coupling);
     march_open(march, contact, time, march->outcome->motion.gap_rate[contact]);
+    find_finest(run);
 }
 
 /* It ends at `time`; the motion is a little later. */
@@ -104,16 +117,7 @@ static void close_contact(struct modal_run *run, size_t contact, double time)
     march_close(march, contact, time,
                 march->outcome->motion.gap_rate[contact] -
                     march->scene.gap_acceleration[contact] * late);
-}
-
-/* The finest level that events and grading need. */
-static int finest_level(const struct modal_run *run)
-{
-    double shortest = SLOWEST_SHARE * run->march.horizon;
-    for (size_t c = 0; c < run->march.scene.contacts; c++)
-        if (run->march.closed[c])
-            shortest = smaller(shortest, run->scales[c].duration);
-    return step_level(shortest * run->limits.event_share);
+    find_finest(run);
 }
 
 /* A step must not jump over a contact's end, nor pump a mode, nor pass the horizon. */
@@ -137,10 +141,12 @@ static int limit_level(const struct modal_run *run, int level, int finest)
 /* Force against which a contact's roughness counts: its scale, or what it bears already. */
 static double force_scale(const struct modal_run *run, size_t contact)
 {
-    double own = run->scales[contact].force;
+    const double *force = run->step.force[contact];
+    double own = larger(larger(force[0], force[1]), larger(force[2], force[3]));
     double group = 0.0;
-    for (int j = 0; j < NODES; j++)
-        own = larger(own, run->step.force[contact][j]);
+    own = larger(own, run->scales[contact].force);
+    if (run->march.scene.contacts == 1)
+        return own;
     for (size_t c = 0; c < run->march.scene.contacts; c++)
         if (run->march.closed[c])
             group = larger(group, run->scales[c].force);
@@ -313,12 +319,12 @@ static enum contact_step_end solve_step(struct modal_run *run, int level)
 static enum percuss_end_reason go_through(struct modal_run *run)
 {
     struct march *march = &run->march;
-    int level = finest_level(run);
+    int level = run->finest;
     while (march_in_contact(march)) {
         if (++march->used > march->most || !pace_keeps(march->pace, march->cost))
             return PERCUSS_END_LIMIT;
         /* the length of the next step */
-        int finest = finest_level(run);
+        int finest = run->finest;
         int deepest = finest + GRAZE_LEVELS;
         level = limit_level(run, level < deepest ? level : deepest, finest);
         if (run->yielding.any)

@@ -96,14 +96,15 @@ struct oscillators *oscillators_undamped(struct oscillators *set)
 /* What lies mode after mode. */
 static size_t array_count(bool damped)
 {
-    return 2 * NODES + 4 + 2 * NODES + NODES * NODES + (damped ? LOSS_TERMS : 0);
+    return 2 * NODES + 4 + 2 * NODES + (damped ? LOSS_TERMS : 0);
 }
 
 /* One block: the table, then its arrays, each `stride` long and aligned. */
 static struct step_table *table_allocate(size_t stride, bool damped)
 {
     /* zero throughout: the modes that only fill the last lanes never move */
-    size_t arrays = array_count(damped) + (damped ? 0 : MIDDLE_TERMS);
+    size_t together = RESPONSE_TERMS + (damped ? 0 : MIDDLE_TERMS);
+    size_t arrays = array_count(damped) + together;
     size_t header = (sizeof(struct step_table) + 31) / 32 * 32;
     size_t bytes = header + arrays * stride * sizeof(double);
     unsigned char *block = aligned_alloc(32, (bytes + 31) / 32 * 32);
@@ -113,16 +114,16 @@ static struct step_table *table_allocate(size_t stride, bool damped)
     struct step_table *table = (struct step_table *)block;
     double *next = (double *)(block + header);
     /* arrays in the order of the table */
-    double **first[] = {table->node_q,          table->node_v,  &table->end_qq, &table->end_qv,
-                        &table->end_vq,         &table->end_vv, table->force_q, table->force_v,
-                        &table->response[0][0], table->loss};
-    size_t lengths[] = {
-        NODES, NODES, 1, 1, 1, 1, NODES, NODES, NODES * NODES, damped ? LOSS_TERMS : 0};
+    double **first[] = {table->node_q,  table->node_v,  &table->end_qq,
+                        &table->end_qv, &table->end_vq, &table->end_vv,
+                        table->force_q, table->force_v, table->loss};
+    size_t lengths[] = {NODES, NODES, 1, 1, 1, 1, NODES, NODES, damped ? LOSS_TERMS : 0};
     for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
         for (size_t j = 0; j < lengths[i]; j++, next += stride)
             first[i][j] = next;
     }
-    table->middle = damped ? NULL : next;
+    table->response = next;
+    table->middle = damped ? NULL : next + RESPONSE_TERMS * stride;
     return table;
 }
 
@@ -134,15 +135,9 @@ static void fill_turn(double *term, double omega, double time)
     term[2 * LANES] = -omega * sin(omega * time);
 }
 
-/* The terms of a mode. */
-static double *middle_of(const struct step_table *table, size_t k)
-{
-    return table->middle + k / LANES * LANES * MIDDLE_TERMS + k % LANES;
-}
-
 static void fill_middle(struct step_table *table, double omega, double h, size_t k)
 {
-    double *term = middle_of(table, k);
+    double *term = table->middle + k / LANES * LANES * MIDDLE_TERMS + k % LANES;
     fill_turn(term + TURN_HALF * LANES, omega, 0.5 * h);
     fill_turn(term + TURN_WHOLE * LANES, omega, h);
     fill_turn(term + TURN_SHORTER * LANES, omega, 0.75 * h);
@@ -172,13 +167,14 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
 {
     double to_q[NODES + 2];
     double to_v[NODES + 2];
+    double *response = table->response + k / LANES * LANES * RESPONSE_TERMS + k % LANES;
     /* at the nodes: of the motion before, and of forces there */
     for (int i = 0; i < NODES; i++) {
         oscillator_map(set->omega[k], set->damping[k], h, collocation.node[i], to_q, to_v);
         table->node_q[i][k] = to_q[0];
         table->node_v[i][k] = to_q[1];
         for (int j = 0; j < NODES; j++)
-            table->response[i][j][k] = to_q[j + 2];
+            response[(i * NODES + j) * LANES] = to_q[j + 2];
     }
     /* at the end */
     oscillator_map(set->omega[k], set->damping[k], h, 1.0, to_q, to_v);
@@ -187,6 +183,7 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
     table->end_vq[k] = to_v[0];
     table->end_vv[k] = to_v[1];
     for (int j = 0; j < NODES; j++) {
+        response[(NODES * NODES + j) * LANES] = to_q[j + 2];
         table->force_q[j][k] = to_q[j + 2];
         table->force_v[j][k] = to_v[j + 2];
     }
@@ -202,8 +199,17 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
     }
 }
 
-/* A part's numbers are the whole's: array after array, as they lie in its block, and the terms of
- * undamped modes, which a damped whole does not have. */
+/* Terms of a mode that lie together. */
+static void gather_terms(double *to, size_t i, const double *from, size_t k, size_t terms)
+{
+    to += i / LANES * LANES * terms + i % LANES;
+    from += k / LANES * LANES * terms + k % LANES;
+    for (size_t term = 0; term < terms; term++)
+        to[term * LANES] = from[term * LANES];
+}
+
+/* A part's numbers are the whole's: array after array, as they lie in its block, and terms. A
+ * damped whole has none of undamped modes. */
 static void gather(struct step_table *table, const struct oscillators *part,
                    const struct step_table *whole, double h)
 {
@@ -214,12 +220,12 @@ static void gather(struct step_table *table, const struct oscillators *part,
         for (size_t i = 0; i < part->count; i++)
             to[i] = from[part->which[i]];
     }
-    for (size_t i = 0; table->middle && i < part->count; i++) {
+    for (size_t i = 0; i < part->count; i++) {
         size_t k = part->which[i];
-        double *to = middle_of(table, i);
-        for (int term = 0; whole->middle && term < MIDDLE_TERMS; term++)
-            to[term * LANES] = middle_of(whole, k)[term * LANES];
-        if (!whole->middle)
+        gather_terms(table->response, i, whole->response, k, RESPONSE_TERMS);
+        if (table->middle && whole->middle)
+            gather_terms(table->middle, i, whole->middle, k, MIDDLE_TERMS);
+        else if (table->middle)
             fill_middle(table, part->omega[i], h, i);
     }
 }

@@ -84,44 +84,39 @@ static double peak_around(const double place[POINTS], const double value[POINTS]
     return d[0] > value[i] ? s : place[i];
 }
 
-void track_step(struct track *track, double time, double h, const struct track_values *values)
+/* The peak of a step that does not end with its largest indentation, if it is the contact's. */
+static void find_peak(struct sub_impact *open, double time, double h,
+                      const struct track_values *values, double deepened)
 {
-    struct sub_impact *open = &track->open;
-    /* the indentation at start, nodes and end */
     double place[POINTS] = {0.0};
-    double value[POINTS] = {values->start + track->deepened};
+    double value[POINTS] = {values->start + deepened};
+    double indentation;
     int largest = 0;
+    /* the indentation at start, nodes and end */
     place[POINTS - 1] = 1.0;
-    value[POINTS - 1] = values->end + track->deepened;
+    value[POINTS - 1] = values->end + deepened;
     for (int j = 0; j < NODES; j++) {
         place[j + 1] = collocation.node[j];
-        value[j + 1] = values->indentation[j] + track->deepened;
+        value[j + 1] = values->indentation[j] + deepened;
     }
     for (int i = 1; i < POINTS; i++)
         if (value[i] > value[largest])
             largest = i;
-    double impulse = 0.0;
-    for (int j = 0; j < NODES; j++)
-        impulse += collocation.weight[j] * values->force[j];
-    /* the largest indentation: where it still rises the end will do, the next step looks closer */
-    if (largest == POINTS - 1 && value[largest] > open->max_indentation) {
-        open->max_indentation = value[largest];
-        open->compression_end = time + h;
-        open->compression_impulse = open->impulse + h * impulse;
-    } else if (value[largest] > PAST_PEAK * open->max_indentation) {
-        double indentation;
-        double s = peak_around(place, value, largest, &indentation);
-        if (indentation > open->max_indentation) {
-            open->max_indentation = indentation;
-            open->compression_end = time + s * h;
-            open->compression_impulse = open->impulse + h * collocation_integral(values->force, s);
-        }
+    double s = peak_around(place, value, largest, &indentation);
+    if (indentation > open->max_indentation) {
+        open->max_indentation = indentation;
+        open->compression_end = time + s * h;
+        open->compression_impulse = open->impulse + h * collocation_integral(values->force, s);
     }
-    /* the impulse, and int K' F' dt and int F'^2 dt by the derivatives of the nodes' polynomials */
-    open->impulse += h * impulse;
+}
+
+/* What omitted inertia and viscosity would do: int K' F' dt and int F'^2 dt by the derivatives of
+ * the nodes' polynomials. */
+static void add_omitted(struct track *track, double h, const struct track_values *values)
+{
+    double sum[NODES] = {0.0};
     double inertia = 0.0;
     double viscosity = 0.0;
-    double sum[NODES] = {0.0};
     for (int j = 0; j < NODES; j++) {
         double force = values->force[j];
         for (int i = 0; i < NODES; i++)
@@ -133,6 +128,32 @@ void track_step(struct track *track, double time, double h, const struct track_v
     }
     track->inertia += inertia / h;
     track->viscosity += viscosity / h;
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+void track_step(struct track *track, double time, double h, const struct track_values *values)
+{
+    struct sub_impact *open = &track->open;
+    const double *d = values->indentation;
+    double before = larger(larger(larger(d[0], d[1]), larger(d[2], d[3])), values->start);
+    double impulse = 0.0;
+    for (int j = 0; j < NODES; j++)
+        impulse += collocation.weight[j] * values->force[j];
+    impulse *= h;
+    /* the largest indentation: where it still rises the end will do, the next step looks closer */
+    if (values->end > before && values->end + track->deepened > open->max_indentation) {
+        open->max_indentation = values->end + track->deepened;
+        open->compression_end = time + h;
+        open->compression_impulse = open->impulse + impulse;
+    } else if (larger(before, values->end) + track->deepened > PAST_PEAK * open->max_indentation) {
+        find_peak(open, time, h, values, track->deepened);
+    }
+    open->impulse += impulse;
+    add_omitted(track, h, values);
 }
 
 void track_close(struct track *track, const struct contact_law *law, double time, double gap_rate)
