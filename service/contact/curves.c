@@ -16,15 +16,22 @@ static const double gauss_weight[] = {0.17392742256872692869, 0.3260725774312730
 double curves_work_on(const struct spline *a, const struct spline *b, double mix, size_t i,
                       const double part[2])
 {
+    double value[2];
+    double slopes[2];
+    double sum = 0.0;
     double from = sqrt(part[0]);
     double range = sqrt(part[1]) - from;
-    double sum = 0.0;
+    double h = a->place[i + 1] - a->place[i];
+    /* the mix of two cubics is the cubic of the mix */
+    for (size_t end = 0; end < 2; end++) {
+        value[end] = (1.0 - mix) * a->value[i + end] + mix * b->value[i + end];
+        slopes[end] = (1.0 - mix) * a->slope[i + end] + mix * b->slope[i + end];
+    }
     for (int g = 0; g < 4; g++) {
         double slope;
         double u = from + range * gauss_node[g];
-        double value = (1.0 - mix) * spline_on(a, i, u * u, &slope);
-        value += mix * spline_on(b, i, u * u, &slope);
-        sum += 2.0 * u * gauss_weight[g] * value * sqrt(value);
+        double here = spline_between(h, (u * u - a->place[i]) / h, value, slopes, &slope);
+        sum += 2.0 * u * gauss_weight[g] * here * sqrt(here);
     }
     return sum * range;
 }

@@ -48,7 +48,7 @@ enum contact_tables { CONTACT_TABLES_NONE, CONTACT_TABLES_IF_ANY, CONTACT_TABLES
  * NULL for all others, a force of (law, indentation, rate), with both slopes, that is never
  * negative; what it remembers is its history, updated like a dent's between steps. Its `force` is
  * the elastic part. The march would have to give it the rates at the nodes, the derivative of the
- * cubic through the indentations there (rate_at in impact/yielding.c: a fixed matrix over the
+ * cubic through the indentations there (find_rate in impact/yielding.c: a fixed matrix over the
  * step's length); to add to each Newton matrix the slope by the rate times that matrix, where now
  * only the diagonal of the stiffness stands (node_solver.c, in a copy of solve_one for such laws);
  * and to count the work of the force less `force` as dissipated, as contact_law_yield's is. */

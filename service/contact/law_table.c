@@ -40,22 +40,29 @@ static double straight_on(const struct contact_curves *curves, double d)
     return curves->branches ? d - last_of(&curves->loading) : 0.0;
 }
 
-/* Force and slope at a point of the table. */
-static double table_force(const struct contact_curves *curves, double d, double *slope)
+/* Force and slope at a point of the table, which is looked for about a segment of the curve. */
+static double table_force(const struct contact_curves *curves, size_t *segment, double d,
+                          double *slope)
 {
     double beyond = straight_on(curves, d);
-    double value = spline_at(&curves->loading, beyond > 0.0 ? d - beyond : d, slope);
+    double value = spline_near(&curves->loading, segment, beyond > 0.0 ? d - beyond : d, slope);
     double root = sqrt(value);
     *slope *= 1.5 * root;
-    return value * root + fmax(beyond, 0.0) * *slope;
+    return value * root + (beyond > 0.0 ? beyond * *slope : 0.0);
+}
+
+static double loading_near(const struct contact_law *law, size_t *segment, double d, double *slope)
+{
+    const double *unit = law->parameters;
+    double force = table_force(curves_of(law), segment, d / unit[LENGTH], slope);
+    *slope *= unit[FORCE] / unit[LENGTH];
+    return force * unit[FORCE];
 }
 
 static double loading_force(const struct contact_law *law, double d, double *slope)
 {
-    const double *unit = law->parameters;
-    double force = table_force(curves_of(law), d / unit[LENGTH], slope);
-    *slope *= unit[FORCE] / unit[LENGTH];
-    return force * unit[FORCE];
+    size_t segment = 0;
+    return loading_near(law, &segment, d, slope);
 }
 
 static double table_work(const struct contact_curves *curves, double d)
@@ -66,7 +73,8 @@ static double table_work(const struct contact_curves *curves, double d)
     double slope;
     /* under the straight line beyond the last point */
     if (beyond > 0.0) {
-        double force = table_force(curves, loading->place[last], &slope);
+        size_t segment = last - 1;
+        double force = table_force(curves, &segment, loading->place[last], &slope);
         return curves->work[last] + beyond * (force + 0.5 * slope * beyond);
     }
     if (d > loading->place[last]) {
@@ -138,18 +146,56 @@ static double branches_of(const struct contact_law *law, const struct spline *pa
     return next == j ? 0.0 : fmin(fmax((at - place[j]) / (place[next] - place[j]), 0.0), 1.0);
 }
 
+/* Share of the force between two branches: they have the same places, at equal steps, so that the
+ * mix of their cubics is the cubic of the mix. */
+static double share_between(const struct spline *const pair[2], double mix, double x, double *slope)
+{
+    double value[2];
+    double slopes[2];
+    double steps = (double)(pair[0]->count - 1);
+    size_t i = (size_t)(x * steps);
+    i = i < pair[0]->count - 1 ? i : pair[0]->count - 2;
+    for (size_t end = 0; end < 2; end++) {
+        value[end] = (1.0 - mix) * pair[0]->value[i + end] + mix * pair[1]->value[i + end];
+        slopes[end] = (1.0 - mix) * pair[0]->slope[i + end] + mix * pair[1]->slope[i + end];
+    }
+    double between = spline_between(1.0 / steps, x * steps - (double)i, value, slopes, slope);
+    double root = sqrt(between);
+    *slope *= 1.5 * root;
+    return between * root;
+}
+
 static double branch_share(const struct contact_law *law, double x, double *slope)
 {
     const struct spline *pair[2];
     double mix = branches_of(law, pair);
-    double slopes[2];
-    size_t i = (size_t)(x * (double)(pair[0]->count - 1));
-    i = i < pair[0]->count - 1 ? i : pair[0]->count - 2;
-    double value = (1.0 - mix) * spline_on(pair[0], i, x, &slopes[0]) +
-                   mix * spline_on(pair[1], i, x, &slopes[1]);
-    double root = sqrt(value);
-    *slope = 1.5 * root * ((1.0 - mix) * slopes[0] + mix * slopes[1]);
-    return value * root;
+    return share_between(pair, mix, x, slope);
+}
+
+/* plastic_force at several indentations: branches and segment are looked for once. */
+static void table_forces(const struct contact_law *law,
+                         const double indentation[CONTACT_LAW_AT_ONCE],
+                         double force[CONTACT_LAW_AT_ONCE], double stiffness[CONTACT_LAW_AT_ONCE])
+{
+    const struct contact_history *history = &law->history;
+    const struct spline *pair[2] = {NULL, NULL};
+    double span = history->max_indentation - history->dent;
+    double mix = 0.0;
+    size_t segment = 0;
+    for (int i = 0; i < CONTACT_LAW_AT_ONCE; i++) {
+        double d = indentation[i];
+        force[i] = stiffness[i] = 0.0;
+        if (!(d > 0.0))
+            continue;
+        if (d >= span) {
+            force[i] = loading_near(law, &segment, d + history->dent, &stiffness[i]);
+            continue;
+        }
+        if (!pair[0])
+            mix = branches_of(law, pair);
+        force[i] = history->max_force * share_between(pair, mix, d / span, &stiffness[i]);
+        stiffness[i] *= history->max_force / span;
+    }
 }
 
 static double branch_work(const struct contact_law *law, double x)
@@ -191,6 +237,7 @@ const struct contact_law_operations contact_law_TABLE = {
     .make = contact_law_closed_form,
     .title = "a table of the contact region",
     .force = plastic_force,
+    .forces = table_forces,
     .stored = plastic_stored,
     .indentation = plastic_indentation,
     .curve = &curve,

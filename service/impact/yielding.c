@@ -45,15 +45,15 @@ static double near_kink(const struct yielding *yielding, double duration)
     return NEARNESS * sqrt(yielding->accuracy) * duration;
 }
 
-/* Rate of the cubic through the nodes. */
-static double rate_at(const double values[NODES], double s)
+/* Rate of the cubic through the nodes, a parabola. */
+static void find_rate(const double values[NODES], double rate[3])
 {
-    double rate = 0.0;
-    for (int j = 0; j < NODES; j++) {
-        const double *c = collocation.monomial[j];
-        rate += values[j] * (c[1] + s * (2.0 * c[2] + 3.0 * s * c[3]));
-    }
-    return rate;
+    memset(rate, 0, 3 * sizeof *rate);
+    for (int j = 0; j < NODES; j++)
+        for (int m = 0; m < 3; m++)
+            rate[m] += values[j] * collocation.monomial[j][m + 1];
+    rate[1] *= 2.0;
+    rate[2] *= 3.0;
 }
 
 /* Second derivative of the cubic through the nodes. */
@@ -80,8 +80,10 @@ struct path {
 /* Inserts the first turn, where the rate changes sign between two points. */
 static void add_peak(struct path *path, const double nodes[NODES], double before)
 {
+    double rate[3];
+    find_rate(nodes, rate);
     for (int i = 1; i < path->points; i++) {
-        double after = rate_at(nodes, path->place[i]);
+        double after = rate[0] + path->place[i] * (rate[1] + path->place[i] * rate[2]);
         double step = path->place[i] - path->place[i - 1];
         if (before > 0.0 && after <= 0.0) {
             /* where the line between the two rates is zero */

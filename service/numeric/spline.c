@@ -23,23 +23,26 @@ double spline_on(const struct spline *spline, size_t i, double x, double *slope)
 {
     double h = spline->place[i + 1] - spline->place[i];
     double t = (x - spline->place[i]) / h;
-    double rise = spline->value[i + 1] - spline->value[i];
-    double left = h * spline->slope[i];
-    double right = h * spline->slope[i + 1];
-    double square = 3.0 * rise - 2.0 * left - right;
-    double cube = left + right - 2.0 * rise;
-    *slope = (left + t * (2.0 * square + 3.0 * t * cube)) / h;
-    return spline->value[i] + t * (left + t * (square + t * cube));
+    return spline_between(h, t, spline->value + i, spline->slope + i, slope);
+}
+
+double spline_near(const struct spline *spline, size_t *segment, double x, double *slope)
+{
+    size_t last = spline->count - 1;
+    const double *place = spline->place;
+    if (!(x < place[last])) {
+        *slope = spline->slope[last];
+        return spline->value[last] + *slope * (x - place[last]);
+    }
+    if (!(place[*segment] <= x && x < place[*segment + 1]))
+        *segment = spline_segment(spline, x);
+    return spline_on(spline, *segment, x, slope);
 }
 
 double spline_at(const struct spline *spline, double x, double *slope)
 {
-    size_t last = spline->count - 1;
-    if (!(x < spline->place[last])) {
-        *slope = spline->slope[last];
-        return spline->value[last] + *slope * (x - spline->place[last]);
-    }
-    return spline_on(spline, spline_segment(spline, x), x, slope);
+    size_t segment = 0;
+    return spline_near(spline, &segment, x, slope);
 }
 
 /* Slope at an end of the polynomial through the four points from it inward (three, if there are no

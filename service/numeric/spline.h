@@ -21,10 +21,26 @@ void spline_set_slopes(struct spline *spline, double *scratch);
 /* Index i with place[i] <= x < place[i + 1], clamped to the segments. */
 size_t spline_segment(const struct spline *spline, double x);
 
+/* Between two places h apart, at the share t of the way: the cubic of the values and slopes there;
+ * *slope becomes its derivative. */
+static inline double spline_between(double h, double t, const double value[2],
+                                    const double slopes[2], double *slope)
+{
+    double rise = value[1] - value[0];
+    double left = h * slopes[0];
+    double right = h * slopes[1];
+    double square = 3.0 * rise - 2.0 * left - right;
+    double cube = left + right - 2.0 * rise;
+    *slope = (left + t * (2.0 * square + 3.0 * t * cube)) / h;
+    return value[0] + t * (left + t * (square + t * cube));
+}
+
 /* Value on segment i; *slope becomes its derivative. */
 double spline_on(const struct spline *spline, size_t i, double x, double *slope);
 
 /* Value anywhere from the first place on; beyond the last one straight on. */
 double spline_at(const struct spline *spline, double x, double *slope);
+/* The same; *segment is looked at first, and becomes that of x. */
+double spline_near(const struct spline *spline, size_t *segment, double x, double *slope);
 
 #endif

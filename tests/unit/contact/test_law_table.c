@@ -84,6 +84,13 @@ static void its_curves_fit_together(void **state)
             const struct contact_law_operations *of = law.operations;
             assert_true(force > before);
             before = force;
+            /* at once as one by one, on the branch and beyond it */
+            const double places[CONTACT_LAW_AT_ONCE] = {d + step, -d, d, 30.0 * d};
+            double together[CONTACT_LAW_AT_ONCE], slopes[CONTACT_LAW_AT_ONCE];
+            contact_law_forces(&law, places, together, slopes);
+            assert_true(together[0] == above && together[2] == force && slopes[2] == slope);
+            assert_true(together[1] == 0.0 && slopes[1] == 0.0);
+            assert_true(together[3] == contact_law_force(&law, places[3], &ignored));
             if (fabs(d - contact_law_limit(&law)) < 2.0 * step && loads)
                 continue;
             /* differences over steps of 1e-6: rounding */
