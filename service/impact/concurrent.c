@@ -83,11 +83,10 @@ static enum percuss_status begin_contact(struct concurrent *run)
     run->scale = impact_scale_of(march->stated, 0, rate);
     run->level = step_level(HERTZ_DURATION * run->scale.duration / run->least_steps);
     /* what a force that rises to 1 N does to bodies at rest */
+    enum percuss_status status = scene_prepare(scene, run->level, march->pace);
+    if (status != PERCUSS_OK)
+        return pace_fault(march->fault, status);
     for (size_t g = 0; g < scene->groups; g++) {
-        enum percuss_status status =
-            oscillators_prepare(scene->group[g].set, run->level, march->pace);
-        if (status != PERCUSS_OK)
-            return pace_fault(march->fault, status);
         memset(run->end.q[g], 0, scene->group[g].stride * sizeof(double));
         memset(run->end.v[g], 0, scene->group[g].stride * sizeof(double));
     }

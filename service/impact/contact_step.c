@@ -56,11 +56,9 @@ static enum percuss_status find_coupling(struct contact_step *step, const struct
     size_t n = scene->contacts;
     double h = step_length(level);
     /* the modes' tables */
-    for (size_t g = 0; g < scene->groups; g++) {
-        enum percuss_status status = oscillators_prepare(scene->group[g].set, level, step->pace);
-        if (status != PERCUSS_OK)
-            return status;
-    }
+    enum percuss_status status = scene_prepare(scene, level, step->pace);
+    if (status != PERCUSS_OK)
+        return status;
     double(*all)[STEP_POINTS][NODES] = arena_take(step->arena, n * n, sizeof *all);
     if (!all)
         return PERCUSS_INTERNAL;

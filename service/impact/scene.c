@@ -5,6 +5,18 @@
 
 #include <math.h>
 
+enum percuss_status scene_prepare(const struct scene *scene, int level, struct pace *pace)
+{
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        enum percuss_status status =
+            oscillators_prepare_first(group->set, group->count, level, pace);
+        if (status != PERCUSS_OK)
+            return status;
+    }
+    return PERCUSS_OK;
+}
+
 double scene_highest_frequency(const struct scene *scene)
 {
     double highest = 0.0;

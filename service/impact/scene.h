@@ -37,6 +37,10 @@ struct scene {
     struct scene_group *group;      /* [groups] */
 };
 
+/* Makes sure that the groups' tables of a level hold the oscillators that take part. OK, INTERNAL
+ * without memory, or TIMEOUT where the pace stopped it. */
+enum percuss_status scene_prepare(const struct scene *scene, int level, struct pace *pace);
+
 /* The highest frequency that takes part, rad/s; 0 without oscillators. */
 double scene_highest_frequency(const struct scene *scene);
 

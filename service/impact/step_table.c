@@ -208,49 +208,66 @@ static void gather_terms(double *to, size_t i, const double *from, size_t k, siz
         to[term * LANES] = from[term * LANES];
 }
 
-/* A part's numbers are the whole's: array after array, as they lie in its block, and terms. A
- * damped whole has none of undamped modes. */
-static void gather(struct step_table *table, const struct oscillators *part,
-                   const struct step_table *whole, double h)
+/* The numbers of a part's oscillators from `first` to `count` are the whole's: array after array,
+ * as they lie in its block, and terms. A damped whole has none of undamped modes. */
+static void gather(struct step_table *table, const struct oscillators *part, int level,
+                   const size_t range[2])
 {
+    const struct step_table *whole = part->whole->tables[level];
     size_t arrays = array_count(part->most_damping > 0.0);
     for (size_t a = 0; a < arrays; a++) {
         const double *from = whole->node_q[0] + a * part->whole->stride;
         double *to = table->node_q[0] + a * part->stride;
-        for (size_t i = 0; i < part->count; i++)
+        for (size_t i = range[0]; i < range[1]; i++)
             to[i] = from[part->which[i]];
     }
-    for (size_t i = 0; i < part->count; i++) {
+    for (size_t i = range[0]; i < range[1]; i++) {
         size_t k = part->which[i];
         gather_terms(table->response, i, whole->response, k, RESPONSE_TERMS);
         if (table->middle && whole->middle)
             gather_terms(table->middle, i, whole->middle, k, MIDDLE_TERMS);
         else if (table->middle)
-            fill_middle(table, part->omega[i], h, i);
+            fill_middle(table, part->omega[i], step_length(level), i);
     }
+}
+
+/* The table of a level with the first `count` oscillators at least. NULL: out of memory. */
+static const struct step_table *table_of_first(struct oscillators *set, size_t count, int level)
+{
+    if (!set->tables[level])
+        set->tables[level] = table_allocate(set->stride, set->most_damping > 0.0);
+    struct step_table *table = set->tables[level];
+    const size_t range[] = {set->filled[level], count};
+    if (!table || range[0] >= count)
+        return table;
+    /* from the whole, which has them first */
+    if (set->whole) {
+        if (!table_of_first(set->whole, set->which[count - 1] + 1, level))
+            return NULL;
+        gather(table, set, level, range);
+    }
+    for (size_t k = range[0]; !set->whole && k < count; k++)
+        fill_mode(table, set, step_length(level), k);
+    set->filled[level] = count;
+    return table;
 }
 
 const struct step_table *oscillators_table(struct oscillators *set, int level)
 {
-    if (set->tables[level])
-        return set->tables[level];
-    const struct step_table *whole = set->whole ? oscillators_table(set->whole, level) : NULL;
-    struct step_table *table = table_allocate(set->stride, set->most_damping > 0.0);
-    if (!table || (set->whole && !whole)) {
-        free(table);
-        return NULL;
-    }
-    if (whole)
-        gather(table, set, whole, step_length(level));
-    for (size_t k = 0; !whole && k < set->count; k++)
-        fill_mode(table, set, step_length(level), k);
-    set->tables[level] = table;
-    return table;
+    return table_of_first(set, set->count, level);
+}
+
+enum percuss_status oscillators_prepare_first(struct oscillators *set, size_t count, int level,
+                                              struct pace *pace)
+{
+    if (set->tables[level] && set->filled[level] >= count)
+        return PERCUSS_OK;
+    if (!pace_ask(pace, 0.0))
+        return PERCUSS_TIMEOUT;
+    return table_of_first(set, count, level) ? PERCUSS_OK : PERCUSS_INTERNAL;
 }
 
 enum percuss_status oscillators_prepare(struct oscillators *set, int level, struct pace *pace)
 {
-    if (!set->tables[level] && !pace_ask(pace, 0.0))
-        return PERCUSS_TIMEOUT;
-    return oscillators_table(set, level) ? PERCUSS_OK : PERCUSS_INTERNAL;
+    return oscillators_prepare_first(set, set->count, level, pace);
 }

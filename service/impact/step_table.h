@@ -54,7 +54,8 @@ struct oscillators {
     double most_damping;                    /* the largest ratio; 0: undamped */
     double *omega;                          /* ascending, rad/s; 0 beyond count */
     double *damping;                        /* ratio of each; 0 beyond count */
-    struct step_table *tables[STEP_LEVELS]; /* filled on first use */
+    struct step_table *tables[STEP_LEVELS]; /* made on first use, */
+    size_t filled[STEP_LEVELS];             /* for so many of the first oscillators */
     struct oscillators *undamped;           /* the same frequencies; NULL: not asked for yet */
     struct oscillators *whole;              /* those that these are a part of; NULL: of none */
     size_t *which;                          /* [count] of a part: index among the whole's */
@@ -98,8 +99,11 @@ static inline int step_level(double h)
 /* The table of a level, computed when first asked for. NULL: out of memory. */
 const struct step_table *oscillators_table(struct oscillators *set, int level);
 
-/* Makes sure that there is one, and asks before it makes it, which takes milliseconds. INTERNAL:
- * out of memory; TIMEOUT: the pace stopped it. */
+/* Makes sure that there is one for the first `count`, and asks before it makes it, which takes
+ * milliseconds. INTERNAL: out of memory; TIMEOUT: the pace stopped it. */
+enum percuss_status oscillators_prepare_first(struct oscillators *set, size_t count, int level,
+                                              struct pace *pace);
+/* For all. */
 enum percuss_status oscillators_prepare(struct oscillators *set, int level, struct pace *pace);
 
 #endif

@@ -175,9 +175,8 @@ static bool step(struct tracer *tracer, int level, double (*const force)[NODES])
     tracer->left -= tracer->cost;
     if (tracer->left < 0.0 || !pace_keeps(tracer->pace, tracer->cost))
         return false;
-    for (size_t g = 0; g < scene->groups; g++)
-        if (oscillators_prepare(scene->group[g].set, level, tracer->pace) != PERCUSS_OK)
-            return false;
+    if (scene_prepare(scene, level, tracer->pace) != PERCUSS_OK)
+        return false;
     /* integrals of the forces */
     for (size_t c = 0; c < scene->contacts; c++) {
         double impulse = 0.0;

@@ -168,6 +168,37 @@ static void a_part_has_the_tables_of_the_whole(void **state)
     oscillators_free(whole);
 }
 
+/* The first ones asked for, then more: the numbers of all at once, of a part as well. */
+static void tables_grow(void **state)
+{
+    (void)state;
+    static const size_t which[] = {1, 2, 4, 5}, counts[] = {2, 1, 5, 6};
+    for (int damped = 0; damped < 2; damped++) {
+        struct oscillators *grown = oscillators_create(MODES, omegas, 0.1 * damped);
+        struct oscillators *whole = oscillators_create(MODES, omegas, 0.1 * damped);
+        struct oscillators *part = oscillators_part(grown, which, 4);
+        struct oscillators *whole_part = oscillators_part(whole, which, 4);
+        assert_true(grown && whole && part && whole_part);
+        for (int i = 0; i < 4; i++) {
+            size_t some = counts[i] < 4 ? counts[i] : 4;
+            assert_int_equal(oscillators_prepare_first(part, some, 14, NULL), PERCUSS_OK);
+            assert_int_equal(oscillators_prepare_first(grown, counts[i], 14, NULL), PERCUSS_OK);
+        }
+        const struct step_table *tables[2][2] = {
+            {oscillators_table(grown, 14), oscillators_table(whole, 14)},
+            {oscillators_table(part, 14), oscillators_table(whole_part, 14)}};
+        for (int i = 0; i < 2; i++) {
+            size_t arrays = 20 + RESPONSE_TERMS + (damped ? LOSS_TERMS : MIDDLE_TERMS);
+            assert_memory_equal(tables[i][0]->node_q[0], tables[i][1]->node_q[0],
+                                arrays * (i ? part : grown)->stride * sizeof(double));
+        }
+        oscillators_free(part);
+        oscillators_free(whole_part);
+        oscillators_free(grown);
+        oscillators_free(whole);
+    }
+}
+
 static void an_empty_set_is_a_set(void **state)
 {
     (void)state;
@@ -181,9 +212,13 @@ static void an_empty_set_is_a_set(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_ladder_halves),  cmocka_unit_test(tables_hold_the_maps),
-        cmocka_unit_test(padding_is_zero),    cmocka_unit_test(a_part_has_the_tables_of_the_whole),
-        cmocka_unit_test(middles_hold_turns), cmocka_unit_test(an_empty_set_is_a_set),
+        cmocka_unit_test(the_ladder_halves),
+        cmocka_unit_test(tables_hold_the_maps),
+        cmocka_unit_test(middles_hold_turns),
+        cmocka_unit_test(padding_is_zero),
+        cmocka_unit_test(a_part_has_the_tables_of_the_whole),
+        cmocka_unit_test(tables_grow),
+        cmocka_unit_test(an_empty_set_is_a_set),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
