@@ -173,6 +173,11 @@ static bool local_of_one(const struct contact_law *law, double c, double approac
     return false;
 }
 
+static inline double larger(double a, double b)
+{
+    return b > a || isnan(b) ? b : a;
+}
+
 /* All contacts at once: Newton's method for d_a + sum_b C_ab F_b(d_b) = approach_a. */
 static bool local_of_many(const struct scene *scene, const double *approach, double *indentation,
                           double *force, double *matrix)
@@ -199,8 +204,8 @@ static bool local_of_many(const struct scene *scene, const double *approach, dou
         /* the update, and whether it was the last one */
         for (size_t c = 0; c < n; c++) {
             indentation[c] -= excess[c];
-            change = fmax(change, fabs(excess[c]));
-            scale = fmax(scale, fmax(fabs(indentation[c]), fabs(approach[c])));
+            change = larger(change, fabs(excess[c]));
+            scale = larger(scale, larger(fabs(indentation[c]), fabs(approach[c])));
         }
         if (change <= (iteration + 1 < MAX_ITERATIONS ? TO_ROUNDING : AFTER_ALL) * scale)
             return true;

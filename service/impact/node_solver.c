@@ -74,17 +74,10 @@ struct progress {
     double indentation, target;
 };
 
-/* fmax is a call; these are plain comparisons (a NaN change is caught by the caller's isfinite). */
-static double larger(double a, double b)
+/* fmax is a call; this is a comparison of numbers. */
+static inline double larger(double a, double b)
 {
-    return b > a || isnan(b) ? b : a;
-}
-
-static void look_at(struct progress *progress, double change, double indentation, double target)
-{
-    progress->change = larger(progress->change, fabs(change));
-    progress->indentation = larger(progress->indentation, fabs(indentation));
-    progress->target = larger(progress->target, fabs(target));
+    return a > b ? a : b;
 }
 
 /* Whether the iteration ends: the change was small enough for its square to be nothing, or was
@@ -172,6 +165,42 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
     return false;
 }
 
+static inline double product_of(const double x[NODES], const double y[NODES])
+{
+    pair sum = CONST_PAIR(x) * CONST_PAIR(y) + CONST_PAIR(x + 2) * CONST_PAIR(y + 2);
+    return sum[0] + sum[1];
+}
+
+/* As eliminate, in place, for any even number of unknowns; contacts that do not feel each other
+ * leave zeros. */
+static bool eliminate_many(size_t n, double *a, double *b)
+{
+    /* forward, two columns at a time */
+    for (size_t c = 0; c < n; c++) {
+        const double *row = a + c * n;
+        double inverse = 1.0 / row[c];
+        size_t right = (c + 1) / 2 * 2;
+        if (!(row[c] > LEAST_PIVOT))
+            return false;
+        for (size_t i = c + 1; i < n; i++) {
+            double *below = a + i * n;
+            double factor = below[c] * inverse;
+            if (factor == 0.0)
+                continue;
+            for (size_t k = right; k < n; k += 2)
+                PAIR(below + k) -= factor * CONST_PAIR(row + k);
+            b[i] -= factor * b[c];
+        }
+    }
+    /* and back substitution */
+    for (size_t i = n; i-- > 0;) {
+        for (size_t k = i + 1; k < n; k++)
+            b[i] -= a[i * n + k] * b[k];
+        b[i] /= a[i * n + i];
+    }
+    return true;
+}
+
 /* Newton's system of several contacts. An open contact bears no force and its indentation follows
  * from those of the pressed ones, so that only these are solved for. */
 struct system {
@@ -201,17 +230,16 @@ static void assemble(const struct node_problem *problem, const struct system *sy
 {
     size_t n = problem->contacts;
     /* e_a = d_a - target_a + sum over the pressed b of coupling_ab F_b */
-    for (size_t a = 0; a < n; a++)
-        for (int i = 0; i < NODES; i++) {
-            double sum = indentation[a][i] - problem->target[a][i];
-            for (size_t q = 0; q < system->pressed_count; q++) {
-                size_t b = system->pressed[q];
-                const double(*m)[NODES] = problem->coupling[a * n + b];
-                for (int j = 0; j < NODES; j++)
-                    sum += m[i][j] * force[b][j];
-            }
-            problem->excess[a * NODES + (size_t)i] = sum;
+    for (size_t a = 0; a < n; a++) {
+        double *excess = problem->excess + a * NODES;
+        for (int i = 0; i < NODES; i++)
+            excess[i] = indentation[a][i] - problem->target[a][i];
+        for (size_t q = 0; q < system->pressed_count; q++) {
+            const double(*m)[NODES] = problem->coupling[a * n + system->pressed[q]];
+            for (int i = 0; i < NODES; i++)
+                excess[i] += product_of(m[i], force[system->pressed[q]]);
         }
+    }
     /* rows and columns of the pressed ones */
     size_t size = system->pressed_count * NODES;
     for (size_t p = 0; p < system->pressed_count; p++)
@@ -220,38 +248,66 @@ static void assemble(const struct node_problem *problem, const struct system *sy
             const double(*m)[NODES] = problem->coupling[system->pressed[p] * n + b];
             for (size_t i = 0; i < NODES; i++) {
                 double *row = problem->matrix + (p * NODES + i) * size + q * NODES;
-                for (size_t j = 0; j < NODES; j++)
-                    row[j] = m[i][j] * system->stiffness[b][j] + (p == q && i == j);
+                for (size_t j = 0; j < NODES; j += 2)
+                    PAIR(row + j) = CONST_PAIR(m[i] + j) * CONST_PAIR(system->stiffness[b] + j);
+                row[i] += p == q ? 1.0 : 0.0;
             }
         }
 }
 
+/* Solves the system of the pressed ones for their changes, in the order given. False: a pivot is
+ * too small for that. */
+static bool eliminate_pressed(const struct node_problem *problem, struct system *system)
+{
+    const double *m = problem->matrix;
+    if (system->pressed_count != 1)
+        return eliminate_many(system->pressed_count * NODES, problem->matrix, system->change);
+    struct row rows[NODES];
+    double right[NODES];
+    for (int i = 0; i < NODES; i++, m += NODES) {
+        rows[i] = (struct row){CONST_PAIR(m), CONST_PAIR(m + 2)};
+        right[i] = system->change[i];
+    }
+    return eliminate(rows, right, system->change);
+}
+
+/* The right side of the system of the pressed ones. */
+static void take_excess(const struct node_problem *problem, struct system *system)
+{
+    for (size_t p = 0; p < system->pressed_count; p++)
+        for (size_t i = 0; i < NODES; i++)
+            system->change[p * NODES + i] = problem->excess[system->pressed[p] * NODES + i];
+}
+
 /* Turns the excess into the changes of all indentations: of the pressed ones by their system, of
  * an open one a: change_a = e_a - sum over the pressed b of coupling_ab F'_b change_b. */
-static bool find_changes(const struct node_problem *problem, struct system *system)
+static bool find_changes(const struct node_problem *problem, struct system *system,
+                         double (*indentation)[NODES], double (*force)[NODES])
 {
     size_t n = problem->contacts;
     bool open[PERCUSS_MAX_CONTACTS];
-    /* the pressed ones by their system */
+    /* the pressed ones by their system, with exchanges of rows where it needs them */
+    take_excess(problem, system);
+    if (!eliminate_pressed(problem, system)) {
+        assemble(problem, system, indentation, force);
+        take_excess(problem, system);
+        if (!linear_solve(system->pressed_count * NODES, problem->matrix, system->change))
+            return false;
+    }
+    /* the open ones by what those change */
     for (size_t a = 0; a < n; a++)
         open[a] = true;
-    for (size_t p = 0; p < system->pressed_count; p++) {
+    for (size_t p = 0; p < system->pressed_count; p++)
         open[system->pressed[p]] = false;
-        for (size_t i = 0; i < NODES; i++)
-            system->change[p * NODES + i] = problem->excess[system->pressed[p] * NODES + i];
-    }
-    if (!linear_solve(system->pressed_count * NODES, problem->matrix, system->change))
-        return false;
-    /* the open ones by what those change */
-    for (size_t a = 0; a < n; a++) {
-        for (size_t q = 0; open[a] && q < system->pressed_count; q++) {
-            size_t b = system->pressed[q];
-            const double(*m)[NODES] = problem->coupling[a * n + b];
-            for (size_t i = 0; i < NODES; i++)
-                for (size_t j = 0; j < NODES; j++)
-                    problem->excess[a * NODES + i] -=
-                        m[i][j] * system->stiffness[b][j] * system->change[q * NODES + j];
-        }
+    for (size_t q = 0; q < system->pressed_count; q++) {
+        size_t b = system->pressed[q];
+        double forces[NODES];
+        for (int j = 0; j < NODES; j++)
+            forces[j] = system->stiffness[b][j] * system->change[q * NODES + (size_t)j];
+        for (size_t a = 0; a < n; a++)
+            for (size_t i = 0; open[a] && i < NODES; i++)
+                problem->excess[a * NODES + i] -=
+                    product_of(problem->coupling[a * n + b][i], forces);
     }
     /* the changes of the pressed ones beside them */
     for (size_t p = 0; p < system->pressed_count; p++)
@@ -270,28 +326,32 @@ bool node_solve(const struct node_problem *problem, double (*indentation)[NODES]
     /* any number: forces, Newton's system and its solution */
     struct system system;
     system.stiffness = stiffness; /* the rest is scratch */
-    double previous = INFINITY;
+    struct progress progress = {.previous = INFINITY};
+    for (size_t c = 0; c < problem->contacts; c++)
+        progress.target = larger(progress.target, largest_of(problem->target[c]));
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
         find_forces(problem, &system, indentation, force);
         assemble(problem, &system, indentation, force);
-        if (!find_changes(problem, &system))
+        if (!find_changes(problem, &system, indentation, force))
             return false;
         ++*iterations;
         /* the update, and whether it was the last one */
-        struct progress progress = {.previous = previous};
-        for (size_t row = 0; row < problem->contacts * NODES; row++) {
-            double *d = &indentation[row / NODES][row % NODES];
-            *d -= problem->excess[row];
-            look_at(&progress, problem->excess[row], *d, problem->target[row / NODES][row % NODES]);
+        progress.change = progress.indentation = 0.0;
+        for (size_t c = 0; c < problem->contacts; c++) {
+            const double *change = problem->excess + c * NODES;
+            for (int i = 0; i < NODES; i++)
+                indentation[c][i] -= change[i];
+            if (!isfinite((change[0] + change[1]) + (change[2] + change[3])))
+                return false;
+            progress.change = larger(progress.change, largest_of(change));
+            progress.indentation = larger(progress.indentation, largest_of(indentation[c]));
         }
-        if (!isfinite(progress.change))
-            return false;
         if (settled(&progress, problem->last_change)) {
             for (size_t c = 0; c < problem->contacts; c++)
                 follow(force[c], stiffness[c], problem->excess + c * NODES);
             return true;
         }
-        previous = progress.change;
+        progress.previous = progress.change;
     }
     return false;
 }
