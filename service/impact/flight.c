@@ -6,151 +6,163 @@
 #include <math.h>
 #include <string.h>
 
+#include "impact/flight_kernel.h"
 #include "impact/flight_root.h"
-#include "impact/kernel.h"
 
-/* Modes with omega h below this are followed by their tangent, the others bounded by their
- * amplitude a: the departure from the tangent is (omega h)^2/2 a at most, 1.1 a here, and grows. */
-static const double SLOW_ANGLE = 1.5;
-/* At this omega h of the fastest mode an interval is as short as it needs to be: the approach has
- * at most one peak in it, and flight_root.c has a power series for it. */
-static const double FLOOR_ANGLE = 0.5;
-
-enum { REFRESH = 32 /* intervals between two looks at the decayed amplitudes */ };
+enum {
+    /* Levels by which the first interval is tried longer than the shortest, one after another that
+     * was no longer than tried, and one after any other: of what was measured on the benchmark's
+     * beam, 0 to 4, the least work. */
+    FIRST_TRY = 3,
+    AFTER_SUCCESS = 3,
+    AFTER_REFUSAL = 1,
+    /* by which any may be longer: see FLIGHT_TURN_ANGLE */
+    LONGEST_TRY = 20,
+    /* intervals between two looks at the decayed amplitudes */
+    REFRESH = 32
+};
 
 bool flight_create(struct flight *flight, const struct scene *scene, struct arena *arena)
 {
     *flight = (struct flight){0};
-    /* bounds by contact, and what each level makes of them */
-    flight->amplitude = arena_take(arena, scene->groups, sizeof *flight->amplitude);
+    size_t pairs = scene->groups * scene->contacts;
+    flight->reach = arena_take(arena, pairs, sizeof *flight->reach);
+    flight->bend = arena_take(arena, pairs, sizeof *flight->bend);
     flight->bound = arena_take(arena, scene->contacts, sizeof *flight->bound);
-    flight->approach = arena_take(arena, scene->contacts, sizeof *flight->approach);
-    flight->rate = arena_take(arena, scene->contacts, sizeof *flight->rate);
-    flight->all_modes = arena_take(arena, scene->contacts * STEP_LEVELS, sizeof(double));
-    flight->slow_modes = arena_take(arena, scene->contacts * STEP_LEVELS, sizeof(double));
-    flight->slow_count = arena_take(arena, scene->groups * STEP_LEVELS, sizeof(size_t));
-    if (!flight->slow_count || !flight->amplitude || !flight->bound || !flight->approach ||
-        !flight->rate || !flight->all_modes || !flight->slow_modes)
+    flight->followed = arena_take(arena, scene->groups, sizeof *flight->followed);
+    if (!flight->reach || !flight->bend || !flight->bound || !flight->followed)
         return false;
-    /* the modes' amplitudes */
-    for (size_t g = 0; g < scene->groups; g++) {
-        flight->amplitude[g] = arena_take(arena, scene->group[g].stride, sizeof(double));
-        if (!flight->amplitude[g])
+    /* the bounds of the modes at each contact that they are seen by */
+    for (size_t i = 0; i < pairs; i++) {
+        const struct scene_group *group = &scene->group[i / scene->contacts];
+        size_t room = group->stride / LANES + 1;
+        flight->damped = flight->damped || group->set->most_damping > 0.0;
+        if (!group->participation[i % scene->contacts])
+            continue;
+        flight->reach[i] = arena_reserve(arena, room, sizeof(double));
+        flight->bend[i] = arena_reserve(arena, room, sizeof(double));
+        if (!flight->reach[i] || !flight->bend[i])
             return false;
     }
     return motion_create(&flight->probe, scene, arena);
 }
 
 /* a = sqrt(q^2 + v^2/omega^2) bounds |q| for good, damped or not: the energy cannot grow. */
-static void find_amplitudes(struct flight *flight, const struct scene *scene,
-                            const struct motion *motion)
+static void find_bounds(struct flight *flight, const struct scene *scene,
+                        const struct motion *motion)
 {
-    memset(flight->known, 0, sizeof flight->known);
-    memset(flight->bound, 0, scene->contacts * sizeof *flight->bound);
-    for (size_t g = 0; g < scene->groups; g++) {
-        const struct scene_group *group = &scene->group[g];
-        for (size_t k = 0; k < group->count; k++) {
-            double v = motion->v[g][k] / group->set->omega[k];
-            flight->amplitude[g][k] = sqrt(motion->q[g][k] * motion->q[g][k] + v * v);
-        }
-        for (size_t c = 0; c < scene->contacts; c++)
-            for (size_t k = 0; group->participation[c] && k < group->count; k++)
-                flight->bound[c] += fabs(group->participation[c][k]) * flight->amplitude[g][k];
-    }
-}
-
-/* How many modes of a group are slow on a step; the others are bounded. */
-static size_t count_slow(const struct scene_group *group, double h)
-{
-    size_t count = 0;
-    while (count < group->count && group->set->omega[count] * h < SLOW_ANGLE)
-        count++;
-    return count;
-}
-
-/* Bounds of the modes' departure from tangent (slow) and from zero (fast) within a step of a level:
- * |q''| <= omega^2 a sqrt(1 + 4 zeta^2) by the energy bound. */
-static void find_remainders(struct flight *flight, const struct scene *scene, int level)
-{
-    double h = step_length(level);
-    double *all = flight->all_modes + level;
-    double *slow = flight->slow_modes + level;
-    for (size_t c = 0; c < scene->contacts; c++)
-        all[c * STEP_LEVELS] = slow[c * STEP_LEVELS] = 0.0;
-    for (size_t g = 0; g < scene->groups; g++) {
-        const struct scene_group *group = &scene->group[g];
-        /* how many are slow enough to be followed */
-        double stiffer = sqrt(1.0 + 4.0 * group->set->most_damping * group->set->most_damping);
-        size_t followed = count_slow(group, h);
-        flight->slow_count[g * STEP_LEVELS + (size_t)level] = followed;
-        for (size_t c = 0; c < scene->contacts; c++) {
-            const double *phi = group->participation[c];
-            for (size_t k = 0; phi && k < group->count; k++) {
-                /* from the tangent by (omega h)^2/2 a sqrt(1 + 4 zeta^2), from zero by a */
-                double angle = group->set->omega[k] * h;
-                double reach = fabs(phi[k]) * flight->amplitude[g][k];
-                double bend = 0.5 * angle * angle * stiffer * reach;
-                all[c * STEP_LEVELS] += bend;
-                slow[c * STEP_LEVELS] += k < followed ? bend : reach;
-            }
+    for (size_t c = 0; c < scene->contacts; c++) {
+        flight->bound[c] = 0.0;
+        for (size_t g = 0; g < scene->groups; g++) {
+            struct flight_modes modes =
+                flight_modes_of(&scene->group[g], c, motion->q[g], motion->v[g]);
+            size_t pair = g * scene->contacts + c;
+            if (!modes.phi)
+                continue;
+            flight_kernel_bounds(&modes, flight->reach[pair], flight->bend[pair]);
+            flight->bound[c] += flight->reach[pair][0];
         }
     }
-    flight->known[level] = true;
 }
 
-/* Rigid approach and rate plus those of the modes that are slow on a step of the level. */
-static void slow_approach(const struct flight *flight, const struct scene *scene, size_t contact,
-                          int level, double *approach, double *rate)
+/* What is known of the gap at a contact within an interval. */
+struct outlook {
+    double derivative[SCAN_TERMS]; /* of the rigid gap and of the modes that are followed */
+    double fast;                   /* what the others can take off */
+    double rest;                   /* what the series' remainder can, at the end */
+};
+
+/* The remainder of the series at h over the modes' bend: h^8/8!. */
+static double remainder_share(double h)
 {
-    /* the rigid bodies */
-    *approach = -flight->probe.gap[contact];
-    *rate = -flight->probe.gap_rate[contact];
+    double h2 = h * h;
+    double h4 = h2 * h2;
+    return h4 * h4 * (1.0 / 40320.0);
+}
+
+/* Follows the modes by their series whose remainder at h is no more than their amplitude, besides
+ * those that are followed already. A mode's q = Re(A
+ * e^(lambda t)) with |lambda| = omega has |q^(n)| <= |A| omega^n, and |A|^2 (1 - zeta^2) = q^2 +
+ * v^2/omega^2 + 2 zeta q v/omega <= (1 + zeta) a^2. */
+static void look_closer(const struct flight *flight, const struct scene *scene,
+                        const struct motion *now, size_t c, double h, struct outlook *outlook)
+{
+    double share = remainder_share(h);
+    outlook->fast = 0.0;
+    outlook->rest = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {
-        const double *phi = scene->group[g].participation[contact];
-        size_t count = flight->slow_count[g * STEP_LEVELS + (size_t)level];
-        double d;
-        double d_rate;
-        if (!phi || !count)
+        struct flight_modes modes = flight_modes_of(&scene->group[g], c, now->q[g], now->v[g]);
+        if (!modes.phi)
             continue;
-        /* the slow modes, the last few one by one */
-        size_t whole = count / LANES * LANES;
-        const double *q = flight->probe.q[g];
-        const double *v = flight->probe.v[g];
-        kernel_dot2(whole, phi, q, v, &d, &d_rate);
-        for (size_t k = whole; k < count; k++) {
-            d += phi[k] * q[k];
-            d_rate += phi[k] * v[k];
-        }
-        *approach -= d;
-        *rate -= d_rate;
+        const double *reach = flight->reach[g * scene->contacts + c];
+        const double *bend = flight->bend[g * scene->contacts + c];
+        size_t first = flight->followed[g];
+        size_t last = first;
+        while (last < modes.length / LANES &&
+               (bend[last + 1] - bend[last]) * share <= reach[last] - reach[last + 1])
+            last++;
+        outlook->fast += reach[last];
+        outlook->rest += bend[last] * share / sqrt(1.0 - scene->group[g].set->most_damping);
+        if (last == first)
+            continue;
+        /* the lanes from the first new one on */
+        flight->followed[g] = last;
+        modes.length = (last - first) * LANES;
+        modes.omega += first * LANES;
+        modes.phi += first * LANES;
+        modes.q += first * LANES;
+        modes.v += first * LANES;
+        flight_kernel_derivatives(&modes, outlook->derivative);
     }
 }
 
-/* Whether contact c stays open for one step of the level. */
-static bool stays_open(const struct flight *flight, const struct scene *scene, size_t c, int level)
+/* Whether the gap stays open for h: on t = s h the series is a polynomial p(s) whose Bernstein
+ * coefficients bound it (see flight_root.c), and the remainder is at most that at h times s^8 <=
+ * s^7, which belongs to the last coefficient. */
+static bool stays_open(const struct outlook *outlook, double h)
 {
-    double h = step_length(level);
-    double pull = -0.5 * scene->gap_acceleration[c] * h * h; /* what acceleration closes */
-    double d = flight->approach[c];
-    double rate = flight->rate[c];
-    /* by the tangent of all modes; a parabola that opens upward is largest at its ends */
-    double rise = fmax(0.0, flight->all_modes[c * STEP_LEVELS + (size_t)level] + pull);
-    if (d <= 0.0 && d + rate * h + rise < 0.0)
-        return true;
-    /* by that of the slow ones */
-    double margin = flight->slow_modes[c * STEP_LEVELS + (size_t)level];
-    slow_approach(flight, scene, c, level, &d, &rate);
-    return fmax(d, d + rate * h + fmax(0.0, pull)) + margin < 0.0;
-}
-
-static bool all_stay_open(struct flight *flight, const struct scene *scene, int level)
-{
-    if (!flight->known[level])
-        find_remainders(flight, scene, level);
-    for (size_t c = 0; c < scene->contacts; c++)
-        if (!stays_open(flight, scene, c, level))
+    /* n! binomial(7, n), and 8! */
+    static const double SCALE[SCAN_TERMS] = {1.0,         1.0 / 7.0,    1.0 / 42.0,   1.0 / 210.0,
+                                             1.0 / 840.0, 1.0 / 2520.0, 1.0 / 5040.0, 1.0 / 5040.0};
+    double b[SCAN_TERMS];
+    b[0] = outlook->derivative[0] - outlook->fast;
+    if (b[0] < 0.0)
+        return false;
+    /* the power series in s */
+    double power = h;
+#pragma GCC unroll 8
+    for (int n = 1; n < SCAN_TERMS; n++) {
+        b[n] = outlook->derivative[n] * power * SCALE[n];
+        power *= h;
+    }
+    b[SCAN_TERMS - 1] -= outlook->rest;
+    /* Bernstein's coefficients, by repeated sums of neighbours */
+#pragma GCC unroll 8
+    for (int round = 1; round < SCAN_TERMS; round++)
+#pragma GCC unroll 8
+        for (int j = SCAN_TERMS - 1; j >= round; j--)
+            b[j] += b[j - 1];
+    for (int j = 1; j < SCAN_TERMS; j++)
+        if (b[j] < 0.0)
             return false;
     return true;
+}
+
+/* The longest step of the levels from the first to the second on which contact c stays open; beyond
+ * the second: none. */
+static int open_level(struct flight *flight, const struct scene *scene, const struct motion *now,
+                      size_t c, const int levels[2])
+{
+    struct outlook outlook = {
+        .derivative = {now->gap[c], now->gap_rate[c], scene->gap_acceleration[c]}};
+    memset(flight->followed, 0, scene->groups * sizeof *flight->followed);
+    for (int level = levels[0]; level <= levels[1]; level++) {
+        double h = step_length(level);
+        look_closer(flight, scene, now, c, h, &outlook);
+        if (stays_open(&outlook, h))
+            return level;
+    }
+    return levels[1] + 1;
 }
 
 /* The instant, from now, from which every rigid gap exceeds its bound for good (or, under a
@@ -171,102 +183,157 @@ static double completion(const struct flight *flight, const struct scene *scene,
     return from <= until ? from : INFINITY;
 }
 
-static void find_approaches(struct flight *flight, const struct scene *scene)
+/* A contact that touches already and closes. */
+static bool touches_now(const struct scene *scene, const struct motion *motion, size_t *contact)
 {
-    for (size_t c = 0; c < scene->contacts; c++)
-        motion_approach(&flight->probe, scene, c, &flight->approach[c], &flight->rate[c]);
-}
-
-/* The next step of the scan, along exact motion. OK, INTERNAL (no memory) or TIMEOUT. */
-static enum percuss_status move_probe(struct flight *flight, const struct scene *scene, int level)
-{
-    for (size_t g = 0; g < scene->groups; g++) {
-        enum percuss_status status = oscillators_prepare(scene->group[g].set, level, flight->pace);
-        if (status != PERCUSS_OK)
-            return status;
-    }
-    motion_step(&flight->probe, &flight->probe, scene, level);
-    find_approaches(flight, scene);
-    return PERCUSS_OK;
-}
-
-/* Looks into the shortest interval [from, from + h] contact by contact. */
-static bool touch_within(const struct flight *flight, const struct scene *scene, double from,
-                         double h, double *time, size_t *contact)
-{
-    bool found = false;
     for (size_t c = 0; c < scene->contacts; c++) {
-        double t;
-        if (flight_root_touch(&flight->probe, scene, c, 0.0, h, &t) &&
-            (!found || from + t < *time)) {
-            found = true;
-            *time = from + t;
+        double approach;
+        double rate;
+        motion_approach(motion, scene, c, &approach, &rate);
+        if (approach >= 0.0 && rate > 0.0) {
+            *contact = c;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A search under way. */
+struct scan {
+    struct flight *flight;
+    const struct scene *scene;
+    const struct motion *start, *now; /* of the flight, of the interval */
+    double allowed;
+    double end;             /* from the start: complete, or no longer allowed */
+    enum flight_end reason; /* which of the two */
+    int floor;              /* level of the shortest interval */
+    int level;              /* of the one that was passed last */
+    int longer;             /* levels by which the next may be longer */
+};
+
+/* The modes' bounds from now on, and the instant from which they exclude a touch. */
+static void find_end(struct scan *scan)
+{
+    find_bounds(scan->flight, scan->scene, scan->now);
+    double complete =
+        scan->now->time - scan->start->time + completion(scan->flight, scan->scene, scan->now);
+    scan->reason = complete <= scan->allowed ? FLIGHT_COMPLETE : FLIGHT_TIMEOUT;
+    scan->end = fmin(complete, scan->allowed);
+}
+
+/* Looks for the next interval that stays open. Returns when a contact touches in it, from now;
+ * INFINITY: none does. */
+static double look_ahead(struct scan *scan, size_t *contact)
+{
+    const struct scene *scene = scan->scene;
+    int longest = scan->floor > LONGEST_TRY ? scan->floor - LONGEST_TRY : 0;
+    int tried = scan->level - scan->longer;
+    int levels[2] = {tried > longest ? tried : longest, scan->floor};
+    double first = INFINITY;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double touch;
+        levels[0] = open_level(scan->flight, scene, scan->now, c, levels);
+        if (levels[0] <= scan->floor)
+            continue;
+        /* the shortest ones are looked into */
+        levels[0] = scan->floor;
+        if (flight_root_touch(scan->now, scene, c, step_length(scan->floor), &touch) &&
+            touch < first) {
+            first = touch;
             *contact = c;
         }
     }
-    return found;
+    scan->level = levels[0];
+    scan->longer = scan->level == tried ? AFTER_SUCCESS : AFTER_REFUSAL;
+    return first;
 }
 
-static int floor_level(const struct scene *scene, double allowed)
+/* To the end of the interval, along exact motion. OK, INTERNAL (no memory) or TIMEOUT. */
+static enum percuss_status pass(struct scan *scan)
 {
-    double highest = scene_highest_frequency(scene);
-    double shortest = highest > 0.0 ? FLOOR_ANGLE / highest : allowed;
-    return step_level(fmin(shortest, allowed));
+    struct flight *flight = scan->flight;
+    for (size_t g = 0; g < scan->scene->groups; g++) {
+        enum percuss_status status =
+            oscillators_prepare(scan->scene->group[g].set, scan->level, flight->pace);
+        if (status != PERCUSS_OK)
+            return status;
+    }
+    motion_step(&flight->probe, scan->now, scan->scene, scan->level);
+    scan->now = &flight->probe;
+    return PERCUSS_OK;
+}
+
+/* The flight ends `left` from now, `time` from its start: the probe goes there. */
+static enum flight_end land(struct scan *scan, enum flight_end end, double time, double left)
+{
+    struct motion *probe = &scan->flight->probe;
+    const struct motion *start = scan->start;
+    probe->time = start->time + time;
+    for (size_t c = 0; c < scan->scene->contacts; c++) {
+        double a = scan->scene->gap_acceleration[c];
+        probe->gap[c] = start->gap[c] + time * (start->gap_rate[c] + 0.5 * a * time);
+        probe->gap_rate[c] = start->gap_rate[c] + a * time;
+    }
+    for (size_t g = 0; g < scan->scene->groups; g++) {
+        struct flight_modes modes =
+            flight_modes_of(&scan->scene->group[g], 0, scan->now->q[g], scan->now->v[g]);
+        flight_kernel_turn(&modes, fmax(0.0, left), probe->q[g], probe->v[g]);
+    }
+    return end;
+}
+
+/* Goes on from interval to interval. */
+static enum flight_end follow(struct scan *scan, unsigned long intervals, double *time,
+                              size_t *contact)
+{
+    struct flight *flight = scan->flight;
+    for (unsigned long i = 1;; i++) {
+        double from = scan->now->time - scan->start->time;
+        double left = scan->end - from;
+        *time = scan->end;
+        if (!(left > 0.0))
+            return land(scan, scan->reason, *time, left);
+        /* an interval that stays open, or one with a touch */
+        if (i > intervals || !pace_keeps(flight->pace, flight->cost))
+            return FLIGHT_LIMIT;
+        flight->intervals++;
+        double touch = look_ahead(scan, contact);
+        if (touch < left) {
+            *time = from + touch;
+            return land(scan, FLIGHT_TOUCH, *time, touch);
+        }
+        if (left <= step_length(scan->level))
+            return land(scan, scan->reason, *time, left);
+        /* past it, along exact motion; what does not move the time is its rounding */
+        double before = scan->now->time;
+        enum percuss_status moved = pass(scan);
+        if (moved != PERCUSS_OK)
+            return moved == PERCUSS_INTERNAL ? FLIGHT_MEMORY : FLIGHT_LIMIT;
+        if (!(scan->now->time > before))
+            return land(scan, scan->reason, *time, left);
+        if (flight->damped && i % REFRESH == 0)
+            find_end(scan);
+    }
 }
 
 enum flight_end flight_find(struct flight *flight, const struct scene *scene,
                             const struct motion *motion, double allowed, unsigned long intervals,
                             double *time, size_t *contact)
 {
-    int floor = floor_level(scene, allowed);
-    int level = floor;
-    int passed = 0;
-    int wait = 1;
-    /* the modes' bounds, and the instant from which they exclude a touch */
-    motion_copy(&flight->probe, motion, scene);
-    find_approaches(flight, scene);
-    find_amplitudes(flight, scene, motion);
-    double complete = completion(flight, scene, motion);
-    for (unsigned long i = 1; flight->probe.time - motion->time < fmin(complete, allowed); i++) {
-        if (!pace_keeps(flight->pace, flight->cost))
-            return FLIGHT_LIMIT;
-        flight->intervals++;
-        /* an interval that may not stay open is halved */
-        double from = flight->probe.time - motion->time;
-        bool open = all_stay_open(flight, scene, level);
-        if (!open && level < floor) {
-            level++;
-            passed = 0;
-            wait = 2;
-            continue;
-        }
-        /* the shortest ones are looked into */
-        if (!open && touch_within(flight, scene, from, step_length(level), time, contact) &&
-            *time < fmin(complete, allowed))
-            return FLIGHT_TOUCH;
-        /* past it, along exact motion */
-        double before = flight->probe.time;
-        enum percuss_status moved = move_probe(flight, scene, level);
-        if (moved == PERCUSS_INTERNAL)
-            return FLIGHT_MEMORY;
-        if (moved != PERCUSS_OK || i >= intervals)
-            return FLIGHT_LIMIT;
-        /* what is left to the end is rounding of the time */
-        if (!(flight->probe.time > before))
-            break;
-        /* after a refusal two steps before the next try of longer ones */
-        passed = open ? passed + 1 : 0;
-        if (passed >= wait && level > 0) {
-            level--;
-            wait = 1;
-        }
-        /* damping has lowered the bounds */
-        if (i % REFRESH == 0) {
-            find_amplitudes(flight, scene, &flight->probe);
-            complete =
-                flight->probe.time - motion->time + completion(flight, scene, &flight->probe);
-        }
+    int floor = step_level(fmin(flight_root_longest(scene), allowed));
+    struct scan scan = {.flight = flight,
+                        .scene = scene,
+                        .start = motion,
+                        .now = motion,
+                        .allowed = allowed,
+                        .floor = floor,
+                        .level = floor,
+                        .longer = FIRST_TRY};
+    if (allowed > 0.0 && touches_now(scene, motion, contact)) {
+        motion_copy(&flight->probe, motion, scene);
+        *time = 0.0;
+        return FLIGHT_TOUCH;
     }
-    *time = fmin(complete, allowed);
-    return complete <= allowed ? FLIGHT_COMPLETE : FLIGHT_TIMEOUT;
+    find_end(&scan);
+    return follow(&scan, intervals, time, contact);
 }

@@ -3,9 +3,9 @@
 
 /* Between contacts: the next touch, or the proof that vibration can cause none.
  *
- * The flight is scanned by bounds, not by samples: an interval is passed only when the approach
- * plus a bound of what the modes can add stays below zero on all of it, so that no double root is
- * missed. */
+ * The flight is scanned by bounds, not by samples: an interval is passed only when the least that a
+ * power series of the slow modes can be on it, less its remainder and all that the fast modes can
+ * add, stays open, so that no double root is missed. */
 #ifndef PERCUSS_IMPACT_FLIGHT_H
 #define PERCUSS_IMPACT_FLIGHT_H
 
@@ -21,14 +21,11 @@ enum flight_end {
 };
 
 struct flight {
-    struct motion probe;
-    double **amplitude;      /* [group][stride] */
+    struct motion probe;     /* of a flight that was found: the motion at its end */
+    double **reach, **bend;  /* [group][contact]: see flight_kernel_bounds */
     double *bound;           /* [contact]: sum of participation times amplitude */
-    double *approach, *rate; /* [contact] of the probe */
-    double *all_modes;       /* [contact][level]: remainder when all modes are followed */
-    double *slow_modes;      /* [contact][level]: remainder when the slow ones are */
-    size_t *slow_count;      /* [group][level]: how many are slow */
-    bool known[STEP_LEVELS];
+    size_t *followed;        /* [group]: lanes of modes that are, in the interval looked at */
+    bool damped;             /* amplitudes decay */
     unsigned long intervals; /* examined, since creation */
     struct pace *pace;       /* asked whether to go on; NULL (as created): nobody */
     double cost;             /* of an interval, in the pace's work */

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "impact/kernel.h"
+#include "impact/flight_kernel.h"
 
 /* With x(t) = excess + rate t + acceleration t^2/2 and D = rate^2 - 2 acceleration excess, x has
  * the roots (-rate +- sqrt D)/acceleration, or -2 excess/(rate +- sqrt D), which does not cancel.
@@ -34,183 +34,181 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
     *last = -rate / acceleration;
 }
 
-/* The approach at one contact along a free motion. */
-struct path {
-    const struct motion *motion;
-    const struct scene *scene;
-    size_t contact;
-    double length;            /* s; > 0: a power series in t/length, good on [0, length] */
-    double term[DERIVATIVES]; /* of that series, m */
+/* omega t of the fastest mode up to which the series is exact to rounding: 1/20! = 4e-19. */
+static const double SERIES_ANGLE = 1.0;
+
+double flight_root_longest(const struct scene *scene)
+{
+    double highest = scene_highest_frequency(scene);
+    return highest > 0.0 ? SERIES_ANGLE / highest : INFINITY;
+}
+
+/* d(s length) = sum_n term[n] s^n on a free motion. */
+static void make_series(const struct motion *motion, const struct scene *scene, size_t contact,
+                        double length, double term[ROOT_TERMS])
+{
+    /* derivatives of gap and modes */
+    double sums[ROOT_TERMS] = {motion->gap[contact], motion->gap_rate[contact] * length,
+                               scene->gap_acceleration[contact] * length * length};
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct flight_modes modes =
+            flight_modes_of(&scene->group[g], contact, motion->q[g], motion->v[g]);
+        if (modes.phi)
+            flight_kernel_terms(&modes, length, sums);
+    }
+    /* over n! */
+    double factorial = -1.0;
+    for (int n = 0; n < ROOT_TERMS; n++) {
+        term[n] = sums[n] / factorial;
+        factorial *= n + 1;
+    }
+}
+
+/* The same polynomial on a part [low, high] of [0, 1], by Bernstein's coefficients: it lies between
+ * the least and the largest of them, begins and ends with the first and the last, and has as many
+ * roots inside as they change their sign, or an even number fewer (G. Farin, Curves and Surfaces
+ * for CAGD, 5th ed. 2002, chapter 6). */
+struct piece {
+    double low, high;
+    double b[ROOT_TERMS];
 };
 
-/* omega t of the fastest mode up to which the series is exact to rounding: 0.5^16/16! = 7e-19. */
-static const double SERIES_ANGLE = 0.5;
-
-static bool is_slow(const struct scene *scene, double length)
+/* b_j = sum_(i <= j) binomial(j, i)/binomial(n, i) term_i, by repeated sums of neighbours. */
+static struct piece make_piece(const double term[ROOT_TERMS])
 {
-    for (size_t g = 0; g < scene->groups; g++)
-        if (scene->group[g].count &&
-            scene->group[g].set->omega[scene->group[g].count - 1] * length > SERIES_ANGLE)
-            return false;
-    return true;
+    struct piece piece = {.low = 0.0, .high = 1.0};
+    double binomial = 1.0;
+    for (int n = 0; n < ROOT_TERMS; n++) {
+        piece.b[n] = term[n] / binomial;
+        binomial *= (double)(ROOT_TERMS - 1 - n) / (n + 1);
+    }
+#pragma GCC unroll 20
+    for (int round = 1; round < ROOT_TERMS; round++)
+#pragma GCC unroll 20
+        for (int j = ROOT_TERMS - 1; j >= round; j--)
+            piece.b[j] += piece.b[j - 1];
+    return piece;
 }
 
-/* The path on [0, length] of the motion: d(t) = -sum_n (g^(n) + sum_k phi_k q_k^(n)) t^n/n!, where
- * the term n holds the powers of `length`. Beyond SERIES_ANGLE mode by mode, see follow. */
-static struct path make_path(const struct motion *motion, const struct scene *scene, size_t contact,
-                             double length)
+/* De Casteljau's rule: the piece becomes its left half, what it returns is the right one. */
+static struct piece halve(struct piece *piece)
 {
-    struct path path = {.motion = motion, .scene = scene, .contact = contact};
-    if (!(length > 0.0) || !is_slow(scene, length))
-        return path;
-    /* derivatives of the gap and of the modes */
-    double sums[DERIVATIVES] = {motion->gap[contact], motion->gap_rate[contact],
-                                scene->gap_acceleration[contact]};
-    for (size_t g = 0; g < scene->groups; g++) {
-        const struct scene_group *group = &scene->group[g];
-        if (group->participation[contact])
-            kernel_derivatives(group->stride, group->set->omega, group->set->damping,
-                               group->participation[contact], motion->q[g], motion->v[g], sums);
+    struct piece right = {0.5 * (piece->low + piece->high), piece->high, {0.0}};
+    double *b = piece->b;
+    piece->high = right.low;
+    right.b[ROOT_TERMS - 1] = b[ROOT_TERMS - 1];
+    for (int round = 1; round < ROOT_TERMS; round++) {
+        for (int j = ROOT_TERMS - 1; j >= round; j--)
+            b[j] = 0.5 * (b[j] + b[j - 1]);
+        right.b[ROOT_TERMS - 1 - round] = b[ROOT_TERMS - 1];
     }
-    /* as terms of the series */
-    double scale = -1.0;
-    path.length = length;
-    for (int n = 0; n < DERIVATIVES; n++) {
-        path.term[n] = scale * sums[n];
-        scale *= length / (n + 1);
-    }
-    return path;
+    return right;
 }
 
-/* The approach and its rate at an instant of the path, by Horner's rule. */
-static void follow(const struct path *path, double time, double *approach, double *rate)
+static int sign_changes(const struct piece *piece)
 {
-    if (!(path->length > 0.0)) {
-        motion_approach_at(path->motion, path->scene, path->contact, time, approach, rate);
-        return;
+    int changes = 0;
+    double last = 0.0;
+    for (int j = 0; j < ROOT_TERMS; j++) {
+        changes += piece->b[j] * last < 0.0;
+        if (piece->b[j] != 0.0)
+            last = piece->b[j] > 0.0 ? 1.0 : -1.0;
     }
-    double s = time / path->length;
-    double value = 0.0;
-    double slope = 0.0;
-    for (int n = DERIVATIVES - 1; n >= 0; n--) {
-        slope = slope * s + value;
-        value = value * s + path->term[n];
-    }
-    *approach = value;
-    *rate = slope / path->length;
+    return changes;
 }
 
-/* Newton's method, kept safe by halving, needs less; halving alone 54 for all bits of a double. */
-enum { MAX_ROUNDS = 100, MAX_CUBIC_ROUNDS = 40, MAX_HALVINGS = 60 };
-/* A place on an interval that is a mere starting value. */
-static const double CUBIC_ROUNDING = 1e-12;
-/* Of an instant: half a bit, to which Newton's method comes, and what peaks are good for. */
+/* Pieces of 2^-MOST_HALVINGS are rounding: two roots so close are a graze. */
+enum { MOST_HALVINGS = 50 };
+
+/* The first piece in which the polynomial rises through zero just once, or [low, low] where it
+ * begins at or above zero and rises. False: nowhere. */
+static bool find_rise(struct piece *piece, int halvings)
+{
+    int changes = sign_changes(piece);
+    const double *b = piece->b;
+    if (b[0] >= 0.0 && b[1] > b[0]) {
+        piece->high = piece->low;
+        return true;
+    }
+    if (changes <= 1)
+        return changes == 1 && b[ROOT_TERMS - 1] > 0.0;
+    if (halvings == 0)
+        return false;
+    /* the left half, then the right one */
+    struct piece right = halve(piece);
+    if (find_rise(piece, halvings - 1))
+        return true;
+    *piece = right;
+    return find_rise(piece, halvings - 1);
+}
+
+/* Newton's method, kept safe by halving, needs less. */
+enum { MAX_ROUNDS = 100 };
+/* Of an instant: half a bit, to which Newton's method comes. */
 static const double ROUNDING = 1e-16;
-static const double PEAK_ROUNDING = 1e-15;
 
-/* Where the cubic with the values and rates of both ends crosses zero, as a share of the interval:
- * Hermite's c3 s^3 + c2 s^2 + rate0 s + d0. */
-static double cubic_root(double d0, double rate0, double d1, double rate1)
+/* Where the control polygon of a piece, the coefficients at equal distances, rises through zero. */
+static double polygon_root(const struct piece *piece)
 {
-    double low = 0.0;
-    double high = 1.0;
-    /* starts on the straight line */
-    double s = d0 / (d0 - d1);
-    for (int i = 0; i < MAX_CUBIC_ROUNDS; i++) {
-        /* the cubic there tightens the bounds */
-        double c3 = rate0 + rate1 - 2.0 * (d1 - d0);
-        double c2 = 3.0 * (d1 - d0) - 2.0 * rate0 - rate1;
-        double value = ((c3 * s + c2) * s + rate0) * s + d0;
-        double slope = (3.0 * c3 * s + 2.0 * c2) * s + rate0;
-        if (value > 0.0)
+    int j = 1;
+    while (j < ROOT_TERMS - 1 && !(piece->b[j] > 0.0))
+        j++;
+    double share = piece->b[j - 1] / (piece->b[j - 1] - piece->b[j]);
+    return piece->low + (piece->high - piece->low) * (j - 1 + share) / (ROOT_TERMS - 1);
+}
+
+/* The series and its rate by Horner's rule. */
+static double value_at(const double term[ROOT_TERMS], double s, double *rate)
+{
+    double value = term[ROOT_TERMS - 1];
+    double slope = 0.0;
+#pragma GCC unroll 20
+    for (int n = ROOT_TERMS - 2; n >= 0; n--) {
+        slope = slope * s + value;
+        value = value * s + term[n];
+    }
+    *rate = slope;
+    return value;
+}
+
+/* The root of the series in a piece where it rises through zero once: starts from the polygon's,
+ * bisection kept safe, Newton where it stays inside. */
+static double rising_root(const double term[ROOT_TERMS], const struct piece *piece)
+{
+    double low = piece->low;
+    double high = piece->high;
+    double s = polygon_root(piece);
+    double before = 0.0;
+    for (int i = 0; i < MAX_ROUNDS; i++) {
+        /* the approach there tightens the bounds */
+        double rate;
+        double d = value_at(term, s, &rate);
+        if (d > 0.0)
             high = s;
         else
             low = s;
-        /* Newton's method while it stays between them */
-        double next = s - value / slope;
-        if (!(next > low && next < high))
-            next = 0.5 * (low + high);
-        if (fabs(next - s) < CUBIC_ROUNDING)
+        /* Newton's method while it stays between them: its steps shrink like their squares, so that
+         * the next one is this one times (this/before)^2 */
+        double next = rate > 0.0 ? s - d / rate : low;
+        double step = fabs(next - s);
+        bool inside = next > low && next < high;
+        if (step <= ROUNDING * s || high - low <= ROUNDING * high ||
+            (inside && step * step * step <= ROUNDING * s * before * before))
             return next;
-        s = next;
+        before = inside ? step : 0.0;
+        s = inside ? next : 0.5 * (low + high);
     }
     return s;
 }
 
-/* Root of the approach in [low, high] with approach(low) <= 0 < approach(high). Starts where the
- * cubic through both ends has it; bisection kept safe, Newton where it stays inside. */
-static double rising_root(const struct path *path, double low, double high)
-{
-    double d;
-    double rate;
-    double d1;
-    double rate1;
-    /* starts at the root of the cubic */
-    follow(path, low, &d, &rate);
-    follow(path, high, &d1, &rate1);
-    double h = high - low;
-    double t = low + h * cubic_root(d, h * rate, d1, h * rate1);
-    for (int i = 0; i < MAX_ROUNDS; i++) {
-        /* the approach there tightens the bounds */
-        follow(path, t, &d, &rate);
-        if (d > 0.0)
-            high = t;
-        else
-            low = t;
-        /* Newton's method while it stays between them */
-        double next = rate > 0.0 ? t - d / rate : low;
-        if (!(next > low && next < high))
-            next = 0.5 * (low + high);
-        if (fabs(next - t) <= ROUNDING * fabs(t) || high - low <= ROUNDING * fabs(high))
-            return next;
-        t = next;
-    }
-    return t;
-}
-
-/* Instant of the peak in [low, high]: the rate falls through zero. */
-static double peak(const struct path *path, double low, double high)
-{
-    for (int i = 0; i < MAX_HALVINGS && high - low > PEAK_ROUNDING * fabs(high); i++) {
-        double t = 0.5 * (low + high);
-        double d;
-        double rate;
-        follow(path, t, &d, &rate);
-        if (d > 0.0)
-            return t;
-        if (rate > 0.0)
-            low = t;
-        else
-            high = t;
-    }
-    return 0.5 * (low + high);
-}
-
 bool flight_root_touch(const struct motion *motion, const struct scene *scene, size_t contact,
-                       double from, double to, double *time)
+                       double length, double *time)
 {
-    struct path path = make_path(motion, scene, contact, from == 0.0 ? to : 0.0);
-    double d0;
-    double rate0;
-    double d1;
-    double rate1;
-    /* touching already, or overlapping at the end, or a peak between */
-    follow(&path, from, &d0, &rate0);
-    if (d0 >= 0.0 && rate0 > 0.0) {
-        *time = from;
-        return true;
-    }
-    follow(&path, to, &d1, &rate1);
-    if (d1 > 0.0) {
-        *time = rising_root(&path, from, to);
-        return true;
-    }
-    if (!(rate0 > 0.0 && rate1 < 0.0))
+    double term[ROOT_TERMS];
+    make_series(motion, scene, contact, length, term);
+    struct piece piece = make_piece(term);
+    if (!find_rise(&piece, MOST_HALVINGS))
         return false;
-    double top = peak(&path, from, to);
-    follow(&path, top, &d1, &rate1);
-    if (!(d1 > 0.0))
-        return false;
-    *time = rising_root(&path, from, top);
+    *time = length * (piece.high > piece.low ? rising_root(term, &piece) : piece.low);
     return true;
 }

@@ -13,10 +13,13 @@
 void flight_root_exceeds(double excess, double rate, double acceleration, double *first,
                          double *last);
 
-/* First touch (approach rising through zero) of a contact in [from, to] on the free motion from
- * `motion`; the interval is so short that the approach has at most one peak in it. Tells a graze
- * from a miss by the exact peak. False: none. */
+/* The longest interval that flight_root_touch may look into, s; INFINITY without modes. */
+double flight_root_longest(const struct scene *scene);
+
+/* First touch (approach rising through zero) of a contact within `length` of free motion from
+ * `motion`: a root to rounding, by subdivision that misses none but a graze within rounding. False:
+ * none. */
 bool flight_root_touch(const struct motion *motion, const struct scene *scene, size_t contact,
-                       double from, double to, double *time);
+                       double length, double *time);
 
 #endif

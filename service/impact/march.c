@@ -97,7 +97,7 @@ static enum percuss_end_reason fly(struct march *march, size_t *contact)
         return PERCUSS_END_LIMIT;
     /* what damping takes on the way, and the motion at its end */
     march->damping += motion_free_loss(motion, &march->scene, time);
-    motion_advance(motion, &march->scene, time);
+    motion_copy(motion, &march->flight.probe, &march->scene);
     if (end == FLIGHT_TIMEOUT)
         return PERCUSS_END_HORIZON;
     return end == FLIGHT_COMPLETE ? march_parted(march) : PERCUSS_END_NONE;

@@ -152,6 +152,120 @@ static void samples_never_contradict(void **state)
     assert_true(touches > 20 && completions > 20 && timeouts > 0);
 }
 
+/* Two bodies with up to 40 modes each at up to three contacts, frequencies over three decades,
+ * amplitudes that fall with a random power of them, some damped, some pressed together. */
+enum { MANY = 40, SCENES = 400 };
+
+static void make_many(struct toy *toy, uint64_t *seed)
+{
+    double omega[MANY], shape[MANY * TOY_CONTACTS], q[MANY], v[MANY];
+    size_t contacts = 1 + (size_t)uniform(seed, 0.0, 2.999);
+    bool pressed = uniform(seed, 0.0, 1.0) < 0.3;
+    toy_init(toy, contacts);
+    for (size_t g = 0; g < 1 + (size_t)uniform(seed, 0.0, 1.999); g++) {
+        size_t count = 1 + (size_t)uniform(seed, 0.0, MANY - 0.001);
+        double damping = uniform(seed, 0.0, 1.0) < 0.4 ? uniform(seed, 1e-4, 0.3) : 0.0;
+        double falls = uniform(seed, 0.5, 2.5);
+        for (size_t k = 0; k < count; k++) {
+            double x = ((double)k + uniform(seed, 0.0, 0.9)) / (double)count;
+            omega[k] = 300.0 * pow(1000.0, x);
+            double size = 1e-4 * pow(300.0 / omega[k], falls);
+            q[k] = uniform(seed, -size, size);
+            v[k] = uniform(seed, -size, size) * omega[k];
+        }
+        for (size_t i = 0; i < count * contacts; i++)
+            shape[i] = uniform(seed, -1.0, 1.0);
+        toy_ring(toy, toy_add(toy, g, count, omega, damping, shape), q, v);
+    }
+    for (size_t c = 0; c < contacts; c++) {
+        toy->gap[c] = uniform(seed, 0.0, 3e-4);
+        toy->gap_rate[c] = uniform(seed, -3e-2, 5e-2);
+        toy->gap_acceleration[c] = pressed ? uniform(seed, -30.0, 5.0) : 0.0;
+    }
+}
+
+/* The highest approach of all contacts at an instant. */
+static double highest(const struct toy *toy, const struct motion *motion)
+{
+    double top = -INFINITY;
+    for (size_t c = 0; c < toy->scene.contacts; c++) {
+        double d, rate;
+        motion_approach(motion, &toy->scene, c, &d, &rate);
+        top = fmax(top, d);
+    }
+    return top;
+}
+
+/* Goes from sample to sample by the tables, some 30 a period of the fastest mode, until `end`;
+ * returns the highest approach seen. */
+static double highest_until(const struct toy *toy, struct motion *motion, double end)
+{
+    double top = highest(toy, motion);
+    int level = step_level(0.2 / scene_highest_frequency(&toy->scene));
+    for (size_t g = 0; g < toy->scene.groups; g++)
+        assert_non_null(oscillators_table(toy->groups[g].set, level));
+    while (motion->time + step_length(level) < end) {
+        motion_step(motion, motion, &toy->scene, level);
+        top = fmax(top, highest(toy, motion));
+    }
+    return top;
+}
+
+/* What flight_find says of a scene against samples: none above zero before the touch or the end,
+ * and the motion there is the exact one. */
+static enum flight_end check_many(struct toy *toy, struct motion *motion)
+{
+    struct flight flight;
+    struct motion end_motion;
+    double time;
+    size_t contact;
+    assert_true(flight_create(&flight, &toy->scene, &toy->arena));
+    assert_true(motion_create(&end_motion, &toy->scene, &toy->arena));
+    motion_copy(&end_motion, motion, &toy->scene);
+    enum flight_end end =
+        flight_find(&flight, &toy->scene, motion, 0.01, 10000000, &time, &contact);
+    assert_true(end != FLIGHT_LIMIT && end != FLIGHT_MEMORY && time >= 0.0 && time <= 0.01);
+    /* rounding of motions of 1e-4 m after some 1e4 steps of samples */
+    assert_true(highest_until(toy, motion, time) < 1e-16);
+    motion_advance(&end_motion, &toy->scene, time);
+    for (size_t c = 0; c < toy->scene.contacts; c++) {
+        double d[2], rate[2];
+        motion_approach(&end_motion, &toy->scene, c, &d[0], &rate[0]);
+        motion_approach(&flight.probe, &toy->scene, c, &d[1], &rate[1]);
+        /* of 1e-4 m and 1 m/s, and phases of 3e3 rad */
+        near(d[1], d[0], 1e-16);
+        near(rate[1], rate[0], 1e-12);
+        if (end == FLIGHT_TOUCH && c == contact)
+            assert_true(fabs(d[1]) < 1e-17 && rate[1] >= 0.0);
+    }
+    /* for good: three times as long */
+    bool pressed = false;
+    for (size_t c = 0; c < toy->scene.contacts; c++)
+        pressed = pressed || toy->gap_acceleration[c] < 0.0;
+    if (end == FLIGHT_COMPLETE && !pressed)
+        assert_true(highest_until(toy, motion, 3.0 * time) < 1e-16);
+    return end;
+}
+
+static void many_modes_at_several_contacts(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    int ends[FLIGHT_MEMORY + 1] = {0};
+    for (int trial = 0; trial < SCENES; trial++) {
+        struct toy toy;
+        struct motion motion;
+        make_many(&toy, &seed);
+        assert_true(motion_create(&motion, &toy.scene, &toy.arena));
+        motion_start(&motion, &toy.scene);
+        if (highest(&toy, &motion) < 0.0)
+            ends[check_many(&toy, &motion)]++;
+        toy_free(&toy);
+    }
+    /* the trials must mean something */
+    assert_true(ends[FLIGHT_TOUCH] > 50 && ends[FLIGHT_COMPLETE] > 20 && ends[FLIGHT_TIMEOUT] > 0);
+}
+
 /* Complete at the first instant at which gap and bound meet: sum of |shape| sqrt(q^2 +
  * v^2/omega^2). */
 static void completes_when_the_bound_is_passed(void **state)
@@ -233,6 +347,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hidden_double_roots_are_found),
         cmocka_unit_test(samples_never_contradict),
+        cmocka_unit_test(many_modes_at_several_contacts),
         cmocka_unit_test(completes_when_the_bound_is_passed),
         cmocka_unit_test(the_first_of_two_contacts),
         cmocka_unit_test(effort_is_bounded),

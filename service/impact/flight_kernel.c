@@ -1,0 +1,246 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/flight_kernel.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+
+#include "base/vector_clones.h"
+#include "impact/step_table.h"
+
+typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
+typedef int64_t bits __attribute__((vector_size(LANES * sizeof(int64_t))));
+
+#define AT(array, k) (*(const lanes *)((array) + (k)))
+#define TOTAL(x)     (((x)[0] + (x)[1]) + ((x)[2] + (x)[3]))
+
+VECTOR_CLONES void flight_kernel_bounds(const struct flight_modes *modes, double *reach,
+                                        double *bend)
+{
+    size_t count = modes->length / LANES;
+    double sum = 0.0;
+    bend[0] = 0.0;
+    for (size_t j = 0; j < count; j++) {
+        size_t k = j * LANES;
+        lanes w = AT(modes->omega, k);
+        /* the smallest number leaves every frequency what it is but the zeros that fill up */
+        lanes x = AT(modes->phi, k) * AT(modes->q, k);
+        lanes y = AT(modes->phi, k) * AT(modes->v, k) / (w + DBL_MIN);
+        lanes a = x * x + y * y;
+        for (int i = 0; i < LANES; i++)
+            a[i] = sqrt(a[i]);
+        /* times the SCAN_TERMS-th power */
+        lanes w2 = w * w;
+        lanes w4 = w2 * w2;
+        lanes bent = a * (w4 * w4);
+        sum += TOTAL(bent);
+        bend[j + 1] = sum;
+        reach[j] = TOTAL(a);
+    }
+    reach[count] = 0.0;
+    for (size_t j = count; j > 0; j--)
+        reach[j - 1] += reach[j];
+}
+
+/* Every second derivative of undamped modes: sums[2 n] += sum_k phi_k x_k (-(scale omega_k)^2)^(n +
+ * first), n < 5 at most. As many totals as the registers of the baseline hold. */
+enum { AT_ONCE = 5 };
+
+static inline void add_powers(const struct flight_modes *modes, const double *x, double scale,
+                              const int range[2], double *sums)
+{
+    lanes total[AT_ONCE] = {{0}};
+    for (size_t k = 0; k < modes->length; k += LANES) {
+        lanes angle = AT(modes->omega, k) * scale;
+        lanes spring = -(angle * angle);
+        lanes term = AT(modes->phi, k) * AT(x, k);
+        if (range[0])
+            term *= (spring * spring) * (spring * spring) * spring;
+#pragma GCC unroll 5
+        for (int n = 0; n < range[1]; n++) {
+            total[n] += term;
+            if (n + 1 < range[1])
+                term *= spring;
+        }
+    }
+#pragma GCC unroll 5
+    for (int n = 0; n < range[1]; n++)
+        sums[2 * (range[0] + n)] += TOTAL(total[n]);
+}
+
+/* By the equation of motion, from phi q and phi v times the scale on. */
+static inline void add_damped(const struct flight_modes *modes, double scale, int terms,
+                              double *sums)
+{
+    lanes total[ROOT_TERMS] = {{0}};
+    for (size_t k = 0; k < modes->length; k += LANES) {
+        lanes angle = AT(modes->omega, k) * scale;
+        lanes brake = -2.0 * AT(modes->damping, k) * angle;
+        lanes spring = -(angle * angle);
+        lanes now = AT(modes->phi, k) * AT(modes->q, k);
+        lanes next = AT(modes->phi, k) * AT(modes->v, k) * scale;
+        for (int n = 0; n < terms; n++) {
+            total[n] += now;
+            lanes after = brake * next + spring * now;
+            now = next;
+            next = after;
+        }
+    }
+    for (int n = 0; n < terms; n++)
+        sums[n] += TOTAL(total[n]);
+}
+
+VECTOR_CLONES void flight_kernel_derivatives(const struct flight_modes *modes,
+                                             double sums[SCAN_TERMS])
+{
+    static const int HALF[2] = {0, SCAN_TERMS / 2};
+    if (modes->damping) {
+        add_damped(modes, 1.0, SCAN_TERMS, sums);
+        return;
+    }
+    add_powers(modes, modes->q, 1.0, HALF, sums);
+    add_powers(modes, modes->v, 1.0, HALF, sums + 1);
+}
+
+VECTOR_CLONES void flight_kernel_terms(const struct flight_modes *modes, double length,
+                                       double sums[ROOT_TERMS])
+{
+    static const int PARTS[2][2] = {{0, AT_ONCE}, {AT_ONCE, AT_ONCE}};
+    double rates[ROOT_TERMS] = {0.0};
+    if (modes->damping) {
+        add_damped(modes, length, ROOT_TERMS, sums);
+        return;
+    }
+    for (int part = 0; part < 2; part++) {
+        add_powers(modes, modes->q, length, PARTS[part], sums);
+        add_powers(modes, modes->v, length, PARTS[part], rates);
+    }
+    for (int n = 0; n < ROOT_TERMS; n += 2)
+        sums[n + 1] += length * rates[n];
+}
+
+/* pi/2 in three parts, of which the first two have 33 bits: times a whole number below 2^20 they
+ * are exact (W. J. Cody, W. Waite, Software Manual for the Elementary Functions, 1980). */
+static const double QUARTER[3] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
+const double FLIGHT_TURN_ANGLE = 0x1p20;
+
+/* Adding it rounds to a whole number, which is then in the lowest bits. */
+static const double ROUNDER = 0x1.8p52;
+
+/* Taylor's terms beyond the second, of sin and cos up to pi/4: the first left out is 2e-18. */
+enum { CIRCLE_TERMS = 7 };
+static const double SINE[CIRCLE_TERMS] = {
+    -1.0 / 6.0,        1.0 / 120.0,        -1.0 / 5040.0,         1.0 / 362880.0,
+    -1.0 / 39916800.0, 1.0 / 6227020800.0, -1.0 / 1307674368000.0};
+static const double COSINE[CIRCLE_TERMS] = {
+    1.0 / 24.0,        -1.0 / 720.0,         1.0 / 40320.0,         -1.0 / 3628800.0,
+    1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0};
+
+static inline void circle(const lanes *angle, lanes *sine, lanes *cosine)
+{
+    /* the nearest quarter turn and what is left */
+    lanes shifted = *angle * M_2_PI + ROUNDER;
+    lanes turns = shifted - ROUNDER;
+    lanes r = ((*angle - turns * QUARTER[0]) - turns * QUARTER[1]) - turns * QUARTER[2];
+    bits quadrant = (bits)shifted;
+    /* sine and cosine of that */
+    lanes z = r * r;
+    lanes s = z * SINE[CIRCLE_TERMS - 1];
+    lanes c = z * COSINE[CIRCLE_TERMS - 1];
+    for (int n = CIRCLE_TERMS - 2; n > 0; n--) {
+        s = (s + SINE[n]) * z;
+        c = (c + COSINE[n]) * z;
+    }
+    s = r + r * ((s + SINE[0]) * z);
+    c = 1.0 + ((c + COSINE[0]) * z - 0.5) * z;
+    /* turned by quarters: swapped in every second quadrant, signs by halves */
+    bits swap = -(quadrant & 1);
+    bits new_sine = ((bits)s & ~swap) | ((bits)c & swap);
+    bits new_cosine = ((bits)c & ~swap) | ((bits)s & swap);
+    *sine = (lanes)(new_sine ^ ((quadrant & 2) << 62));
+    *cosine = (lanes)(new_cosine ^ (((quadrant + 1) & 2) << 62));
+}
+
+/* ln 2 in two parts, the first of 32 bits. */
+static const double LOG_2[2] = {0x1.62e42feep-1, 0x1.a39ef35793c76p-33};
+/* Nothing is left of a mode that has decayed so far. */
+static const double DECAYED = 700.0;
+/* Taylor's terms of exp up to ln(2)/2: the first left out is 4e-18. */
+enum { DECAY_TERMS = 14 };
+static const double DECAY[DECAY_TERMS] = {1.0,
+                                          1.0,
+                                          1.0 / 2.0,
+                                          1.0 / 6.0,
+                                          1.0 / 24.0,
+                                          1.0 / 120.0,
+                                          1.0 / 720.0,
+                                          1.0 / 5040.0,
+                                          1.0 / 40320.0,
+                                          1.0 / 362880.0,
+                                          1.0 / 3628800.0,
+                                          1.0 / 39916800.0,
+                                          1.0 / 479001600.0,
+                                          1.0 / 6227020800.0};
+
+/* exp(-x), x >= 0 */
+static inline void decay(const lanes *x, lanes *left)
+{
+    bits beyond = *x > DECAYED;
+    lanes y = -(lanes)((bits)*x & ~beyond);
+    /* the nearest power of two and what is left */
+    lanes shifted = y * M_LOG2E + ROUNDER;
+    lanes power = shifted - ROUNDER;
+    lanes r = (y - power * LOG_2[0]) - power * LOG_2[1];
+    lanes sum = r * DECAY[DECAY_TERMS - 1];
+    for (int n = DECAY_TERMS - 2; n > 0; n--)
+        sum = (sum + DECAY[n]) * r;
+    sum += DECAY[0];
+    /* the power into the exponent's bits */
+    *left = (lanes)(((bits)sum + ((bits)shifted << 52)) & ~beyond);
+}
+
+/* sqrt(1 - zeta^2) */
+static inline void slow_down(const lanes *damping, lanes *slower)
+{
+    lanes square = (1.0 - *damping) * (1.0 + *damping);
+    for (int i = 0; i < LANES; i++)
+        square[i] = sqrt(square[i]);
+    *slower = square;
+}
+
+/* With s, c of the damped frequency and the ratio r = zeta/sqrt(1 - zeta^2):
+ *
+ *   q(t) = e^(-zeta omega t) ((c + r s) q + s/(omega sqrt(1 - zeta^2)) v)
+ *   v(t) = e^(-zeta omega t) ((c - r s) v - omega/sqrt(1 - zeta^2) s q) */
+VECTOR_CLONES void flight_kernel_turn(const struct flight_modes *modes, double time, double *q,
+                                      double *v)
+{
+    for (size_t k = 0; k < modes->length; k += LANES) {
+        lanes w = AT(modes->omega, k);
+        lanes angle = w * time;
+        lanes before = AT(modes->q, k);
+        lanes rate = AT(modes->v, k);
+        lanes s;
+        lanes c;
+        if (!modes->damping) {
+            circle(&angle, &s, &c);
+            *(lanes *)(q + k) = c * before + s * (rate / (w + DBL_MIN));
+            *(lanes *)(v + k) = c * rate - s * (w * before);
+            continue;
+        }
+        lanes zeta = AT(modes->damping, k);
+        lanes slower;
+        slow_down(&zeta, &slower);
+        lanes slowed = angle * slower;
+        circle(&slowed, &s, &c);
+        lanes braked = angle * zeta;
+        lanes left;
+        decay(&braked, &left);
+        c *= left;
+        s *= left / slower;
+        *(lanes *)(q + k) = (c + zeta * s) * before + s * (rate / (w + DBL_MIN));
+        *(lanes *)(v + k) = (c - zeta * s) * rate - s * (w * before);
+    }
+}
