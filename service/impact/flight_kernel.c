@@ -81,6 +81,7 @@ static inline void add_damped(const struct flight_modes *modes, double scale, in
         lanes spring = -(angle * angle);
         lanes now = AT(modes->phi, k) * AT(modes->q, k);
         lanes next = AT(modes->phi, k) * AT(modes->v, k) * scale;
+#pragma GCC unroll 20
         for (int n = 0; n < terms; n++) {
             total[n] += now;
             lanes after = brake * next + spring * now;
@@ -167,10 +168,9 @@ static inline void circle(const lanes *angle, lanes *sine, lanes *cosine)
 static const double LOG_2[2] = {0x1.62e42feep-1, 0x1.a39ef35793c76p-33};
 /* Nothing is left of a mode that has decayed so far. */
 static const double DECAYED = 700.0;
-/* Taylor's terms of exp up to ln(2)/2: the first left out is 4e-18. */
-enum { DECAY_TERMS = 14 };
+/* Taylor's terms beyond the first of exp up to ln(2)/2: the first left out is 4e-18. */
+enum { DECAY_TERMS = 13 };
 static const double DECAY[DECAY_TERMS] = {1.0,
-                                          1.0,
                                           1.0 / 2.0,
                                           1.0 / 6.0,
                                           1.0 / 24.0,
@@ -184,8 +184,10 @@ static const double DECAY[DECAY_TERMS] = {1.0,
                                           1.0 / 479001600.0,
                                           1.0 / 6227020800.0};
 
-/* exp(-x), x >= 0 */
-static inline void decay(const lanes *x, lanes *left)
+static const lanes UNIT = {1.0, 1.0, 1.0, 1.0};
+
+/* exp(-x), x >= 0, and what it lacks to one. */
+static inline void decay(const lanes *x, lanes *left, lanes *lost)
 {
     bits beyond = *x > DECAYED;
     lanes y = -(lanes)((bits)*x & ~beyond);
@@ -194,11 +196,12 @@ static inline void decay(const lanes *x, lanes *left)
     lanes power = shifted - ROUNDER;
     lanes r = (y - power * LOG_2[0]) - power * LOG_2[1];
     lanes sum = r * DECAY[DECAY_TERMS - 1];
-    for (int n = DECAY_TERMS - 2; n > 0; n--)
+    for (int n = DECAY_TERMS - 2; n >= 0; n--)
         sum = (sum + DECAY[n]) * r;
-    sum += DECAY[0];
-    /* the power into the exponent's bits */
-    *left = (lanes)(((bits)sum + ((bits)shifted << 52)) & ~beyond);
+    /* times the power: 2^k and its product with what differs from one */
+    lanes one = (lanes)(((bits)UNIT + ((bits)shifted << 52)) & ~beyond);
+    *left = one + one * sum;
+    *lost = (1.0 - one) - one * sum;
 }
 
 /* sqrt(1 - zeta^2) */
@@ -237,10 +240,48 @@ VECTOR_CLONES void flight_kernel_turn(const struct flight_modes *modes, double t
         circle(&slowed, &s, &c);
         lanes braked = angle * zeta;
         lanes left;
-        decay(&braked, &left);
+        lanes lost;
+        decay(&braked, &left, &lost);
         c *= left;
         s *= left / slower;
         *(lanes *)(q + k) = (c + zeta * s) * before + s * (rate / (w + DBL_MIN));
         *(lanes *)(v + k) = (c - zeta * s) * rate - s * (w * before);
     }
+}
+
+/* The damper takes 2 zeta omega int v^2 dt; with v = Re(V e^(lambda t)), V = v + i u, u = (zeta v +
+ * omega q)/sqrt(1 - zeta^2),
+ *
+ *   2 v^2 = |V|^2 e^(2 Re(lambda) t) + Re(V^2 e^(2 lambda t))
+ *
+ * and 1/(2 lambda) = (-zeta - i sqrt(1 - zeta^2))/(2 omega). */
+VECTOR_CLONES double flight_kernel_loss(const struct flight_modes *modes, double time)
+{
+    lanes total = {0};
+    for (size_t k = 0; k < modes->length; k += LANES) {
+        lanes zeta = AT(modes->damping, k);
+        lanes slower;
+        slow_down(&zeta, &slower);
+        lanes angle = AT(modes->omega, k) * time;
+        lanes slowed = angle * slower;
+        lanes braked = 2.0 * angle * zeta;
+        lanes s;
+        lanes c;
+        lanes left;
+        lanes lost;
+        circle(&slowed, &s, &c);
+        decay(&braked, &left, &lost);
+        /* e^(2 lambda t) - 1, without cancellation in a short time */
+        lanes swing = -lost - 2.0 * left * s * s;
+        lanes turn = 2.0 * left * s * c;
+        /* V^2 times that, times -zeta - i sqrt(1 - zeta^2) */
+        lanes x = AT(modes->v, k);
+        lanes y = (zeta * x + AT(modes->omega, k) * AT(modes->q, k)) / slower;
+        lanes square = x * x - y * y;
+        lanes cross = 2.0 * x * y;
+        lanes both =
+            slower * (square * turn + cross * swing) - zeta * (square * swing - cross * turn);
+        total += (x * x + y * y) * lost + zeta * both;
+    }
+    return 0.5 * TOTAL(total);
 }

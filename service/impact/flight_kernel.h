@@ -50,4 +50,7 @@ void flight_kernel_terms(const struct flight_modes *modes, double length, double
 void flight_kernel_turn(const struct flight_modes *modes, double time, double *q, double *v);
 extern const double FLIGHT_TURN_ANGLE;
 
+/* Energy that the dampers of damped modes take in that time, from q and v. */
+double flight_kernel_loss(const struct flight_modes *modes, double time);
+
 #endif

@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "impact/flight_kernel.h"
 #include "impact/kernel.h"
 #include "impact/oscillator.h"
 
@@ -217,9 +218,16 @@ double motion_free_loss(const struct motion *motion, const struct scene *scene, 
     double sum = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
-        for (size_t k = 0; group->set->most_damping > 0.0 && k < group->count; k++)
-            sum += oscillator_free_loss(group->set->omega[k], group->set->damping[k], time,
-                                        motion->q[g][k], motion->v[g][k]);
+        const struct flight_modes modes = flight_modes_of(group, 0, motion->q[g], motion->v[g]);
+        if (!group->count || !modes.damping)
+            continue;
+        if (modes.omega[group->count - 1] * time <= FLIGHT_TURN_ANGLE) {
+            sum += flight_kernel_loss(&modes, time);
+            continue;
+        }
+        for (size_t k = 0; k < group->count; k++)
+            sum += oscillator_free_loss(modes.omega[k], modes.damping[k], time, modes.q[k],
+                                        modes.v[k]);
     }
     return sum;
 }

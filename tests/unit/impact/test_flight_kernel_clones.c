@@ -13,17 +13,20 @@
 #define flight_kernel_derivatives baseline_derivatives
 #define flight_kernel_terms       baseline_terms
 #define flight_kernel_turn        baseline_turn
+#define flight_kernel_loss        baseline_loss
 #define FLIGHT_TURN_ANGLE         BASELINE_TURN_ANGLE
 #include "impact/flight_kernel.c"
 #undef flight_kernel_bounds
 #undef flight_kernel_derivatives
 #undef flight_kernel_terms
 #undef flight_kernel_turn
+#undef flight_kernel_loss
 
 void flight_kernel_bounds(const struct flight_modes *modes, double *reach, double *bend);
 void flight_kernel_derivatives(const struct flight_modes *modes, double sums[SCAN_TERMS]);
 void flight_kernel_terms(const struct flight_modes *modes, double length, double sums[ROOT_TERMS]);
 void flight_kernel_turn(const struct flight_modes *modes, double time, double *q, double *v);
+double flight_kernel_loss(const struct flight_modes *modes, double time);
 
 enum { LONGEST = 64 };
 
@@ -71,6 +74,10 @@ static void every_vector_unit_gives_the_same_bits(void **state)
             baseline_turn(&modes, 0.7, end[2], end[3]);
             same(end[0], end[2], n);
             same(end[1], end[3], n);
+            if (!damped)
+                continue;
+            double losses[2] = {flight_kernel_loss(&modes, 0.7), baseline_loss(&modes, 0.7)};
+            same(&losses[0], &losses[1], 1);
         }
     }
 }
