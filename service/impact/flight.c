@@ -8,6 +8,7 @@
 
 #include "impact/flight_kernel.h"
 #include "impact/flight_root.h"
+#include "impact/flight_table.h"
 
 enum {
     /* Levels by which the first interval is tried longer than the shortest, one after another that
@@ -248,37 +249,45 @@ static double look_ahead(struct scan *scan, size_t *contact)
     return first;
 }
 
-/* To the end of the interval, along exact motion. OK, INTERNAL (no memory) or TIMEOUT. */
-static enum percuss_status pass(struct scan *scan)
+/* The probe's rigid part, `time` after another motion or itself. */
+static void move_gaps(struct motion *probe, const struct scene *scene, const struct motion *from,
+                      double time)
 {
-    struct flight *flight = scan->flight;
-    for (size_t g = 0; g < scan->scene->groups; g++) {
-        enum percuss_status status =
-            oscillators_prepare(scan->scene->group[g].set, scan->level, flight->pace);
-        if (status != PERCUSS_OK)
-            return status;
+    probe->time = from->time + time;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double a = scene->gap_acceleration[c];
+        probe->gap[c] = from->gap[c] + time * (from->gap_rate[c] + 0.5 * a * time);
+        probe->gap_rate[c] = from->gap_rate[c] + a * time;
     }
-    motion_step(&flight->probe, scan->now, scan->scene, scan->level);
-    scan->now = &flight->probe;
-    return PERCUSS_OK;
+}
+
+/* To the end of the interval, along exact motion. False: out of memory. */
+static bool pass(struct scan *scan)
+{
+    struct motion *probe = &scan->flight->probe;
+    for (size_t g = 0; g < scan->scene->groups; g++) {
+        const struct scene_group *group = &scan->scene->group[g];
+        const double *table = flight_table(group->set, scan->level);
+        if (!table)
+            return false;
+        struct flight_modes modes = flight_modes_of(group, 0, scan->now->q[g], scan->now->v[g]);
+        flight_kernel_step(table, &modes, probe->q[g], probe->v[g]);
+    }
+    move_gaps(probe, scan->scene, scan->now, step_length(scan->level));
+    scan->now = probe;
+    return true;
 }
 
 /* The flight ends `left` from now, `time` from its start: the probe goes there. */
 static enum flight_end land(struct scan *scan, enum flight_end end, double time, double left)
 {
     struct motion *probe = &scan->flight->probe;
-    const struct motion *start = scan->start;
-    probe->time = start->time + time;
-    for (size_t c = 0; c < scan->scene->contacts; c++) {
-        double a = scan->scene->gap_acceleration[c];
-        probe->gap[c] = start->gap[c] + time * (start->gap_rate[c] + 0.5 * a * time);
-        probe->gap_rate[c] = start->gap_rate[c] + a * time;
-    }
     for (size_t g = 0; g < scan->scene->groups; g++) {
         struct flight_modes modes =
             flight_modes_of(&scan->scene->group[g], 0, scan->now->q[g], scan->now->v[g]);
         flight_kernel_turn(&modes, fmax(0.0, left), probe->q[g], probe->v[g]);
     }
+    move_gaps(probe, scan->scene, scan->start, time);
     return end;
 }
 
@@ -306,9 +315,8 @@ static enum flight_end follow(struct scan *scan, unsigned long intervals, double
             return land(scan, scan->reason, *time, left);
         /* past it, along exact motion; what does not move the time is its rounding */
         double before = scan->now->time;
-        enum percuss_status moved = pass(scan);
-        if (moved != PERCUSS_OK)
-            return moved == PERCUSS_INTERNAL ? FLIGHT_MEMORY : FLIGHT_LIMIT;
+        if (!pass(scan))
+            return FLIGHT_MEMORY;
         if (!(scan->now->time > before))
             return land(scan, scan->reason, *time, left);
         if (flight->damped && i % REFRESH == 0)

@@ -213,40 +213,78 @@ static inline void slow_down(const lanes *damping, lanes *slower)
     *slower = square;
 }
 
+/* The map of a free motion. */
+struct turn {
+    lanes qq, qv, vq, vv;
+};
+
 /* With s, c of the damped frequency and the ratio r = zeta/sqrt(1 - zeta^2):
  *
  *   q(t) = e^(-zeta omega t) ((c + r s) q + s/(omega sqrt(1 - zeta^2)) v)
  *   v(t) = e^(-zeta omega t) ((c - r s) v - omega/sqrt(1 - zeta^2) s q) */
+static inline void make_turn(const struct flight_modes *modes, size_t k, double time,
+                             struct turn *turn)
+{
+    lanes w = AT(modes->omega, k);
+    lanes angle = w * time;
+    lanes s;
+    lanes c;
+    lanes lag = {0};
+    if (modes->damping) {
+        /* slower, and smaller */
+        lanes zeta = AT(modes->damping, k);
+        lanes slower;
+        lanes left;
+        lanes lost;
+        lanes braked = angle * zeta;
+        slow_down(&zeta, &slower);
+        decay(&braked, &left, &lost);
+        angle *= slower;
+        circle(&angle, &s, &c);
+        c *= left;
+        s *= left / slower;
+        lag = zeta * s;
+    } else {
+        circle(&angle, &s, &c);
+    }
+    turn->qq = c + lag;
+    turn->vv = c - lag;
+    turn->qv = s / (w + DBL_MIN);
+    turn->vq = -(s * w);
+}
+
+static inline void apply_turn(const struct turn *turn, const struct flight_modes *modes, size_t k,
+                              double *q, double *v)
+{
+    lanes before = AT(modes->q, k);
+    lanes rate = AT(modes->v, k);
+    *(lanes *)(q + k) = turn->qq * before + turn->qv * rate;
+    *(lanes *)(v + k) = turn->vq * before + turn->vv * rate;
+}
+
 VECTOR_CLONES void flight_kernel_turn(const struct flight_modes *modes, double time, double *q,
                                       double *v)
 {
     for (size_t k = 0; k < modes->length; k += LANES) {
-        lanes w = AT(modes->omega, k);
-        lanes angle = w * time;
-        lanes before = AT(modes->q, k);
-        lanes rate = AT(modes->v, k);
-        lanes s;
-        lanes c;
-        if (!modes->damping) {
-            circle(&angle, &s, &c);
-            *(lanes *)(q + k) = c * before + s * (rate / (w + DBL_MIN));
-            *(lanes *)(v + k) = c * rate - s * (w * before);
-            continue;
-        }
-        lanes zeta = AT(modes->damping, k);
-        lanes slower;
-        slow_down(&zeta, &slower);
-        lanes slowed = angle * slower;
-        circle(&slowed, &s, &c);
-        lanes braked = angle * zeta;
-        lanes left;
-        lanes lost;
-        decay(&braked, &left, &lost);
-        c *= left;
-        s *= left / slower;
-        *(lanes *)(q + k) = (c + zeta * s) * before + s * (rate / (w + DBL_MIN));
-        *(lanes *)(v + k) = (c - zeta * s) * rate - s * (w * before);
+        struct turn turn;
+        make_turn(modes, k, time, &turn);
+        apply_turn(&turn, modes, k, q, v);
     }
+}
+
+VECTOR_CLONES void flight_kernel_table(const struct flight_modes *modes, double time, double *table)
+{
+    struct turn *turn = (struct turn *)table;
+    for (size_t k = 0; k < modes->length; k += LANES)
+        make_turn(modes, k, time, turn++);
+}
+
+VECTOR_CLONES void flight_kernel_step(const double *table, const struct flight_modes *modes,
+                                      double *q, double *v)
+{
+    const struct turn *turn = (const struct turn *)table;
+    for (size_t k = 0; k < modes->length; k += LANES)
+        apply_turn(turn++, modes, k, q, v);
 }
 
 /* The damper takes 2 zeta omega int v^2 dt; with v = Re(V e^(lambda t)), V = v + i u, u = (zeta v +

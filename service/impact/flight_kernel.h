@@ -50,6 +50,13 @@ void flight_kernel_terms(const struct flight_modes *modes, double length, double
 void flight_kernel_turn(const struct flight_modes *modes, double time, double *q, double *v);
 extern const double FLIGHT_TURN_ANGLE;
 
+/* The same by a table for that time, TURN_TERMS numbers for each of the modes (omega and damping
+ * are used), to the same bits. */
+enum { TURN_TERMS = 4 };
+void flight_kernel_table(const struct flight_modes *modes, double time, double *table);
+void flight_kernel_step(const double *table, const struct flight_modes *modes, double *q,
+                        double *v);
+
 /* Energy that the dampers of damped modes take in that time, from q and v. */
 double flight_kernel_loss(const struct flight_modes *modes, double time);
 

@@ -58,8 +58,10 @@ void oscillators_free(struct oscillators *set)
 {
     if (!set)
         return;
-    for (int level = 0; level < STEP_LEVELS; level++)
+    for (int level = 0; level < STEP_LEVELS; level++) {
         free(set->tables[level]);
+        free(set->turns[level]);
+    }
     oscillators_free(set->undamped);
     free(set->which);
     free(set->omega);

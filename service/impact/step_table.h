@@ -56,6 +56,7 @@ struct oscillators {
     double *damping;                        /* ratio of each; 0 beyond count */
     struct step_table *tables[STEP_LEVELS]; /* made on first use, */
     size_t filled[STEP_LEVELS];             /* for so many of the first oscillators */
+    double *turns[STEP_LEVELS];             /* made on first use, see flight_table.h */
     struct oscillators *undamped;           /* the same frequencies; NULL: not asked for yet */
     struct oscillators *whole;              /* those that these are a part of; NULL: of none */
     size_t *which;                          /* [count] of a part: index among the whole's */

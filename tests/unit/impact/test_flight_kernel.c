@@ -137,6 +137,12 @@ static void turns_are_exact(void **state)
             }
             for (size_t k = x.count; k < x.modes.length; k++)
                 assert_true(x.q_end[k] == 0.0 && x.v_end[k] == 0.0);
+            /* the table gives the same bits */
+            _Alignas(32) double table[TURN_TERMS * LONGEST], q_step[LONGEST], v_step[LONGEST];
+            flight_kernel_table(&x.modes, t, table);
+            flight_kernel_step(table, &x.modes, q_step, v_step);
+            assert_memory_equal(q_step, x.q_end, x.modes.length * sizeof *q_step);
+            assert_memory_equal(v_step, x.v_end, x.modes.length * sizeof *v_step);
         }
     }
 }

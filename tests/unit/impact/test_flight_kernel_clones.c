@@ -13,6 +13,8 @@
 #define flight_kernel_derivatives baseline_derivatives
 #define flight_kernel_terms       baseline_terms
 #define flight_kernel_turn        baseline_turn
+#define flight_kernel_table       baseline_table
+#define flight_kernel_step        baseline_step
 #define flight_kernel_loss        baseline_loss
 #define FLIGHT_TURN_ANGLE         BASELINE_TURN_ANGLE
 #include "impact/flight_kernel.c"
@@ -20,12 +22,17 @@
 #undef flight_kernel_derivatives
 #undef flight_kernel_terms
 #undef flight_kernel_turn
+#undef flight_kernel_table
+#undef flight_kernel_step
 #undef flight_kernel_loss
 
 void flight_kernel_bounds(const struct flight_modes *modes, double *reach, double *bend);
 void flight_kernel_derivatives(const struct flight_modes *modes, double sums[SCAN_TERMS]);
 void flight_kernel_terms(const struct flight_modes *modes, double length, double sums[ROOT_TERMS]);
 void flight_kernel_turn(const struct flight_modes *modes, double time, double *q, double *v);
+void flight_kernel_table(const struct flight_modes *modes, double time, double *table);
+void flight_kernel_step(const double *table, const struct flight_modes *modes, double *q,
+                        double *v);
 double flight_kernel_loss(const struct flight_modes *modes, double time);
 
 enum { LONGEST = 64 };
@@ -72,6 +79,14 @@ static void every_vector_unit_gives_the_same_bits(void **state)
             same(sums[0], sums[1], ROOT_TERMS);
             flight_kernel_turn(&modes, 0.7, end[0], end[1]);
             baseline_turn(&modes, 0.7, end[2], end[3]);
+            same(end[0], end[2], n);
+            same(end[1], end[3], n);
+            _Alignas(32) double tables[2][TURN_TERMS * LONGEST];
+            flight_kernel_table(&modes, 0.3, tables[0]);
+            baseline_table(&modes, 0.3, tables[1]);
+            same(tables[0], tables[1], TURN_TERMS * n);
+            flight_kernel_step(tables[0], &modes, end[0], end[1]);
+            baseline_step(tables[0], &modes, end[2], end[3]);
             same(end[0], end[2], n);
             same(end[1], end[3], n);
             if (!damped)
