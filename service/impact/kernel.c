@@ -69,29 +69,6 @@ VECTOR_CLONES void kernel_dot2(size_t length, const double *a, const double *x, 
     *ay = TOTAL(sy);
 }
 
-VECTOR_CLONES void kernel_derivatives(size_t length, const double *omega, const double *damping,
-                                      const double *phi, const double *q, const double *v,
-                                      double sums[DERIVATIVES])
-{
-    lanes total[DERIVATIVES] = {{0}};
-    for (size_t k = 0; k < length; k += LANES) {
-        lanes w = AT(omega, k);
-        /* n-th derivative of its equation: q^(n+2) = -2 zeta omega q^(n+1) - omega^2 q^(n) */
-        lanes brake = -2.0 * AT(damping, k) * w;
-        lanes spring = -(w * w);
-        lanes now = AT(phi, k) * AT(q, k);
-        lanes next = AT(phi, k) * AT(v, k);
-        for (int n = 0; n < DERIVATIVES; n++) {
-            total[n] += now;
-            lanes after = brake * next + spring * now;
-            now = next;
-            next = after;
-        }
-    }
-    for (int n = 0; n < DERIVATIVES; n++)
-        sums[n] += TOTAL(total[n]);
-}
-
 VECTOR_CLONES void kernel_response(const struct step_table *table, size_t length,
                                    const double *phi_a, const double *phi_b,
                                    double sums[STEP_POINTS][NODES])

@@ -26,13 +26,6 @@ void kernel_push(const struct step_table *table, size_t length, const double *ph
 void kernel_dot2(size_t length, const double *a, const double *x, const double *y, double *ax,
                  double *ay);
 
-/* Adds the derivatives of sum_k phi_k q_k in free motion: sums[n] += sum_k phi_k d^n q_k / dt^n, by
- * q'' = -2 damping omega q' - omega^2 q. */
-enum { DERIVATIVES = 16 };
-void kernel_derivatives(size_t length, const double *omega, const double *damping,
-                        const double *phi, const double *q, const double *v,
-                        double sums[DERIVATIVES]);
-
 /* sums[i][j] += sum_k phi_a_k phi_b_k response[i][j]_k; the last row is of q at the end. */
 void kernel_response(const struct step_table *table, size_t length, const double *phi_a,
                      const double *phi_b, double sums[STEP_POINTS][NODES]);

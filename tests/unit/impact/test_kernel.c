@@ -7,7 +7,6 @@
 
 #include "check.h"
 #include "impact/kernel.h"
-#include "impact/oscillator.h"
 
 enum { LONGEST = 40 };
 
@@ -75,35 +74,6 @@ static void nodes_and_dots(void **state)
     }
 }
 
-/* The power series of a free motion is that motion as long as omega t stays below one half. */
-static void derivatives_are_a_series_of_the_motion(void **state)
-{
-    (void)state;
-    static const double dampings[] = {0.0, 0.05, 0.9};
-    for (size_t i = 0; i < 3; i++) {
-        struct vectors x;
-        make(&x, 13);
-        /* a third of them less damped than the others */
-        _Alignas(32) double damping[16] = {0.0};
-        for (size_t k = 0; k < 13; k++)
-            damping[k] = k % 3 ? dampings[i] : 0.1 * dampings[i];
-        double sums[DERIVATIVES] = {0.0};
-        double t = 0.5 / x.set->omega[12];
-        double series = 0.0, power = 1.0, expected = 0.0;
-        kernel_derivatives(x.stride, x.set->omega, damping, x.phi, x.q, x.v, sums);
-        for (int n = 0; n < DERIVATIVES; n++) {
-            series += power * sums[n];
-            power *= t / (n + 1);
-        }
-        for (size_t k = 0; k < 13; k++) {
-            oscillator_advance(x.set->omega[k], damping[k], t, &x.q[k], &x.v[k]);
-            expected += x.phi[k] * x.q[k];
-        }
-        agrees(series, expected);
-        oscillators_free(x.set);
-    }
-}
-
 static void advance_and_push(void **state)
 {
     (void)state;
@@ -125,7 +95,7 @@ static void advance_and_push(void **state)
         }
         for (size_t k = count; k < x.stride; k++)
             assert_true(x.q_end[k] == 0.0 && x.v_end[k] == 0.0);
-        /* in place, as the flight uses it */
+        /* in place */
         double kept[LONGEST];
         kernel_advance(x.table, x.stride, x.q, x.v, x.q_end, x.v_end);
         memcpy(kept, x.q_end, sizeof kept);
@@ -229,7 +199,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nodes_and_dots),
-        cmocka_unit_test(derivatives_are_a_series_of_the_motion),
         cmocka_unit_test(advance_and_push),
         cmocka_unit_test(responses),
         cmocka_unit_test(steps_by_their_middle),

@@ -14,7 +14,6 @@
 #define kernel_push        baseline_push
 #define kernel_dot2        baseline_dot2
 #define kernel_response    baseline_response
-#define kernel_derivatives baseline_derivatives
 #define kernel_loss        baseline_loss
 #define kernel_turn        baseline_turn
 #define kernel_kick        baseline_kick
@@ -26,7 +25,6 @@
 #undef kernel_push
 #undef kernel_dot2
 #undef kernel_response
-#undef kernel_derivatives
 #undef kernel_loss
 #undef kernel_turn
 #undef kernel_kick
@@ -43,9 +41,6 @@ void kernel_dot2(size_t length, const double *a, const double *x, const double *
                  double *ay);
 void kernel_response(const struct step_table *table, size_t length, const double *phi_a,
                      const double *phi_b, double sums[STEP_POINTS][NODES]);
-void kernel_derivatives(size_t length, const double *omega, const double *damping,
-                        const double *phi, const double *q, const double *v,
-                        double sums[DERIVATIVES]);
 double kernel_loss(const struct step_table *table, size_t length, const double *const state[2],
                    const struct kernel_load *loads, size_t count);
 void kernel_turn(const double *middle, enum middle_term turn, double way, size_t length,
@@ -107,10 +102,6 @@ static void every_vector_unit_gives_the_same_bits(void **state)
         kernel_response(table, n, phi, psi, response[0]);
         baseline_response(table, n, phi, psi, response[1]);
         same(response[0][0], response[1][0], STEP_POINTS * NODES);
-        double derivatives[2][DERIVATIVES] = {{0.0}};
-        kernel_derivatives(n, set->omega, set->damping, phi, q, v, derivatives[0]);
-        baseline_derivatives(n, set->omega, set->damping, phi, q, v, derivatives[1]);
-        same(derivatives[0], derivatives[1], DERIVATIVES);
         const double *const q_and_v[2] = {q, v};
         const struct kernel_load loads[2] = {{phi, force}, {psi, force}};
         double losses[2] = {kernel_loss(table, n, q_and_v, loads, 2),
