@@ -9,8 +9,7 @@ enum percuss_status scene_prepare(const struct scene *scene, int level, struct p
 {
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
-        enum percuss_status status =
-            oscillators_prepare_first(group->set, group->count, level, pace);
+        enum percuss_status status = oscillators_prepare(group->set, group->count, level, pace);
         if (status != PERCUSS_OK)
             return status;
     }

@@ -259,17 +259,12 @@ const struct step_table *oscillators_table(struct oscillators *set, int level)
     return table_of_first(set, set->count, level);
 }
 
-enum percuss_status oscillators_prepare_first(struct oscillators *set, size_t count, int level,
-                                              struct pace *pace)
+enum percuss_status oscillators_prepare(struct oscillators *set, size_t count, int level,
+                                        struct pace *pace)
 {
     if (set->tables[level] && set->filled[level] >= count)
         return PERCUSS_OK;
     if (!pace_ask(pace, 0.0))
         return PERCUSS_TIMEOUT;
     return table_of_first(set, count, level) ? PERCUSS_OK : PERCUSS_INTERNAL;
-}
-
-enum percuss_status oscillators_prepare(struct oscillators *set, int level, struct pace *pace)
-{
-    return oscillators_prepare_first(set, set->count, level, pace);
 }

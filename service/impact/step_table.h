@@ -102,9 +102,7 @@ const struct step_table *oscillators_table(struct oscillators *set, int level);
 
 /* Makes sure that there is one for the first `count`, and asks before it makes it, which takes
  * milliseconds. INTERNAL: out of memory; TIMEOUT: the pace stopped it. */
-enum percuss_status oscillators_prepare_first(struct oscillators *set, size_t count, int level,
-                                              struct pace *pace);
-/* For all. */
-enum percuss_status oscillators_prepare(struct oscillators *set, int level, struct pace *pace);
+enum percuss_status oscillators_prepare(struct oscillators *set, size_t count, int level,
+                                        struct pace *pace);
 
 #endif

@@ -181,8 +181,8 @@ static void tables_grow(void **state)
         assert_true(grown && whole && part && whole_part);
         for (int i = 0; i < 4; i++) {
             size_t some = counts[i] < 4 ? counts[i] : 4;
-            assert_int_equal(oscillators_prepare_first(part, some, 14, NULL), PERCUSS_OK);
-            assert_int_equal(oscillators_prepare_first(grown, counts[i], 14, NULL), PERCUSS_OK);
+            assert_int_equal(oscillators_prepare(part, some, 14, NULL), PERCUSS_OK);
+            assert_int_equal(oscillators_prepare(grown, counts[i], 14, NULL), PERCUSS_OK);
         }
         const struct step_table *tables[2][2] = {
             {oscillators_table(grown, 14), oscillators_table(whole, 14)},
