@@ -14,7 +14,7 @@ typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 typedef int64_t bits __attribute__((vector_size(LANES * sizeof(int64_t))));
 
 #define AT(array, k) (*(const lanes *)((array) + (k)))
-#define TOTAL(x)     (((x)[0] + (x)[1]) + ((x)[2] + (x)[3]))
+#define TOTAL(x)     (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
 
 VECTOR_CLONES void flight_kernel_bounds(const struct flight_modes *modes, double *reach,
                                         double *bend)
