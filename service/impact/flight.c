@@ -20,7 +20,7 @@ enum {
     /* by which any may be longer: see FLIGHT_TURN_ANGLE */
     LONGEST_TRY = 20,
     /* intervals between two looks at the decayed amplitudes */
-    REFRESH = 32
+    REFRESH = 8
 };
 
 bool flight_create(struct flight *flight, const struct scene *scene, struct arena *arena)
