@@ -11,7 +11,7 @@
 #include "impact/step_table.h"
 
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
-typedef int64_t bits __attribute__((vector_size(LANES * sizeof(int64_t))));
+typedef uint64_t bits __attribute__((vector_size(LANES * sizeof(uint64_t))));
 
 #define AT(array, k) (*(const lanes *)((array) + (k)))
 #define TOTAL(x)     (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
@@ -189,7 +189,7 @@ static const lanes UNIT = {1.0, 1.0, 1.0, 1.0};
 /* exp(-x), x >= 0, and what it lacks to one. */
 static inline void decay(const lanes *x, lanes *left, lanes *lost)
 {
-    bits beyond = *x > DECAYED;
+    bits beyond = (bits)(*x > DECAYED);
     lanes y = -(lanes)((bits)*x & ~beyond);
     /* the nearest power of two and what is left */
     lanes shifted = y * M_LOG2E + ROUNDER;
