@@ -44,7 +44,7 @@ double step_limits_stable(const struct scene *scene, size_t contact,
         /* the strongest mode of the body, as if it were the slowest */
         double largest = 0.0;
         for (size_t k = 0; k < group->count; k++)
-            largest = fmax(largest, phi[k] * phi[k]);
+            largest = phi[k] * phi[k] > largest ? phi[k] * phi[k] : largest;
         /* phi^2 (dF/dd) h/omega <= coupling with omega = RESOLVED/h; or a step that resolves all */
         double coupled = sqrt(RESOLVED * coupling / (largest * stiffness));
         double resolved = RESOLVED / group->set->omega[group->count - 1];

@@ -169,14 +169,14 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
 {
     double to_q[NODES + 2];
     double to_v[NODES + 2];
-    double *response = table->response + k / LANES * LANES * RESPONSE_TERMS + k % LANES;
+    double *response = table->response + k * RESPONSE_TERMS;
     /* at the nodes: of the motion before, and of forces there */
     for (int i = 0; i < NODES; i++) {
         oscillator_map(set->omega[k], set->damping[k], h, collocation.node[i], to_q, to_v);
         table->node_q[i][k] = to_q[0];
         table->node_v[i][k] = to_q[1];
         for (int j = 0; j < NODES; j++)
-            response[(i * NODES + j) * LANES] = to_q[j + 2];
+            response[i * NODES + j] = to_q[j + 2];
     }
     /* at the end */
     oscillator_map(set->omega[k], set->damping[k], h, 1.0, to_q, to_v);
@@ -185,7 +185,7 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
     table->end_vq[k] = to_v[0];
     table->end_vv[k] = to_v[1];
     for (int j = 0; j < NODES; j++) {
-        response[(NODES * NODES + j) * LANES] = to_q[j + 2];
+        response[NODES * NODES + j] = to_q[j + 2];
         table->force_q[j][k] = to_q[j + 2];
         table->force_v[j][k] = to_v[j + 2];
     }
@@ -201,12 +201,11 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
     }
 }
 
-/* Terms of a mode that lie together. */
-static void gather_terms(double *to, size_t i, const double *from, size_t k, size_t terms)
+static void gather_middle(double *to, size_t i, const double *from, size_t k)
 {
-    to += i / LANES * LANES * terms + i % LANES;
-    from += k / LANES * LANES * terms + k % LANES;
-    for (size_t term = 0; term < terms; term++)
+    to += i / LANES * LANES * MIDDLE_TERMS + i % LANES;
+    from += k / LANES * LANES * MIDDLE_TERMS + k % LANES;
+    for (size_t term = 0; term < MIDDLE_TERMS; term++)
         to[term * LANES] = from[term * LANES];
 }
 
@@ -225,9 +224,10 @@ static void gather(struct step_table *table, const struct oscillators *part, int
     }
     for (size_t i = range[0]; i < range[1]; i++) {
         size_t k = part->which[i];
-        gather_terms(table->response, i, whole->response, k, RESPONSE_TERMS);
+        memcpy(table->response + i * RESPONSE_TERMS, whole->response + k * RESPONSE_TERMS,
+               RESPONSE_TERMS * sizeof(double));
         if (table->middle && whole->middle)
-            gather_terms(table->middle, i, whole->middle, k, MIDDLE_TERMS);
+            gather_middle(table->middle, i, whole->middle, k);
         else if (table->middle)
             fill_middle(table, part->omega[i], step_length(level), i);
     }

@@ -41,8 +41,8 @@ struct step_table {
     double *node_q[NODES], *node_v[NODES];     /* q at node i = node_q q + node_v v + ... */
     double *end_qq, *end_qv, *end_vq, *end_vv; /* without force */
     double *force_q[NODES], *force_v[NODES];   /* on q, v at the end by the force at node j */
-    double *response; /* LANES modes together, LANES numbers each: on q at node i, then at the end,
-                         by the force at node j; at [i NODES + j] */
+    double *response; /* [mode][RESPONSE_TERMS]: on q at node i, then at the end, by the force at
+                         node j; at [i NODES + j] */
     double *loss[LOSS_TERMS]; /* 2 zeta omega int v^2 dt as a quadratic form of
                                  (q, v, f_1..f_4), lower triangle; damped only */
     double *middle;           /* undamped only: LANES modes together, LANES numbers of each term */

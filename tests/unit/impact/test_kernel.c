@@ -108,8 +108,7 @@ static void advance_and_push(void **state)
 
 static double response(const struct step_table *table, int i, int j, size_t k)
 {
-    return table->response[k / LANES * LANES * RESPONSE_TERMS + (size_t)(i * NODES + j) * LANES +
-                           k % LANES];
+    return table->response[k * RESPONSE_TERMS + (size_t)(i * NODES + j)];
 }
 
 static void responses(void **state)

@@ -41,20 +41,19 @@ static void tables_hold_the_maps(void **state)
         double h = step_length(level);
         for (size_t k = 0; k < MODES; k++) {
             double to_q[NODES + 2], to_v[NODES + 2];
-            const double *response =
-                table->response + k / LANES * LANES * RESPONSE_TERMS + k % LANES;
+            const double *response = table->response + k * RESPONSE_TERMS;
             for (int i = 0; i < NODES; i++) {
                 oscillator_map(omegas[k], damping[k], h, collocation.node[i], to_q, to_v);
                 assert_true(table->node_q[i][k] == to_q[0] && table->node_v[i][k] == to_q[1]);
                 for (int j = 0; j < NODES; j++)
-                    assert_true(response[(i * NODES + j) * LANES] == to_q[2 + j]);
+                    assert_true(response[i * NODES + j] == to_q[2 + j]);
             }
             oscillator_map(omegas[k], damping[k], h, 1.0, to_q, to_v);
             assert_true(table->end_qq[k] == to_q[0] && table->end_qv[k] == to_q[1]);
             assert_true(table->end_vq[k] == to_v[0] && table->end_vv[k] == to_v[1]);
             for (int j = 0; j < NODES; j++)
                 assert_true(table->force_q[j][k] == to_q[2 + j] &&
-                            response[(NODES * NODES + j) * LANES] == to_q[2 + j] &&
+                            response[NODES * NODES + j] == to_q[2 + j] &&
                             table->force_v[j][k] == to_v[2 + j]);
             double form[LOSS_INPUTS][LOSS_INPUTS];
             oscillator_loss_form(omegas[k], damping[k], h, form);
@@ -126,10 +125,8 @@ static void padding_is_zero(void **state)
     }
     assert_null(table->loss[0]); /* undamped: none */
     assert_int_equal((uintptr_t)table->middle % 32, 0);
-    for (int term = 0; term < RESPONSE_TERMS; term++)
-        for (size_t k = MODES; k < set->stride; k++)
-            assert_true(table->response[LANES * RESPONSE_TERMS + term * LANES + (int)(k % LANES)] ==
-                        0.0);
+    for (size_t i = MODES * RESPONSE_TERMS; i < set->stride * RESPONSE_TERMS; i++)
+        assert_true(table->response[i] == 0.0);
     for (int term = 0; term < MIDDLE_TERMS; term++)
         for (size_t k = MODES; k < set->stride; k++)
             assert_true(table->middle[LANES * MIDDLE_TERMS + term * LANES + (int)(k % LANES)] ==
@@ -158,9 +155,8 @@ static void a_part_has_the_tables_of_the_whole(void **state)
         assert_true(some->end_qv[i] == all->end_qv[k] && some->end_vv[i] == all->end_vv[k]);
         assert_true(some->force_v[2][i] == all->force_v[2][k]);
         for (size_t term = 0; term < RESPONSE_TERMS; term++)
-            assert_true(
-                some->response[term * LANES + i] ==
-                all->response[k / LANES * LANES * RESPONSE_TERMS + term * LANES + k % LANES]);
+            assert_true(some->response[i * RESPONSE_TERMS + term] ==
+                        all->response[k * RESPONSE_TERMS + term]);
         assert_true(some->loss[LOSS_TERMS - 1][i] == all->loss[LOSS_TERMS - 1][k]);
     }
     assert_true(part->most_damping == 0.1);
