@@ -10,6 +10,7 @@
 #include "impact/contact_step.h"
 #include "impact/march.h"
 #include "impact/step_limits.h"
+#include "impact/step_values.h"
 #include "impact/yielding.h"
 
 struct modal_run {
@@ -184,58 +185,6 @@ static bool has_event(const struct modal_run *run)
     return closed == 1 && ends;
 }
 
-/* Last instant with positive indentation on the step just made: linear between the nodes around it.
- */
-static double release_time(const struct modal_run *run, size_t contact, double start, double h)
-{
-    double s[NODES + 2];
-    double d[NODES + 2];
-    s[0] = 0.0;
-    d[0] = run->now[contact].indentation;
-    for (int j = 0; j < NODES; j++) {
-        s[j + 1] = collocation.node[j];
-        d[j + 1] = run->step.indentation[contact][j];
-    }
-    s[NODES + 1] = 1.0;
-    d[NODES + 1] = run->step.end_indentation[contact];
-    int last = NODES;
-    while (last > 0 && d[last] <= 0.0)
-        last--;
-    double share = d[last] > 0.0 ? d[last] / (d[last] - d[last + 1]) : 0.0;
-    return start + h * (s[last] + share * (s[last + 1] - s[last]));
-}
-
-/* Local values at the end of the step: derivatives of the cubic through its nodes. */
-static struct contact_start end_values(const double values[NODES], double h, double indentation)
-{
-    double r = 1.0 / h;
-    double slope[NODES];
-    for (int m = 1; m < NODES; m++) {
-        const double *by = collocation.end[m];
-        slope[m] =
-            (by[0] * values[0] + by[1] * values[1]) + (by[2] * values[2] + by[3] * values[3]);
-    }
-    return (struct contact_start){indentation, slope[1] * r, 2.0 * slope[2] * (r * r),
-                                  6.0 * slope[3] * (r * r * r)};
-}
-
-/* First instant with positive indentation on the step just made, likewise. */
-static double closing_time(const struct modal_run *run, size_t contact, double start, double h)
-{
-    double before = run->now[contact].indentation;
-    double at = 0.0;
-    for (int j = 0; j <= NODES; j++) {
-        double s = j < NODES ? collocation.node[j] : 1.0;
-        double d =
-            j < NODES ? run->step.indentation[contact][j] : run->step.end_indentation[contact];
-        if (d > 0.0)
-            return start + h * (at + (s - at) * fmax(0.0, -before) / (d + fmax(0.0, -before)));
-        before = d;
-        at = s;
-    }
-    return start + h;
-}
-
 /* Whether a contact bears a force at any node of the step. */
 static bool bears(const struct modal_run *run, size_t contact)
 {
@@ -250,15 +199,17 @@ static bool bears(const struct modal_run *run, size_t contact)
 static void keep_books(struct modal_run *run, size_t c, double start, double h)
 {
     double end = run->step.end_indentation[c];
-    struct track_values values = {run->now[c].indentation, end, run->step.indentation[c],
-                                  run->step.force[c], run->step.stiffness[c]};
-    struct contact_start after = end_values(run->step.indentation[c], h, end);
+    const struct step_values step = {run->now[c].indentation, end, run->step.indentation[c]};
+    struct track_values values = {step.start, end, step.nodes, run->step.force[c],
+                                  run->step.stiffness[c]};
+    struct contact_start after = step_values_after(&step, h);
     if (!run->march.closed[c] && (end > 0.0 || bears(run, c)))
-        open_contact(run, c, closing_time(run, c, start, h), fmax(run->now[c].rate, after.rate));
+        open_contact(run, c, start + h * step_values_closing(&step),
+                     fmax(run->now[c].rate, after.rate));
     if (run->march.closed[c]) {
         track_step(&run->march.outcome->tracks[c], start, h, &values);
         if (end <= 0.0)
-            close_contact(run, c, release_time(run, c, start, h));
+            close_contact(run, c, start + h * step_values_release(&step));
     }
     run->now[c] = after;
 }

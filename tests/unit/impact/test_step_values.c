@@ -1,0 +1,58 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Mirrors service/impact/step_values.c: begin and end of a contact on a straight line, and a cubic
+ * that goes on. */
+#include "check.h"
+#include "impact/step_values.h"
+
+/* Indentations of slope * (s - zero) on the step. */
+static struct step_values line(double nodes[NODES], double slope, double zero)
+{
+    for (int j = 0; j < NODES; j++)
+        nodes[j] = slope * (collocation.node[j] - zero);
+    return (struct step_values){-slope * zero, slope * (1.0 - zero), nodes};
+}
+
+static void lines_begin_and_end_where_they_are_zero(void **state)
+{
+    (void)state;
+    double nodes[NODES];
+    for (double zero = 0.01; zero < 1.0; zero += 0.0625) {
+        struct step_values closes = line(nodes, 3.0, zero);
+        near(step_values_closing(&closes), zero, 1e-15);
+        struct step_values opens = line(nodes, -3.0, zero);
+        near(step_values_release(&opens), zero, 1e-15);
+    }
+    struct step_values open = line(nodes, -1.0, -0.5);
+    assert_true(step_values_closing(&open) == 1.0 && step_values_release(&open) == 0.0);
+    struct step_values touches = line(nodes, 1.0, 0.0);
+    assert_true(step_values_closing(&touches) == 0.0);
+}
+
+static void a_cubic_goes_on(void **state)
+{
+    (void)state;
+    static const double c[4] = {2.0, -1.0, 0.5, 3.0}; /* of (t - h)^m */
+    double h = 0.25, nodes[NODES];
+    for (int j = 0; j < NODES; j++) {
+        double x = (collocation.node[j] - 1.0) * h;
+        nodes[j] = c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+    }
+    const struct step_values values = {0.0, 2.0, nodes};
+    struct contact_start after = step_values_after(&values, h);
+    near(after.indentation, c[0], 0.0);
+    /* sums of terms up to 100 over h^m */
+    near(after.rate, c[1], 1e-13 / h);
+    near(after.curvature, 2.0 * c[2], 1e-13 / (h * h));
+    near(after.bend, 6.0 * c[3], 1e-13 / (h * h * h));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lines_begin_and_end_where_they_are_zero),
+        cmocka_unit_test(a_cubic_goes_on),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
