@@ -47,13 +47,14 @@ static bool bears_force(const double force[NODES])
     return force[0] != 0.0 || force[1] != 0.0 || force[2] != 0.0 || force[3] != 0.0;
 }
 
-static void kick(const struct scene *scene, const struct scene_group *group, int level,
-                 double (*const force)[NODES], double *const state[2])
+/* The forces of the step that was taken. */
+static void kick(const struct carrier *carrier, const struct scene *scene,
+                 const struct scene_group *group, double *const state[2])
 {
+    const double *middle = middle_of(group, carrier->level);
     for (size_t c = 0; c < scene->contacts; c++)
-        if (group->participation[c] && bears_force(force[c]))
-            kernel_kick(middle_of(group, level), group->stride, group->participation[c], force[c],
-                        state);
+        if (group->participation[c] && bears_force(carrier->force[c]))
+            kernel_kick(middle, group->stride, group->participation[c], carrier->force[c], state);
 }
 
 /* Undamped modes, from wherever they are to the middle of the step of `level`. */
@@ -63,24 +64,23 @@ static void turn_to(const struct carrier *carrier, const struct scene_group *gro
     const double *const here[2] = {state[0], state[1]};
     const double *from = carrier->level < 0 ? NULL : middle_of(group, carrier->level);
     enum middle_term turn;
-    if (from && carrier->taken && find_turn(carrier->level, level, &turn)) {
+    if (from && carrier->force && find_turn(carrier->level, level, &turn)) {
         kernel_turn(from, turn, 1.0, group->stride, here, state);
         return;
     }
     /* by way of the step's end, or back to its start if it was not taken */
     if (from)
-        kernel_turn(from, TURN_HALF, carrier->taken ? 1.0 : -1.0, group->stride, here, state);
+        kernel_turn(from, TURN_HALF, carrier->force ? 1.0 : -1.0, group->stride, here, state);
     kernel_turn(middle_of(group, level), TURN_HALF, 1.0, group->stride, from ? here : start, state);
 }
 
 static void enter(const struct carrier *carrier, const struct scene *scene, size_t g,
-                  const double *const start[2], int level, double (*const force)[NODES],
-                  double (*sums)[STEP_POINTS])
+                  const double *const start[2], int level, double (*sums)[STEP_POINTS])
 {
     const struct scene_group *group = &scene->group[g];
     double *const state[2] = {carrier->q[g], carrier->v[g]};
-    if (carrier->taken)
-        kick(scene, group, carrier->level, force, state);
+    if (carrier->force)
+        kick(carrier, scene, group, state);
     turn_to(carrier, group, start, level, state);
     for (size_t c = 0; c < scene->contacts; c++)
         if (group->participation[c])
@@ -99,12 +99,12 @@ static void enter_damped(const struct scene *scene, const struct scene_group *gr
 }
 
 void carrier_enter(struct carrier *carrier, const struct scene *scene, const struct motion *motion,
-                   int level, double (*const force)[NODES], double (*sums)[STEP_POINTS])
+                   int level, double (*sums)[STEP_POINTS])
 {
     /* one contact, from a step to one about as long: in one pass */
-    struct kernel_carry carry = {.force = force[0]};
+    struct kernel_carry carry = {.force = carrier->force ? carrier->force[0] : NULL};
     bool at_once =
-        scene->contacts == 1 && carrier->taken && find_turn(carrier->level, level, &carry.turn);
+        scene->contacts == 1 && carrier->force && find_turn(carrier->level, level, &carry.turn);
     for (size_t c = 0; c < scene->contacts; c++)
         for (int i = 0; i < STEP_POINTS; i++)
             sums[c][i] = 0.0;
@@ -119,17 +119,17 @@ void carrier_enter(struct carrier *carrier, const struct scene *scene, const str
             kernel_carry(&carry, group->stride, group->participation[0],
                          (double *const[]){carrier->q[g], carrier->v[g]}, sums[0]);
         } else {
-            enter(carrier, scene, g, start, level, force, sums);
+            enter(carrier, scene, g, start, level, sums);
         }
     }
     carrier->level = level;
-    carrier->taken = false;
+    carrier->force = NULL;
 }
 
 void carrier_take(struct carrier *carrier, const struct scene *scene, struct motion *motion,
                   double (*const force)[NODES])
 {
-    carrier->taken = true;
+    carrier->force = (const double(*)[NODES])force;
     motion_step_gaps(motion, motion, scene, carrier->level);
     for (size_t c = 0; c < scene->contacts; c++)
         motion_push_gaps(motion, scene, carrier->level, c, force[c]);
@@ -148,8 +148,7 @@ void carrier_take(struct carrier *carrier, const struct scene *scene, struct mot
     }
 }
 
-void carrier_leave(struct carrier *carrier, const struct scene *scene, struct motion *motion,
-                   double (*const force)[NODES])
+void carrier_leave(struct carrier *carrier, const struct scene *scene, struct motion *motion)
 {
     for (size_t g = 0; carrier->level >= 0 && g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
@@ -157,12 +156,12 @@ void carrier_leave(struct carrier *carrier, const struct scene *scene, struct mo
         double *const state[2] = {carrier->q[g], carrier->v[g]};
         if (!middle)
             continue;
-        if (carrier->taken)
-            kick(scene, group, carrier->level, force, state);
-        kernel_turn(middle, TURN_HALF, carrier->taken ? 1.0 : -1.0, group->stride,
+        if (carrier->force)
+            kick(carrier, scene, group, state);
+        kernel_turn(middle, TURN_HALF, carrier->force ? 1.0 : -1.0, group->stride,
                     (const double *const[]){state[0], state[1]},
                     (double *const[]){motion->q[g], motion->v[g]});
     }
     carrier->level = NO_STEP;
-    carrier->taken = false;
+    carrier->force = NULL;
 }

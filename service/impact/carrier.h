@@ -13,17 +13,17 @@ struct carrier {
     double **q, **v; /* [group][stride], of undamped modes at the middle of the step */
     bool damped;     /* any mode is */
     int level;       /* of that step; < 0: all modes are as the motion says */
-    bool taken;      /* it is behind them: its forces are still to be applied */
+    /* [contact], of that step if it is behind them: still to be applied; NULL: it was not taken */
+    const double (*force)[NODES];
 };
 
 /* Memory for a scene from the arena. False: out of memory. */
 bool carrier_create(struct carrier *carrier, const struct scene *scene, struct arena *arena);
 
 /* Goes on to a step of `level` from the present, whose tables are ready: sums[contact] becomes the
- * modes' part of minus the approach at its nodes and its end if no force acts on it. `force`: at
- * the nodes of the step that was taken, if one was. */
+ * modes' part of minus the approach at its nodes and its end if no force acts on it. */
 void carrier_enter(struct carrier *carrier, const struct scene *scene, const struct motion *motion,
-                   int level, double (*const force)[NODES], double (*sums)[STEP_POINTS]);
+                   int level, double (*sums)[STEP_POINTS]);
 
 /* The step entered is taken with these forces, which must stay as they are until the next call:
  * the motion becomes that of its end but for undamped modes. */
@@ -31,7 +31,6 @@ void carrier_take(struct carrier *carrier, const struct scene *scene, struct mot
                   double (*const force)[NODES]);
 
 /* The motion becomes whole again. */
-void carrier_leave(struct carrier *carrier, const struct scene *scene, struct motion *motion,
-                   double (*const force)[NODES]);
+void carrier_leave(struct carrier *carrier, const struct scene *scene, struct motion *motion);
 
 #endif

@@ -96,7 +96,7 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
                             const struct motion *motion, int level)
 {
     double h = step_length(level);
-    carrier_enter(&step->carrier, scene, motion, level, step->force, step->target);
+    carrier_enter(&step->carrier, scene, motion, level, step->target);
     for (size_t c = 0; c < scene->contacts; c++) {
         double *target = step->target[c];
         double gap = motion->gap[c];
@@ -131,7 +131,7 @@ void contact_step_take(struct contact_step *step, const struct scene *scene, str
 
 void contact_step_leave(struct contact_step *step, const struct scene *scene, struct motion *motion)
 {
-    carrier_leave(&step->carrier, scene, motion, step->force);
+    carrier_leave(&step->carrier, scene, motion);
 }
 
 double contact_step_loss(const struct scene *scene, const struct motion *motion, int level,

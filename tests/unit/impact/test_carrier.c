@@ -78,8 +78,8 @@ static void carries_as_the_motion_goes(void **state)
             int level = levels[n];
             /* every third step is tried with another length first, every fourth begins anew */
             if (n % 3 == 2)
-                carrier_enter(&carrier, &toy.scene, &motion, levels[n - 1], force, sums);
-            carrier_enter(&carrier, &toy.scene, &motion, level, force, sums);
+                carrier_enter(&carrier, &toy.scene, &motion, levels[n - 1], sums);
+            carrier_enter(&carrier, &toy.scene, &motion, level, sums);
             check_sums(&toy, &expected, level, sums);
             for (int j = 0; j < NODES; j++) {
                 force[0][j] = 1.0 + 0.3 * n - 0.7 * j;
@@ -89,14 +89,14 @@ static void carries_as_the_motion_goes(void **state)
             motion_step(&expected, &expected, &toy.scene, level);
             motion_push(&expected, &toy.scene, level, force);
             if (n % 4 == 3) {
-                carrier_leave(&carrier, &toy.scene, &motion, force);
+                carrier_leave(&carrier, &toy.scene, &motion);
                 check_motion(&toy, &motion, &expected);
             }
         }
         /* a step that is not taken leaves no trace, nor do two ends */
-        carrier_enter(&carrier, &toy.scene, &motion, 8, force, sums);
-        carrier_leave(&carrier, &toy.scene, &motion, force);
-        carrier_leave(&carrier, &toy.scene, &motion, force);
+        carrier_enter(&carrier, &toy.scene, &motion, 8, sums);
+        carrier_leave(&carrier, &toy.scene, &motion);
+        carrier_leave(&carrier, &toy.scene, &motion);
         check_motion(&toy, &motion, &expected);
         toy_free(&toy);
     }
