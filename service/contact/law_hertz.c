@@ -12,9 +12,9 @@ static double hertz_force(const struct contact_law *law, double indentation, dou
         *stiffness = 0.0;
         return 0.0;
     }
-    double rise = law->parameters[0] * sqrt(indentation);
-    *stiffness = 1.5 * rise;
-    return indentation * rise;
+    double root = sqrt(indentation);
+    *stiffness = 1.5 * law->parameters[0] * root;
+    return law->parameters[0] * indentation * root;
 }
 
 static void hertz_forces(const struct contact_law *law,
