@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "base/vector_clones.h"
 #include "numeric/linear.h"
 
 /* Two nodes of a contact, wherever they lie: what every vector unit has; the lanes' order of
@@ -171,15 +172,18 @@ static inline double product_of(const double x[NODES], const double y[NODES])
     return sum[0] + sum[1];
 }
 
-/* As eliminate, in place, for any even number of unknowns; contacts that do not feel each other
- * leave zeros. */
-static bool eliminate_many(size_t n, double *a, double *b)
+/* A contact's four columns. */
+typedef double quad __attribute__((vector_size(NODES * sizeof(double)), aligned(8)));
+
+/* As eliminate, in place, for any number of contacts; those that do not feel each other leave
+ * zeros. */
+VECTOR_CLONES static bool eliminate_many(size_t n, double *a, double *b)
 {
-    /* forward, two columns at a time */
+    /* forward, a contact's columns at a time */
     for (size_t c = 0; c < n; c++) {
         const double *row = a + c * n;
         double inverse = 1.0 / row[c];
-        size_t right = (c + 1) / 2 * 2;
+        size_t right = (c + 1) / NODES * NODES;
         if (!(row[c] > LEAST_PIVOT))
             return false;
         for (size_t i = c + 1; i < n; i++) {
@@ -187,8 +191,8 @@ static bool eliminate_many(size_t n, double *a, double *b)
             double factor = below[c] * inverse;
             if (factor == 0.0)
                 continue;
-            for (size_t k = right; k < n; k += 2)
-                PAIR(below + k) -= factor * CONST_PAIR(row + k);
+            for (size_t k = right; k < n; k += NODES)
+                *(quad *)(below + k) -= factor * *(const quad *)(row + k);
             b[i] -= factor * b[c];
         }
     }
