@@ -74,6 +74,7 @@ static void turn_to(const struct carrier *carrier, const struct scene_group *gro
     kernel_turn(middle_of(group, level), TURN_HALF, 1.0, group->stride, from ? here : start, state);
 }
 
+/* Undamped modes of a group go on to a step of `level`, part by part. */
 static void enter(const struct carrier *carrier, const struct scene *scene, size_t g,
                   const double *const start[2], int level, double (*sums)[STEP_POINTS])
 {

@@ -132,11 +132,13 @@ static struct step_table *table_allocate(size_t stride, bool damped)
 /* A turn of the mode over a time, see middle_term. */
 static void fill_turn(double *term, double omega, double time)
 {
+    double sine = sin(omega * time);
     term[0] = cos(omega * time);
-    term[LANES] = sin(omega * time) / omega;
-    term[2 * LANES] = -omega * sin(omega * time);
+    term[LANES] = sine / omega;
+    term[2 * LANES] = -omega * sine;
 }
 
+/* The terms of an undamped mode whose forces' effect at the end is known. */
 static void fill_middle(struct step_table *table, double omega, double h, size_t k)
 {
     double *term = table->middle + k / LANES * LANES * MIDDLE_TERMS + k % LANES;

@@ -92,8 +92,8 @@ if [ "$record" = yes ]; then
 fi
 
 # three contacts at once against one: thirty groups on a beam and their ninety contacts one by one. The
-# aim is 500 %, which the time keeps (400 % with AVX2); counted it is 660 %: each contact opens with fine
-# steps of its own (3.8 times the steps), and the forces of pressed contacts are solved for together.
+# aim is 400 %; counted with AVX2 it is 580 %: each contact opens with fine steps of its own (3.8 times
+# the steps), and the forces of pressed contacts are solved for together.
 if [ -n "$often" ] && [ "$record" = no ]; then
     program=$often
     groups=$(count beam 1e-3 groups | cut -d ' ' -f 1)

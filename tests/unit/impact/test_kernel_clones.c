@@ -9,16 +9,16 @@
 
 /* The source once more, under other names and for the baseline only. */
 #define PERCUSS_ONE_KERNEL
-#define kernel_nodes       baseline_nodes
-#define kernel_advance     baseline_advance
-#define kernel_push        baseline_push
-#define kernel_dot2        baseline_dot2
-#define kernel_response    baseline_response
-#define kernel_loss        baseline_loss
-#define kernel_turn        baseline_turn
-#define kernel_kick        baseline_kick
-#define kernel_swing       baseline_swing
-#define kernel_carry(...)  baseline_carry(__VA_ARGS__)
+#define kernel_nodes      baseline_nodes
+#define kernel_advance    baseline_advance
+#define kernel_push       baseline_push
+#define kernel_dot2       baseline_dot2
+#define kernel_response   baseline_response
+#define kernel_loss       baseline_loss
+#define kernel_turn       baseline_turn
+#define kernel_kick       baseline_kick
+#define kernel_swing      baseline_swing
+#define kernel_carry(...) baseline_carry(__VA_ARGS__)
 #include "impact/kernel.c"
 #undef kernel_nodes
 #undef kernel_advance
