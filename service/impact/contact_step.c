@@ -188,6 +188,7 @@ static bool local_of_many(const struct scene *scene, const double *approach, dou
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
         double change = 0.0;
         double scale = 0.0;
+        bool squared = true; /* what is left are squares of changes, which are rounding */
         /* the excess e, and the matrix 1 + C F' */
         for (size_t c = 0; c < n; c++)
             force[c] = contact_law_force(&scene->laws[c], indentation[c], &stiffness[c]);
@@ -204,11 +205,16 @@ static bool local_of_many(const struct scene *scene, const double *approach, dou
         /* the update, and whether it was the last one */
         for (size_t c = 0; c < n; c++) {
             indentation[c] -= excess[c];
+            squared = squared && fabs(excess[c]) <= SQUARES_TO_ROUNDING * fabs(indentation[c]);
             change = larger(change, fabs(excess[c]));
             scale = larger(scale, larger(fabs(indentation[c]), fabs(approach[c])));
         }
-        if (change <= (iteration + 1 < MAX_ITERATIONS ? TO_ROUNDING : AFTER_ALL) * scale)
+        if (squared ||
+            change <= (iteration + 1 < MAX_ITERATIONS ? TO_ROUNDING : AFTER_ALL) * scale) {
+            for (size_t c = 0; c < n; c++)
+                force[c] = larger(0.0, force[c] - stiffness[c] * excess[c]);
             return true;
+        }
     }
     return false;
 }
