@@ -92,7 +92,7 @@ if [ "$record" = yes ]; then
 fi
 
 # three contacts at once against one: thirty groups on a beam and their ninety contacts one by one. The
-# aim is 400 %; counted with AVX2 it is 580 %: each contact opens with fine steps of its own (3.8 times
+# aim is 400 %; counted it is 620 %: each contact opens with fine steps of its own (3.8 times
 # the steps), and the forces of pressed contacts are solved for together.
 if [ -n "$often" ] && [ "$record" = no ]; then
     program=$often
