@@ -36,13 +36,6 @@ struct radiation {
     struct oscillators *set;
 };
 
-/* Some of a group's modes. */
-struct part {
-    struct part *next;
-    const struct prepared_group *whole;
-    struct prepared_group group;
-};
-
 struct entry {
     struct entry *next;
     struct body body; /* a copy: its key, see body_same_modes */
@@ -62,8 +55,7 @@ struct prepared_cache {
     struct entry *buckets[BUCKETS];
     struct prepared_family *retired; /* outgrown, but a scene may still point at them */
     size_t varied;                   /* entries of varied bodies */
-    struct part *parts;
-    size_t part_count;
+    struct prepared_parts parts;
 };
 
 static void family_free(struct prepared_family *family)
@@ -157,22 +149,10 @@ static void entry_clear(struct entry *entry)
     memset(entry->asked, 0, sizeof entry->asked);
 }
 
-static void free_parts(struct prepared_cache *cache)
-{
-    while (cache->parts) {
-        struct part *next = cache->parts->next;
-        oscillators_free(cache->parts->group.set);
-        free(cache->parts->group.mode);
-        free(cache->parts);
-        cache->parts = next;
-    }
-    cache->part_count = 0;
-}
-
 /* Forgets all bodies, or only the varied ones. */
 static void forget(struct prepared_cache *cache, bool only_varied)
 {
-    free_parts(cache);
+    prepared_parts_clear(&cache->parts);
     for (size_t b = 0; b < BUCKETS; b++) {
         for (struct entry **link = &cache->buckets[b]; *link;) {
             struct entry *entry = *link;
@@ -191,7 +171,7 @@ static void forget(struct prepared_cache *cache, bool only_varied)
 static void free_retired(struct prepared_cache *cache)
 {
     if (cache->retired)
-        free_parts(cache);
+        prepared_parts_clear(&cache->parts);
     while (cache->retired) {
         struct prepared_family *next = cache->retired->next_retired;
         family_free(cache->retired);
@@ -211,8 +191,8 @@ void prepared_cache_free(struct prepared_cache *cache)
 void prepared_cache_use(struct prepared_cache *cache, const char *revision)
 {
     free_retired(cache);
-    if (cache->part_count > MOST_PARTS)
-        free_parts(cache);
+    if (cache->parts.count > MOST_PARTS)
+        prepared_parts_clear(&cache->parts);
     if (cache->varied > MOST_VARIED)
         forget(cache, true);
     if (strncmp(cache->revision, revision, sizeof cache->revision) == 0)
@@ -278,29 +258,7 @@ const struct prepared_group *prepared_part_get(struct prepared_cache *cache,
                                                const struct prepared_group *whole,
                                                const size_t *which, size_t count)
 {
-    for (struct part *known = cache->parts; known; known = known->next)
-        if (known->whole == whole && known->group.set->count == count &&
-            memcmp(known->group.set->which, which, count * sizeof *which) == 0)
-            return &known->group;
-    /* made when first asked for */
-    struct part *made = calloc(1, sizeof *made);
-    if (!made)
-        return NULL;
-    made->whole = whole;
-    made->group.set = oscillators_part(whole->set, which, count);
-    made->group.mode = calloc(count + 1, sizeof *made->group.mode);
-    if (!made->group.set || !made->group.mode) {
-        oscillators_free(made->group.set);
-        free(made->group.mode);
-        free(made);
-        return NULL;
-    }
-    for (size_t i = 0; i < count; i++)
-        made->group.mode[i] = whole->mode[which[i]];
-    made->next = cache->parts;
-    cache->parts = made;
-    cache->part_count++;
-    return &made->group;
+    return prepared_parts_get(&cache->parts, whole, which, count);
 }
 
 struct oscillators *prepared_remainder_get(struct prepared_cache *cache, const struct body *body,
@@ -399,7 +357,7 @@ bool prepared_matched_get(struct prepared_cache *cache, const struct body *body,
 
 void prepared_cache_forget(struct prepared_cache *cache, const char *id)
 {
-    free_parts(cache);
+    prepared_parts_clear(&cache->parts);
     for (struct entry **link = find_bucket(cache, id); *link;) {
         struct entry *entry = *link;
         if (strcmp(entry->body.id, id) != 0) {

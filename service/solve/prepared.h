@@ -8,15 +8,9 @@
 #define PERCUSS_SOLVE_PREPARED_H
 
 #include "contact/hertz.h"
-#include "impact/step_table.h"
 #include "model/modal_basis.h"
 #include "solve/participation.h"
-
-/* Modes whose shapes are all even, all odd, or (longitudinal, unlike supports) anything. */
-struct prepared_group {
-    struct oscillators *set;
-    size_t *mode; /* [set->count]: index within the family */
-};
+#include "solve/prepared_part.h"
 
 struct prepared_family {
     struct modal_family *modes;
