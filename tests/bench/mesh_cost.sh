@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # What a warm solve costs on a bar's mesh against the built-in bar, in instructions: with 160 modes of
-# each family more than a tenth above it fails; with as many of them as a tolerance of 1e-3 asks for,
-# which are few and cheap, more than a third. Finding the place on the mesh is what is left.
+# each family, and with as many of them as a tolerance of 1e-3 asks for. The impact itself costs the same,
+# to the instruction; more than a twentieth above the bar and what it takes to find a place on a mesh fails.
 # usage: mesh_cost.sh PROGRAM    (build/tests/bench/mesh_once)
 set -eu
 [ $# -eq 1 ] || {
@@ -28,10 +28,12 @@ count() { # count PROGRAM SCENE bar|mesh MODES [free]
 }
 
 bad=0
-# compare SCENE MOST [free]: at most MOST percent
-compare() {
-    scene=$1 most=$2
-    shift 2
+# of a place: some 15,000 for the faces about it, and to tell which modes take part there
+place=30000
+
+compare() { # compare SCENE [free]
+    scene=$1
+    shift
     bar=$(count "$program" "$scene" bar 160 "$@")
     mesh=$(count "$program" "$scene" mesh 160 "$@")
     echo "$scene $*: bar $bar, mesh $mesh instructions, ratio $(awk -v b="$bar" -v m="$mesh" \
@@ -40,14 +42,14 @@ compare() {
         echo "mesh_cost: nothing counted" >&2
         bad=1
     }
-    [ $((100 * mesh)) -le $((most * bar)) ] || {
-        echo "mesh_cost: a mesh of the $scene costs more than $most % of the built-in one" >&2
+    [ $((100 * (mesh - place))) -le $((105 * bar)) ] || {
+        echo "mesh_cost: a mesh of the $scene costs more than 105 % of the built-in one and $place" >&2
         bad=1
     }
 }
 program=$1
-compare rod 110
-compare beam 110
-compare rod 133 free
-compare beam 110 free
+compare rod
+compare beam
+compare rod free
+compare beam free
 exit $bad
