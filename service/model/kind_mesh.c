@@ -321,16 +321,19 @@ static void describe(const struct body *body, struct body_description *descripti
     const struct mesh_body *mesh = body->mesh;
     double half[3];
     double size[3];
+    double centre[3];
     for (int k = 0; k < 3; k++) {
+        /* in the file's unit; a millionth of the mesh is rounding */
+        bool is_off = fabs(mesh->centre[k]) > 1e-6 * (mesh->high[k] - mesh->low[k]);
+        centre[k] = is_off ? mesh->centre[k] / mesh->unit : 0.0;
         half[k] = body->scale * fmax(mesh->high[k], -mesh->low[k]);
         size[k] = body->scale * (mesh->high[k] - mesh->low[k]);
     }
     describe_extents(description, half[0], half[1], half[2]);
     describe_add(description, "%.4g m x %.4g m x %.4g m", size[0], size[1], size[2]);
     /* its frame */
-    describe_add(description, "centre of mass at (%.6g, %.6g, %.6g) of the mesh's frame",
-                 mesh->centre[0] / mesh->unit, mesh->centre[1] / mesh->unit,
-                 mesh->centre[2] / mesh->unit);
+    describe_add(description, "centre of mass at (%.6g, %.6g, %.6g) of the mesh's frame", centre[0],
+                 centre[1], centre[2]);
     describe_add(description, "in units of %g m", mesh->unit);
     if (body->scale != 1.0)
         describe_add(description, "%g times its size", body->scale);
