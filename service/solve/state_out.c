@@ -3,6 +3,7 @@
 
 #include "solve/state_out.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "impact/oscillator.h"
@@ -24,17 +25,34 @@ static size_t family_size(const struct assembly *assembly, const struct body_sta
     return size;
 }
 
+/* A solution's free motions, s: from the state to the stated instant, back to a touch before it (0:
+ * it lies after it), and on from there. */
+struct free_times {
+    double elapsed, back, on;
+};
+
+/* As those move that take part: nothing is damped on the way back, see motion_rewind. */
+static void move_one(double omega, double damping, const struct free_times *times, double pair[2])
+{
+    if (times->back == 0.0) {
+        oscillator_advance(omega, damping, times->elapsed + times->on, &pair[0], &pair[1]);
+        return;
+    }
+    oscillator_advance(omega, damping, times->elapsed, &pair[0], &pair[1]);
+    oscillator_advance(omega, 0.0, times->back, &pair[0], &pair[1]);
+    oscillator_advance(omega, damping, times->on, &pair[0], &pair[1]);
+}
+
 /* Frequencies of modes that took no part are asked of the body anew. */
 static void move_freely(const struct body *body, size_t family, const struct body_state *before,
-                        double time, struct arena *arena, double *pairs)
+                        const struct free_times *times, struct arena *arena, double *pairs)
 {
     size_t count = before->count[family];
     struct modal_family *modes = modal_family_create(body, family, count);
     arena->lacks = arena->lacks || !modes;
     memcpy(pairs, body_state_family(before, family), 2 * count * sizeof *pairs);
     for (size_t k = 0; modes && k < count && k < modes->count; k++)
-        oscillator_advance(modes->omega[k], damping_of(body, k), time, &pairs[2 * k],
-                           &pairs[2 * k + 1]);
+        move_one(modes->omega[k], damping_of(body, k), times, pairs + 2 * k);
     modal_family_free(modes);
 }
 
@@ -44,11 +62,13 @@ static void fill_modes(const struct assembly *assembly, const struct impact_outc
 {
     const struct body *body = problem->bodies[index];
     const struct body_state *before = problem->states[index];
+    double back = fmin(outcome->time_shift, 0.0);
+    const struct free_times times = {elapsed, back, outcome->window - back};
     for (size_t f = 0; f < body->kind->family_count; f++) {
         double *family = (double *)body_state_family(state, f);
         /* modes that took no part vibrate on freely */
         if (before && before->count[f])
-            move_freely(body, f, before, elapsed + outcome->window, problem->arena, family);
+            move_freely(body, f, before, &times, problem->arena, family);
         /* the others are as the impact left them */
         for (size_t g = 0; g < assembly->scene.groups; g++) {
             const struct scene_group *group = &assembly->groups[g];

@@ -254,39 +254,53 @@ static void an_old_touch_of_a_ringing_body_asks_for_the_horizon(void **state)
     ring_free(&ringing);
 }
 
+/* Free motion of one mode in closed form, as w q and v. */
+static void turn(double w, double damping, double t, double pair[2])
+{
+    double slower = sqrt(1.0 - damping * damping);
+    double c = exp(-damping * w * t) * cos(slower * w * t);
+    double s = exp(-damping * w * t) * sin(slower * w * t) / slower;
+    double wq = (c + damping * s) * pair[0] + s * pair[1];
+    pair[1] = (c - damping * s) * pair[1] - s * pair[0];
+    pair[0] = wq;
+}
+
 /* What took no part in the second impact rings on: hit at a vibration node, or in the other plane.
- */
+ * Where the bodies overlap the way back to their touch, 10 ms, is undamped for it too. */
 static void modes_that_take_no_part_ring_on(void **state)
 {
     (void)state;
     static struct solve_result result;
-    struct ringing ringing = ring(0.0, 100);
-    const struct body *beam = &ringing.lab->bodies[1];
-    struct solve_request request =
-        strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.2);
-    request.bodies[1].state = ringing.state;
-    request.options.tolerance = 1e-8;
-    lab_solve(ringing.lab, &request, &result);
-    const struct body_state *after = result.bodies[1].state_after;
-    /* along z at the centre: nothing of the plane y, nothing odd of the plane z */
-    const double *y0 = body_state_family(ringing.state, BAR_BENDING_Y);
-    const double *y1 = body_state_family(after, BAR_BENDING_Y);
-    size_t count = ringing.state->count[BAR_BENDING_Y];
-    struct modal_family *modes = modal_family_create(beam, BAR_BENDING_Y, count);
-    assert_non_null(modes);
-    assert_int_equal(after->count[BAR_BENDING_Y], count);
-    for (size_t k = 0; k < count; k++) {
-        double w = modes->omega[k];
-        double t = result.window;
-        double allowed = 1e-12 + 4e-16 * w * 0.02;
-        /* rotation by omega t from the stated instant to the end of the window */
-        measured("q", w * y1[2 * k], w * y0[2 * k] * cos(w * t) + y0[2 * k + 1] * sin(w * t),
-                 allowed);
-        measured("v", y1[2 * k + 1], -w * y0[2 * k] * sin(w * t) + y0[2 * k + 1] * cos(w * t),
-                 allowed);
+    for (int damped = 0; damped < 2; damped++) {
+        double damping = 0.05 * damped;
+        struct ringing ringing = ring(damping, 100);
+        /* along z at the centre: nothing of the plane y, nothing odd of the plane z */
+        struct solve_request request =
+            strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.2);
+        request.contacts[0].gap = -2e-3 * damped;
+        request.bodies[1].state = ringing.state;
+        request.options.tolerance = damped ? 1e-6 : 1e-8;
+        lab_solve(ringing.lab, &request, &result);
+        const double *y0 = body_state_family(ringing.state, BAR_BENDING_Y);
+        const double *y1 = body_state_family(result.bodies[1].state_after, BAR_BENDING_Y);
+        size_t count = ringing.state->count[BAR_BENDING_Y];
+        struct modal_family *modes =
+            modal_family_create(&ringing.lab->bodies[1], BAR_BENDING_Y, count);
+        assert_non_null(modes);
+        assert_int_equal(result.bodies[1].state_after->count[BAR_BENDING_Y], count);
+        double back = fmin(result.time_shift, 0.0);
+        for (size_t k = 0; k < count; k++) {
+            double w = modes->omega[k];
+            double pair[2] = {w * y0[2 * k], y0[2 * k + 1]};
+            turn(w, 0.0, back, pair);
+            turn(w, damping, result.window - back, pair);
+            /* rounding of omega t */
+            measured("q", w * y1[2 * k], pair[0], 1e-12 + 4e-16 * w * 0.02);
+            measured("v", y1[2 * k + 1], pair[1], 1e-12 + 4e-16 * w * 0.02);
+        }
+        modal_family_free(modes);
+        ring_free(&ringing);
     }
-    modal_family_free(modes);
-    ring_free(&ringing);
 }
 
 static double thread_seconds(void)
