@@ -3,6 +3,7 @@
 
 #include "impact/yielding.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -145,12 +146,16 @@ static double duration_of(const struct yielding *yielding, size_t contact)
     return shortest;
 }
 
+/* Of the limit, which is a difference of depths: half a bit of each of them and of their sums. */
+static const double ROUNDING = 4.0 * DBL_EPSILON;
+
 /* A peak is met to the third power of its nearness: one that exceeds the limit by less is the same
- * again. */
+ * again, and so is one that the rounding of a deep dent sets apart. */
 static bool exceeds(const struct yielding *yielding, size_t contact, double indentation)
 {
-    double limit = contact_law_limit(&yielding->scene->laws[contact]);
-    return indentation > limit * (1.0 + yielding->accuracy);
+    const struct contact_law *law = &yielding->scene->laws[contact];
+    double rounding = ROUNDING * law->history.max_indentation;
+    return indentation > contact_law_limit(law) * (1.0 + yielding->accuracy) + rounding;
 }
 
 /* Time in which a contact unloads from the peak of its path, by the deceleration there. */

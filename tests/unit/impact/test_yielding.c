@@ -3,8 +3,11 @@
 
 /* Mirrors service/impact/yielding.c: impacts whose contacts yield, against the energy of a rigid
  * pair and against CVODE; order of the steps that end where a law's slope jumps. */
+#include <float.h>
+
 #include "contact/law_closed_form.h"
 #include "contact/plastic.h"
+#include "impact/yielding.h"
 #include "unit/contact/sampled_table.h"
 #include "unit/impact/toy_scene.h"
 
@@ -205,6 +208,44 @@ static void yielding_costs_few_steps(void **state)
     contact_curves_free(curves);
 }
 
+/* A dent far deeper than what its law bears springs back: the limit, their difference, is known to
+ * the rounding of the depth, and a peak within that is the same again. It was yielded to over and
+ * over, without a step between. */
+static void a_peak_within_rounding_is_the_same_again(void **state)
+{
+    (void)state;
+    struct toy toy;
+    struct impact_outcome outcome;
+    bool closed = true;
+    toy_on_soft(&toy, 1.0);
+    assert_true(impact_create(&outcome, &toy.scene, &toy.arena));
+    impact_begin(&outcome, &toy.scene);
+    contact_law_yield(&outcome.laws[0], 1e-3);
+    const double depth = outcome.laws[0].history.max_indentation;
+    const double limit = contact_law_limit(&outcome.laws[0]);
+    struct contact_start now = {limit + depth * 2.0 * DBL_EPSILON, 0.0, -1e3, 0.0};
+    struct impact_scale scale = {.duration = 1e-5};
+    struct scene scene = toy.scene;
+    scene.laws = outcome.laws;
+    struct yielding yielding = {.scene = &scene,
+                                .outcome = &outcome,
+                                .now = &now,
+                                .closed = &closed,
+                                .scales = &scale,
+                                .accuracy = 1e-18};
+    assert_true(yielding_create(&yielding, &toy.arena));
+    int level = 20;
+    yielding.event[0] = (struct yielding_event){EVENT_PEAK, 0.0, 1e-6, now.indentation};
+    yielding_meet(&yielding, step_length(level), &level);
+    assert_true(outcome.laws[0].history.max_indentation == depth);
+    /* beyond it there is one */
+    now.indentation = limit + depth * 1e-14;
+    yielding.event[0] = (struct yielding_event){EVENT_PEAK, 0.0, 1e-6, now.indentation};
+    yielding_meet(&yielding, step_length(level), &level);
+    assert_true(outcome.laws[0].history.max_indentation > depth);
+    toy_free(&toy);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -213,6 +254,7 @@ int main(void)
         cmocka_unit_test(a_dent_hardens),
         cmocka_unit_test(both_methods_agree),
         cmocka_unit_test(yielding_costs_few_steps),
+        cmocka_unit_test(a_peak_within_rounding_is_the_same_again),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
