@@ -42,18 +42,13 @@ static bool find_turn(int level, int next, enum middle_term *turn)
     return true;
 }
 
-static bool bears_force(const double force[NODES])
-{
-    return force[0] != 0.0 || force[1] != 0.0 || force[2] != 0.0 || force[3] != 0.0;
-}
-
 /* The forces of the step that was taken. */
 static void kick(const struct carrier *carrier, const struct scene *scene,
                  const struct scene_group *group, double *const state[2])
 {
     const double *middle = middle_of(group, carrier->level);
     for (size_t c = 0; c < scene->contacts; c++)
-        if (group->participation[c] && bears_force(carrier->force[c]))
+        if (group->participation[c] && motion_bears(carrier->force[c]))
             kernel_kick(middle, group->stride, group->participation[c], carrier->force[c], state);
 }
 
@@ -143,7 +138,7 @@ void carrier_take(struct carrier *carrier, const struct scene *scene, struct mot
         kernel_advance(table, group->stride, motion->q[g], motion->v[g], motion->q[g],
                        motion->v[g]);
         for (size_t c = 0; c < scene->contacts; c++)
-            if (group->participation[c] && bears_force(force[c]))
+            if (group->participation[c] && motion_bears(force[c]))
                 kernel_push(table, group->stride, group->participation[c], force[c], motion->q[g],
                             motion->v[g]);
     }

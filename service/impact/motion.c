@@ -109,15 +109,6 @@ void motion_step(struct motion *to, const struct motion *from, const struct scen
                        from->v[g], to->q[g], to->v[g]);
 }
 
-/* Many contacts of a group are open most of the time. */
-static bool bears_force(const double force[NODES])
-{
-    for (int j = 0; j < NODES; j++)
-        if (force[j] != 0.0)
-            return true;
-    return false;
-}
-
 void motion_push_gaps(struct motion *end, const struct scene *scene, int level, size_t contact,
                       const double force[NODES])
 {
@@ -141,7 +132,7 @@ void motion_push(struct motion *end, const struct scene *scene, int level,
                  double (*const force)[NODES])
 {
     for (size_t b = 0; b < scene->contacts; b++) {
-        if (!bears_force(force[b]))
+        if (!motion_bears(force[b]))
             continue;
         motion_push_gaps(end, scene, level, b, force[b]);
         for (size_t g = 0; g < scene->groups; g++) {

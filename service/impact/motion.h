@@ -41,6 +41,12 @@ void motion_step(struct motion *to, const struct motion *from, const struct scen
 void motion_push(struct motion *end, const struct scene *scene, int level,
                  double (*const force)[NODES]);
 
+/* Whether a contact bears a force at any node: many of a group are open most of the time. */
+static inline bool motion_bears(const double force[NODES])
+{
+    return force[0] != 0.0 || force[1] != 0.0 || force[2] != 0.0 || force[3] != 0.0;
+}
+
 /* The rigid part of the two, and the time. */
 void motion_step_gaps(struct motion *to, const struct motion *from, const struct scene *scene,
                       int level);
