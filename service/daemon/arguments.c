@@ -18,7 +18,8 @@ static const struct argp_option options[] = {
     {"domain", 'd', "N", 0,
      "DDS domain, 0 to 230; goes before PERCUSS_DOMAIN, and that before the one in the settings",
      0},
-    {"check-config", KEY_CHECK, NULL, 0, "Read settings and catalogue, say ok or what is wrong", 0},
+    {"check-config", KEY_CHECK, NULL, 0,
+     "Look at all that a start needs, say ok or everything that is wrong", 0},
     {0},
 };
 

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "catalogue/catalogue.h"
 #include "daemon/arguments.h"
+#include "daemon/check_config.h"
 #include "daemon/log.h"
 #include "daemon/service.h"
 #include "daemon/settings.h"
@@ -30,48 +30,6 @@ static enum percuss_status gather_settings(const struct arguments *arguments,
                          "%s: catalogue: missing: must be given there or as --catalogue FILE",
                          arguments->config);
     return PERCUSS_OK;
-}
-
-/* What is good but worth a look: sites of meshes that were not declared on the surface. */
-static void remark_sites(const struct body_set *set)
-{
-    for (size_t b = 0; b < set->count; b++)
-        for (size_t i = 0; i < set->bodies[b].site_count; i++) {
-            const struct body *body = &set->bodies[b];
-            const struct body_site *site = &body->sites[i];
-            if (site->moved > 0.0)
-                fprintf(stderr,
-                        "percussd: bodies.%s.sites.%s.point: lies %.2g m off the surface: moved "
-                        "onto it, to [%.6g, %.6g, %.6g]\n",
-                        body->id, site->name, body->scale * site->moved, site->point[0],
-                        site->point[1], site->point[2]);
-        }
-}
-
-static int check_config(const struct settings *settings)
-{
-    struct fault fault;
-    struct body_set *set;
-    const char *folder = settings->bodies[0] ? settings->bodies : NULL;
-    if (catalogue_load_reducing(settings->catalogue, folder, &set, &fault)) {
-        fprintf(stderr, "percussd: %s\n", fault.text);
-        return EXIT_FAILURE;
-    }
-    remark_sites(set);
-    /* what is not there, or not yet */
-    bool whole = true;
-    for (size_t i = 0; i < set->order_count; i++) {
-        const struct body_order *order = &set->orders[i];
-        whole = whole && !order->missing;
-        if (order->missing)
-            fprintf(stderr, "percussd: %s: %s\n", order->id, body_order_news(order).text);
-        else if (!order->made)
-            printf("%s: will be reduced from %s\n", order->id, order->mesh);
-    }
-    body_set_free(set);
-    if (whole)
-        puts("ok");
-    return whole ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 /* The signals the main thread waits for; threads started later inherit that they are blocked. */
@@ -135,7 +93,7 @@ int main(int argc, char **argv)
         return EXIT_FAILURE;
     }
     if (arguments.check_config)
-        return check_config(&settings);
+        return check_config(&settings) ? EXIT_SUCCESS : EXIT_FAILURE;
     log_limit(settings.log_level);
     /* blocked before there are threads, so that no thread takes them */
     sigset_t signals = block_signals();

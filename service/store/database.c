@@ -6,9 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* "prcs" marks a file as a store of percuss. */
-enum { APPLICATION = 0x70726373 };
-
 static const int BUSY_MILLISECONDS = 2000; /* a killed daemon's lock goes with its process */
 
 static enum percuss_status refuse(struct database *database, const char *problem,
@@ -67,8 +64,8 @@ static bool is_whole(struct database *database, bool *whole)
 static bool mark(struct database *database, int version)
 {
     char text[96];
-    snprintf(text, sizeof text, "PRAGMA application_id = %d; PRAGMA user_version = %d", APPLICATION,
-             version);
+    snprintf(text, sizeof text, "PRAGMA application_id = %d; PRAGMA user_version = %d",
+             DATABASE_APPLICATION, version);
     return execute(database, text);
 }
 
@@ -102,9 +99,9 @@ static enum percuss_status check_schema(struct database *database,
     if (!whole)
         return refuse(database, "is damaged: restore it from a copy or move it away", fault);
     /* ours, up to date or brought there */
-    if (application == APPLICATION && version == design->version)
+    if (application == DATABASE_APPLICATION && version == design->version)
         return PERCUSS_OK;
-    if (application == APPLICATION)
+    if (application == DATABASE_APPLICATION)
         return upgrade(database, design, version, fault);
     /* another program's, or an empty one that becomes ours */
     if (application != 0 || tables != 0)

@@ -10,6 +10,9 @@
 
 #include "base/fault.h"
 
+/* "prcs" marks a file as a store of percuss. */
+enum { DATABASE_APPLICATION = 0x70726373 };
+
 enum statement {
     STATEMENT_BEGIN,
     STATEMENT_COMMIT,

@@ -85,7 +85,7 @@ enum percuss_status specimen_store_open(const char *path, unsigned replies,
     created->most_replies = replies;
     /* our file, and how much it holds */
     static const struct database_design design = {
-        .version = 2, .schema = schema, .upgrades = upgrades, .texts = texts};
+        .version = SPECIMEN_STORE_VERSION, .schema = schema, .upgrades = upgrades, .texts = texts};
     enum percuss_status status = database_open(&created->database, path, &design, fault);
     if (!status)
         status = count_all(created, fault);

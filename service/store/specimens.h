@@ -15,8 +15,8 @@
 #include "model/body.h"
 #include "store/replies.h"
 
-/* Most specimens of a store. */
-enum { SPECIMEN_STORE_MOST = 4096 };
+/* Most specimens of a store; the version of its file. */
+enum { SPECIMEN_STORE_MOST = 4096, SPECIMEN_STORE_VERSION = 2 };
 
 struct specimen_store;
 

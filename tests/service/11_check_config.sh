@@ -25,11 +25,13 @@ shows "ok"
 [ ! -s "$err" ] || fail "it says something on stderr"
 
 say "every setting is understood"
+mkdir "$work/somewhere"
 settings "domain: 7" "workers: 3" "queue_capacity: 10" "inline_solves: false" \
     "tokens: {count: 10, megabytes: 1, minutes: 0.5}" "replies: {per_client: 10, megabytes: 1}" \
     "session_minutes: 1" "drain_seconds: 0" "log_level: debug" "tables: somewhere" "bodies_days: 2.5" \
     "store: dents.db" "stored_replies: 10" "bodies: reduced"
 expect 0 check
+[ "$(ls "$work")" = "$(printf '%s\n' catalogue.yaml err log out percussd.yaml somewhere)" ] || fail "it leaves files"
 
 say "bad settings are refused with file, line and what is allowed"
 refused 2 "wrokers: unknown key: must be one of catalogue, domain, workers" "wrokers: 3"
@@ -59,3 +61,38 @@ says "beem"
 
 say "the command line goes before the settings"
 expect 0 check --catalogue "$source_dir/config/catalogue.yaml"
+cp "$source_dir/config/catalogue.yaml" "$work/catalogue.yaml"
+
+say "everything that would stop a start is found at once"
+settings "tables: no-tables" "store: no-folder/dents.db" "bodies: no-folder/bodies"
+expect 1 check
+says "tables: $work/no-tables: cannot be read: No such file or directory"
+says "store: $work/no-folder/dents.db: cannot be made: No such file or directory"
+says "bodies: $work/no-folder/bodies: cannot be made: No such file or directory"
+[ ! -s "$out" ] || fail "it prints something on stdout"
+settings "store: catalogue.yaml"
+expect 1 check
+says "catalogue.yaml: cannot be used as a store of specimens: file is not a database"
+
+say "tables that are none are told, and the daemon does without"
+echo '{}' >"$work/somewhere/0123456789abcdef0123456789abcdef.json"
+settings "tables: somewhere"
+expect 0 check
+says "0123456789abcdef0123456789abcdef.json"
+
+say "a domain that cannot be joined"
+settings
+export CYCLONEDDS_URI='<CycloneDDS><Domain><General><Interfaces><NetworkInterface name="none0"/></Interfaces></General></Domain></CycloneDDS>'
+expect 1 check --domain "$domain"
+says "percussd: domain: $domain: "
+unset CYCLONEDDS_URI
+
+say "a store that a daemon has open, which goes on undisturbed"
+settings "store: dents.db"
+expect 0 check
+start_daemon
+expect 1 check
+says "dents.db: is in use by another process ($daemon)"
+expect 0 query --specimen-b plate-1
+stop_daemon
+expect 0 check

@@ -1,0 +1,129 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/check_config.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "catalogue/catalogue.h"
+#include "store/database_check.h"
+#include "store/specimens.h"
+#include "store/table_store.h"
+#include "wire.h"
+
+static void say(const struct fault *fault)
+{
+    fprintf(stderr, "percussd: %s\n", fault->text);
+}
+
+/* What is good but worth a look: sites of meshes that were not declared on the surface. */
+static void remark_sites(const struct body_set *set)
+{
+    for (size_t b = 0; b < set->count; b++)
+        for (size_t i = 0; i < set->bodies[b].site_count; i++) {
+            const struct body *body = &set->bodies[b];
+            const struct body_site *site = &body->sites[i];
+            if (site->moved > 0.0)
+                fprintf(stderr,
+                        "percussd: bodies.%s.sites.%s.point: lies %.2g m off the surface: moved "
+                        "onto it, to [%.6g, %.6g, %.6g]\n",
+                        body->id, site->name, body->scale * site->moved, site->point[0],
+                        site->point[1], site->point[2]);
+        }
+}
+
+/* With the bodies that are not there, or not yet. */
+static bool check_catalogue(const struct settings *settings)
+{
+    struct fault fault;
+    struct body_set *set;
+    const char *folder = settings->bodies[0] ? settings->bodies : NULL;
+    if (catalogue_load_reducing(settings->catalogue, folder, &set, &fault)) {
+        say(&fault);
+        return false;
+    }
+    remark_sites(set);
+    bool whole = true;
+    for (size_t i = 0; i < set->order_count; i++) {
+        const struct body_order *order = &set->orders[i];
+        whole = whole && !order->missing;
+        if (order->missing)
+            fprintf(stderr, "percussd: %s: %s\n", order->id, body_order_news(order).text);
+        else if (!order->made)
+            printf("%s: will be reduced from %s\n", order->id, order->mesh);
+    }
+    body_set_free(set);
+    return whole;
+}
+
+/* Every table is read; one that is no sound table, which a daemon goes without, is remarked. */
+static bool check_tables(const struct settings *settings)
+{
+    struct fault fault;
+    size_t count;
+    if (!settings->tables[0])
+        return true;
+    struct table_store *store = table_store_create();
+    enum percuss_status status =
+        store ? table_store_load(store, settings->tables, say, &count, &fault)
+              : fault_set(&fault, PERCUSS_INTERNAL, "out of memory");
+    table_store_free(store);
+    if (status)
+        fprintf(stderr, "percussd: tables: %s\n", fault.text);
+    return status == PERCUSS_OK;
+}
+
+/* Where reduced bodies go: a folder to write to, or one that can be made. */
+static bool check_bodies(const struct settings *settings)
+{
+    struct fault fault;
+    if (!settings->bodies[0] || access(settings->bodies, W_OK | X_OK) == 0)
+        return true;
+    bool missing = errno == ENOENT;
+    if (missing && database_folder_check(settings->bodies, &fault) == PERCUSS_OK)
+        return true;
+    if (missing)
+        fprintf(stderr, "percussd: bodies: %s\n", fault.text);
+    else
+        fprintf(stderr, "percussd: bodies: %.300s: cannot be written to: %s\n", settings->bodies,
+                strerror(errno));
+    return false;
+}
+
+static bool check_store(const struct settings *settings)
+{
+    struct fault fault;
+    if (!settings->store[0] ||
+        database_check(settings->store, SPECIMEN_STORE_VERSION, &fault) == PERCUSS_OK)
+        return true;
+    fprintf(stderr, "percussd: store: %s\n", fault.text);
+    return false;
+}
+
+/* By joining it for a moment. */
+static bool check_domain(const struct settings *settings)
+{
+    dds_entity_t participant = wire_participant_create(settings->domain);
+    if (participant < 0)
+        fprintf(stderr, "percussd: domain: %u: %s\n", settings->domain,
+                wire_participant_problem(participant));
+    else
+        dds_delete(dds_get_parent(participant));
+    return participant > 0;
+}
+
+bool check_config(const struct settings *settings)
+{
+    bool (*const checks[])(const struct settings *) = {check_catalogue, check_tables, check_bodies,
+                                                       check_store, check_domain};
+    bool good = true;
+    for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
+        good = checks[i](settings) && good;
+    if (good)
+        puts("ok");
+    return good;
+}

@@ -1,0 +1,113 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "store/database_check.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "store/database.h"
+
+/* Of SQLite's file format: the header, where its numbers are in it (big-endian), and the octets
+ * whose locks say that a process has the file to itself. */
+enum { HEADER_SIZE = 100, AT_VERSION = 60, AT_APPLICATION = 68 };
+static const char MAGIC[] = "SQLite format 3"; /* and its zero */
+static const off_t LOCKS = 0x40000000, LOCK_COUNT = 512;
+
+static enum percuss_status refuse(const char *path, const char *problem, struct fault *fault)
+{
+    size_t length = strlen(path), most = 255;
+    return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %s",
+                     length > most ? path + length - most : path, problem);
+}
+
+static enum percuss_status refuse_access(const char *path, const char *what, struct fault *fault)
+{
+    char problem[160];
+    snprintf(problem, sizeof problem, "cannot be %s: %s", what, strerror(errno));
+    return refuse(path, problem, fault);
+}
+
+enum percuss_status database_folder_check(const char *path, struct fault *fault)
+{
+    char folder[4096] = ".";
+    const char *slash = strrchr(path, '/');
+    if (slash && (size_t)(slash - path) < sizeof folder - 1)
+        snprintf(folder, sizeof folder, "%.*s", slash > path ? (int)(slash - path) : 1, path);
+    if (access(folder, W_OK | X_OK) == 0)
+        return PERCUSS_OK;
+    return refuse_access(path, "made", fault);
+}
+
+static uint32_t number_at(const unsigned char *octets)
+{
+    return (uint32_t)octets[0] << 24 | (uint32_t)octets[1] << 16 | (uint32_t)octets[2] << 8 |
+           octets[3];
+}
+
+static enum percuss_status check_header(const char *path, int file, int version,
+                                        struct fault *fault)
+{
+    unsigned char header[HEADER_SIZE];
+    char problem[160];
+    ssize_t size = read(file, header, sizeof header);
+    if (size < 0)
+        return refuse_access(path, "read", fault);
+    /* an empty file becomes ours */
+    if (size == 0)
+        return PERCUSS_OK;
+    if (size < HEADER_SIZE || memcmp(header, MAGIC, sizeof MAGIC) != 0)
+        return refuse(path, "cannot be used as a store of specimens: file is not a database",
+                      fault);
+    if (number_at(header + AT_APPLICATION) != DATABASE_APPLICATION)
+        return refuse(path, "is a database of another program", fault);
+    uint32_t found = number_at(header + AT_VERSION);
+    if (found >= 1 && found <= (uint32_t)version)
+        return PERCUSS_OK;
+    snprintf(problem, sizeof problem, "is of version %u: must be of version 1 to %d", found,
+             version);
+    return refuse(path, problem, fault);
+}
+
+static enum percuss_status check_locks(const char *path, int file, struct fault *fault)
+{
+    char problem[96];
+    struct flock lock = {
+        .l_type = F_RDLCK, .l_whence = SEEK_SET, .l_start = LOCKS, .l_len = LOCK_COUNT};
+    if (fcntl(file, F_GETLK, &lock) != 0)
+        return refuse_access(path, "locked", fault);
+    if (lock.l_type == F_UNLCK)
+        return PERCUSS_OK;
+    snprintf(problem, sizeof problem, "is in use by another process (%ld)", (long)lock.l_pid);
+    return refuse(path, problem, fault);
+}
+
+enum percuss_status database_check(const char *path, int version, struct fault *fault)
+{
+    struct stat found;
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0 && errno == ENOENT)
+        return database_folder_check(path, fault);
+    if (file < 0)
+        return refuse_access(path, "read", fault);
+    /* what SQLite asks for: a file, and a folder for those beside it */
+    enum percuss_status status = PERCUSS_OK;
+    if (fstat(file, &found) != 0 || !S_ISREG(found.st_mode))
+        status = refuse(path, "is no file", fault);
+    else if (access(path, W_OK) != 0)
+        status = refuse_access(path, "written", fault);
+    else
+        status = database_folder_check(path, fault);
+    /* whose it is */
+    if (!status)
+        status = check_header(path, file, version, fault);
+    if (!status)
+        status = check_locks(path, file, fault);
+    close(file);
+    return status;
+}
