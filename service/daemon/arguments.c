@@ -5,10 +5,11 @@
 
 #include <argp.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "daemon/settings.h"
 
-enum { KEY_CHECK = 0x100, USAGE = 2 };
+enum { KEY_CHECK = 0x100, KEY_FORMAT, USAGE = 2 };
 
 const char *argp_program_version = "percussd " PERCUSS_VERSION;
 
@@ -17,6 +18,9 @@ static const struct argp_option options[] = {
     {"catalogue", 'C', "FILE", 0, "Bodies and materials; goes before the one in the settings", 0},
     {"domain", 'd', "N", 0,
      "DDS domain, 0 to 230; goes before PERCUSS_DOMAIN, and that before the one in the settings",
+     0},
+    {"log-format", KEY_FORMAT, "FORMAT", 0,
+     "text, json (an object a line) or journal (of systemd); goes before the one in the settings",
      0},
     {"check-config", KEY_CHECK, NULL, 0,
      "Look at all that a start needs, say ok or everything that is wrong", 0},
@@ -33,6 +37,16 @@ static int parse_domain(struct argp_state *state, const char *name, const char *
     return (int)domain;
 }
 
+static int parse_format(struct argp_state *state, const char *text)
+{
+    for (enum log_format format = 0; format < LOG_FORMAT_COUNT; format++) {
+        if (strcmp(text, log_format_name(format)) == 0)
+            return (int)format;
+    }
+    argp_error(state, "--log-format: %s: must be text, journal or json", text);
+    return -1;
+}
+
 /* What the environment says, unless the command line has said it. */
 static void read_environment(struct argp_state *state, struct arguments *arguments)
 {
@@ -45,7 +59,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
     switch (key) {
-    /* files and the domain */
+    /* files, the domain and the log */
     case 'c':
         arguments->config = text;
         return 0;
@@ -54,6 +68,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case 'd':
         arguments->domain = parse_domain(state, "--domain", text);
+        return 0;
+    case KEY_FORMAT:
+        arguments->log_format = parse_format(state, text);
         return 0;
     /* only a check */
     case KEY_CHECK:
@@ -83,7 +100,7 @@ struct arguments arguments_read(int argc, char **argv)
             "\vSIGTERM and SIGINT: answers what is waiting and ends. SIGHUP: reads the catalogue "
             "again; a bad one is logged and the old one stays.",
     };
-    struct arguments arguments = {.domain = -1};
+    struct arguments arguments = {.domain = -1, .log_format = -1};
     argp_err_exit_status = USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
     return arguments;

@@ -10,6 +10,7 @@
 struct arguments {
     const char *config, *catalogue; /* NULL: not given */
     int domain;                     /* -1: not given */
+    int log_format;                 /* enum log_format; -1: not given */
     bool check_config;
 };
 

@@ -18,6 +18,35 @@ struct envelope delivery_envelope(const struct shared *shared, const struct requ
     };
 }
 
+static const char *const KINDS[EXCHANGE_COUNT] = {
+    [EXCHANGE_SINGLE] = "request", [EXCHANGE_BATCH] = "batch", [EXCHANGE_ENSEMBLE] = "ensemble"};
+
+static void note_refusal(const struct request_name *name, enum percuss_status status,
+                         const char *message)
+{
+    struct log_request about = {name->client, name->sequence};
+    log_about(LEVEL_DEBUG, &about, "%s: %s: %s", KINDS[name->exchange], status_name(status),
+              message);
+}
+
+static void note_answer(const struct request_name *name, const struct answer *answer)
+{
+    if (!log_shows(LEVEL_DEBUG))
+        return;
+    struct log_request about = {name->client, name->sequence};
+    if (answer->report)
+        log_about(LEVEL_DEBUG, &about, "ensemble: %s%s%s", status_name(answer->report->status),
+                  answer->report->message[0] ? ": " : "", answer->report->message);
+    else if (answer->exchange == EXCHANGE_BATCH)
+        log_about(LEVEL_DEBUG, &about, "batch of %zu: %s", answer->member_count,
+                  status_name(answer->parts->status));
+    else
+        log_about(LEVEL_DEBUG, &about, "%s: %s%s%s; waited %.3f ms, solved in %.3f ms",
+                  KINDS[name->exchange], status_name(answer->reply->status),
+                  answer->reply->message[0] ? ": " : "", answer->reply->message,
+                  1e3 * answer->reply->timing.queue, 1e3 * answer->reply->timing.solve);
+}
+
 static struct answer *refusal(const struct envelope *envelope, enum exchange exchange,
                               enum percuss_status status, const char *message)
 {
@@ -36,14 +65,16 @@ void deliver_at_once(struct shared *shared, const struct request_name *name,
     struct answer *answer = refusal(&envelope, name->exchange, status, message);
     snapshots_release(&shared->snapshots, snapshot);
     if (!answer) {
-        log_line(LEVEL_ERROR, "request %llu: no memory for its reply",
-                 (unsigned long long)name->sequence);
+        log_about(LEVEL_ERROR, &(struct log_request){name->client, name->sequence},
+                  "no memory for its reply");
         return;
     }
     endpoint_reply(shared->endpoint, name->client, answer);
     answer_release(answer);
-    if (status != PERCUSS_OK)
-        atomic_fetch_add(&shared->refused, 1);
+    if (status == PERCUSS_OK)
+        return;
+    note_refusal(name, status, message);
+    atomic_fetch_add(&shared->refused, 1);
 }
 
 static void count(struct shared *shared, const struct answer *answer)
@@ -67,6 +98,7 @@ void deliver(struct shared *shared, const struct request_name *name, struct answ
         return;
     }
     count(shared, answer);
+    note_answer(name, answer);
     /* stored first: who has seen the reply finds it when asking again */
     if (answer->passing)
         reply_store_forget(shared->replies, name);

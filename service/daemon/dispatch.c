@@ -93,8 +93,10 @@ static bool admit(struct shared *shared, const struct request_name *name, struct
 {
     struct answer *stored;
     char message[160];
+    struct log_request about = {name->client, name->sequence};
     switch (reply_store_admit(shared->replies, name, content, now, &stored)) {
     case ADMISSION_REPEATED:
+        log_about(LEVEL_DEBUG, &about, "asked again: gets the stored reply");
         endpoint_reply(shared->endpoint, name->client, stored);
         answer_release(stored);
         return false;
@@ -108,6 +110,7 @@ static bool admit(struct shared *shared, const struct request_name *name, struct
         deliver_at_once(shared, name, PERCUSS_INTERNAL, "out of memory");
         return false;
     case ADMISSION_PENDING:
+        log_about(LEVEL_DEBUG, &about, "asked again while it is being answered");
         return false;
     case ADMISSION_NEW:
         break;

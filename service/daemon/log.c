@@ -9,11 +9,27 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/text.h"
+
+/* Bytes: of a message; of a line, in which JSON writes a byte as six at most. */
+enum { MESSAGE_SIZE = 1200, LINE_SIZE = 6 * MESSAGE_SIZE + 200, ID_SIZE = 33 };
+
 static atomic_int limit = LEVEL_INFO;
+static enum log_format used_format = LOG_TEXT;
 
 void log_limit(enum log_level level)
 {
     atomic_store(&limit, (int)level);
+}
+
+bool log_shows(enum log_level level)
+{
+    return (int)level <= atomic_load(&limit);
+}
+
+void log_use(enum log_format format)
+{
+    used_format = format;
 }
 
 const char *log_level_name(enum log_level level)
@@ -22,37 +38,149 @@ const char *log_level_name(enum log_level level)
     return names[level];
 }
 
-static size_t write_head(char *line, size_t size, enum log_level level)
+const char *log_format_name(enum log_format format)
 {
+    static const char *const names[LOG_FORMAT_COUNT] = {"text", "journal", "json"};
+    return names[format];
+}
+
+/* "2026-11-22T22:21:05.123Z" */
+static void write_time(struct text *line)
+{
+    char seconds[32];
     struct timespec now;
     struct tm parts;
     clock_gettime(CLOCK_REALTIME, &now);
     gmtime_r(&now.tv_sec, &parts);
-    size_t used = strftime(line, size, "%Y-%m-%dT%H:%M:%S", &parts);
-    used += (size_t)snprintf(line + used, size - used, ".%03ldZ %-7s ", now.tv_nsec / 1000000,
-                             log_level_name(level));
-    return used;
+    strftime(seconds, sizeof seconds, "%Y-%m-%dT%H:%M:%S", &parts);
+    text_format(line, "%s.%03ldZ", seconds, now.tv_nsec / 1000000);
+}
+
+static void write_id(char id[ID_SIZE], const uint8_t client[16])
+{
+    for (int i = 0; i < 16; i++)
+        snprintf(id + 2 * i, 3, "%02x", client[i]);
+}
+
+/* Octets of the UTF-8 character at `text`, which ends with a zero; 0: it is none. */
+static int character_length(const unsigned char *text)
+{
+    static const unsigned smallest[] = {0, 0, 0x80, 0x800, 0x10000};
+    int length = *text < 0x80 ? 1 : *text >> 5 == 6 ? 2 : *text >> 4 == 14 ? 3 : 4;
+    if (length == 1)
+        return 1;
+    if (length == 4 && *text >> 3 != 30)
+        return 0;
+    /* six bits from each octet that follows */
+    unsigned value = *text & (0x7fu >> length);
+    for (int i = 1; i < length; i++) {
+        if (text[i] >> 6 != 2)
+            return 0;
+        value = value << 6 | (text[i] & 0x3fu);
+    }
+    bool surrogate = value >= 0xd800 && value < 0xe000;
+    return value < smallest[length] || value > 0x10ffff || surrogate ? 0 : length;
+}
+
+/* In quotes; octets that are no UTF-8 become U+FFFD. */
+static void write_quoted(struct text *line, const char *message)
+{
+    const unsigned char *at = (const unsigned char *)message;
+    text_add(line, "\"");
+    while (*at) {
+        int length = character_length(at);
+        if (length == 0)
+            text_add(line, "\\ufffd");
+        else if (*at == '"' || *at == '\\')
+            text_format(line, "\\%c", *at);
+        else if (*at < 0x20 || *at == 0x7f)
+            text_format(line, "\\u%04x", *at);
+        else
+            text_format(line, "%.*s", length, (const char *)at);
+        at += length ? length : 1;
+    }
+    text_add(line, "\"");
+}
+
+static void write_json(struct text *line, enum log_level level, const struct log_request *request,
+                       const char *message)
+{
+    text_add(line, "{\"time\":\"");
+    write_time(line);
+    text_format(line, "\",\"level\":\"%s\"", log_level_name(level));
+    if (request) {
+        char id[ID_SIZE];
+        write_id(id, request->client);
+        text_format(line, ",\"client\":\"%s\",\"sequence\":%llu", id,
+                    (unsigned long long)request->sequence);
+    }
+    text_add(line, ",\"message\":");
+    write_quoted(line, message);
+    text_add(line, "}");
+}
+
+/* The levels of syslog(3). */
+static int journal_level(enum log_level level)
+{
+    static const int levels[LEVEL_COUNT] = {3, 4, 6, 7};
+    return levels[level];
+}
+
+static void write_plain(struct text *line, enum log_level level, const struct log_request *request,
+                        char *message)
+{
+    if (used_format == LOG_JOURNAL) {
+        text_format(line, "<%d>", journal_level(level));
+    } else {
+        write_time(line);
+        text_format(line, " %-7s ", log_level_name(level));
+    }
+    if (request) {
+        char id[ID_SIZE];
+        write_id(id, request->client);
+        text_format(line, "client %s request %llu: ", id, (unsigned long long)request->sequence);
+    }
+    /* no control character breaks the line */
+    for (char *at = message; *at; at++) {
+        if ((unsigned char)*at < 0x20)
+            *at = ' ';
+    }
+    text_add(line, message);
+}
+
+static void write_line(enum log_level level, const struct log_request *request, const char *format,
+                       va_list arguments)
+{
+    char message[MESSAGE_SIZE], line[LINE_SIZE];
+    if (vsnprintf(message, sizeof message, format, arguments) < 0)
+        message[0] = '\0';
+    struct text text = text_begin(line, sizeof line - 1);
+    if (used_format == LOG_JSON)
+        write_json(&text, level, request, message);
+    else
+        write_plain(&text, level, request, message);
+    *text.at++ = '\n';
+    /* one write a line, so that lines of several threads do not mix */
+    ssize_t written = write(STDERR_FILENO, line, (size_t)(text.at - line));
+    (void)written;
 }
 
 void log_line(enum log_level level, const char *format, ...)
 {
-    char line[1200];
-    if ((int)level > atomic_load(&limit))
+    va_list arguments;
+    if (!log_shows(level))
         return;
-    size_t used = write_head(line, sizeof line, level);
-    va_list args;
-    va_start(args, format);
-    int length = vsnprintf(line + used, sizeof line - used - 1, format, args);
-    va_end(args);
-    /* what does not fit is cut off, and no control character breaks the line */
-    size_t room = sizeof line - used - 2;
-    size_t end = used + (length < 0 ? 0 : (size_t)length < room ? (size_t)length : room);
-    for (size_t i = used; i < end; i++) {
-        if ((unsigned char)line[i] < 0x20)
-            line[i] = ' ';
-    }
-    line[end++] = '\n';
-    /* one write a line, so that lines of several threads do not mix */
-    ssize_t written = write(STDERR_FILENO, line, end);
-    (void)written;
+    va_start(arguments, format);
+    write_line(level, NULL, format, arguments);
+    va_end(arguments);
+}
+
+void log_about(enum log_level level, const struct log_request *request, const char *format, ...)
+{
+    va_list arguments;
+    if (!log_shows(level))
+        return;
+    va_start(arguments, format);
+    write_line(level, request, format, arguments);
+    va_end(arguments);
 }

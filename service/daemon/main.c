@@ -23,6 +23,8 @@ static enum percuss_status gather_settings(const struct arguments *arguments,
         return PERCUSS_BAD_REQUEST;
     if (arguments->domain >= 0)
         settings->domain = (unsigned)arguments->domain;
+    if (arguments->log_format >= 0)
+        settings->log_format = (enum log_format)arguments->log_format;
     if (arguments->catalogue)
         snprintf(settings->catalogue, sizeof settings->catalogue, "%s", arguments->catalogue);
     if (!settings->catalogue[0])
@@ -95,6 +97,7 @@ int main(int argc, char **argv)
     if (arguments.check_config)
         return check_config(&settings) ? EXIT_SUCCESS : EXIT_FAILURE;
     log_limit(settings.log_level);
+    log_use(settings.log_format);
     /* blocked before there are threads, so that no thread takes them */
     sigset_t signals = block_signals();
     struct service *service = service_create(&settings, &fault);

@@ -201,8 +201,8 @@ static struct answer *compute(struct responder *responder, const struct question
     if (responder->maker.status)
         return encode_refusal(envelope, responder->maker.status, responder->maker.fault.text);
     if (result->status == PERCUSS_INTERNAL)
-        log_line(LEVEL_ERROR, "request %llu: internal: %s", (unsigned long long)envelope->sequence,
-                 result->fault.text);
+        log_about(LEVEL_ERROR, &(struct log_request){envelope->client, envelope->sequence},
+                  "internal: %s", result->fault.text);
     if (!inquiry.status)
         inquiry.status = check_deadline(question, "when the solve ended", &inquiry.fault);
     if (inquiry.status)

@@ -12,7 +12,7 @@
 
 #include "catalogue/reader.h"
 
-enum kind { KIND_WHOLE, KIND_NUMBER, KIND_SWITCH, KIND_PATH, KIND_LEVEL };
+enum kind { KIND_WHOLE, KIND_NUMBER, KIND_SWITCH, KIND_PATH, KIND_LEVEL, KIND_FORMAT };
 
 /* One key; a dot separates a section from its keys. */
 struct setting {
@@ -43,6 +43,7 @@ static const struct setting table[] = {
     {"bodies", KIND_PATH, AT(bodies), 0, 0},
     {"bodies_days", KIND_NUMBER, AT(bodies_days), 0.001, 100000},
     {"log_level", KIND_LEVEL, AT(log_level), 0, 0},
+    {"log_format", KIND_FORMAT, AT(log_format), 0, 0},
 };
 enum { SETTING_COUNT = sizeof table / sizeof *table };
 
@@ -106,6 +107,18 @@ static enum percuss_status read_level(struct reader *reader, const yaml_node_t *
     return reader_refuse_value(reader, value, "error, warning, info or debug");
 }
 
+static enum percuss_status read_format(struct reader *reader, const yaml_node_t *value,
+                                       enum log_format *field)
+{
+    for (enum log_format format = 0; format < LOG_FORMAT_COUNT; format++) {
+        if (reader_is(value, log_format_name(format))) {
+            *field = format;
+            return PERCUSS_OK;
+        }
+    }
+    return reader_refuse_value(reader, value, "text, journal or json");
+}
+
 /* A path, from the folder of the settings file if it is relative. */
 static enum percuss_status read_path(struct reader *reader, const yaml_node_t *value, char *field)
 {
@@ -131,6 +144,8 @@ static enum percuss_status read_value(struct reader *reader, const yaml_node_t *
         return read_path(reader, value, field);
     case KIND_LEVEL:
         return read_level(reader, value, field);
+    case KIND_FORMAT:
+        return read_format(reader, value, field);
     default:
         return read_number(reader, value, setting, field);
     }

@@ -29,6 +29,7 @@ struct settings {
     double session_minutes;
     double drain_seconds;
     enum log_level log_level;
+    enum log_format log_format;
 };
 
 /* The defaults; as many workers as processors. */

@@ -29,7 +29,7 @@ mkdir "$work/somewhere"
 settings "domain: 7" "workers: 3" "queue_capacity: 10" "inline_solves: false" \
     "tokens: {count: 10, megabytes: 1, minutes: 0.5}" "replies: {per_client: 10, megabytes: 1}" \
     "session_minutes: 1" "drain_seconds: 0" "log_level: debug" "tables: somewhere" "bodies_days: 2.5" \
-    "store: dents.db" "stored_replies: 10" "bodies: reduced"
+    "store: dents.db" "stored_replies: 10" "bodies: reduced" "log_format: json"
 expect 0 check
 [ "$(ls "$work")" = "$(printf '%s\n' catalogue.yaml err log out percussd.yaml somewhere)" ] || fail "it leaves files"
 
@@ -40,6 +40,7 @@ refused 2 "workers: 2.5: must be a whole number, 1 to 256" "workers: 2.5"
 refused 2 "domain: 231: must be a whole number, 0 to 230" "domain: 231"
 refused 3 "inline_solves: maybe: must be true or false" "domain: 1" "inline_solves: maybe"
 refused 2 "log_level: loud: must be error, warning, info or debug" "log_level: loud"
+refused 2 "log_format: xml: must be text, journal or json" "log_format: xml"
 refused 2 "tokens: 5: must be a mapping of keys" "tokens: 5"
 refused 2 "tokens.size: unknown key" "tokens: {size: 5}"
 refused 2 "session_minutes: long: must be a number" "session_minutes: long"
