@@ -13,6 +13,7 @@
 #include "daemon/ensemble_job.h"
 #include "daemon/impact_job.h"
 #include "daemon/log.h"
+#include "daemon/pulse.h"
 #include "daemon/queue.h"
 #include "daemon/responder.h"
 #include "endpoint/clock.h"
@@ -258,6 +259,12 @@ static void note_presence(void *context, const uint8_t client[16], enum presence
     reply_store_set_present(shared->replies, client, present, clock_now());
 }
 
+static void note_alive(void *context)
+{
+    (void)context;
+    pulse_beat();
+}
+
 struct endpoint_handler dispatch_handler(struct dispatch *dispatch)
 {
     return (struct endpoint_handler){
@@ -267,5 +274,6 @@ struct endpoint_handler dispatch_handler(struct dispatch *dispatch)
         .ensemble = receive_ensemble,
         .clear = receive_clear,
         .presence = note_presence,
+        .alive = note_alive,
     };
 }

@@ -10,6 +10,7 @@
 
 #include "daemon/ensemble_publish.h"
 #include "daemon/parallel.h"
+#include "daemon/pulse.h"
 #include "daemon/table_maker.h"
 #include "endpoint/clock.h"
 #include "endpoint/decode_ensemble.h"
@@ -34,6 +35,8 @@ struct ensemble_run {
     struct ensemble_sample *samples;               /* each of the thread that solves it */
     struct ensemble_extra *extras;                 /* likewise */
     uint64_t done;
+    atomic_uint moves; /* signs of life of the workers */
+    unsigned seen;     /* of them */
     bool in_extras;
     double noticed;          /* monotonic, s: when those who wait heard last */
     atomic_bool stopped;     /* the workers are to give up */
@@ -95,6 +98,7 @@ static bool choice_goes_on(void *context, double done)
 {
     struct ensemble_run *run = context;
     (void)done;
+    pulse_beat();
     if (is_due(run))
         ensemble_publish_progress(run->job->shared, run->entry, 0, run->entry->samples, NULL);
     keep_waiting(run);
@@ -105,6 +109,11 @@ static bool choice_goes_on(void *context, double done)
 static bool samples_go_on(void *context, uint64_t done)
 {
     struct ensemble_run *run = context;
+    /* it lives by those it waits for */
+    unsigned moves = atomic_load(&run->moves);
+    if (moves != run->seen)
+        pulse_beat();
+    run->seen = moves;
     publish_progress(run, run->in_extras ? run->done : done);
     atomic_store(&run->stopped, !is_wanted(run));
     return !atomic_load(&run->stopped);
@@ -115,6 +124,7 @@ static bool sample_goes_on(void *context, double done)
 {
     struct ensemble_run *run = context;
     (void)done;
+    atomic_fetch_add(&run->moves, 1);
     return !atomic_load(&run->stopped);
 }
 
@@ -123,6 +133,7 @@ static bool words_go_on(void *context, double done)
 {
     struct ensemble_run *run = context;
     (void)done;
+    pulse_beat();
     if (is_due(run))
         publish_progress(run, run->done);
     return is_wanted(run);
@@ -131,6 +142,7 @@ static bool words_go_on(void *context, double done)
 static bool work_on_sample(void *context, unsigned thread, uint64_t item)
 {
     struct ensemble_run *run = context;
+    atomic_fetch_add(&run->moves, 1);
     ensemble_solve(run->workers[thread], item, &run->samples[item], NULL);
     return run->samples[item].status != PERCUSS_TIMEOUT;
 }

@@ -1,6 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
@@ -11,8 +12,15 @@
 #include "daemon/arguments.h"
 #include "daemon/check_config.h"
 #include "daemon/log.h"
+#include "daemon/notify.h"
 #include "daemon/service.h"
 #include "daemon/settings.h"
+#include "endpoint/clock.h"
+
+enum { STATUS_SIZE = 400 };
+
+/* More than what follows the draining takes, s. */
+static const double END_SECONDS = 10.0;
 
 /* Settings file, then command line. */
 static enum percuss_status gather_settings(const struct arguments *arguments,
@@ -48,20 +56,45 @@ static sigset_t block_signals(void)
 }
 
 /* A signal that came within `seconds`, or 0. */
-static int wait_for_signal(const sigset_t *signals, long seconds)
+static int wait_for_signal(const sigset_t *signals, double seconds)
 {
-    struct timespec timeout = {.tv_sec = seconds};
+    struct timespec timeout = {.tv_sec = (time_t)seconds,
+                               .tv_nsec = (long)(1e9 * (seconds - floor(seconds)))};
     int signal_number = sigtimedwait(signals, NULL, &timeout);
     return signal_number > 0 ? signal_number : 0;
 }
 
-/* Until somebody asks for the end. */
-static void serve(struct service *service, const sigset_t *signals)
+/* Tells the manager how it goes, and that it goes on: not where a thread has stopped moving for
+ * half of the time after which the manager kills the daemon. */
+static void report(struct service *service, const struct notifier *notifier)
 {
+    char line[STATUS_SIZE];
+    if (notifier->socket < 0)
+        return;
+    service_describe(service, line, sizeof line);
+    notify(notifier, "STATUS=%s", line);
+    if (notifier->watchdog > 0.0 && service_is_alive(service, 0.5 * notifier->watchdog))
+        notify(notifier, "WATCHDOG=1");
+}
+
+static void reload(struct service *service, const struct notifier *notifier)
+{
+    notify(notifier, "RELOADING=1\nMONOTONIC_USEC=%.0f", 1e6 * clock_now());
+    service_reload(service);
+    notify(notifier, "READY=1");
+}
+
+/* Until somebody asks for the end. */
+static void serve(struct service *service, const sigset_t *signals, const struct notifier *notifier)
+{
+    /* signs of life are due more often than the manager looks for them */
+    double period = notifier->watchdog > 0.0 ? fmin(1.0, 0.25 * notifier->watchdog) : 1.0;
+    notify(notifier, "READY=1");
     for (;;) {
-        int signal_number = wait_for_signal(signals, 1);
+        report(service, notifier);
+        int signal_number = wait_for_signal(signals, period);
         if (signal_number == SIGHUP)
-            service_reload(service);
+            reload(service, notifier);
         else if (signal_number) {
             log_line(LEVEL_INFO, "signal %s: draining", sigabbrev_np(signal_number));
             return;
@@ -71,13 +104,16 @@ static void serve(struct service *service, const sigset_t *signals)
 }
 
 /* Answers what is queued, for a bounded time or until the signal comes again. */
-static bool drain(struct service *service, const sigset_t *signals, double seconds)
+static bool drain(struct service *service, const sigset_t *signals, double seconds,
+                  const struct notifier *notifier)
 {
+    notify(notifier, "STOPPING=1\nEXTEND_TIMEOUT_USEC=%.0f", 1e6 * (seconds + END_SECONDS));
     service_begin_drain(service);
     bool drained = false;
     for (double waited = 0.0; !drained && waited <= seconds; waited += 0.25) {
         drained = service_drain(service, 0.25);
-        int signal_number = wait_for_signal(signals, 0);
+        report(service, notifier);
+        int signal_number = wait_for_signal(signals, 0.0);
         if (!drained && signal_number && signal_number != SIGHUP)
             break;
     }
@@ -98,6 +134,7 @@ int main(int argc, char **argv)
         return check_config(&settings) ? EXIT_SUCCESS : EXIT_FAILURE;
     log_limit(settings.log_level);
     log_use(settings.log_format);
+    struct notifier notifier = notifier_open();
     /* blocked before there are threads, so that no thread takes them */
     sigset_t signals = block_signals();
     struct service *service = service_create(&settings, &fault);
@@ -106,13 +143,14 @@ int main(int argc, char **argv)
         return EXIT_FAILURE;
     }
     /* until a signal, and then what is still queued */
-    serve(service, &signals);
-    if (!drain(service, &signals, settings.drain_seconds)) {
+    serve(service, &signals, &notifier);
+    if (!drain(service, &signals, settings.drain_seconds, &notifier)) {
         /* a thread still works, so nothing is taken apart */
         log_line(LEVEL_ERROR, "ends with requests unanswered");
         _exit(EXIT_FAILURE);
     }
     service_free(service);
+    notifier_close(&notifier);
     log_line(LEVEL_INFO, "ended");
     return EXIT_SUCCESS;
 }

@@ -4,17 +4,21 @@
 #include "daemon/pool.h"
 
 #include <assert.h>
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "daemon/pulse.h"
 #include "daemon/responder.h"
+#include "endpoint/clock.h"
 
 struct worker {
     struct queue *queue;
     struct responder *responder;
     int nice;
+    struct pulse pulse;
     pthread_t thread;
 };
 
@@ -33,16 +37,20 @@ struct pool *pool_create(size_t most)
 
 static void *work(void *argument)
 {
-    const struct worker *worker = argument;
+    struct worker *worker = argument;
     struct job *job;
     size_t item;
     if (worker->nice)
         setpriority(PRIO_PROCESS, (id_t)gettid(), worker->nice);
+    pthread_setname_np(pthread_self(), worker->nice ? "long" : "worker");
+    pulse_adopt(&worker->pulse);
     while ((job = queue_take(worker->queue, &item))) {
+        pulse_beat();
         bool ended = job_run(job, item, worker->responder);
         queue_done(worker->queue, ended ? job : NULL);
         if (ended)
             job->kind->release(job);
+        pulse_rest();
     }
     return NULL;
 }
@@ -58,6 +66,14 @@ bool pool_add(struct pool *pool, struct queue *queue, struct responder *responde
     }
     pool->count++;
     return true;
+}
+
+double pool_silence(const struct pool *pool)
+{
+    double longest = 0.0, now = clock_now();
+    for (size_t i = 0; i < pool->count; i++)
+        longest = fmax(longest, pulse_silence(&pool->workers[i].pulse, now));
+    return longest;
 }
 
 void pool_join(struct pool *pool)

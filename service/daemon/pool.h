@@ -21,6 +21,10 @@ struct pool *pool_create(size_t most);
  * started. */
 bool pool_add(struct pool *pool, struct queue *queue, struct responder *responder, int nice);
 
+/* The longest time, s, since a worker that is at work last moved. Any thread that does not add
+ * workers meanwhile. */
+double pool_silence(const struct pool *pool);
+
 /* Waits for the end of all workers and frees the pool. NULL is allowed. */
 void pool_join(struct pool *pool);
 

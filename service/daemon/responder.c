@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "daemon/log.h"
+#include "daemon/pulse.h"
 #include "endpoint/batch.h"
 #include "endpoint/clock.h"
 #include "endpoint/decode.h"
@@ -94,6 +95,7 @@ static bool still_wanted(struct inquiry *inquiry, const char *when)
 static bool goes_on(void *context, double done)
 {
     (void)done;
+    pulse_beat();
     return still_wanted(context, "within the solve");
 }
 

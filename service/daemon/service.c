@@ -13,6 +13,7 @@
 #include "daemon/memory.h"
 #include "daemon/neighbours.h"
 #include "daemon/pool.h"
+#include "daemon/pulse.h"
 #include "daemon/reducer.h"
 #include "daemon/responder.h"
 #include "daemon/specimen_lane.h"
@@ -31,6 +32,8 @@ struct service {
     struct dispatch *dispatch; /* the reading thread's while it runs */
     pthread_t reader;
     bool reader_runs;
+    struct pulse reader_pulse;
+    bool is_stuck; /* which the log has said */
     struct pool *pool;
     struct neighbours neighbours;
     struct reducer reducer;
@@ -99,6 +102,9 @@ static void *read_requests(void *argument)
     struct service *service = argument;
     struct endpoint_handler handler = dispatch_handler(service->dispatch);
     memory_keep(READER_MEMORY);
+    pthread_setname_np(pthread_self(), "reader");
+    pulse_adopt(&service->reader_pulse);
+    pulse_beat();
     endpoint_run(service->shared.endpoint, &handler);
     return NULL;
 }
@@ -245,6 +251,27 @@ void service_tick(struct service *service)
     status_announce(shared);
     neighbours_look(&service->neighbours, shared->endpoint,
                     shared->snapshots.current->set->revision);
+}
+
+bool service_is_alive(struct service *service, double patience)
+{
+    double reader = pulse_silence(&service->reader_pulse, clock_now());
+    double workers = pool_silence(service->pool);
+    bool stuck = fmax(reader, workers) > patience;
+    if (stuck && !service->is_stuck)
+        log_line(LEVEL_ERROR, "%s: has not moved for %.0f s: the watchdog is no longer fed",
+                 reader > workers ? "the reading thread" : "a worker", fmax(reader, workers));
+    else if (!stuck && service->is_stuck)
+        log_line(LEVEL_WARNING, "all threads move again");
+    service->is_stuck = stuck;
+    /* what the reading thread answers by the next time */
+    endpoint_nudge(service->shared.endpoint);
+    return !stuck;
+}
+
+void service_describe(struct service *service, char *text, size_t size)
+{
+    status_describe(&service->shared, text, size);
 }
 
 void service_begin_drain(struct service *service)

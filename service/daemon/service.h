@@ -6,6 +6,7 @@
 #define PERCUSS_DAEMON_SERVICE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "base/fault.h"
 #include "daemon/settings.h"
@@ -22,6 +23,13 @@ void service_reload(struct service *service);
 
 /* Publishes the status and forgets what has expired: to be called about once a second. */
 void service_tick(struct service *service);
+
+/* Whether every thread that should move has moved within the last `patience` seconds; what does not
+ * is logged. To be called about as often as service_tick. */
+bool service_is_alive(struct service *service, double patience);
+
+/* What it does, in a line. */
+void service_describe(struct service *service, char *text, size_t size);
 
 /* From now on new requests are refused. */
 void service_begin_drain(struct service *service);

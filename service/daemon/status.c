@@ -3,6 +3,8 @@
 
 #include "daemon/status.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <unistd.h>
 
 #include "daemon/queue.h"
@@ -16,6 +18,22 @@ static uint32_t waiting(const struct shared *shared)
     for (int lane = 0; lane < LANE_COUNT; lane++)
         length += queue_length(shared->lanes[lane]);
     return (uint32_t)length;
+}
+
+void status_describe(struct shared *shared, char *text, size_t size)
+{
+    char activity[128], more[160] = "";
+    double progress;
+    activity_read(&shared->activity, activity, sizeof activity, &progress);
+    if (activity[0] && isfinite(progress))
+        snprintf(more, sizeof more, "; %s, %.0f %%", activity, 100.0 * progress);
+    struct snapshot *snapshot = snapshots_hold(&shared->snapshots);
+    snprintf(text, size,
+             "%s: %zu bodies of catalogue %.8s; %llu answered, %llu refused, %u waiting%s",
+             atomic_load(&shared->draining) ? "draining" : "ready", snapshot->set->count,
+             snapshot->set->revision, atomic_load(&shared->answered), atomic_load(&shared->refused),
+             waiting(shared), more);
+    snapshots_release(&shared->snapshots, snapshot);
 }
 
 void status_announce(struct shared *shared)

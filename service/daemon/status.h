@@ -10,4 +10,7 @@
 /* Publishes the status. Any thread. */
 void status_announce(struct shared *shared);
 
+/* The same in a line, for whoever looks at the service manager. */
+void status_describe(struct shared *shared, char *text, size_t size);
+
 #endif

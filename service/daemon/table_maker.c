@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "contact/law_closed_form.h"
+#include "daemon/pulse.h"
 #include "endpoint/clock.h"
 #include "fe/indentation.h"
 #include "store/table_key.h"
@@ -18,6 +19,7 @@ static bool go_on(void *context, double done)
 {
     struct table_maker *maker = context;
     double deadline = maker->request->options.deadline;
+    pulse_beat();
     activity_set(&maker->shared->activity, done, "computing a contact table");
     if (atomic_load(&maker->shared->draining))
         maker->status = fault_set(&maker->fault, PERCUSS_BUSY, SHARED_SHUTTING_DOWN);

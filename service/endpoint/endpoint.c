@@ -14,12 +14,18 @@
 enum { TAKEN_AT_ONCE = 32, WRITE_ATTEMPTS = 20 };
 
 /* What wakes the reading thread: the kinds of requests, and these. */
-enum { SOURCE_SUBSCRIPTIONS = EXCHANGE_COUNT, SOURCE_STOP, SOURCE_DENTS, SOURCE_COUNT };
+enum {
+    SOURCE_SUBSCRIPTIONS = EXCHANGE_COUNT,
+    SOURCE_STOP,
+    SOURCE_NUDGE,
+    SOURCE_DENTS,
+    SOURCE_COUNT
+};
 
 struct endpoint {
     /* never changed once it is made; DDS lets any thread use its entities */
     uint8_t server[16];
-    dds_entity_t participant, waitset, stop;
+    dds_entity_t participant, waitset, stop, nudge;
     dds_entity_t readers[EXCHANGE_COUNT];
     dds_entity_t status_writer, body_writer;
     struct dents_topic dents;
@@ -93,9 +99,12 @@ static bool create_waitset(struct endpoint *endpoint, struct fault *fault)
     fault_set(fault, PERCUSS_INTERNAL, "DDS: waitset: cannot be attached to");
     endpoint->waitset = dds_create_waitset(endpoint->participant);
     endpoint->stop = dds_create_guardcondition(endpoint->participant);
+    endpoint->nudge = dds_create_guardcondition(endpoint->participant);
     if (!created(endpoint->waitset, "waitset", fault) ||
         !created(endpoint->stop, "guard condition", fault) ||
-        dds_waitset_attach(endpoint->waitset, endpoint->stop, SOURCE_STOP) != DDS_RETCODE_OK)
+        !created(endpoint->nudge, "guard condition", fault) ||
+        dds_waitset_attach(endpoint->waitset, endpoint->stop, SOURCE_STOP) != DDS_RETCODE_OK ||
+        dds_waitset_attach(endpoint->waitset, endpoint->nudge, SOURCE_NUDGE) != DDS_RETCODE_OK)
         return false;
     dds_entity_t subscriptions =
         dds_create_readcondition(reply_writers_source(endpoint->writers), DDS_ANY_STATE);
@@ -209,6 +218,13 @@ static bool take(struct endpoint *endpoint, const struct endpoint_handler *handl
     return count == TAKEN_AT_ONCE;
 }
 
+static void tell_alive(struct endpoint *endpoint, const struct endpoint_handler *handler)
+{
+    dds_set_guardcondition(endpoint->nudge, false);
+    if (handler->alive)
+        handler->alive(handler->context);
+}
+
 void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *handler)
 {
     bool ready[SOURCE_COUNT] = {false};
@@ -220,12 +236,14 @@ void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *hand
             dds_waitset_wait(endpoint->waitset, woken, SOURCE_COUNT, left ? 0 : DDS_INFINITY);
         for (dds_return_t i = 0; i < count && i < SOURCE_COUNT; i++)
             ready[woken[i]] = true;
+        if (ready[SOURCE_NUDGE])
+            tell_alive(endpoint, handler);
         /* readers of replies first, so that there is a writer for the replies to come */
         if (ready[SOURCE_SUBSCRIPTIONS])
             reply_writers_follow(endpoint->writers, handler->presence, handler->context);
         if (ready[SOURCE_DENTS])
             dents_topic_take(&endpoint->dents, handler->clear, handler->context);
-        ready[SOURCE_SUBSCRIPTIONS] = ready[SOURCE_DENTS] = left = false;
+        ready[SOURCE_SUBSCRIPTIONS] = ready[SOURCE_DENTS] = ready[SOURCE_NUDGE] = left = false;
         /* then the requests, some of each kind */
         for (int i = 0; i < EXCHANGE_COUNT; i++) {
             ready[i] = ready[i] && take(endpoint, handler, i);
@@ -238,6 +256,11 @@ void endpoint_stop(struct endpoint *endpoint)
 {
     atomic_store(&endpoint->stopped, true);
     dds_set_guardcondition(endpoint->stop, true);
+}
+
+void endpoint_nudge(struct endpoint *endpoint)
+{
+    dds_set_guardcondition(endpoint->nudge, true);
 }
 
 enum delivery endpoint_reply(struct endpoint *endpoint, const uint8_t client[16],

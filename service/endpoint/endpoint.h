@@ -32,11 +32,15 @@ struct endpoint_handler {
     void (*clear)(void *context,
                   const char *specimen); /* of this server; see endpoint_open_dents */
     presence_function *presence;
+    void (*alive)(void *context); /* after endpoint_nudge; NULL: nobody wants to know */
 };
 
 /* Reads until endpoint_stop, which any thread may call. */
 void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *handler);
 void endpoint_stop(struct endpoint *endpoint);
+
+/* Wakes the thread of endpoint_run, which says that it is alive. Any thread. */
+void endpoint_nudge(struct endpoint *endpoint);
 
 /* Writes the answer to its client. Thread-safe. */
 enum delivery endpoint_reply(struct endpoint *endpoint, const uint8_t client[16],
