@@ -39,6 +39,10 @@ bool json_fail(struct json_fault *fault, const struct json_path *path, const cha
     va_start(arguments, format);
     vsnprintf(fault->text + length, sizeof fault->text - length, format, arguments);
     va_end(arguments);
+    /* what the file holds goes to a terminal */
+    for (char *c = fault->text; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 0x7f)
+            *c = '?';
     return false;
 }
 

@@ -46,7 +46,9 @@ void ensemble_exchange_add(struct ensemble_exchange *exchange,
     size_t at = wire->part == 0 ? 0 : exchange->numbers;
     if (!grow(exchange, at + wire->rows._length))
         return;
-    memcpy(exchange->rows + at, wire->rows._buffer, wire->rows._length * sizeof *exchange->rows);
+    if (wire->rows._length > 0)
+        memcpy(exchange->rows + at, wire->rows._buffer,
+               wire->rows._length * sizeof *exchange->rows);
     exchange->numbers = at + wire->rows._length;
     exchange->columns = wire->columns;
     exchange->parts = wire->parts;

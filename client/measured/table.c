@@ -20,6 +20,10 @@ bool measured_fail(struct measured_fault *fault, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(fault->text, sizeof fault->text, format, arguments);
     va_end(arguments);
+    /* what the file holds goes to a terminal */
+    for (char *c = fault->text; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 0x7f)
+            *c = '?';
     return false;
 }
 

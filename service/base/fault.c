@@ -6,6 +6,15 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+/* What files and requests hold goes into messages, and these to terminals and logs: no control
+ * characters. */
+static void make_plain(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 0x7f)
+            *text = '?';
+}
+
 enum percuss_status fault_set(struct fault *fault, enum percuss_status status, const char *format,
                               ...)
 {
@@ -14,6 +23,7 @@ enum percuss_status fault_set(struct fault *fault, enum percuss_status status, c
         va_start(args, format);
         vsnprintf(fault->text, sizeof fault->text, format, args);
         va_end(args);
+        make_plain(fault->text);
     }
     return status;
 }

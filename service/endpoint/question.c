@@ -150,10 +150,11 @@ percuss_v1_Request *question_copy(const percuss_v1_Request *requests, size_t cou
     size_t size = round_up(count * sizeof *requests);
     for (size_t i = 0; i < count; i++)
         size += lists_size(&requests[i]);
-    percuss_v1_Request *copies = malloc(size);
+    percuss_v1_Request *copies = malloc(size + !size);
     if (!copies)
         return NULL;
-    memcpy(copies, requests, count * sizeof *requests);
+    if (count > 0)
+        memcpy(copies, requests, count * sizeof *requests);
     char *at = (char *)copies + round_up(count * sizeof *requests);
     for (size_t i = 0; i < count; i++) {
         COPY_SEQUENCE(&copies[i], &requests[i], bodies, at);

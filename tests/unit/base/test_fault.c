@@ -33,6 +33,15 @@ static void a_long_message_is_cut(void **state)
     assert_int_equal(guarded.after, 'x');
 }
 
+/* Text of a file or of a stranger's request may hold what moves a terminal's cursor. */
+static void control_characters_do_not_pass(void **state)
+{
+    (void)state;
+    struct fault fault;
+    fault_set(&fault, PERCUSS_BAD_REQUEST, "%s: unknown", "a\x1b[2J\nb\x7f\x01\xc3\xa9");
+    assert_string_equal(fault.text, "a?[2J?b??\xc3\xa9: unknown");
+}
+
 static void every_number_has_its_name(void **state)
 {
     (void)state;
@@ -55,6 +64,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_message_is_written_and_the_status_returned),
         cmocka_unit_test(a_long_message_is_cut),
+        cmocka_unit_test(control_characters_do_not_pass),
         cmocka_unit_test(every_number_has_its_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -144,6 +144,13 @@ static void refuses_unknown_members(void **state)
     refuse("{\"options\": {\"tol\": 1}}", "options.tol: unknown member; allowed are: tolerance");
 }
 
+/* What a file holds may move a terminal's cursor. */
+static void messages_have_no_control_characters(void **state)
+{
+    (void)state;
+    refuse("{\"bod\\u001b[2J\\n\": 1}", "bod?[2J?: unknown member");
+}
+
 static void refuses_wrong_types(void **state)
 {
     (void)state;
@@ -235,6 +242,7 @@ int main(void)
         cmocka_unit_test(takes_an_empty_request),
         cmocka_unit_test(reads_delassus_flat_or_in_rows),
         cmocka_unit_test(refuses_unknown_members),
+        cmocka_unit_test(messages_have_no_control_characters),
         cmocka_unit_test(refuses_wrong_types),
         cmocka_unit_test(refuses_wrong_lengths),
         cmocka_unit_test(refuses_too_many),

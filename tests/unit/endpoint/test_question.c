@@ -100,6 +100,15 @@ static void copies_outlive_their_sample(void **state)
 }
 
 /* Flipping any bit of a small input flips about half of the digest. */
+/* A batch may hold no request at all, and has no list then. */
+static void copies_nothing(void **state)
+{
+    (void)state;
+    percuss_v1_Request *copy = question_copy(NULL, 0);
+    assert_non_null(copy);
+    free(copy);
+}
+
 static void spreads_every_bit(void **state)
 {
     (void)state;
@@ -143,6 +152,7 @@ int main(void)
         cmocka_unit_test(ignores_who_asks),
         cmocka_unit_test(heeds_everything_that_is_asked),
         cmocka_unit_test(copies_outlive_their_sample),
+        cmocka_unit_test(copies_nothing),
         cmocka_unit_test(spreads_every_bit),
         cmocka_unit_test(finds_what_is_in_the_map),
     };

@@ -226,6 +226,7 @@ static void refuses_bad_tables(void **state)
     (void)state;
     refuse("", "empty");
     refuse("speed,colour\n1,2\n", "column 'colour': unknown; allowed are speed,");
+    refuse("speed,\x1b[2J\n1,2\n", "column '?[2J': unknown");
     refuse("speed,restitution\n", "no impacts");
     refuse("speed,restitution\n0.1,0.5\n0.1\n", "bad.csv:3: 1 values: must be 2");
     refuse("speed,restitution\n0.1,half\n", "bad.csv:2: restitution: 'half': must be a finite");
