@@ -5,35 +5,9 @@
 #include <string.h>
 
 #include "announcements.h"
+#include "convert.h"
 #include "error.h"
 #include "receive.h"
-
-static void convert_body(const percuss_v1_Body *wire, struct percuss_body *body)
-{
-    *body = (struct percuss_body){
-        .mass = wire->mass,
-        .radius = wire->radius,
-        .tip_radius = wire->tip_radius,
-        .supports = {wire->supports[0], wire->supports[1]},
-    };
-    memcpy(body->id, wire->id, sizeof body->id);
-    memcpy(body->shape, wire->shape, sizeof body->shape);
-    memcpy(body->material, wire->material, sizeof body->material);
-    memcpy(body->description, wire->description, sizeof body->description);
-    _Static_assert(sizeof body->parameters == sizeof wire->parameters + sizeof wire->scale,
-                   "as many as on the wire");
-    memcpy(body->parameters, wire->parameters, sizeof wire->parameters);
-    body->parameters[PERCUSS_PARAMETER_SCALE] = wire->scale;
-    memcpy(body->inertia, wire->inertia, sizeof body->inertia);
-    memcpy(body->products, wire->products, sizeof body->products);
-    for (uint32_t i = 0; i < wire->sites._length && i < PERCUSS_MAX_SITES; i++) {
-        struct percuss_site *site = &body->sites[body->site_count++];
-        memcpy(site->name, wire->sites._buffer[i].name, sizeof site->name);
-        memcpy(site->point, wire->sites._buffer[i].point, sizeof site->point);
-        memcpy(site->normal, wire->sites._buffer[i].normal, sizeof site->normal);
-    }
-    memcpy(body->half_extents, wire->half_extents, sizeof body->half_extents);
-}
 
 static int compare_ids(const void *left, const void *right)
 {
@@ -56,7 +30,7 @@ static enum percuss_result look_at_bodies(struct percuss_client *client, dds_ent
     for (int i = 0; list->bodies && i < all.count; i++) {
         const percuss_v1_Body *wire = all.samples[i];
         if (all.infos[i].valid_data && memcmp(wire->server, server->server, 16) == 0)
-            convert_body(wire, &list->bodies[list->count++]);
+            convert_announced_body(wire, &list->bodies[list->count++]);
     }
     announcements_release(&all);
     if (!list->bodies)

@@ -6,6 +6,7 @@
 #define PERCUSS_LIB_CONVERT_H
 
 #include <percuss/percuss.h>
+#include <percuss/specimen.h>
 
 #include "percuss_wire.h"
 
@@ -41,5 +42,10 @@ enum percuss_result convert_ensemble_request(const struct percuss_ensemble_reque
 /* Copies a wire reply, but for the listed samples. NO_MEMORY leaves it empty. */
 enum percuss_result convert_ensemble_reply(const percuss_v1_EnsembleReply *wire,
                                            struct percuss_ensemble_reply *reply);
+
+/* Copies of what servers announce. False: no memory. */
+void convert_announced_server(const percuss_v1_ServerStatus *from, struct percuss_server *to);
+void convert_announced_body(const percuss_v1_Body *wire, struct percuss_body *body);
+bool convert_announced_specimen(const percuss_v1_Dents *wire, struct percuss_specimen *specimen);
 
 #endif

@@ -7,16 +7,11 @@
 #include <string.h>
 
 #include "announcements.h"
+#include "convert.h"
 #include "error.h"
 #include "exchange.h"
-#include "percuss/fields.h"
 #include "receive.h"
 #include "servers.h"
-
-static void convert_server(const percuss_v1_ServerStatus *from, struct percuss_server *to)
-{
-    PERCUSS_SERVER_FIELDS(PERCUSS_COPY)
-}
 
 /* A server with what decides its place in the list. */
 struct sighting {
@@ -43,7 +38,7 @@ static size_t list_sightings(const struct announcements *all, struct sighting *s
         if (!all->infos[i].valid_data)
             continue;
         struct sighting *sighting = &sightings[count++];
-        convert_server(all->samples[i], &sighting->server);
+        convert_announced_server(all->samples[i], &sighting->server);
         sighting->draining = strcmp(sighting->server.state, "ready") != 0;
         sighting->started = 1e-9 * (double)all->infos[i].source_timestamp - sighting->server.uptime;
     }

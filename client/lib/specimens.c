@@ -7,29 +7,9 @@
 
 #include "announcements.h"
 #include "connect.h"
+#include "convert.h"
 #include "error.h"
-#include "percuss/fields.h"
 #include "receive.h"
-
-static void convert_dent(const percuss_v1_Dent *from, struct percuss_dent *to)
-{
-    PERCUSS_DENT_FIELDS(PERCUSS_COPY)
-}
-
-/* False: no memory. */
-static bool convert_specimen(const percuss_v1_Dents *wire, struct percuss_specimen *specimen)
-{
-    *specimen = (struct percuss_specimen){
-        .impacts = wire->impacts,
-        .dent_count = wire->patches._length,
-    };
-    memcpy(specimen->name, wire->specimen, sizeof specimen->name);
-    memcpy(specimen->body, wire->body, sizeof specimen->body);
-    specimen->dents = calloc(specimen->dent_count + 1, sizeof *specimen->dents);
-    for (size_t i = 0; specimen->dents && i < specimen->dent_count; i++)
-        convert_dent(&wire->patches._buffer[i], &specimen->dents[i]);
-    return specimen->dents;
-}
 
 static int compare_names(const void *left, const void *right)
 {
@@ -46,7 +26,7 @@ static bool collect(const struct announcements *all, const uint8_t server[16],
     for (int i = 0; good && i < all->count; i++) {
         const percuss_v1_Dents *wire = all->samples[i];
         if (all->infos[i].valid_data && memcmp(wire->server, server, 16) == 0)
-            good = convert_specimen(wire, &list->specimens[list->count++]);
+            good = convert_announced_specimen(wire, &list->specimens[list->count++]);
     }
     return good;
 }
