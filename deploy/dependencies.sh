@@ -13,7 +13,7 @@ liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom1
 libmumps-seq-dev libhdf5-dev"
 test="libcmocka-dev python3-venv libmujoco-dev valgrind iproute2 mount gmsh calculix-ccx"
 mpi="libslepc-real-dev mpi-default-dev mpi-default-bin"
-ci="clang mmdebstrap"
+ci="clang libclang-rt-14-dev mmdebstrap"
 
 case ${1:-build} in
 build) packages=$build ;;

@@ -1,0 +1,49 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# libFuzzer on the readers of foreign input and on the solver, under address and undefined-behaviour
+# sanitizers, in build-fuzz/. What is found lies in build-fuzz/findings; to be kept in tests/fuzz/corpus
+# once it is mended. New inputs are kept in build-fuzz/inputs from run to run.
+# usage: fuzz.sh [SECONDS [HARNESS...]]    of each harness, 5 by default; all of them
+set -eu
+cd "$(dirname "$0")/.."
+seconds=${1:-5}
+[ $# -eq 0 ] || shift
+
+sh deploy/dependencies.sh ci || command -v clang >/dev/null
+cmake -S . -B build-fuzz -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang -DPERCUSS_FUZZ=ON \
+    -DPERCUSS_SANITIZE=fuzzer-no-link,address,undefined >/dev/null
+cmake --build build-fuzz --parallel "$(nproc)" --target fuzzers >/dev/null
+[ $# -gt 0 ] || set -- $(cd tests/fuzz && sed -n 's/^percuss_fuzz(\([a-z_]*\) .*/\1/p' CMakeLists.txt)
+
+root=$PWD
+mkdir -p build-fuzz/findings build-fuzz/empty
+# an input that names files finds none
+cd build-fuzz/empty
+bad=0
+for harness in "$@"; do
+    inputs=$root/build-fuzz/inputs/$harness
+    log=$root/build-fuzz/$harness.log
+    mkdir -p "$inputs"
+    # the solver works for up to a second and a half, longer under sanitizers; readers for an instant
+    case $harness in solve) patience=60 ;; *) patience=20 ;; esac
+    while read -r seed; do
+        if [ -d "$seed" ]; then cp "$seed"/* "$inputs"; else cp "$seed" "$inputs"; fi
+    done <"$root/build-fuzz/tests/fuzz/$harness.seeds"
+    code=0
+    "$root/build-fuzz/tests/fuzz/fuzz_$harness" "$inputs" -max_total_time="$seconds" \
+        -timeout="$patience" -rss_limit_mb=3000 -print_final_stats=1 \
+        -artifact_prefix="$root/build-fuzz/findings/$harness-" >/dev/null 2>"$log" || code=$?
+    runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+    cover=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -n 1)
+    if [ "$code" -eq 0 ]; then
+        echo "fuzz: $harness: $runs runs, $cover edges reached"
+    else
+        bad=1
+        echo "fuzz: $harness: found something after $runs runs:"
+        grep -a -v '^#\|^INFO\|^stat::\|NEW_FUNC\|^\\|BuildId: .*fuzz_\|libFuzzer has\|Combine lib' "$log" |
+            cut -c 1-300 | tail -n 40
+    fi
+done
+exit "$bad"
