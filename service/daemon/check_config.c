@@ -11,7 +11,7 @@
 
 #include "catalogue/catalogue.h"
 #include "store/database_check.h"
-#include "store/specimens.h"
+#include "store/schema.h"
 #include "store/table_store.h"
 #include "wire.h"
 
@@ -98,7 +98,7 @@ static bool check_store(const struct settings *settings)
 {
     struct fault fault;
     if (!settings->store[0] ||
-        database_check(settings->store, SPECIMEN_STORE_VERSION, &fault) == PERCUSS_OK)
+        database_check(settings->store, SCHEMA_VERSION, &fault) == PERCUSS_OK)
         return true;
     fprintf(stderr, "percussd: store: %s\n", fault.text);
     return false;

@@ -49,11 +49,12 @@ static bool query_number(struct database *database, const char *text, int *numbe
     return sqlite3_finalize(statement) == SQLITE_OK && good;
 }
 
+/* Tables and indices say the same, and no page is lost. */
 static bool is_whole(struct database *database, bool *whole)
 {
     sqlite3_stmt *statement = NULL;
-    bool good = sqlite3_prepare_v2(database->connection, "PRAGMA quick_check(1)", -1, &statement,
-                                   NULL) == SQLITE_OK &&
+    bool good = sqlite3_prepare_v2(database->connection, "PRAGMA integrity_check(1)", -1,
+                                   &statement, NULL) == SQLITE_OK &&
                 sqlite3_step(statement) == SQLITE_ROW;
     const char *says = good ? (const char *)sqlite3_column_text(statement, 0) : NULL;
     *whole = says && strcmp(says, "ok") == 0;
@@ -69,6 +70,17 @@ static bool mark(struct database *database, int version)
     return execute(database, text);
 }
 
+static bool prepare(struct database *database, const struct database_design *design)
+{
+    bool good = true;
+    for (int i = 0; good && i < STATEMENT_COUNT; i++)
+        if (!database->statements[i])
+            good = sqlite3_prepare_v3(database->connection, design->texts[i], -1,
+                                      SQLITE_PREPARE_PERSISTENT, &database->statements[i],
+                                      NULL) == SQLITE_OK;
+    return good;
+}
+
 /* Brings a file of ours from that version up to date. */
 static enum percuss_status upgrade(struct database *database, const struct database_design *design,
                                    int version, struct fault *fault)
@@ -82,7 +94,9 @@ static enum percuss_status upgrade(struct database *database, const struct datab
     bool good = true;
     for (int v = version; good && v < design->version; v++)
         good = execute(database, design->upgrades[v - 1]);
-    return good && mark(database, design->version) ? PERCUSS_OK : refuse_file(database, fault);
+    good = good && mark(database, design->version) && prepare(database, design);
+    return good && (!design->fill || design->fill(database)) ? PERCUSS_OK
+                                                             : refuse_file(database, fault);
 }
 
 static enum percuss_status check_schema(struct database *database,
@@ -136,12 +150,8 @@ enum percuss_status database_open(struct database *database, const char *path,
         return refuse_file(database, fault);
     sqlite3_busy_timeout(database->connection, BUSY_MILLISECONDS);
     enum percuss_status status = set_up(database, design, fault);
-    for (int i = 0; !status && i < STATEMENT_COUNT; i++) {
-        if (sqlite3_prepare_v3(database->connection, design->texts[i], -1,
-                               SQLITE_PREPARE_PERSISTENT, &database->statements[i],
-                               NULL) != SQLITE_OK)
-            status = refuse_file(database, fault);
-    }
+    if (!status && !prepare(database, design))
+        status = refuse_file(database, fault);
     return status;
 }
 
@@ -175,4 +185,47 @@ void database_roll_back(struct database *database)
         sqlite3_reset(database->statements[i]);
     if (!sqlite3_get_autocommit(database->connection))
         database_run(database->statements[STATEMENT_ROLLBACK]);
+}
+
+bool database_matches(sqlite3_stmt *row, int column, const struct digest *sum)
+{
+    const void *kept = sqlite3_column_blob(row, column);
+    return kept && sqlite3_column_bytes(row, column) == sizeof *sum &&
+           memcmp(kept, sum, sizeof *sum) == 0;
+}
+
+bool database_audit(struct database *database, struct audit *audit)
+{
+    sqlite3_stmt *statement = NULL;
+    int found = SQLITE_ERROR;
+    if (sqlite3_prepare_v2(database->connection, "PRAGMA integrity_check(20)", -1, &statement,
+                           NULL) == SQLITE_OK)
+        while ((found = sqlite3_step(statement)) == SQLITE_ROW) {
+            const char *says = (const char *)sqlite3_column_text(statement, 0);
+            if (!says || strcmp(says, "ok") == 0)
+                continue;
+            audit->complain(audit->context, says);
+            audit->damaged++;
+            audit->unusable = true;
+        }
+    return sqlite3_finalize(statement) == SQLITE_OK && found == SQLITE_DONE;
+}
+
+enum percuss_status database_copy(struct database *database, const char *path, struct fault *fault)
+{
+    sqlite3 *copy = NULL;
+    sqlite3_backup *backup = NULL;
+    int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+    enum percuss_status status = PERCUSS_OK;
+    /* all pages in one step: nobody else uses the store meanwhile */
+    if (sqlite3_open_v2(path, &copy, flags, NULL) == SQLITE_OK)
+        backup = sqlite3_backup_init(copy, "main", database->connection, "main");
+    if (backup)
+        sqlite3_backup_step(backup, -1);
+    if (!backup || sqlite3_backup_finish(backup) != SQLITE_OK)
+        status = fault_set(fault, PERCUSS_INTERNAL, "%.300s: cannot be written: %s", path,
+                           copy ? sqlite3_errmsg(copy) : "out of memory");
+    if (sqlite3_close(copy) != SQLITE_OK && !status)
+        status = fault_set(fault, PERCUSS_INTERNAL, "%.300s: cannot be closed", path);
+    return status;
 }

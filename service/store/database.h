@@ -9,6 +9,7 @@
 #include <stdbool.h>
 
 #include "base/fault.h"
+#include "base/hash.h"
 
 /* "prcs" marks a file as a store of percuss. */
 enum { DATABASE_APPLICATION = 0x70726373 };
@@ -21,6 +22,7 @@ enum statement {
     STATEMENT_DENTS,
     STATEMENT_DENT_COUNT,
     STATEMENT_HIT,
+    STATEMENT_SEAL,
     STATEMENT_SMOOTH,
     STATEMENT_DENT,
     STATEMENT_KEEP,
@@ -29,10 +31,23 @@ enum statement {
     STATEMENT_MARK,
     STATEMENT_MARKED,
     STATEMENT_REPLY,
+    STATEMENT_REPLIES,
+    STATEMENT_SEAL_REPLY,
+    STATEMENT_MARKS,
     STATEMENT_LIST,
     STATEMENT_CLEAR,
     STATEMENT_COUNTS,
     STATEMENT_COUNT
+};
+
+/* What a check finds. */
+struct audit {
+    void (*complain)(void *context, const char *problem);
+    void *context;
+    bool structure;                   /* asked for, besides the rows: opening checks it */
+    size_t specimens, replies, marks; /* that were looked at */
+    size_t damaged;                   /* complaints */
+    bool unusable; /* the file must not be used: nobody knows what was answered before */
 };
 
 struct database {
@@ -43,10 +58,11 @@ struct database {
 
 /* What is in such a file. */
 struct database_design {
-    int version;                 /* of the schema */
-    const char *schema;          /* makes a new one */
-    const char *const *upgrades; /* [v - 1] makes version v + 1 of version v */
-    const char *const *texts;    /* of the statements */
+    int version;                             /* of the schema */
+    const char *schema;                      /* makes a new one */
+    const char *const *upgrades;             /* [v - 1] makes version v + 1 of version v */
+    bool (*fill)(struct database *database); /* puts in what upgrades cannot; NULL: nothing */
+    const char *const *texts;                /* of the statements */
 };
 
 /* Opens the file, brings one of an older version up to date, or creates it; keeps other processes
@@ -55,6 +71,16 @@ struct database_design {
 enum percuss_status database_open(struct database *database, const char *path,
                                   const struct database_design *design, struct fault *fault);
 void database_close(struct database *database);
+
+/* Complains of each flaw in the structure: indices, pages, free space. False: cannot be read. */
+bool database_audit(struct database *database, struct audit *audit);
+
+/* Copies the whole file, as it is between two transactions, to a new one and has it on the disk.
+ * PERCUSS_INTERNAL with what went wrong; the copy is to be removed then. */
+enum percuss_status database_copy(struct database *database, const char *path, struct fault *fault);
+
+/* Whether a column is that checksum. */
+bool database_matches(sqlite3_stmt *row, int column, const struct digest *sum);
 
 /* The statement, rewound, with nothing bound. */
 sqlite3_stmt *database_statement(struct database *database, enum statement statement);

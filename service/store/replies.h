@@ -12,6 +12,7 @@
 
 #include "base/fault.h"
 
+struct audit;
 struct database;
 
 /* The reply to a request. */
@@ -34,8 +35,16 @@ bool replies_drop_oldest(struct database *database);
  * ->bytes; NULL: there was no such request. PERCUSS_BAD_REQUEST: replies of that client with
  * numbers as high are no longer kept, so that nobody knows whether there was one. PERCUSS_INTERNAL:
  * with ->damaged what the file holds is not what was kept: its size or checksum differs; without,
- * it cannot be read now, and nobody knows what it holds. */
+ * it cannot be read now, or the mark of its client is damaged, and nobody knows whether there was
+ * one. */
 enum percuss_status replies_find(struct database *database, struct stored_reply *reply,
                                  struct fault *fault);
+
+/* Looks at all replies and marks and complains of those that are not what was kept. False: they
+ * cannot be read. */
+bool replies_audit(struct database *database, struct audit *audit);
+
+/* Gives a checksum to replies and marks that have none: those of older files. */
+bool replies_fill(struct database *database);
 
 #endif

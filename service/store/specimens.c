@@ -7,56 +7,9 @@
 #include <string.h>
 
 #include "store/database.h"
+#include "store/dents.h"
 #include "store/nature.h"
-
-/* So that no column is forgotten when a dent learns something new. */
-_Static_assert(sizeof(struct dent) == 8 * sizeof(double), "dents have other columns");
-
-/* The columns of a dent are those of struct dent, in its order. The mark of a client is the highest
- * number among its replies that are no longer kept. */
-static const char schema[] =
-    "CREATE TABLE specimens (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE,"
-    " body TEXT NOT NULL, nature TEXT NOT NULL, impacts INTEGER NOT NULL);"
-    "CREATE TABLE dents (specimen INTEGER NOT NULL REFERENCES specimens ON DELETE CASCADE,"
-    " number INTEGER NOT NULL, x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL,"
-    " size REAL NOT NULL, max_indentation REAL NOT NULL, max_force REAL NOT NULL,"
-    " residual REAL NOT NULL, contact_radius REAL NOT NULL,"
-    " PRIMARY KEY (specimen, number)) WITHOUT ROWID;"
-    "CREATE TABLE replies (id INTEGER PRIMARY KEY AUTOINCREMENT, client BLOB NOT NULL,"
-    " sequence INTEGER NOT NULL, content BLOB NOT NULL, reply BLOB NOT NULL, checksum BLOB,"
-    " UNIQUE (client, sequence));"
-    "CREATE TABLE marks (client BLOB PRIMARY KEY, sequence INTEGER NOT NULL) WITHOUT ROWID;";
-
-/* Replies that were kept before there were checksums have none. */
-static const char *const upgrades[] = {"ALTER TABLE replies ADD COLUMN checksum BLOB"};
-
-static const char *const texts[STATEMENT_COUNT] = {
-    [STATEMENT_BEGIN] = "BEGIN IMMEDIATE",
-    [STATEMENT_COMMIT] = "COMMIT",
-    [STATEMENT_ROLLBACK] = "ROLLBACK",
-    [STATEMENT_SPECIMEN] = "SELECT id, body, nature FROM specimens WHERE name = ?1",
-    [STATEMENT_DENTS] = "SELECT x, y, z, size, max_indentation, max_force, residual, contact_radius"
-                        " FROM dents WHERE specimen = ?1 ORDER BY number",
-    [STATEMENT_DENT_COUNT] = "SELECT count(*) FROM dents WHERE specimen = ?1",
-    [STATEMENT_HIT] = "INSERT INTO specimens (name, body, nature, impacts) VALUES (?1, ?2, ?3, 1)"
-                      " ON CONFLICT (name) DO UPDATE SET impacts = impacts + 1"
-                      " RETURNING id, impacts",
-    [STATEMENT_SMOOTH] = "DELETE FROM dents WHERE specimen = ?1",
-    [STATEMENT_DENT] = "INSERT INTO dents VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
-    [STATEMENT_KEEP] = "INSERT INTO replies (client, sequence, content, reply, checksum)"
-                       " VALUES (?1, ?2, ?3, ?4, ?5)",
-    [STATEMENT_OLDEST] = "SELECT id, client, sequence FROM replies ORDER BY id LIMIT 1",
-    [STATEMENT_DROP] = "DELETE FROM replies WHERE id = ?1",
-    [STATEMENT_MARK] = "INSERT INTO marks VALUES (?1, ?2)"
-                       " ON CONFLICT (client) DO UPDATE SET sequence = ?2",
-    [STATEMENT_MARKED] = "SELECT sequence FROM marks WHERE client = ?1",
-    [STATEMENT_REPLY] =
-        "SELECT content, reply, checksum FROM replies WHERE client = ?1 AND sequence = ?2",
-    [STATEMENT_LIST] = "SELECT id, name, body, impacts FROM specimens"
-                       " WHERE ?1 IS NULL OR name = ?1 ORDER BY name",
-    [STATEMENT_CLEAR] = "DELETE FROM specimens WHERE name = ?1",
-    [STATEMENT_COUNTS] = "SELECT (SELECT count(*) FROM specimens), (SELECT count(*) FROM replies)",
-};
+#include "store/schema.h"
 
 struct specimen_store {
     struct database database;
@@ -75,6 +28,88 @@ static enum percuss_status count_all(struct specimen_store *store, struct fault 
     return PERCUSS_OK;
 }
 
+/* A specimen with a row; the texts are the row's. */
+struct specimen_row {
+    int64_t id;
+    struct specimen specimen;
+    const char *nature;
+};
+
+static struct digest checksum(const struct specimen_row *row)
+{
+    struct hasher hasher = {0};
+    hash_text(&hasher, row->specimen.name);
+    hash_text(&hasher, row->specimen.body);
+    hash_text(&hasher, row->nature);
+    hash_number(&hasher, row->specimen.impacts);
+    dents_hash(&hasher, row->specimen.state);
+    return hash_digest(&hasher);
+}
+
+/* What the row says, without dents; false: out of memory, or it is none of a specimen. */
+static bool take_row(sqlite3_stmt *statement, struct specimen_row *row)
+{
+    *row = (struct specimen_row){
+        .id = sqlite3_column_int64(statement, 0),
+        .specimen = {.name = (const char *)sqlite3_column_text(statement, 1),
+                     .body = (const char *)sqlite3_column_text(statement, 2),
+                     .impacts = (uint64_t)sqlite3_column_int64(statement, 4)},
+        .nature = (const char *)sqlite3_column_text(statement, 3),
+    };
+    return row->specimen.name && row->specimen.body && row->nature;
+}
+
+/* The row with its dents, for free(); BAD_REQUEST: it is not what was stored. */
+static enum percuss_status take_specimen(struct specimen_store *store, sqlite3_stmt *statement,
+                                         struct specimen_row *row, struct body_state **state,
+                                         struct fault *fault)
+{
+    *state = NULL;
+    if (!take_row(statement, row))
+        return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", store->database.path);
+    enum percuss_status status = dents_read(&store->database, row->id, state, fault);
+    row->specimen.state = *state;
+    if (status)
+        return status;
+    struct digest sum = checksum(row);
+    if (database_matches(statement, 5, &sum))
+        return PERCUSS_OK;
+    free(*state);
+    *state = NULL;
+    return fault_set(
+        fault, PERCUSS_BAD_REQUEST,
+        "%.63s: what the store holds of it is damaged: its checksum differs: the store "
+        "must be restored from a copy, or the specimen be cleared",
+        row->specimen.name);
+}
+
+static bool seal(struct database *database, int64_t id, const struct digest *sum)
+{
+    sqlite3_stmt *statement = database_statement(database, STATEMENT_SEAL);
+    sqlite3_bind_int64(statement, 1, id);
+    sqlite3_bind_blob(statement, 2, sum, sizeof *sum, SQLITE_STATIC);
+    return database_run(statement);
+}
+
+/* Gives a checksum to what older files hold without. */
+static bool fill(struct database *database)
+{
+    sqlite3_stmt *list = database_statement(database, STATEMENT_LIST);
+    int found = SQLITE_ERROR;
+    bool good = true;
+    while (good && (found = sqlite3_step(list)) == SQLITE_ROW) {
+        struct specimen_row row;
+        struct body_state *state = NULL;
+        good = take_row(list, &row) && !dents_read(database, row.id, &state, NULL);
+        row.specimen.state = state;
+        struct digest sum = good ? checksum(&row) : (struct digest){0, 0};
+        good = good && seal(database, row.id, &sum);
+        free(state);
+    }
+    sqlite3_reset(list);
+    return good && found == SQLITE_DONE && replies_fill(database);
+}
+
 enum percuss_status specimen_store_open(const char *path, unsigned replies,
                                         struct specimen_store **store, struct fault *fault)
 {
@@ -84,8 +119,8 @@ enum percuss_status specimen_store_open(const char *path, unsigned replies,
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     created->most_replies = replies;
     /* our file, and how much it holds */
-    static const struct database_design design = {
-        .version = SPECIMEN_STORE_VERSION, .schema = schema, .upgrades = upgrades, .texts = texts};
+    static const struct database_design design = {SCHEMA_VERSION, schema_new, schema_upgrades, fill,
+                                                  schema_statements};
     enum percuss_status status = database_open(&created->database, path, &design, fault);
     if (!status)
         status = count_all(created, fault);
@@ -110,54 +145,12 @@ size_t specimen_store_count(const struct specimen_store *store)
     return store->specimens;
 }
 
-/* Reads the dents of a specimen; *state NULL: none. */
-static enum percuss_status read_dents(struct specimen_store *store, int64_t id,
-                                      struct body_state **state, struct fault *fault)
-{
-    /* how many there are */
-    sqlite3_stmt *counting = database_statement(&store->database, STATEMENT_DENT_COUNT);
-    *state = NULL;
-    sqlite3_bind_int64(counting, 1, id);
-    if (sqlite3_step(counting) != SQLITE_ROW)
-        return database_fault(&store->database, "dents", fault);
-    struct body_state sizes = {.dents = (size_t)sqlite3_column_int64(counting, 0)};
-    sqlite3_reset(counting);
-    if (sizes.dents == 0)
-        return PERCUSS_OK;
-    if (sizes.dents > BODY_STATE_MAX_DENTS)
-        return fault_set(fault, PERCUSS_INTERNAL, "%zu dents of one specimen: must be at most %d",
-                         sizes.dents, BODY_STATE_MAX_DENTS);
-    /* a state of that size */
-    struct body_state *read = malloc(body_state_size(&sizes));
-    if (!read)
-        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    *read = sizes;
-    /* their numbers, in the order of the struct */
-    sqlite3_stmt *statement = database_statement(&store->database, STATEMENT_DENTS);
-    sqlite3_bind_int64(statement, 1, id);
-    double *numbers = (double *)body_state_dents(read);
-    size_t rows = 0;
-    for (; rows < sizes.dents && sqlite3_step(statement) == SQLITE_ROW; rows++)
-        for (int column = 0; column < 8; column++)
-            *numbers++ = sqlite3_column_double(statement, column);
-    if (rows < sizes.dents) {
-        free(read);
-        return database_fault(&store->database, "dents", fault);
-    }
-    sqlite3_reset(statement);
-    *state = read;
-    return PERCUSS_OK;
-}
-
 /* Whether the row is of that body, as it is now. */
-static enum percuss_status check_body(sqlite3_stmt *row, const char *name, const struct body *body,
+static enum percuss_status check_body(const struct specimen_row *row, const struct body *body,
                                       struct fault *fault)
 {
     char nature[NATURE_SIZE];
-    const char *id = (const char *)sqlite3_column_text(row, 1);
-    const char *known = (const char *)sqlite3_column_text(row, 2);
-    if (!id || !known)
-        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    const char *name = row->specimen.name, *id = row->specimen.body;
     /* it was made of the body of this id */
     if (strcmp(id, body->id) != 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
@@ -166,12 +159,28 @@ static enum percuss_status check_body(sqlite3_stmt *row, const char *name, const
                          name, id, body->id);
     /* whose shape, size and material are what they were */
     nature_describe(body, nature);
-    if (strcmp(known, nature) == 0)
+    if (strcmp(row->nature, nature) == 0)
         return PERCUSS_OK;
     return fault_set(fault, PERCUSS_BAD_REQUEST,
                      "%s: is a specimen of another %s, whose shape, size or material was not that "
                      "of the catalogue now: must be another name, or be cleared first",
                      name, id);
+}
+
+/* PERCUSS_INTERNAL for a specimen that is damaged: nothing is wrong with the request. */
+static enum percuss_status load_row(struct specimen_store *store, sqlite3_stmt *statement,
+                                    const struct body *body, struct body_state **state,
+                                    struct fault *fault)
+{
+    struct specimen_row row;
+    if (take_specimen(store, statement, &row, state, fault))
+        return PERCUSS_INTERNAL;
+    enum percuss_status status = check_body(&row, body, fault);
+    if (status) {
+        free(*state);
+        *state = NULL;
+    }
+    return status;
 }
 
 enum percuss_status specimen_store_load(struct specimen_store *store, const char *name,
@@ -184,34 +193,18 @@ enum percuss_status specimen_store_load(struct specimen_store *store, const char
     sqlite3_bind_text(statement, 1, name, -1, SQLITE_STATIC);
     int found = sqlite3_step(statement);
     enum percuss_status status = PERCUSS_OK;
-    /* known: of the same body, with its dents */
-    if (found == SQLITE_ROW) {
-        int64_t id = sqlite3_column_int64(statement, 0);
-        status = check_body(statement, name, body, fault);
-        if (!status)
-            status = read_dents(store, id, state, fault);
-    } else if (found != SQLITE_DONE) {
+    /* known: whole and of the same body, with its dents */
+    if (found == SQLITE_ROW)
+        status = load_row(store, statement, body, state, fault);
+    else if (found != SQLITE_DONE)
         status = database_fault(&store->database, "specimen", fault);
-    } else if (store->specimens >= SPECIMEN_STORE_MOST) {
+    else if (store->specimens >= SPECIMEN_STORE_MOST)
         status = fault_set(fault, PERCUSS_BAD_REQUEST,
                            "%s: is a new name and there are %d specimens: must be one of them, or "
                            "some be cleared first",
                            name, SPECIMEN_STORE_MOST);
-    }
     sqlite3_reset(statement);
     return status;
-}
-
-static bool write_dent(struct specimen_store *store, int64_t id, size_t number,
-                       const struct dent *dent)
-{
-    sqlite3_stmt *statement = database_statement(&store->database, STATEMENT_DENT);
-    const double *numbers = (const double *)dent;
-    sqlite3_bind_int64(statement, 1, id);
-    sqlite3_bind_int64(statement, 2, (int64_t)number);
-    for (int column = 0; column < 8; column++)
-        sqlite3_bind_double(statement, 3 + column, numbers[column]);
-    return database_run(statement);
 }
 
 /* *created counts the names that are new. */
@@ -227,20 +220,19 @@ static bool write_change(struct specimen_store *store, const struct specimen_cha
     sqlite3_bind_text(hit, 3, nature, -1, SQLITE_STATIC);
     if (sqlite3_step(hit) != SQLITE_ROW)
         return false;
-    int64_t id = sqlite3_column_int64(hit, 0);
-    *created += sqlite3_column_int64(hit, 1) == 1;
+    struct specimen_row row;
+    if (!take_row(hit, &row))
+        return false;
+    *created += row.specimen.impacts == 1;
+    row.specimen.state = change->after;
+    struct digest sum = checksum(&row);
     /* a RETURNING statement must run to its end */
     if (sqlite3_step(hit) != SQLITE_DONE)
         return false;
     sqlite3_reset(hit);
     /* its dents are those after the impact */
-    sqlite3_stmt *smooth = database_statement(&store->database, STATEMENT_SMOOTH);
-    sqlite3_bind_int64(smooth, 1, id);
-    bool good = database_run(smooth);
-    size_t count = change->after ? change->after->dents : 0;
-    for (size_t i = 0; good && i < count; i++)
-        good = write_dent(store, id, i, &body_state_dents(change->after)[i]);
-    return good;
+    return dents_write(&store->database, row.id, change->after) &&
+           seal(&store->database, row.id, &sum);
 }
 
 enum percuss_status specimen_store_commit(struct specimen_store *store,
@@ -281,28 +273,58 @@ enum percuss_status specimen_store_visit(struct specimen_store *store, const cha
 {
     sqlite3_stmt *statement = database_statement(&store->database, STATEMENT_LIST);
     enum percuss_status status = PERCUSS_OK;
-    int found = SQLITE_DONE;
+    int found;
     sqlite3_bind_text(statement, 1, name, -1, SQLITE_STATIC);
-    while (!status && (found = sqlite3_step(statement)) == SQLITE_ROW) {
-        /* each with its dents, lent to the visitor */
+    while ((found = sqlite3_step(statement)) == SQLITE_ROW) {
+        /* each with its dents, lent to the visitor; a damaged one keeps nobody from the others */
+        struct specimen_row row;
         struct body_state *state;
-        struct specimen specimen = {
-            .name = (const char *)sqlite3_column_text(statement, 1),
-            .body = (const char *)sqlite3_column_text(statement, 2),
-            .impacts = (uint64_t)sqlite3_column_int64(statement, 3),
-        };
-        status = read_dents(store, sqlite3_column_int64(statement, 0), &state, fault);
-        if (status)
+        status = take_specimen(store, statement, &row, &state, fault);
+        if (status == PERCUSS_INTERNAL)
             break;
-        specimen.state = state;
-        visitor(context, &specimen);
+        row.specimen.damaged = status;
+        row.specimen.state = state;
+        visitor(context, &row.specimen);
         free(state);
+        status = PERCUSS_OK;
     }
     /* stopped by an error of the database */
     if (!status && found != SQLITE_DONE)
         status = database_fault(&store->database, "specimens", fault);
     sqlite3_reset(statement);
     return status;
+}
+
+/* Complains of specimens that are not what was stored. False: they cannot be read. */
+static bool audit_specimens(struct specimen_store *store, struct audit *audit)
+{
+    sqlite3_stmt *statement = database_statement(&store->database, STATEMENT_LIST);
+    enum percuss_status status = PERCUSS_OK;
+    int found = SQLITE_ERROR;
+    for (; status != PERCUSS_INTERNAL && (found = sqlite3_step(statement)) == SQLITE_ROW;
+         audit->specimens++) {
+        struct specimen_row row;
+        struct body_state *state;
+        struct fault problem;
+        status = take_specimen(store, statement, &row, &state, &problem);
+        free(state);
+        if (status != PERCUSS_BAD_REQUEST)
+            continue;
+        audit->complain(audit->context, problem.text);
+        audit->damaged++;
+    }
+    sqlite3_reset(statement);
+    return found == SQLITE_DONE;
+}
+
+enum percuss_status specimen_store_audit(struct specimen_store *store, struct audit *audit,
+                                         struct fault *fault)
+{
+    struct database *database = &store->database;
+    if ((audit->structure && !database_audit(database, audit)) || !audit_specimens(store, audit) ||
+        !replies_audit(database, audit))
+        return database_fault(database, "the check", fault);
+    return PERCUSS_OK;
 }
 
 enum percuss_status specimen_store_clear(struct specimen_store *store, const char *name,
@@ -314,4 +336,10 @@ enum percuss_status specimen_store_clear(struct specimen_store *store, const cha
         return database_fault(&store->database, "the specimen is not cleared", fault);
     store->specimens -= (size_t)sqlite3_changes(store->database.connection);
     return PERCUSS_OK;
+}
+
+enum percuss_status specimen_store_copy(struct specimen_store *store, const char *path,
+                                        struct fault *fault)
+{
+    return database_copy(&store->database, path, fault);
 }

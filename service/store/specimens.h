@@ -15,8 +15,10 @@
 #include "model/body.h"
 #include "store/replies.h"
 
-/* Most specimens of a store; the version of its file. */
-enum { SPECIMEN_STORE_MOST = 4096, SPECIMEN_STORE_VERSION = 2 };
+struct audit;
+
+/* Most specimens of a store. */
+enum { SPECIMEN_STORE_MOST = 4096 };
 
 struct specimen_store;
 
@@ -29,7 +31,8 @@ void specimen_store_close(struct specimen_store *store); /* NULL is allowed */
 
 /* The dents of a specimen as a body at rest that has them; NULL: none, or a new name. The caller
  * free()s it. PERCUSS_BAD_REQUEST: the name is that of another body, or the body has another shape,
- * size or material than when the specimen was first hit, or the store is full. */
+ * size or material than when the specimen was first hit, or the store is full. PERCUSS_INTERNAL:
+ * it cannot be read, or is not what was stored. */
 enum percuss_status specimen_store_load(struct specimen_store *store, const char *name,
                                         const struct body *body, struct body_state **state,
                                         struct fault *fault);
@@ -57,6 +60,7 @@ struct specimen {
     const char *body;               /* id */
     uint64_t impacts;               /* counted on it */
     const struct body_state *state; /* its dents; NULL: none */
+    bool damaged;                   /* it is not what was stored: without dents */
 };
 typedef void specimen_visitor(void *context, const struct specimen *specimen);
 
@@ -69,6 +73,16 @@ enum percuss_status specimen_store_visit(struct specimen_store *store, const cha
  */
 enum percuss_status specimen_store_clear(struct specimen_store *store, const char *name,
                                          struct fault *fault);
+
+/* Looks at everything in the store and complains of what is damaged: of specimens and replies,
+ * which are refused when they are asked for, and of what makes it `unusable`. PERCUSS_INTERNAL: the
+ * file cannot be read. */
+enum percuss_status specimen_store_audit(struct specimen_store *store, struct audit *audit,
+                                         struct fault *fault);
+
+/* Copies the store, as it is now, to a new file. PERCUSS_INTERNAL: what is there is no copy. */
+enum percuss_status specimen_store_copy(struct specimen_store *store, const char *path,
+                                        struct fault *fault);
 
 /* Number of specimens. */
 size_t specimen_store_count(const struct specimen_store *store);

@@ -22,6 +22,10 @@ cp "$work/specimens.db" "$work/whole.db"
 shorten="UPDATE replies SET reply = CAST(x'18000000' || substr(reply, 5) AS BLOB)"
 flip="UPDATE replies SET reply = CAST(substr(reply, 1, 90) || x'2a' || substr(reply, 92) AS BLOB)"
 
+# back to a store of version 1
+back="ALTER TABLE replies DROP COLUMN checksum; ALTER TABLE specimens DROP COLUMN checksum;
+    ALTER TABLE marks DROP COLUMN checksum; PRAGMA user_version = 1"
+
 # repeat WHAT STATEMENTS: the question again after that change of the store; then another one
 repeat() {
     say "$1"
@@ -42,12 +46,12 @@ repeat() {
 repeat "an octet has changed" "$flip"
 repeat "it ends too soon" "$shorten"
 repeat "it ends too soon, in a store from before there were checksums" \
-    "$shorten; ALTER TABLE replies DROP COLUMN checksum; PRAGMA user_version = 1"
+    "$shorten; $back"
 
 say "a whole reply of such a store is given as it was"
 cp "$work/whole.db" "$work/specimens.db"
 expect 0 "$peers/store_sql" "$work/specimens.db" \
-    "UPDATE replies SET checksum = NULL; ALTER TABLE replies DROP COLUMN checksum; PRAGMA user_version = 1"
+    "UPDATE replies SET checksum = NULL; $back"
 start_daemon
 expect 0 percuss query --request "$work/request.json" --json
 cmp -s "$out" "$work/first" || fail "another reply: $(diff "$out" "$work/first")"

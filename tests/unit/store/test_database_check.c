@@ -14,6 +14,7 @@
 
 #include "check.h"
 #include "store/database_check.h"
+#include "store/schema.h"
 #include "store/specimens.h"
 
 static char folder[64], path[128];
@@ -51,7 +52,7 @@ static void agrees(enum percuss_status expected, const char *text)
     struct fault checked, opened;
     struct specimen_store *store;
     size_t before = files();
-    assert_int_equal(database_check(path, SPECIMEN_STORE_VERSION, &checked), expected);
+    assert_int_equal(database_check(path, SCHEMA_VERSION, &checked), expected);
     assert_int_equal(files(), before);
     assert_int_equal(specimen_store_open(path, 1, &store, &opened), expected);
     specimen_store_close(store);
@@ -139,7 +140,7 @@ static void a_store_in_use_is_told(void **state)
     assert_int_equal(read(ends[0], &byte, 1), 1);
     struct fault fault;
     char expected[64];
-    assert_int_equal(database_check(path, SPECIMEN_STORE_VERSION, &fault), PERCUSS_BAD_REQUEST);
+    assert_int_equal(database_check(path, SCHEMA_VERSION, &fault), PERCUSS_BAD_REQUEST);
     snprintf(expected, sizeof expected, "is in use by another process (%ld)", (long)child);
     assert_non_null(strstr(fault.text, expected));
     kill(child, SIGKILL);
