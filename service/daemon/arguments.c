@@ -9,7 +9,7 @@
 
 #include "daemon/settings.h"
 
-enum { KEY_CHECK = 0x100, KEY_FORMAT, USAGE = 2 };
+enum { KEY_CHECK = 0x100, KEY_STORE, KEY_FORMAT, USAGE = 2 };
 
 const char *argp_program_version = "percussd " PERCUSS_VERSION;
 
@@ -24,6 +24,8 @@ static const struct argp_option options[] = {
      0},
     {"check-config", KEY_CHECK, NULL, 0,
      "Look at all that a start needs, say ok or everything that is wrong", 0},
+    {"check-store", KEY_STORE, "FILE", 0,
+     "Look through a store of specimens, or a copy, that no daemon has open", 0},
     {0},
 };
 
@@ -76,12 +78,15 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_CHECK:
         arguments->check_config = true;
         return 0;
+    case KEY_STORE:
+        arguments->check_store = text;
+        return 0;
     /* all are read */
     case ARGP_KEY_ARG:
         argp_error(state, "%s: must be an option", text);
         return 0;
     case ARGP_KEY_END:
-        if (!arguments->config && !arguments->catalogue)
+        if (!arguments->config && !arguments->catalogue && !arguments->check_store)
             argp_error(state, "--config FILE or --catalogue FILE must be given");
         read_environment(state, arguments);
         return 0;
@@ -98,7 +103,8 @@ struct arguments arguments_read(int argc, char **argv)
         .doc =
             "Answers what impacts do, on DDS."
             "\vSIGTERM and SIGINT: answers what is waiting and ends. SIGHUP: reads the catalogue "
-            "again; a bad one is logged and the old one stays.",
+            "again; a bad one is logged and the old one stays. SIGUSR1: looks through the store of "
+            "specimens and copies it to the file that the settings name as its backup.",
     };
     struct arguments arguments = {.domain = -1, .log_format = -1};
     argp_err_exit_status = USAGE;

@@ -12,6 +12,7 @@ struct arguments {
     int domain;                     /* -1: not given */
     int log_format;                 /* enum log_format; -1: not given */
     bool check_config;
+    const char *check_store; /* file; NULL: not asked for */
 };
 
 /* Ends the program for --help, --version and, with exit code 2, wrong usage. */

@@ -15,6 +15,7 @@
 #include "daemon/notify.h"
 #include "daemon/service.h"
 #include "daemon/settings.h"
+#include "daemon/store_care.h"
 #include "endpoint/clock.h"
 
 enum { STATUS_SIZE = 400 };
@@ -50,6 +51,7 @@ static sigset_t block_signals(void)
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGHUP);
+    sigaddset(&signals, SIGUSR1);
     pthread_sigmask(SIG_BLOCK, &signals, NULL);
     signal(SIGPIPE, SIG_IGN);
     return signals;
@@ -95,6 +97,8 @@ static void serve(struct service *service, const sigset_t *signals, const struct
         int signal_number = wait_for_signal(signals, period);
         if (signal_number == SIGHUP)
             reload(service, notifier);
+        else if (signal_number == SIGUSR1)
+            service_back_up(service);
         else if (signal_number) {
             log_line(LEVEL_INFO, "signal %s: draining", sigabbrev_np(signal_number));
             return;
@@ -114,7 +118,7 @@ static bool drain(struct service *service, const sigset_t *signals, double secon
         drained = service_drain(service, 0.25);
         report(service, notifier);
         int signal_number = wait_for_signal(signals, 0.0);
-        if (!drained && signal_number && signal_number != SIGHUP)
+        if (!drained && (signal_number == SIGTERM || signal_number == SIGINT))
             break;
     }
     return drained || service_cut_short(service);
@@ -125,7 +129,9 @@ int main(int argc, char **argv)
     struct arguments arguments = arguments_read(argc, argv);
     struct settings settings;
     struct fault fault;
-    /* the settings, which may be all that is to be looked at */
+    /* a store alone, or the settings, which may be all that is to be looked at */
+    if (arguments.check_store)
+        return store_care_check_file(arguments.check_store) ? EXIT_SUCCESS : EXIT_FAILURE;
     if (gather_settings(&arguments, &settings, &fault)) {
         fprintf(stderr, "percussd: %s\n", fault.text);
         return EXIT_FAILURE;

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "daemon/backup_job.h"
 #include "daemon/body_cache.h"
 #include "daemon/dispatch.h"
 #include "daemon/log.h"
@@ -220,6 +221,22 @@ void service_reload(struct service *service)
 {
     reducer_retry(&service->reducer);
     load_again(service);
+}
+
+void service_back_up(struct service *service)
+{
+    struct shared *shared = &service->shared;
+    if (!shared->specimens) {
+        log_line(LEVEL_WARNING, "store: none is given in the settings");
+        return;
+    }
+    struct job *job = backup_job_create(shared);
+    if (job && queue_put(shared->lanes[LANE_SPECIMENS], job))
+        return;
+    log_line(LEVEL_WARNING, "store: not looked through: %s",
+             job ? "too many requests are waiting" : "out of memory");
+    if (job)
+        job->kind->release(job);
 }
 
 static void look_at_reducer(struct service *service)

@@ -44,4 +44,8 @@ bool service_cut_short(struct service *service);
 /* Ends the threads and leaves the domain. */
 void service_free(struct service *service);
 
+/* Has the store of specimens looked through and copied, in its turn; the log says what came of it.
+ */
+void service_back_up(struct service *service);
+
 #endif

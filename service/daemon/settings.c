@@ -36,6 +36,7 @@ static const struct setting table[] = {
     {"replies.per_client", KIND_WHOLE, AT(replies_per_client), 1, 65536},
     {"replies.megabytes", KIND_WHOLE, AT(reply_megabytes), 1, 1048576},
     {"store", KIND_PATH, AT(store), 0, 0},
+    {"backup", KIND_PATH, AT(backup), 0, 0},
     {"stored_replies", KIND_WHOLE, AT(stored_replies), 1, 10000000},
     {"session_minutes", KIND_NUMBER, AT(session_minutes), 0.001, 100000},
     {"drain_seconds", KIND_NUMBER, AT(drain_seconds), 0, 86400},

@@ -24,7 +24,8 @@ struct settings {
     unsigned token_count, token_megabytes;
     double token_minutes;
     unsigned replies_per_client, reply_megabytes;
-    char store[SETTINGS_PATH_SIZE]; /* empty: no specimens */
+    char store[SETTINGS_PATH_SIZE];  /* empty: no specimens */
+    char backup[SETTINGS_PATH_SIZE]; /* of the store; empty: none */
     unsigned stored_replies;
     double session_minutes;
     double drain_seconds;

@@ -9,10 +9,14 @@
 #include <string.h>
 
 #include "daemon/log.h"
+#include "daemon/store_care.h"
 #include "endpoint/encode.h"
 #include "endpoint/question.h"
 #include "endpoint/reply_bytes.h"
 #include "store/specimens.h"
+
+/* Not the id of any body. */
+static const char DAMAGED_BODY[] = "(damaged)";
 
 struct specimen_lane {
     struct specimen_store *store;
@@ -29,6 +33,8 @@ enum percuss_status specimen_lane_open(const char *path, unsigned replies,
     if (!created)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     enum percuss_status status = specimen_store_open(path, replies, &created->store, fault);
+    if (!status)
+        status = store_care_check(created->store, false, fault);
     if (status) {
         specimen_lane_close(created);
         return status;
@@ -49,8 +55,9 @@ void specimen_lane_close(struct specimen_lane *lane)
 static void announce(void *context, const struct specimen *specimen)
 {
     struct specimen_lane *lane = context;
-    struct dents_notice notice = {specimen->name, specimen->body, specimen->impacts,
-                                  specimen->state};
+    /* a damaged one is seen, so that it can be cleared */
+    const char *body = specimen->damaged ? DAMAGED_BODY : specimen->body;
+    struct dents_notice notice = {specimen->name, body, specimen->impacts, specimen->state};
     endpoint_announce_dents(lane->endpoint, &notice);
 }
 
@@ -103,6 +110,8 @@ static enum percuss_status load(struct specimen_lane *lane, const struct questio
             continue;
         enum percuss_status status =
             specimen_store_load(lane->store, wire->specimen, body, &lane->states[i], &reason);
+        if (status == PERCUSS_INTERNAL)
+            log_line(LEVEL_ERROR, "%s", reason.text);
         if (status)
             return fault_set(fault, status, "bodies[%u].specimen: %.560s", i, reason.text);
     }
@@ -256,4 +265,9 @@ void specimen_lane_clear(struct specimen_lane *lane, const char *specimen)
     log_line(LEVEL_INFO, "specimen %s: cleared", specimen);
     atomic_store(&lane->count, specimen_store_count(lane->store));
     endpoint_withdraw_dents(lane->endpoint, specimen);
+}
+
+void specimen_lane_back_up(struct specimen_lane *lane, const char *path)
+{
+    store_care_back_up(lane->store, path);
 }

@@ -12,7 +12,8 @@
 
 struct specimen_lane;
 
-/* Opens the store. Its status is specimen_store_open's. */
+/* Opens the store and logs what is damaged in it. Its status is specimen_store_open's;
+ * PERCUSS_BAD_REQUEST too where it is damaged so that it must not be used. */
 enum percuss_status specimen_lane_open(const char *path, unsigned replies,
                                        struct specimen_lane **lane, struct fault *fault);
 void specimen_lane_close(struct specimen_lane *lane); /* NULL is allowed */
@@ -27,6 +28,10 @@ struct answer *specimen_lane_answer(struct specimen_lane *lane, struct responder
 
 /* Forgets a specimen. */
 void specimen_lane_clear(struct specimen_lane *lane, const char *specimen);
+
+/* Looks through the store, with what is found in the log, and copies it to that file (empty text:
+ * none). */
+void specimen_lane_back_up(struct specimen_lane *lane, const char *path);
 
 /* Number of specimens. Any thread. */
 size_t specimen_lane_count(struct specimen_lane *lane);
