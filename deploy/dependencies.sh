@@ -4,8 +4,8 @@
 #
 # Installs what percuss is built with and tested with, from Debian 12; nothing where it is there
 # already. Needs root (or sudo) only when something is missing.
-# usage: dependencies.sh [build|test|mpi|ci]    (mpi: what percuss-reduce-mpi needs; ci: all, a second compiler and
-# what makes an empty machine)
+# usage: dependencies.sh [build|test|mpi|package|ci]    (mpi: what percuss-reduce-mpi needs; package: what makes
+# Debian packages; ci: all, a second compiler and what makes an empty machine)
 set -eu
 
 build="gcc cmake make pkg-config cyclonedds-dev cyclonedds-tools libsundials-dev libopenblas-serial-dev
@@ -13,15 +13,17 @@ liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom1
 libmumps-seq-dev libhdf5-dev"
 test="libcmocka-dev python3-venv libmujoco-dev valgrind iproute2 mount gmsh calculix-ccx"
 mpi="libslepc-real-dev mpi-default-dev mpi-default-bin"
-ci="clang libclang-rt-14-dev mmdebstrap"
+package="dpkg-dev file"
+ci="clang libclang-rt-14-dev mmdebstrap lintian"
 
 case ${1:-build} in
 build) packages=$build ;;
 test) packages="$build $test" ;;
-ci) packages="$build $test $mpi $ci" ;;
+ci) packages="$build $test $mpi $package $ci" ;;
+package) packages="$build $package" ;;
 mpi) packages="$build $mpi" ;;
 *)
-    echo "usage: dependencies.sh [build|test|mpi|ci]" >&2
+    echo "usage: dependencies.sh [build|test|mpi|package|ci]" >&2
     exit 2
     ;;
 esac

@@ -98,6 +98,55 @@ stage_tests() {
     inside grep -q '^BUILD_TESTING:BOOL=ON$' build/CMakeCache.txt || fail "the quickstart has put the tests off"
 }
 
+# the next release: the same program, but other defaults in a file that is there to be edited
+next_release() {
+    mkdir "$2"
+    for package in "$1"/*.deb; do
+        rm -rf "$work/unpacked"
+        dpkg-deb -R "$package" "$work/unpacked" || return 1
+        sed -i 's/^Version: .*/&.1/' "$work/unpacked/DEBIAN/control"
+        for file in percussd catalogue; do
+            [ ! -e "$work/unpacked/etc" ] || echo '# changed in this release' >>"$work/unpacked/etc/percuss/$file.yaml"
+        done
+        dpkg-deb --root-owner-group -b "$work/unpacked" "$2" || return 1
+    done
+}
+
+# made here, of what is committed, and taken there
+make_packages() {
+    [ ! -e "$work/packages" ] || return 0
+    git clone --quiet --no-hardlinks . "$work/clone"
+    sh "$work/clone/deploy/packages.sh" "$work/packages" >>"$log" 2>&1 || fail "sh deploy/packages.sh"
+}
+
+stage_packages() {
+    # what the unit leaves open, of 10.0: the network, mostly
+    ! command -v systemd-analyze >/dev/null ||
+        systemd-analyze security --offline=true --threshold=20 deploy/systemd/percussd.service >>"$log" 2>&1 ||
+        fail "systemd-analyze security"
+    make_packages
+    lintian --fail-on error --allow-root "$work"/packages/*.deb >>"$log" 2>&1 || fail "lintian"
+    next_release "$work/packages" "$work/next" >>"$log" 2>&1 || fail "the next release"
+    cp -r "$work/packages" "$root/packages"
+    cp -r "$work/next" "$root/next"
+    inside sh tests/fresh/packages.sh /packages /next || fail "the life of the packages"
+}
+
+# with a systemd of its own, which few containers allow
+stage_systemd() {
+    make_packages
+    cp -r "$work/packages" "$root/packages"
+    cp tests/fresh/unit.sh "$root"
+    inside apt-get update || fail "apt-get update"
+    inside sh -c 'apt-get install -y --no-install-recommends systemd systemd-sysv dbus procps \
+        /packages/percuss-daemon_*.deb /packages/percuss-tools_*.deb /packages/libpercuss0_*.deb' || fail "apt-get install"
+    umount -R "$root/dev" "$root/proc" "$root/run/domains"
+    timeout -s KILL 180 unshare --mount --pid --fork --kill-child --uts --ipc --net --cgroup \
+        sh tests/fresh/boot.sh "$root" >>"$log" 2>&1 || true
+    cat "$root/unit.said" >>"$log" 2>&1 || fail "systemd does not run here"
+    grep -qx passed "$root/unit.said" || fail "the unit"
+}
+
 stage_sanitize() {
     inside sh tests/sanitize.sh address -R '^unit/' || fail "sh tests/sanitize.sh address"
 }
