@@ -186,12 +186,28 @@ static enum percuss_status read_bodies(struct reader *reader, const yaml_node_t 
     return status;
 }
 
+/* A file that is written while it is read, or was cut off, has lost its end. */
+static enum percuss_status check_marks(struct reader *reader, const yaml_node_t *root,
+                                       const struct body_set *set)
+{
+    if (set->begin == set->end)
+        return PERCUSS_OK;
+    struct entry mark = reader_find(reader, root, set->begin ? "begin" : "end");
+    return reader_refuse(reader, mark.key,
+                         set->begin ? "begin: stands without end: must have a last line `end: "
+                                      "true`: the file may be cut off"
+                                    : "end: stands without begin: must have a first line `begin: "
+                                      "true`: the file may be cut off");
+}
+
 enum percuss_status content_read(struct reader *reader, struct body_set *set)
 {
     struct materials materials = {0};
     const yaml_node_t *root = yaml_document_get_root_node(reader->document);
     *set = (struct body_set){.compliance = PERCUSS_COMPLIANCE_MATCHED};
     enum percuss_status status = keys_read(reader, (struct entry){root, root}, &keys_top, set);
+    if (!status)
+        status = check_marks(reader, root, set);
     if (!status)
         status = read_materials(reader, reader_find(reader, root, "materials").value, &materials);
     if (!status)

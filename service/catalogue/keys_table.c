@@ -14,6 +14,8 @@ static const struct key top[] = {
     {"materials", KEY_CALLER, .required = true},
     {"bodies", KEY_CALLER, .required = true},
     {"contact", KEY_SECTION, .nested = &keys_contact},
+    {"begin", KEY_FLAG, KEY_OF(body_set, begin)},
+    {"end", KEY_FLAG, KEY_OF(body_set, end)},
 };
 const struct key_table keys_top = {"the catalogue", TABLE(top)};
 

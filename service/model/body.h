@@ -106,7 +106,8 @@ struct body_set {
     struct body_order *orders; /* of bodies that are given as meshes, or lack */
     size_t order_count;
     enum percuss_compliance compliance; /* HALF_SPACE; MATCHED: where it is known */
-    char revision[PERCUSS_ID_SIZE];     /* hash of everything that can change an answer */
+    bool begin, end; /* marks of the text it came from: one without the other was cut off */
+    char revision[PERCUSS_ID_SIZE]; /* hash of everything that can change an answer */
 };
 
 /* The body or the order of that id, or NULL. */
