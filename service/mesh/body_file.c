@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "mesh/aside.h"
 #include "mesh/body_layout.h"
 
 static const char FORMAT[] = "percuss body";
@@ -56,6 +57,9 @@ struct silence {
 static struct silence silence_begin(void)
 {
     struct silence kept = {NULL, NULL};
+    /* its end of the process falls over a file whose closing has failed; nothing is left to write
+     */
+    H5dont_atexit();
     H5Eget_auto2(H5E_DEFAULT, &kept.function, &kept.data);
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     return kept;
@@ -184,19 +188,19 @@ static enum percuss_status write_all(const struct file *file, const struct mesh_
 enum percuss_status body_file_write(const char *path, const struct mesh_body *body,
                                     struct fault *fault)
 {
+    char aside[ASIDE_SIZE];
     struct silence kept = silence_begin();
     struct file file = {path, -1, fault};
-    enum percuss_status status;
-    file.id = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    if (file.id < 0) {
-        status = refuse(&file, "cannot be created: %s", strerror(errno));
-    } else {
+    enum percuss_status status = PERCUSS_BAD_REQUEST;
+    if (aside_begin(path, aside) &&
+        (file.id = H5Fcreate(aside, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)) >= 0)
         status = write_all(&file, body);
-        if (H5Fclose(file.id) < 0 && !status)
-            status = refuse(&file, "cannot be written: is the disk full?");
-        if (status)
-            remove(path);
-    }
+    else
+        refuse(&file, "cannot be created: %s", strerror(errno));
+    if (file.id >= 0 && H5Fclose(file.id) < 0 && !status)
+        status = refuse(&file, "cannot be written: is the disk full?");
+    if (!aside_end(aside, path, !status) && !status)
+        status = refuse(&file, "cannot be written: %s", strerror(errno));
     silence_end(&kept);
     return status;
 }
