@@ -127,6 +127,15 @@ auto 'a table'
 expect 0 percuss query --request "$work/request.json" --json
 [ "$(field restitution)" = "$(field restitution "$work/slow")" ] || fail "e = $(field restitution)"
 
+say "a material of the request's own makes no table: clients cannot fill the folder"
+for yield in 190e6 191e6 192e6; do
+    sed 's/"id": "al-rod-1"/&, "overrides": {"yield": '$yield'}/' "$work/request.json" >"$work/own.json"
+    grep -q overrides "$work/own.json" || fail "no override"
+    expect 5 percuss query --request "$work/own.json"
+    says 'there is no table for'
+done
+[ "$(ls "$work/tables" | grep -c '^[0-9a-f]*\.json$')" -eq 3 ] || fail "$(ls "$work/tables")"
+
 say "no table of an elliptic contact"
 sed -i 's/^  al-beam:.*material: aluminium/  al-beam: {shape: beam, material: al-205/' "$work/catalogue.yaml"
 kill -HUP "$daemon"
