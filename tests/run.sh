@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs what is missing, builds everything into build/ and runs every test. With CI=true a skipped test
-# is a failure, clang builds everything too, every reader is fuzzed for some seconds, and README is followed on an empty machine.
+# is a failure, clang builds everything too, every reader is fuzzed for some seconds, and README is followed on
+# an empty machine.
 # PERCUSS_NO_SKIPS=true: skipped tests are failures, and that is all.
 set -eu
 cd "$(dirname "$0")/.."
