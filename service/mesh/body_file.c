@@ -21,6 +21,8 @@ static const unsigned VERSION = 1;
 static const size_t PIECE = 262144;
 /* The fastest level: what is gained comes from the shuffle of the bytes. */
 static const unsigned DEFLATE = 1;
+/* Deflate makes a thousandth of numbers at best; the file's may be half as wide as ours. */
+static const size_t MOST_PACKED = 2200;
 /* Larger extents are no body's: products of them stay far from overflow. */
 static const size_t MOST = 100000000;
 
@@ -292,19 +294,24 @@ static enum percuss_status check_class(const struct file *file, const struct lay
                                               : "whole numbers");
 }
 
+/* Where damaged extents claim more than the file can hold, reading would fill all memory. */
+static bool can_hold(const struct file *file, const struct layout *layout, hid_t set)
+{
+    hsize_t stored = H5Dget_storage_size(set), whole = 0;
+    return H5Fget_filesize(file->id, &whole) >= 0 && stored <= whole &&
+           numbers_of(layout) <= MOST_PACKED * (size_t)stored / layout_size(layout->type);
+}
+
 static enum percuss_status read_numbers(const struct file *file, const struct layout *layout,
                                         hid_t set)
 {
-    size_t numbers = numbers_of(layout);
-    size_t at = 0;
-    /* a value has its place; an array gets one, never of 0 bytes */
+    size_t numbers = numbers_of(layout), at = 0;
+    if (!can_hold(file, layout, set))
+        return refuse(file, "%s: claims more than the file holds: it is damaged", layout->name);
+    /* an array gets a place, never of 0 bytes and far from overflow */
     void *data = layout->value;
-    if (!data) {
-        size_t size = layout_size(layout->type);
-        if (numbers > SIZE_MAX / size - 1)
-            return out_of_memory(file);
-        data = *layout->array = calloc(numbers + 1, size);
-    }
+    if (!data)
+        data = *layout->array = calloc(numbers + 1, layout_size(layout->type));
     if (!data)
         return out_of_memory(file);
     /* read as this machine's type */
@@ -322,9 +329,8 @@ static enum percuss_status read_numbers(const struct file *file, const struct la
 
 static enum percuss_status read_dataset(const struct file *file, const struct layout *layout)
 {
-    if (layout->optional && H5Lexists(file->id, "sites", H5P_DEFAULT) <= 0)
-        return PERCUSS_OK;
-    if (layout->optional && H5Lexists(file->id, layout->name, H5P_DEFAULT) <= 0)
+    if (layout->optional && (H5Lexists(file->id, "sites", H5P_DEFAULT) <= 0 ||
+                             H5Lexists(file->id, layout->name, H5P_DEFAULT) <= 0))
         return PERCUSS_OK;
     hid_t set = H5Dopen2(file->id, layout->name, H5P_DEFAULT);
     if (set < 0)

@@ -211,6 +211,29 @@ static void refuses_files_that_are_none(void **state)
     remove(path);
 }
 
+/* A damaged extent: reading what was never written would fill 1.6 GB with zeros. */
+static void refuses_more_than_it_can_hold(void **state)
+{
+    (void)state;
+    struct mesh_body *body = make_body();
+    const hsize_t many = 99999999, piece = 1000;
+    char path[64];
+    name_file(path);
+    write_wrong(path, body);
+    hid_t id = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    hid_t space = H5Screate_simple(1, &many, NULL), pieces = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(pieces, 1, &piece);
+    H5Ldelete(id, "modes/omega", H5P_DEFAULT);
+    H5Dclose(
+        H5Dcreate2(id, "modes/omega", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, pieces, H5P_DEFAULT));
+    H5Pclose(pieces);
+    H5Sclose(space);
+    H5Fclose(id);
+    expect_refused(path, "modes/omega: claims more than the file holds");
+    mesh_body_free(body);
+    remove(path);
+}
+
 /* No byte of a file may do worse than make a message. */
 static void bears_any_damage(void **state)
 {
@@ -255,9 +278,12 @@ static void says_where_it_cannot_write(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_back_as_written),       cmocka_unit_test(refuses_wrong_numbers),
-        cmocka_unit_test(refuses_files_that_are_none), cmocka_unit_test(bears_any_damage),
+        cmocka_unit_test(comes_back_as_written),
+        cmocka_unit_test(refuses_wrong_numbers),
+        cmocka_unit_test(refuses_files_that_are_none),
+        cmocka_unit_test(bears_any_damage),
         cmocka_unit_test(says_where_it_cannot_write),
+        cmocka_unit_test(refuses_more_than_it_can_hold),
     };
     /* damaged files leave what the library complains of at its end */
     H5dont_atexit();
