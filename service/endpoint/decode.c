@@ -11,6 +11,9 @@
 #include "percuss/fields.h"
 
 static const double DELASSUS_ASYMMETRY = 1e-9; /* of the two contacts' own inverse masses */
+/* 1/kg; what is lighter moves while its indentation is less than the rounding of a place, and the
+ * energies no longer balance */
+static const double DELASSUS_LARGEST = 1e12;
 
 /* Checks a member of *from and puts it into *to. Indices are checked before, against the bodies;
  * tokens and specimens are not the solver's. */
@@ -110,6 +113,9 @@ static void check_delassus(struct check *check, const dds_sequence_double *matri
         double diagonal = matrix->_buffer[row * count + row];
         check_that(check, isfinite(diagonal) && diagonal > 0.0,
                    "delassus[%zu][%zu]: %g: must be finite and > 0", row, row, diagonal);
+        check_that(check, diagonal <= DELASSUS_LARGEST,
+                   "delassus[%zu][%zu]: %g: must be at most %g", row, row, diagonal,
+                   DELASSUS_LARGEST);
         for (size_t column = 0; column < row; column++)
             check_delassus_pair(check, matrix->_buffer, count, row, column);
     }

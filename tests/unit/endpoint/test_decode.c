@@ -218,6 +218,7 @@ static void refuses_a_bad_delassus(void **state)
     REFUSED(delassus[0], 0.0, "delassus[0][0]: 0: must be finite and > 0");
     REFUSED(delassus[3], NAN, "delassus[1][1]: nan: must be finite and > 0");
     REFUSED(delassus[3], INFINITY, "delassus[1][1]: inf: must be finite and > 0");
+    REFUSED(delassus[3], 1.1e12, "delassus[1][1]: 1.1e+12: must be at most 1e+12");
     REFUSED(delassus[1], NAN, "delassus[1][0]: 0.5: must be finite, as its mirror image nan");
     REFUSED(delassus[2], 0.5000001,
             "delassus[1][0]: 0.50000009999999995: must equal [0][1], 0.5, within "
