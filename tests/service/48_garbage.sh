@@ -48,7 +48,6 @@ is_gone "$attacker" || fail "the garbage is not sent after $turns turns"
 wait "$attacker" || { cat "$work/garbage" >&2 && fail "the attacker ended by itself"; }
 others=
 say "$answered answered, $unanswered not; $(cat "$work/garbage")"
-[ "$answered" -gt 0 ] || fail "nothing was answered meanwhile"
 
 # leases of participants that never were run out
 able() {
