@@ -7,10 +7,18 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+/* The lock is held. */
+static void forget(struct activity *activity)
+{
+    activity->owner = NULL;
+    activity->text[0] = '\0';
+    activity->progress = NAN;
+}
+
 void activity_create(struct activity *activity)
 {
     pthread_mutex_init(&activity->lock, NULL);
-    activity_clear(activity);
+    forget(activity);
 }
 
 void activity_release(struct activity *activity)
@@ -18,20 +26,27 @@ void activity_release(struct activity *activity)
     pthread_mutex_destroy(&activity->lock);
 }
 
-void activity_set(struct activity *activity, double progress, const char *format, ...)
+void activity_set(struct activity *activity, const void *owner, double progress, const char *format,
+                  ...)
 {
     va_list arguments;
     va_start(arguments, format);
     pthread_mutex_lock(&activity->lock);
-    vsnprintf(activity->text, sizeof activity->text, format, arguments);
-    activity->progress = progress;
+    if (!activity->owner || activity->owner == owner) {
+        activity->owner = owner;
+        vsnprintf(activity->text, sizeof activity->text, format, arguments);
+        activity->progress = progress;
+    }
     pthread_mutex_unlock(&activity->lock);
     va_end(arguments);
 }
 
-void activity_clear(struct activity *activity)
+void activity_clear(struct activity *activity, const void *owner)
 {
-    activity_set(activity, NAN, "%s", "");
+    pthread_mutex_lock(&activity->lock);
+    if (activity->owner == owner)
+        forget(activity);
+    pthread_mutex_unlock(&activity->lock);
 }
 
 void activity_read(struct activity *activity, char *text, size_t size, double *progress)

@@ -9,6 +9,7 @@
 
 struct activity {
     pthread_mutex_t lock; /* of all below */
+    const void *owner;    /* whose it is; NULL: nobody's */
     char text[128];       /* empty: nothing */
     double progress;      /* 0 .. 1; NAN: nothing */
 };
@@ -16,12 +17,13 @@ struct activity {
 void activity_create(struct activity *activity);
 void activity_release(struct activity *activity);
 
-/* What runs, in words, and how far it is. */
-void activity_set(struct activity *activity, double progress, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+/* What runs, in words, and how far it is. `owner` tells it from others that run at the same time:
+ * it is heard unless another one is, until that one clears it. */
+void activity_set(struct activity *activity, const void *owner, double progress, const char *format,
+                  ...) __attribute__((format(printf, 4, 5)));
 
-/* Nothing does any more. */
-void activity_clear(struct activity *activity);
+/* That of `owner` has ended. */
+void activity_clear(struct activity *activity, const void *owner);
 
 /* Copies it; the text is cut to fit. */
 void activity_read(struct activity *activity, char *text, size_t size, double *progress);

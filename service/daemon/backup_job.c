@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 
+#include "daemon/log.h"
 #include "daemon/specimen_lane.h"
 
 struct backup_job {
@@ -12,11 +13,19 @@ struct backup_job {
     struct shared *shared;
 };
 
-static void run(struct job *job, size_t item, struct responder *responder)
+static bool run(struct job *job, size_t item, struct responder *responder)
 {
     struct shared *shared = ((const struct backup_job *)job)->shared;
     (void)item, (void)responder;
     specimen_lane_back_up(shared->specimens, shared->settings->backup);
+    return true;
+}
+
+/* Whoever asked for it reads the log. */
+static void refuse(struct job *job, size_t item)
+{
+    (void)job, (void)item;
+    log_line(LEVEL_WARNING, "store: not looked through: too many requests are waiting");
 }
 
 static void report(struct job *job)
@@ -29,7 +38,8 @@ static void release(struct job *job)
     free(job);
 }
 
-static const struct job_kind backup_kind = {.run = run, .report = report, .release = release};
+static const struct job_kind backup_kind = {
+    .run = run, .refuse = refuse, .report = report, .release = release};
 
 struct job *backup_job_create(struct shared *shared)
 {
@@ -37,6 +47,6 @@ struct job *backup_job_create(struct shared *shared)
     if (!backup)
         return NULL;
     backup->shared = shared;
-    job_init(&backup->job, &backup_kind, 1);
+    job_init(&backup->job, &backup_kind, 1, (struct digest){0});
     return &backup->job;
 }

@@ -3,6 +3,8 @@
 
 #include "daemon/delivery.h"
 
+#include <stdio.h>
+
 #include "daemon/log.h"
 #include "endpoint/encode.h"
 
@@ -75,6 +77,20 @@ void deliver_at_once(struct shared *shared, const struct request_name *name,
         return;
     note_refusal(name, status, message);
     atomic_fetch_add(&shared->refused, 1);
+}
+
+const char *delivery_too_many(const struct shared *shared, char message[DELIVERY_MESSAGE])
+{
+    snprintf(message, DELIVERY_MESSAGE, "%u requests are waiting: ask again later",
+             shared->settings->queue_capacity);
+    return message;
+}
+
+void deliver_refusal(struct shared *shared, const struct request_name *name,
+                     enum percuss_status status, const char *message)
+{
+    reply_store_forget(shared->replies, name);
+    deliver_at_once(shared, name, status, message);
 }
 
 static void count(struct shared *shared, const struct answer *answer)

@@ -15,6 +15,14 @@ struct envelope delivery_envelope(const struct shared *shared, const struct requ
  * NULL: there was no memory for one, and the request is refused for that. */
 void deliver(struct shared *shared, const struct request_name *name, struct answer *answer);
 
+/* What is said where too much waits, written into `message`, which is returned. */
+enum { DELIVERY_MESSAGE = 128 };
+const char *delivery_too_many(const struct shared *shared, char message[DELIVERY_MESSAGE]);
+
+/* Refuses an admitted request for how things stand: asked again it is new. */
+void deliver_refusal(struct shared *shared, const struct request_name *name,
+                     enum percuss_status status, const char *message);
+
 /* Sends a reply that is not stored: a refusal, after which the number may be used again, or, with
  * PERCUSS_OK, the answer to a ping. */
 void deliver_at_once(struct shared *shared, const struct request_name *name,

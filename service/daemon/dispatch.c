@@ -38,7 +38,7 @@ struct dispatch *dispatch_create(struct shared *shared)
     if (!dispatch)
         return NULL;
     dispatch->shared = shared;
-    dispatch->responder = responder_create(shared, false);
+    dispatch->responder = responder_create(shared, LANE_SHORT);
     if (dispatch->responder)
         return dispatch;
     free(dispatch);
@@ -53,39 +53,33 @@ void dispatch_free(struct dispatch *dispatch)
     free(dispatch);
 }
 
-/* Refuses an admitted request for how things stand: asked again it is new. */
-static void turn_away(struct shared *shared, const struct request_name *name,
-                      enum percuss_status status, const char *message)
-{
-    reply_store_forget(shared->replies, name);
-    deliver_at_once(shared, name, status, message);
-}
-
 /* False: the request, which was admitted, is refused, as the server ends. */
 static bool is_open(struct shared *shared, const struct request_name *name)
 {
     bool draining = atomic_load(&shared->draining);
     if (draining)
-        turn_away(shared, name, PERCUSS_BUSY, SHARED_SHUTTING_DOWN);
+        deliver_refusal(shared, name, PERCUSS_BUSY, SHARED_SHUTTING_DOWN);
     return !draining;
 }
 
 /* Hands a job (NULL: there was no memory for it) to the workers, or refuses it at once. */
 static void enqueue(struct shared *shared, const struct request_name *name, struct client_job *job)
 {
-    char message[128];
+    char message[DELIVERY_MESSAGE];
+    struct job *displaced = NULL;
     if (!job) {
-        turn_away(shared, name, PERCUSS_INTERNAL, "out of memory");
+        deliver_refusal(shared, name, PERCUSS_INTERNAL, "out of memory");
         return;
     }
-    if (queue_put(shared->lanes[job->lane], &job->job))
+    bool accepted = queue_put(shared->lanes[job->lane], &job->job, &displaced);
+    if (displaced)
+        job_refuse(displaced);
+    if (accepted)
         return;
     job->job.kind->release(&job->job);
     if (!is_open(shared, name))
         return;
-    snprintf(message, sizeof message, "%u requests are waiting: ask again later",
-             shared->settings->queue_capacity);
-    turn_away(shared, name, PERCUSS_BUSY, message);
+    deliver_refusal(shared, name, PERCUSS_BUSY, delivery_too_many(shared, message));
 }
 
 /* Answers what has been asked before, and what misuses its number. True: the request is new. */
@@ -236,7 +230,11 @@ static void receive_clear(void *context, const char *specimen)
     if (!specimen[0] || atomic_load(&shared->draining))
         return;
     struct job *job = clear_job_create(shared, specimen);
-    if (job && queue_put(shared->lanes[LANE_SPECIMENS], job))
+    struct job *displaced = NULL;
+    bool accepted = job && queue_put(shared->lanes[LANE_SPECIMENS], job, &displaced);
+    if (displaced)
+        job_refuse(displaced);
+    if (accepted)
         return;
     log_line(LEVEL_WARNING, "specimen %s: not cleared: %s", specimen,
              job ? "too many requests are waiting" : "out of memory");

@@ -5,7 +5,10 @@
 
 #include <stdlib.h>
 
+#include "daemon/delivery.h"
 #include "daemon/ensemble_run.h"
+#include "endpoint/encode.h"
+#include "endpoint/key_map.h"
 #include "endpoint/question.h"
 
 struct ensemble_job {
@@ -16,11 +19,22 @@ struct ensemble_job {
     struct answer *answer;               /* the reply; NULL: not yet, or no memory for it */
 };
 
-static void run(struct job *job, size_t item, struct responder *responder)
+static bool run(struct job *job, size_t item, struct responder *responder)
 {
     struct ensemble_job *ensemble = (struct ensemble_job *)job;
     (void)item, (void)responder;
     ensemble->answer = ensemble_run(&ensemble->base, &ensemble->entry, ensemble->request);
+    return true;
+}
+
+static void refuse(struct job *job, size_t item)
+{
+    struct ensemble_job *ensemble = (struct ensemble_job *)job;
+    struct envelope envelope = client_job_envelope(&ensemble->base);
+    char message[DELIVERY_MESSAGE];
+    (void)item;
+    ensemble->answer = encode_ensemble_refusal(&envelope, PERCUSS_BUSY,
+                                               delivery_too_many(ensemble->base.shared, message));
 }
 
 static void report(struct job *job)
@@ -45,7 +59,7 @@ static void release(struct job *job)
     free(ensemble);
 }
 
-static const struct job_kind ensemble_kind = {run, report, cancel, release};
+static const struct job_kind ensemble_kind = {run, refuse, report, cancel, release};
 
 struct client_job *ensemble_job_create(struct shared *shared, const struct request_name *name,
                                        const percuss_v1_EnsembleRequest *request, double arrival)
@@ -63,10 +77,10 @@ struct client_job *ensemble_job_create(struct shared *shared, const struct reque
         return NULL;
     }
     job->request->scene = *job->scene;
-    /* a job of its client, among those that take long */
-    job_init(&job->base.job, &ensemble_kind, 1);
+    /* a job of its client, in a lane of their own */
+    job_init(&job->base.job, &ensemble_kind, 1, digest_of_octets(name->client));
     client_job_begin(&job->base, shared, name, arrival);
-    job->base.lane = LANE_LONG;
+    job->base.lane = LANE_ENSEMBLES;
     /* by which the client can cancel it, and is told of its turn */
     job->entry.client = job->base.client;
     job->entry.sequence = name->sequence;

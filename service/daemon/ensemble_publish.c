@@ -34,9 +34,9 @@ static void publish_waiting(void *context, const struct ensemble_entry *waiting)
     ensemble_publish_progress(context, waiting, 0, waiting->samples, NULL);
 }
 
-void ensemble_publish_waiting(struct shared *shared, const struct ensemble_entry *running)
+void ensemble_publish_waiting(struct shared *shared)
 {
-    ensembles_visit_waiting(&shared->ensembles, running, publish_waiting, shared);
+    ensembles_visit_waiting(&shared->ensembles, publish_waiting, shared);
 }
 
 bool ensemble_publish_samples(struct shared *shared, const struct ensemble_entry *entry,

@@ -13,8 +13,8 @@ void ensemble_publish_progress(struct shared *shared, const struct ensemble_entr
                                uint64_t done, uint64_t samples,
                                const struct report_progress *progress);
 
-/* The others, which wait for this one to end, hear that the server is there. */
-void ensemble_publish_waiting(struct shared *shared, const struct ensemble_entry *running);
+/* Those that wait for their turn hear that the server is there. */
+void ensemble_publish_waiting(struct shared *shared);
 
 /* The first `done` samples for the client to list. False: out of memory. */
 bool ensemble_publish_samples(struct shared *shared, const struct ensemble_entry *entry,

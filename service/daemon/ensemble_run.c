@@ -55,7 +55,7 @@ static void keep_waiting(struct ensemble_run *run)
     if (!is_due(run))
         return;
     run->noticed = clock_now();
-    ensemble_publish_waiting(run->job->shared, run->entry);
+    ensemble_publish_waiting(run->job->shared);
 }
 
 static void publish_progress(struct ensemble_run *run, uint64_t done)
@@ -64,8 +64,9 @@ static void publish_progress(struct ensemble_run *run, uint64_t done)
     uint64_t count = run->ensemble.count;
     struct report_progress progress = report_progress(&run->ensemble, run->samples, done, false);
     ensemble_publish_progress(shared, run->entry, done, count, &progress);
-    activity_set(&shared->activity, (double)done / (double)count, "ensemble: %llu of %llu samples",
-                 (unsigned long long)done, (unsigned long long)count);
+    activity_set(&shared->activity, run, (double)done / (double)count,
+                 "ensemble: %llu of %llu samples", (unsigned long long)done,
+                 (unsigned long long)count);
     keep_waiting(run);
 }
 
@@ -324,10 +325,11 @@ struct answer *ensemble_run(struct client_job *job, struct ensemble_entry *entry
         return NULL;
     run->job = job;
     run->entry = entry;
+    atomic_store(&entry->running, true);
     run->request = request;
     struct envelope envelope = client_job_envelope(job);
     struct answer *answer = carry_out(run, &envelope);
-    activity_clear(&job->shared->activity);
+    activity_clear(&job->shared->activity, run);
     release(run);
     /* how long it waited, and took */
     if (answer) {

@@ -42,7 +42,7 @@ void ensembles_cancel(struct ensembles *ensembles, const uint8_t client[16], uin
     pthread_mutex_unlock(&ensembles->lock);
 }
 
-void ensembles_visit_waiting(struct ensembles *ensembles, const struct ensemble_entry *running,
+void ensembles_visit_waiting(struct ensembles *ensembles,
                              void (*visit)(void *context, const struct ensemble_entry *waiting),
                              void *context)
 {
@@ -50,7 +50,7 @@ void ensembles_visit_waiting(struct ensembles *ensembles, const struct ensemble_
     pthread_mutex_lock(&ensembles->lock);
     LIST_FOREACH(entry, &ensembles->all, all)
     {
-        if (entry != running)
+        if (!atomic_load(&entry->running))
             visit(context, entry);
     }
     pthread_mutex_unlock(&ensembles->lock);

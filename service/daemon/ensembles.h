@@ -17,6 +17,7 @@ struct ensemble_entry {
     const uint8_t *client;          /* 16 octets */
     uint64_t sequence;
     uint64_t samples;      /* that are asked for */
+    atomic_bool running;   /* it does not wait for its turn any more */
     atomic_bool cancelled; /* no more of them are wanted */
 };
 
@@ -35,8 +36,8 @@ void ensembles_leave(struct ensembles *ensembles, struct ensemble_entry *entry);
 /* The client does not want it any more; nothing happens if there is no such ensemble. */
 void ensembles_cancel(struct ensembles *ensembles, const uint8_t client[16], uint64_t sequence);
 
-/* Shows each that waits for `running` to end. */
-void ensembles_visit_waiting(struct ensembles *ensembles, const struct ensemble_entry *running,
+/* Shows each that waits for its turn. */
+void ensembles_visit_waiting(struct ensembles *ensembles,
                              void (*visit)(void *context, const struct ensemble_entry *waiting),
                              void *context);
 

@@ -3,14 +3,20 @@
 
 #include "daemon/impact_job.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "daemon/cost.h"
+#include "daemon/delivery.h"
+#include "daemon/queue.h"
 #include "daemon/responder.h"
 #include "daemon/specimen_lane.h"
 #include "daemon/status.h"
 #include "endpoint/batch.h"
+#include "endpoint/clock.h"
+#include "endpoint/encode.h"
+#include "endpoint/key_map.h"
 #include "endpoint/question.h"
 
 /* Each request is an item. */
@@ -21,18 +27,42 @@ struct impact_job {
     struct answer *answers[];     /* of the requests; NULL: not yet, or no memory for it */
 };
 
+/* What takes longer than this, s, makes way where other clients wait. Most impacts take less than
+ * a tenth of it; what is done twice, for a little longer, costs at most as much again. */
+static const double MAKING_WAY = 0.01;
+
+/* Whoever watches over an item. */
+struct attempt {
+    struct impact_job *impact;
+    double begun;   /* monotonic, s; INFINITY: it may take its time */
+    bool makes_way; /* it was given up for others */
+};
+
+/* Whether it is somebody else's turn. */
+static bool makes_way(struct attempt *attempt)
+{
+    struct job *job = &attempt->impact->base.job;
+    attempt->makes_way =
+        clock_now() > attempt->begun + MAKING_WAY && queue_others_wait(job->queue, job);
+    return attempt->makes_way;
+}
+
 static enum percuss_status is_wanted(void *context, struct fault *fault)
 {
-    struct impact_job *impact = context;
+    struct attempt *attempt = context;
+    struct impact_job *impact = attempt->impact;
     if (atomic_load(&impact->cancelled))
         return fault_set(fault, PERCUSS_BUSY, SHARED_SHUTTING_DOWN);
     if (client_job_is_gone(&impact->base))
         return fault_set(fault, PERCUSS_TIMEOUT, SHARED_CLIENT_GONE);
+    if (makes_way(attempt))
+        return fault_set(fault, PERCUSS_BUSY, "for those who take their time");
     return PERCUSS_OK;
 }
 
-static struct question question_of(struct impact_job *impact, size_t item)
+static struct question question_of(struct attempt *attempt, size_t item)
 {
+    struct impact_job *impact = attempt->impact;
     struct client_job *base = &impact->base;
     struct question question = {
         .request = &impact->requests[item],
@@ -41,29 +71,49 @@ static struct question question_of(struct impact_job *impact, size_t item)
         .arrival = base->arrival,
         .in_batch = base->name.exchange == EXCHANGE_BATCH,
         .still_wanted = is_wanted,
-        .context = impact,
+        .context = attempt,
     };
     question.envelope.sequence = impact->requests[item].sequence;
     return question;
 }
 
-static void run_impact(struct job *job, size_t item, struct responder *responder)
+static bool run_impact(struct job *job, size_t item, struct responder *responder)
 {
     struct impact_job *impact = (struct impact_job *)job;
-    struct question question = question_of(impact, item);
-    impact->answers[item] = responder_answer(responder, &question);
+    struct attempt attempt = {impact, responder->lane == LANE_SHORT ? clock_now() : INFINITY,
+                              false};
+    struct question question = question_of(&attempt, item);
+    struct answer *answer = responder_answer(responder, &question);
+    /* what was given up on the way says nothing */
+    if (attempt.makes_way)
+        answer_release(answer);
+    else
+        impact->answers[item] = answer;
+    return !attempt.makes_way;
 }
 
-static void run_on_specimens(struct job *job, size_t item, struct responder *responder)
+static void refuse_impact(struct job *job, size_t item)
+{
+    struct impact_job *impact = (struct impact_job *)job;
+    struct envelope envelope = client_job_envelope(&impact->base);
+    char message[DELIVERY_MESSAGE];
+    envelope.sequence = impact->requests[item].sequence;
+    impact->answers[item] =
+        encode_refusal(&envelope, PERCUSS_BUSY, delivery_too_many(impact->base.shared, message));
+}
+
+static bool run_on_specimens(struct job *job, size_t item, struct responder *responder)
 {
     struct impact_job *impact = (struct impact_job *)job;
     struct shared *shared = impact->base.shared;
-    struct question question = question_of(impact, item);
+    struct attempt attempt = {impact, INFINITY, false};
+    struct question question = question_of(&attempt, item);
     size_t before = specimen_lane_count(shared->specimens);
     impact->answers[item] = specimen_lane_answer(shared->specimens, responder, &question);
     /* who has seen the reply finds its specimen announced */
     if (specimen_lane_count(shared->specimens) != before)
         status_announce(shared);
+    return true;
 }
 
 static void report_impact(struct job *job)
@@ -112,9 +162,12 @@ static void release(struct job *job)
     free(impact);
 }
 
-static const struct job_kind impact_kind = {run_impact, report_impact, cancel, release};
-static const struct job_kind batch_kind = {run_impact, report_batch, cancel, release};
-static const struct job_kind specimen_kind = {run_on_specimens, report_impact, cancel, release};
+static const struct job_kind impact_kind = {run_impact, refuse_impact, report_impact, cancel,
+                                            release};
+static const struct job_kind batch_kind = {run_impact, refuse_impact, report_batch, cancel,
+                                           release};
+static const struct job_kind specimen_kind = {run_on_specimens, refuse_impact, report_impact,
+                                              cancel, release};
 
 bool impact_job_is_durable(const struct shared *shared, const percuss_v1_Request *request)
 {
@@ -125,12 +178,14 @@ bool impact_job_is_durable(const struct shared *shared, const percuss_v1_Request
 static enum lane lane_for(const struct client_job *job, const percuss_v1_Request *requests,
                           size_t count)
 {
+    enum lane lane = LANE_SHORT;
     for (size_t i = 0; i < count; i++) {
-        if (cost_is_long(&requests[i].options) ||
-            table_cache_lacks(job->snapshot->tables, job->snapshot->set, &requests[i]))
-            return LANE_LONG;
+        if (table_cache_lacks(job->snapshot->tables, job->snapshot->set, &requests[i]))
+            return LANE_TABLES;
+        if (cost_is_long(&requests[i].options))
+            lane = LANE_LONG;
     }
-    return LANE_SHORT;
+    return lane;
 }
 
 struct client_job *impact_job_create(struct shared *shared, const struct request_name *name,
@@ -152,6 +207,7 @@ struct client_job *impact_job_create(struct shared *shared, const struct request
     bool durable = !in_batch && impact_job_is_durable(shared, requests);
     base->lane = durable ? LANE_SPECIMENS : lane_for(base, requests, count);
     const struct job_kind *single_kind = durable ? &specimen_kind : &impact_kind;
-    job_init(&base->job, in_batch ? &batch_kind : single_kind, count);
+    job_init(&base->job, in_batch ? &batch_kind : single_kind, count,
+             digest_of_octets(name->client));
     return base;
 }

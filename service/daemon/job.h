@@ -10,13 +10,20 @@
 #include <stddef.h>
 #include <sys/queue.h>
 
+#include "base/hash.h"
+
 struct job;
+struct queue;
 struct responder;
 
 /* What jobs of a kind do. */
 struct job_kind {
-    /* Does one item. Several threads may do several items at once, each with its own responder. */
-    void (*run)(struct job *job, size_t item, struct responder *responder);
+    /* Does one item. Several threads may do several items at once, each with its own responder.
+     * False: it takes long while others wait, and was given up, to be done from its beginning by
+     * those who take their time (errand.h). */
+    bool (*run)(struct job *job, size_t item, struct responder *responder);
+    /* Does not do one item, since too much waits: its answer is to say so. */
+    void (*refuse)(struct job *job, size_t item);
     /* All items are done: tells whoever waits, if anybody does. */
     void (*report)(struct job *job);
     /* What is left of it is to be given up soon. Any thread, at any time. NULL: it takes no time.
@@ -29,16 +36,31 @@ struct job_kind {
 /* The first member of every job. */
 struct job {
     const struct job_kind *kind;
-    size_t items;       /* >= 1 */
-    atomic_size_t left; /* items that are not done */
+    size_t items;        /* >= 1 */
+    atomic_size_t left;  /* items that are not done */
+    struct digest owner; /* the client whose turn it takes; zero: nobody's */
     /* the queue's, under its lock */
-    size_t next; /* first item no worker has taken */
+    struct queue *queue; /* that it was put into */
+    size_t next;         /* first item no worker has taken */
+    TAILQ_ENTRY(job) waiting;
     LIST_ENTRY(job) live;
 };
 
-void job_init(struct job *job, const struct job_kind *kind, size_t items);
+void job_init(struct job *job, const struct job_kind *kind, size_t items, struct digest owner);
 
-/* Does an item. True: it was the last one, and the job has been reported and is to be released. */
-bool job_run(struct job *job, size_t item, struct responder *responder);
+enum job_end {
+    JOB_GOES_ON,
+    JOB_ENDED, /* that was the last item: the job has been reported and is to be released */
+    JOB_LONG   /* the item was given up and is to be passed on */
+};
+
+/* Does an item. */
+enum job_end job_run(struct job *job, size_t item, struct responder *responder);
+
+/* Refuses an item: GOES_ON or ENDED. */
+enum job_end job_refuse_item(struct job *job, size_t item);
+
+/* Refuses a job that has not begun, and releases it. */
+void job_refuse(struct job *job);
 
 #endif

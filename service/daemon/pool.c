@@ -10,12 +10,13 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "daemon/errand.h"
 #include "daemon/pulse.h"
 #include "daemon/responder.h"
 #include "endpoint/clock.h"
 
 struct worker {
-    struct queue *queue;
+    struct queue *queue, *slower;
     struct responder *responder;
     int nice;
     struct pulse pulse;
@@ -35,6 +36,22 @@ struct pool *pool_create(size_t most)
     return pool;
 }
 
+/* Does an item, or has it done by slower workers; who then may release the job at any time. */
+static void do_item(const struct worker *worker, struct job *job, size_t item)
+{
+    struct digest owner = job->owner;
+    bool is_long = worker->slower && queue_is_long(worker->queue, job);
+    enum job_end end = is_long ? JOB_LONG : job_run(job, item, worker->responder);
+    if (end == JOB_LONG && !is_long)
+        queue_note_long(worker->queue, owner);
+    if (end == JOB_LONG)
+        end = errand_send(job, item, worker->slower);
+    bool ended = end == JOB_ENDED;
+    queue_done(worker->queue, owner, ended ? job : NULL);
+    if (ended)
+        job->kind->release(job);
+}
+
 static void *work(void *argument)
 {
     struct worker *worker = argument;
@@ -46,20 +63,19 @@ static void *work(void *argument)
     pulse_adopt(&worker->pulse);
     while ((job = queue_take(worker->queue, &item))) {
         pulse_beat();
-        bool ended = job_run(job, item, worker->responder);
-        queue_done(worker->queue, ended ? job : NULL);
-        if (ended)
-            job->kind->release(job);
+        do_item(worker, job, item);
         pulse_rest();
     }
     return NULL;
 }
 
-bool pool_add(struct pool *pool, struct queue *queue, struct responder *responder, int nice)
+bool pool_add(struct pool *pool, struct queue *queue, struct queue *slower,
+              struct responder *responder, int nice)
 {
     assert(pool->count < pool->most);
     struct worker *worker = &pool->workers[pool->count];
-    *worker = (struct worker){.queue = queue, .responder = responder, .nice = nice};
+    *worker =
+        (struct worker){.queue = queue, .slower = slower, .responder = responder, .nice = nice};
     if (pthread_create(&worker->thread, NULL, work, worker) != 0) {
         responder_free(responder);
         return false;

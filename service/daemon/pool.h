@@ -17,9 +17,11 @@ struct pool;
 struct pool *pool_create(size_t most);
 
 /* Starts a worker, which does the jobs of `queue` until that is closed and empty, with `responder`,
- * which is the pool's from now on (NULL: the jobs need none). False: the thread could not be
+ * which is the pool's from now on (NULL: the jobs need none). What it gives up for the others who
+ * wait goes to the queue `slower` (NULL: it gives up nothing). False: the thread could not be
  * started. */
-bool pool_add(struct pool *pool, struct queue *queue, struct responder *responder, int nice);
+bool pool_add(struct pool *pool, struct queue *queue, struct queue *slower,
+              struct responder *responder, int nice);
 
 /* The longest time, s, since a worker that is at work last moved. Any thread that does not add
  * workers meanwhile. */

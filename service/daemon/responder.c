@@ -15,7 +15,7 @@
 #include "endpoint/encode.h"
 #include "endpoint/text.h"
 
-struct responder *responder_create(struct shared *shared, bool makes_tables)
+struct responder *responder_create(struct shared *shared, enum lane lane)
 {
     struct responder *responder = calloc(1, sizeof *responder);
     if (!responder)
@@ -26,7 +26,8 @@ struct responder *responder_create(struct shared *shared, bool makes_tables)
         return NULL;
     }
     responder->tokens = shared->tokens;
-    table_maker_init(&responder->maker, shared, makes_tables);
+    responder->lane = lane;
+    table_maker_init(&responder->maker, shared, lane == LANE_TABLES);
     return responder;
 }
 

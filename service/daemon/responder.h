@@ -14,6 +14,7 @@
 /* What one thread needs to answer requests. */
 struct responder {
     struct token_store *tokens;
+    enum lane lane; /* that it works in */
     struct solve_workspace *workspace;
     struct table_maker maker; /* of contact tables that requests insist on */
     struct solve_request request;
@@ -21,9 +22,9 @@ struct responder {
     char states_after[PERCUSS_MAX_BODIES][PERCUSS_ID_SIZE]; /* their tokens */
 };
 
-/* With `makes_tables` contact tables that are missing are computed when a request insists on them,
- * which takes seconds to minutes. NULL: out of memory. */
-struct responder *responder_create(struct shared *shared, bool makes_tables);
+/* In the lane of tables those that are missing are computed when a request insists on them, which
+ * takes seconds to minutes. NULL: out of memory. */
+struct responder *responder_create(struct shared *shared, enum lane lane);
 void responder_free(struct responder *responder); /* NULL is allowed */
 
 /* A request with where it came from. */

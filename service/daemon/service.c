@@ -21,7 +21,10 @@
 #include "daemon/status.h"
 #include "endpoint/clock.h"
 
-static const int LONG_LANE_NICE = 10;
+static const int PATIENT_NICE = 10;
+
+/* Ensembles that run side by side, each of another client and with threads of its own. */
+enum { ENSEMBLES_AT_ONCE = 3 };
 /* Bytes: a thousand replies and what DDS keeps of them. */
 static const size_t READER_MEMORY = 8 * 1024 * 1024;
 static const double FLUSH_SECONDS = 1.0, CUT_SECONDS = 2.0;
@@ -68,15 +71,16 @@ static bool add_workers(struct service *service, enum lane lane, unsigned count,
                         struct fault *fault)
 {
     struct shared *shared = &service->shared;
-    bool is_long = lane == LANE_LONG;
+    bool patient = lane == LANE_LONG || lane == LANE_TABLES || lane == LANE_ENSEMBLES;
+    struct queue *slower = lane == LANE_SHORT ? shared->lanes[LANE_LONG] : NULL;
     for (unsigned i = 0; i < count; i++) {
-        struct responder *responder = responder_create(shared, is_long);
+        struct responder *responder = responder_create(shared, lane);
         if (!responder) {
             fault_set(fault, PERCUSS_INTERNAL, "out of memory");
             return false;
         }
-        if (!pool_add(service->pool, shared->lanes[lane], responder,
-                      is_long ? LONG_LANE_NICE : 0)) {
+        if (!pool_add(service->pool, shared->lanes[lane], slower, responder,
+                      patient ? PATIENT_NICE : 0)) {
             fault_set(fault, PERCUSS_INTERNAL, "threads: cannot be started");
             return false;
         }
@@ -88,13 +92,16 @@ static bool start_workers(struct service *service, struct fault *fault)
 {
     unsigned workers = service->shared.settings->workers;
     unsigned specimens = service->shared.specimens ? 1 : 0;
-    service->pool = pool_create(workers + 1 + specimens);
+    /* one client alone has all processors for what takes long, and leaves a worker to others */
+    service->pool = pool_create(2 * workers + 2 + ENSEMBLES_AT_ONCE + specimens);
     if (!service->pool) {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         return false;
     }
     return add_workers(service, LANE_SHORT, workers, fault) &&
-           add_workers(service, LANE_LONG, 1, fault) &&
+           add_workers(service, LANE_LONG, workers + 1, fault) &&
+           add_workers(service, LANE_TABLES, 1, fault) &&
+           add_workers(service, LANE_ENSEMBLES, ENSEMBLES_AT_ONCE, fault) &&
            add_workers(service, LANE_SPECIMENS, specimens, fault);
 }
 
@@ -230,13 +237,13 @@ void service_back_up(struct service *service)
         log_line(LEVEL_WARNING, "store: none is given in the settings");
         return;
     }
-    struct job *job = backup_job_create(shared);
-    if (job && queue_put(shared->lanes[LANE_SPECIMENS], job))
-        return;
-    log_line(LEVEL_WARNING, "store: not looked through: %s",
-             job ? "too many requests are waiting" : "out of memory");
-    if (job)
-        job->kind->release(job);
+    struct job *displaced = NULL, *job = backup_job_create(shared);
+    if (!job)
+        log_line(LEVEL_WARNING, "store: not looked through: out of memory");
+    else if (!queue_put(shared->lanes[LANE_SPECIMENS], job, &displaced))
+        job_refuse(job);
+    if (displaced)
+        job_refuse(displaced);
 }
 
 static void look_at_reducer(struct service *service)
@@ -246,9 +253,9 @@ static void look_at_reducer(struct service *service)
     if (reducer_look(reducer, shared->snapshots.current->set))
         load_again(service);
     if (reducer->child)
-        activity_set(&shared->reduction, reducer->done, "reducing %s", reducer->id);
+        activity_set(&shared->reduction, reducer, reducer->done, "reducing %s", reducer->id);
     else
-        activity_clear(&shared->reduction);
+        activity_clear(&shared->reduction, reducer);
 }
 
 void service_tick(struct service *service)
@@ -295,7 +302,7 @@ void service_begin_drain(struct service *service)
 {
     atomic_store(&service->shared.draining, true);
     reducer_end(&service->reducer);
-    activity_clear(&service->shared.reduction);
+    activity_clear(&service->shared.reduction, &service->reducer);
     status_announce(&service->shared);
 }
 

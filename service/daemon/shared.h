@@ -21,9 +21,11 @@
 struct queue;
 struct specimen_lane;
 
-/* What is solved within milliseconds does not wait behind what takes seconds. The long lane has one
- * worker of low priority; that of specimens has one so that they see one impact after the other. */
-enum lane { LANE_SHORT, LANE_LONG, LANE_SPECIMENS, LANE_COUNT };
+/* What is solved within milliseconds does not wait behind what takes seconds, nor that behind what
+ * takes minutes. Only the short lane and that of specimens have workers of full priority; the
+ * latter has one so that specimens see one impact after the other, that of tables so that none is
+ * computed twice. A lane passes on to those below it only. */
+enum lane { LANE_SHORT, LANE_LONG, LANE_TABLES, LANE_ENSEMBLES, LANE_SPECIMENS, LANE_COUNT };
 
 struct shared {
     /* never changed while the threads run */
@@ -35,8 +37,8 @@ struct shared {
     struct token_store *tokens;
     struct reply_store *replies;
     struct table_cache tables;
-    struct ensembles ensembles; /* in the long lane */
-    struct activity activity;   /* of the long lane's worker */
+    struct ensembles ensembles; /* in their lane */
+    struct activity activity;   /* of what takes minutes */
     struct activity reduction;  /* of percuss-reduce, which the main thread runs */
     struct queue *lanes[LANE_COUNT];
 

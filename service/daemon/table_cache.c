@@ -16,7 +16,8 @@ bool table_cache_create(struct table_cache *cache, const char *folder)
 {
     size_t count;
     struct fault fault;
-    *cache = (struct table_cache){table_store_create(), table_store_create(), folder};
+    *cache = (struct table_cache){
+        .loaded = table_store_create(), .made = table_store_create(), .folder = folder};
     if (!cache->loaded || !cache->made)
         return false;
     if (!*cache->folder)

@@ -7,6 +7,7 @@
 #ifndef PERCUSS_DAEMON_TABLE_CACHE_H
 #define PERCUSS_DAEMON_TABLE_CACHE_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 
 #include "model/body.h"
@@ -17,6 +18,7 @@
 struct table_cache {
     struct table_store *loaded, *made;
     const char *folder; /* empty: none */
+    atomic_bool making; /* somebody computes a table: nobody else does */
 };
 
 /* Loads the folder (borrowed); a folder or file that does not do is logged. False: out of memory;

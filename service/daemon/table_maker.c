@@ -14,13 +14,16 @@
 /* How deep tables made here go: fixed, so that the table does not depend on who asks first. */
 static const double COVERED_SPEED = 1.0;
 
+/* Between two looks whether it is its turn: short against the time that a table takes. */
+static const long TURN_NANOSECONDS = 20000000;
+
 /* Asked by the computation; false stops it. */
 static bool go_on(void *context, double done)
 {
     struct table_maker *maker = context;
     double deadline = maker->request->options.deadline;
     pulse_beat();
-    activity_set(&maker->shared->activity, done, "computing a contact table");
+    activity_set(&maker->shared->activity, maker, done, "computing a contact table");
     if (atomic_load(&maker->shared->draining))
         maker->status = fault_set(&maker->fault, PERCUSS_BUSY, SHARED_SHUTTING_DOWN);
     else if (maker->cancelled && atomic_load(maker->cancelled))
@@ -45,6 +48,18 @@ static double thread_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Until nobody else computes a table, which may be the very one. False: nobody waits for this one
+ * any more. */
+static bool await_turn(struct table_maker *maker)
+{
+    while (atomic_exchange(&maker->cache->making, true)) {
+        if (!go_on(maker, 0.0))
+            return false;
+        nanosleep(&(struct timespec){.tv_nsec = TURN_NANOSECONDS}, NULL);
+    }
+    return true;
+}
+
 static const struct contact_curves *make(struct table_maker *maker, const struct material *a,
                                          const struct material *b)
 {
@@ -55,7 +70,7 @@ static const struct contact_curves *make(struct table_maker *maker, const struct
     struct fault fault;
     double start = thread_seconds();
     enum percuss_status status = indentation_table_make(&input, &watch, &table, &fault);
-    activity_clear(&maker->shared->activity);
+    activity_clear(&maker->shared->activity, maker);
     /* for all who ask from now on */
     if (!status) {
         status = table_cache_add(maker->cache, &table, thread_seconds() - start, &fault);
@@ -78,8 +93,15 @@ static const struct contact_curves *find_or_make(void *context, const struct con
     const struct contact_curves *curves = table_cache_find(maker->cache, a, b);
     if (curves || maker->status)
         return curves;
-    if (maker->makes)
-        return make(maker, a, b);
+    if (maker->makes) {
+        if (!await_turn(maker))
+            return NULL;
+        curves = table_cache_find(maker->cache, a, b);
+        if (!curves)
+            curves = make(maker, a, b);
+        atomic_store(&maker->cache->making, false);
+        return curves;
+    }
     /* the catalogue was reloaded while the request was on its way here */
     maker->status =
         fault_set(&maker->fault, PERCUSS_BUSY, "the contact table is not computed yet: ask again");

@@ -25,7 +25,7 @@ is_idle() {
     ! grep '^STATUS=' "$heard" | tail -n 1 | grep -q ensemble
 }
 
-# hold THREAD: stops it until `release`
+# hold NAME: stops the threads of that name until `release`
 hold() {
     rm -f "$work/held"
     mkfifo "$work/held"
@@ -36,7 +36,7 @@ hold() {
     wait_for 5 grep -q stopped "$work/stopped" && return
     code=0
     wait "$holder" || code=$?
-    [ "$code" -eq 77 ] || fail "the thread $1 is not stopped"
+    [ "$code" -eq 77 ] || fail "the threads $1 are not stopped"
     echo "a thread cannot be stopped here: $(cat "$err")"
     exit 77
 }

@@ -76,7 +76,7 @@ is_up_or_dead() {
 # start_daemon [ARGUMENT...]; the log begins anew
 start_daemon() {
     : >"$log"
-    "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" "$@" 2>>"$log" 9>&- &
+    "${PERCUSSD:-$bin/percussd}" --config "$work/percussd.yaml" --domain "$domain" "$@" 2>>"$log" 9>&- &
     daemon=$!
     wait_for 20 is_up_or_dead || fail "the daemon is not ready after 20 s"
     logged 'ready: domain' || fail "the daemon did not start"

@@ -15,11 +15,16 @@ static void says_what_runs(void **state)
     activity_read(&activity, text, sizeof text, &progress);
     assert_string_equal(text, "");
     assert_true(isnan(progress));
-    activity_set(&activity, 0.25, "%d of %d samples", 1, 4);
+    activity_set(&activity, text, 0.25, "%d of %d samples", 1, 4);
     activity_read(&activity, text, sizeof text, &progress);
     assert_string_equal(text, "1 of 4 samp");
     assert_true(progress == 0.25);
-    activity_clear(&activity);
+    /* another one is heard when this one has ended */
+    activity_set(&activity, &progress, 0.5, "another");
+    activity_clear(&activity, &progress);
+    activity_read(&activity, text, sizeof text, &progress);
+    assert_string_equal(text, "1 of 4 samp");
+    activity_clear(&activity, text);
     activity_read(&activity, text, sizeof text, &progress);
     assert_string_equal(text, "");
     assert_true(isnan(progress));

@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/queue.c: order, turns of batches, refusal when full or closed, draining, threads. */
+/* Tests daemon/queue.c: order, turns of clients and batches, refusal when full or closed, draining,
+ * threads. */
 #include <pthread.h>
 #include <time.h>
 
@@ -13,6 +14,22 @@
 static struct job job_of(size_t items)
 {
     return (struct job){.items = items};
+}
+
+static const struct digest NOBODY = {0, 0};
+
+static struct job job_of_client(uint64_t client)
+{
+    return (struct job){.items = 1, .owner = {client, 0}};
+}
+
+/* Without anybody who gives way. */
+static bool put(struct queue *queue, struct job *job)
+{
+    struct job *displaced;
+    bool accepted = queue_put(queue, job, &displaced);
+    assert_null(displaced);
+    return accepted;
 }
 
 /* The next request must be this one. */
@@ -27,21 +44,21 @@ static void hands_out_in_order_and_refuses_when_full(void **state)
 {
     (void)state;
     struct job jobs[4] = {job_of(1), job_of(1), job_of(1), job_of(1)};
-    struct queue *queue = queue_create(3);
+    struct queue *queue = queue_create(3, QUEUE_WHOLE);
     /* more often round than the ring is long */
     for (int round = 0; round < 5; round++) {
         for (int i = 0; i < 3; i++)
-            assert_true(queue_put(queue, &jobs[i]));
-        assert_false(queue_put(queue, &jobs[3]));
+            assert_true(put(queue, &jobs[i]));
+        assert_false(put(queue, &jobs[3]));
         assert_int_equal(queue_length(queue), 3);
         takes(queue, &jobs[0], 0);
-        assert_true(queue_put(queue, &jobs[3]));
+        assert_true(put(queue, &jobs[3]));
         for (int i = 1; i < 4; i++)
             takes(queue, &jobs[i], 0);
         assert_int_equal(queue_length(queue), 0);
         for (int i = 0; i < 4; i++) {
             jobs[i].next = 0;
-            queue_done(queue, &jobs[i]);
+            queue_done(queue, NOBODY, &jobs[i]);
         }
     }
     queue_free(queue);
@@ -51,10 +68,10 @@ static void a_batch_lets_others_in_between(void **state)
 {
     (void)state;
     struct job batch = job_of(3), single = job_of(1), pair = job_of(2);
-    struct queue *queue = queue_create(3);
-    assert_true(queue_put(queue, &batch));
-    assert_true(queue_put(queue, &single));
-    assert_true(queue_put(queue, &pair));
+    struct queue *queue = queue_create(3, QUEUE_WHOLE);
+    assert_true(put(queue, &batch));
+    assert_true(put(queue, &single));
+    assert_true(put(queue, &pair));
     takes(queue, &batch, 0);
     assert_int_equal(queue_length(queue), 3); /* its rest still counts as one */
     takes(queue, &single, 0);
@@ -71,10 +88,10 @@ static void a_closed_queue_gives_what_it_has(void **state)
     (void)state;
     struct job batch = job_of(2), late = job_of(1);
     size_t index;
-    struct queue *queue = queue_create(4);
-    assert_true(queue_put(queue, &batch));
+    struct queue *queue = queue_create(4, QUEUE_WHOLE);
+    assert_true(put(queue, &batch));
     queue_close(queue);
-    assert_false(queue_put(queue, &late));
+    assert_false(put(queue, &late));
     takes(queue, &batch, 0);
     takes(queue, &batch, 1);
     assert_null(queue_take(queue, &index));
@@ -86,18 +103,116 @@ static void is_drained_when_all_is_done(void **state)
 {
     (void)state;
     struct job batch = job_of(2);
-    struct queue *queue = queue_create(4);
+    struct queue *queue = queue_create(4, QUEUE_WHOLE);
     assert_true(queue_drain(queue, 0.0));
-    assert_true(queue_put(queue, &batch));
+    assert_true(put(queue, &batch));
     assert_false(queue_drain(queue, 0.0)); /* waits */
     takes(queue, &batch, 0);
     takes(queue, &batch, 1);
-    queue_done(queue, NULL);
+    queue_done(queue, NOBODY, NULL);
     double start = clock_now();
     assert_false(queue_drain(queue, 0.05)); /* one still runs */
     assert_true(clock_now() - start >= 0.05);
-    queue_done(queue, &batch);
+    queue_done(queue, NOBODY, &batch);
     assert_true(queue_drain(queue, 0.0));
+    queue_free(queue);
+}
+
+static void clients_take_turns(void **state)
+{
+    (void)state;
+    struct job flood[4], other[2];
+    struct queue *queue = queue_create(8, QUEUE_WHOLE);
+    for (int i = 0; i < 4; i++) {
+        flood[i] = job_of_client(1);
+        assert_true(put(queue, &flood[i]));
+    }
+    for (int i = 0; i < 2; i++) {
+        other[i] = job_of_client(2 + (uint64_t)i);
+        assert_true(put(queue, &other[i]));
+    }
+    takes(queue, &flood[0], 0);
+    assert_true(queue_others_wait(queue, &flood[0]));
+    takes(queue, &other[0], 0);
+    takes(queue, &other[1], 0);
+    takes(queue, &flood[1], 0);
+    assert_false(queue_others_wait(queue, &flood[1]));
+    assert_true(queue_others_wait(queue, &other[0]));
+    takes(queue, &flood[2], 0);
+    takes(queue, &flood[3], 0);
+    assert_false(queue_others_wait(queue, &other[0]));
+    for (int i = 0; i < 4; i++)
+        queue_done(queue, flood[i].owner, &flood[i]);
+    for (int i = 0; i < 2; i++)
+        queue_done(queue, other[i].owner, &other[i]);
+    queue_free(queue);
+}
+
+static void a_full_queue_has_room_for_who_has_less(void **state)
+{
+    (void)state;
+    struct job flood[5], other[3], *displaced;
+    struct queue *queue = queue_create(4, QUEUE_WHOLE);
+    for (int i = 0; i < 5; i++)
+        flood[i] = job_of_client(1);
+    for (int i = 0; i < 3; i++)
+        other[i] = job_of_client(2);
+    for (int i = 0; i < 4; i++)
+        assert_true(put(queue, &flood[i]));
+    assert_false(put(queue, &flood[4]));
+    /* until both have as many */
+    assert_true(queue_put(queue, &other[0], &displaced));
+    assert_ptr_equal(displaced, &flood[3]);
+    assert_true(queue_put(queue, &other[1], &displaced));
+    assert_ptr_equal(displaced, &flood[2]);
+    assert_false(put(queue, &other[2]));
+    assert_false(put(queue, &flood[4]));
+    assert_int_equal(queue_length(queue), 4);
+    takes(queue, &flood[0], 0);
+    takes(queue, &other[0], 0);
+    takes(queue, &flood[1], 0);
+    takes(queue, &other[1], 0);
+    for (int i = 0; i < 2; i++) {
+        queue_done(queue, flood[i].owner, &flood[i]);
+        queue_done(queue, other[i].owner, &other[i]);
+    }
+    queue_free(queue);
+}
+
+static void what_has_begun_does_not_give_way(void **state)
+{
+    (void)state;
+    struct job batch = {.items = 3, .owner = {1, 0}}, other = job_of_client(2);
+    struct queue *queue = queue_create(1, QUEUE_WHOLE);
+    assert_true(put(queue, &batch));
+    takes(queue, &batch, 0);
+    assert_false(put(queue, &other));
+    takes(queue, &batch, 1);
+    takes(queue, &batch, 2);
+    for (int i = 0; i < 3; i++)
+        queue_done(queue, batch.owner, i == 2 ? &batch : NULL);
+    queue_free(queue);
+}
+
+static void a_client_has_his_share_of_workers(void **state)
+{
+    (void)state;
+    struct job flood[3], other = job_of_client(2);
+    struct queue *queue = queue_create(4, 2);
+    for (int i = 0; i < 3; i++) {
+        flood[i] = job_of_client(1);
+        assert_true(put(queue, &flood[i]));
+    }
+    assert_true(put(queue, &other));
+    takes(queue, &flood[0], 0);
+    takes(queue, &other, 0);
+    takes(queue, &flood[1], 0);
+    /* the third one waits for the end of one of the others */
+    queue_done(queue, flood[0].owner, &flood[0]);
+    takes(queue, &flood[2], 0);
+    queue_done(queue, flood[1].owner, &flood[1]);
+    queue_done(queue, flood[2].owner, &flood[2]);
+    queue_done(queue, other.owner, &other);
     queue_free(queue);
 }
 
@@ -113,19 +228,19 @@ static void cancels_what_waits_and_what_runs(void **state)
     (void)state;
     static const struct job_kind patient = {.cancel = note_cancelled}, quick = {0};
     struct job ended = job_of(1), running = job_of(10), waiting = job_of(100), other = job_of(1);
-    struct queue *queue = queue_create(4);
+    struct queue *queue = queue_create(4, QUEUE_WHOLE);
     ended.kind = running.kind = waiting.kind = &patient;
     other.kind = &quick;
-    assert_true(queue_put(queue, &ended));
-    assert_true(queue_put(queue, &running));
-    assert_true(queue_put(queue, &waiting));
-    assert_true(queue_put(queue, &other));
+    assert_true(put(queue, &ended));
+    assert_true(put(queue, &running));
+    assert_true(put(queue, &waiting));
+    assert_true(put(queue, &other));
     takes(queue, &ended, 0);
     takes(queue, &running, 0);
-    queue_done(queue, &ended);
+    queue_done(queue, NOBODY, &ended);
     queue_cancel(queue);
     assert_int_equal(cancelled, 110);
-    assert_false(queue_put(queue, &ended));
+    assert_false(put(queue, &ended));
     /* what waits is still handed out, to say so */
     takes(queue, &waiting, 0);
     queue_free(queue);
@@ -134,7 +249,7 @@ static void cancels_what_waits_and_what_runs(void **state)
 static void *done_later(void *queue)
 {
     nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
-    queue_done(queue, NULL);
+    queue_done(queue, NOBODY, NULL);
     return NULL;
 }
 
@@ -143,8 +258,8 @@ static void draining_ends_with_the_last_request(void **state)
     (void)state;
     struct job job = job_of(1);
     pthread_t thread;
-    struct queue *queue = queue_create(1);
-    assert_true(queue_put(queue, &job));
+    struct queue *queue = queue_create(1, QUEUE_WHOLE);
+    assert_true(put(queue, &job));
     takes(queue, &job, 0);
     assert_int_equal(pthread_create(&thread, NULL, done_later, queue), 0);
     /* within seconds of a minute: it is woken */
@@ -170,7 +285,7 @@ static void *take_all(void *argument)
     size_t index;
     while ((job = queue_take(crowd->queue, &index))) {
         atomic_fetch_add(&crowd->taken[job - crowd->jobs][index], 1);
-        queue_done(crowd->queue, NULL);
+        queue_done(crowd->queue, NOBODY, NULL);
     }
     return NULL;
 }
@@ -180,12 +295,12 @@ static void threads_take_every_request_once(void **state)
     (void)state;
     static struct crowd crowd;
     pthread_t threads[WORKERS];
-    crowd.queue = queue_create(8);
+    crowd.queue = queue_create(8, QUEUE_WHOLE);
     for (int i = 0; i < WORKERS; i++)
         assert_int_equal(pthread_create(&threads[i], NULL, take_all, &crowd), 0);
     for (size_t i = 0; i < JOBS; i++) {
         crowd.jobs[i] = job_of(1 + i % MOST_REQUESTS);
-        while (!queue_put(crowd.queue, &crowd.jobs[i]))
+        while (!put(crowd.queue, &crowd.jobs[i]))
             sched_yield();
     }
     assert_true(queue_drain(crowd.queue, 60.0));
@@ -206,6 +321,10 @@ int main(void)
         cmocka_unit_test(a_batch_lets_others_in_between),
         cmocka_unit_test(a_closed_queue_gives_what_it_has),
         cmocka_unit_test(is_drained_when_all_is_done),
+        cmocka_unit_test(clients_take_turns),
+        cmocka_unit_test(a_full_queue_has_room_for_who_has_less),
+        cmocka_unit_test(what_has_begun_does_not_give_way),
+        cmocka_unit_test(a_client_has_his_share_of_workers),
         cmocka_unit_test(cancels_what_waits_and_what_runs),
         cmocka_unit_test(draining_ends_with_the_last_request),
         cmocka_unit_test(threads_take_every_request_once),
