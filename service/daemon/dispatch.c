@@ -22,6 +22,9 @@
 /* Two clients that ask within this time, s, are served side by side by the workers. */
 static const double COMPANY_SECONDS = 0.01;
 
+/* Between two lines about clients that get no replies, s. */
+static const double REFUSAL_SECONDS = 1.0;
+
 /* What takes longer than this, s, is not cheap whatever it looks like. */
 static const double INLINE_SECONDS = 0.005;
 
@@ -29,6 +32,8 @@ struct dispatch {
     struct shared *shared;
     struct responder *responder; /* for what is cheap */
     uint8_t last_client[16];
+    double told;          /* monotonic, s: when a client without a place was last logged */
+    unsigned long untold; /* those since */
     double company_until; /* monotonic, s: till then several clients count as asking */
 };
 
@@ -242,14 +247,29 @@ static void receive_clear(void *context, const char *specimen)
         job->kind->release(job);
 }
 
+/* A client that gets no replies: logged once a second at most, and then how many there were. */
+static void note_refused(struct dispatch *dispatch, const char *client)
+{
+    double now = clock_now();
+    dispatch->untold++;
+    if (now < dispatch->told + REFUSAL_SECONDS)
+        return;
+    log_line(LEVEL_WARNING,
+             "client %s: gets no replies (%lu such since the last line): %u clients are there of "
+             "limits.clients %u, half of them at most by one participant; or no memory",
+             client, dispatch->untold, (unsigned)endpoint_clients(dispatch->shared->endpoint),
+             dispatch->shared->settings->limit_clients);
+    dispatch->told = now;
+    dispatch->untold = 0;
+}
+
 static void note_presence(void *context, const uint8_t client[16], enum presence presence)
 {
     struct shared *shared = ((struct dispatch *)context)->shared;
     char name[WIRE_PARTITION_SIZE];
     wire_partition_name(client, name);
     if (presence == READER_REFUSED) {
-        log_line(LEVEL_WARNING, "client %s: gets no replies: %u clients are there, or no memory",
-                 name, (unsigned)endpoint_clients(shared->endpoint));
+        note_refused(context, name);
         return;
     }
     bool present = presence == READER_COME;

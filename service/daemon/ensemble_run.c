@@ -27,6 +27,7 @@ struct ensemble_run {
     struct ensemble_entry *entry;
     const percuss_v1_EnsembleRequest *request;
     double deadline; /* monotonic, s; INFINITY: none */
+    double limit;    /* likewise: till when the server gives it time */
     struct decoded_ensemble *decoded;
     struct ensemble ensemble;
     struct table_maker maker; /* of tables that are asked for */
@@ -91,6 +92,10 @@ static bool is_wanted(struct ensemble_run *run)
     else if (clock_now() > run->deadline)
         cut_short(run, PERCUSS_TIMEOUT, "options.deadline: %g s: has passed",
                   run->request->scene.options.deadline);
+    else if (clock_now() > run->limit)
+        cut_short(run, PERCUSS_TIMEOUT,
+                  "limits.seconds: %g s: the server's time for one request has passed",
+                  run->job->shared->settings->limit_seconds);
     return run->cut == PERCUSS_OK;
 }
 
@@ -162,6 +167,12 @@ static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault
     /* until when, and what of */
     double seconds = run->request->scene.options.deadline;
     run->deadline = seconds > 0.0 ? base->arrival + seconds : INFINITY;
+    run->limit = clock_now() + base->shared->settings->limit_seconds;
+    if (run->request->samples > base->shared->settings->limit_samples)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "samples: %llu: must be at most %u, as the server's limits.samples says",
+                         (unsigned long long)run->request->samples,
+                         base->shared->settings->limit_samples);
     run->decoded = calloc(1, sizeof *run->decoded);
     if (!run->decoded)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");

@@ -38,8 +38,8 @@ void queue_done(struct queue *queue, struct digest owner, struct job *ended);
 /* An item of that owner was given up as it takes long. */
 void queue_note_long(struct queue *queue, struct digest owner);
 
-/* Whether an item that was taken is likely to be given up too, while others wait: it is to be passed
- * on at once. Now and then one of that owner is tried all the same. */
+/* Whether an item that was taken is likely to be given up too, while others wait: it is to be
+ * passed on at once. Now and then one of that owner is tried all the same. */
 bool queue_is_long(struct queue *queue, const struct job *job);
 
 /* A job that was put ends though none of its items is being done here: it was passed on. */

@@ -26,6 +26,7 @@ struct responder *responder_create(struct shared *shared, enum lane lane)
         return NULL;
     }
     responder->tokens = shared->tokens;
+    responder->limit = shared->settings->limit_seconds;
     responder->lane = lane;
     table_maker_init(&responder->maker, shared, lane == LANE_TABLES);
     return responder;
@@ -79,14 +80,27 @@ static struct token_subject subject_of(const struct question *question, size_t i
 /* Whether a question is to be answered, and if not, what it is refused with. */
 struct inquiry {
     const struct question *question;
+    double limit; /* of its time, s; and when that begins, monotonic, s */
+    double begun;
     enum percuss_status status;
     struct fault fault;
 };
+
+static enum percuss_status check_limit(struct inquiry *inquiry)
+{
+    if (clock_now() - inquiry->begun <= inquiry->limit)
+        return PERCUSS_OK;
+    return fault_set(&inquiry->fault, PERCUSS_TIMEOUT,
+                     "limits.seconds: %g: the server's time for one request had passed",
+                     inquiry->limit);
+}
 
 static bool still_wanted(struct inquiry *inquiry, const char *when)
 {
     const struct question *question = inquiry->question;
     inquiry->status = check_deadline(question, when, &inquiry->fault);
+    if (!inquiry->status)
+        inquiry->status = check_limit(inquiry);
     if (!inquiry->status)
         inquiry->status = question->still_wanted(question->context, &inquiry->fault);
     return inquiry->status == PERCUSS_OK;
@@ -189,7 +203,7 @@ static struct answer *compute(struct responder *responder, const struct question
 {
     const struct envelope *envelope = &question->envelope;
     struct solve_result *result = &responder->result;
-    struct inquiry inquiry = {.question = question};
+    struct inquiry inquiry = {question, responder->limit, clock_now(), PERCUSS_OK, {""}};
     /* nobody may want it any more */
     if (!still_wanted(&inquiry, "before the solve began"))
         return refuse(&inquiry);

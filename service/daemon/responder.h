@@ -14,6 +14,7 @@
 /* What one thread needs to answer requests. */
 struct responder {
     struct token_store *tokens;
+    double limit;   /* of the time for one solve, s */
     enum lane lane; /* that it works in */
     struct solve_workspace *workspace;
     struct table_maker maker; /* of contact tables that requests insist on */

@@ -55,7 +55,8 @@ static bool open_specimens(struct shared *shared, struct fault *fault)
 /* Specimens are announced before anybody can hit them. */
 static bool open_endpoint(struct shared *shared, struct fault *fault)
 {
-    shared->endpoint = endpoint_create(shared->settings->domain, fault);
+    shared->endpoint =
+        endpoint_create(shared->settings->domain, shared->settings->limit_clients, fault);
     if (!shared->endpoint)
         return false;
     if (!shared->specimens)

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "catalogue/reader.h"
+#include "ensemble/spec.h"
 
 enum kind { KIND_WHOLE, KIND_NUMBER, KIND_SWITCH, KIND_PATH, KIND_LEVEL, KIND_FORMAT };
 
@@ -30,6 +31,9 @@ static const struct setting table[] = {
     {"workers", KIND_WHOLE, AT(workers), 1, 256},
     {"queue_capacity", KIND_WHOLE, AT(queue_capacity), 1, 65536},
     {"inline_solves", KIND_SWITCH, AT(inline_solves), 0, 0},
+    {"limits.seconds", KIND_NUMBER, AT(limit_seconds), 0.001, 1e9},
+    {"limits.samples", KIND_WHOLE, AT(limit_samples), 1, ENSEMBLE_MAX_SAMPLES},
+    {"limits.clients", KIND_WHOLE, AT(limit_clients), 1, 65536},
     {"tokens.count", KIND_WHOLE, AT(token_count), 1, 10000000},
     {"tokens.megabytes", KIND_WHOLE, AT(token_megabytes), 1, 1048576},
     {"tokens.minutes", KIND_NUMBER, AT(token_minutes), 0.001, 100000},
@@ -58,6 +62,9 @@ struct settings settings_default(void)
         .bodies_days = 30.0,
         .queue_capacity = 1024,
         .inline_solves = true,
+        .limit_seconds = 3600.0,
+        .limit_samples = ENSEMBLE_MAX_SAMPLES,
+        .limit_clients = 1024,
         .token_count = 65536,
         .token_megabytes = 256,
         .token_minutes = 10.0,

@@ -21,6 +21,8 @@ struct settings {
     unsigned workers;
     unsigned queue_capacity;
     bool inline_solves;
+    double limit_seconds;                  /* of one request */
+    unsigned limit_samples, limit_clients; /* of one ensemble; that read replies */
     unsigned token_count, token_megabytes;
     double token_minutes;
     unsigned replies_per_client, reply_megabytes;

@@ -32,6 +32,12 @@ static bool go_on(void *context, double done)
                       "cancelled with %.0f %% of the contact table computed", 100.0 * done);
     else if (reply_store_is_gone(maker->shared->replies, maker->client))
         maker->status = fault_set(&maker->fault, PERCUSS_TIMEOUT, SHARED_CLIENT_GONE);
+    else if (clock_now() - maker->begun > maker->shared->settings->limit_seconds)
+        maker->status = fault_set(
+            &maker->fault, PERCUSS_TIMEOUT,
+            "limits.seconds: %g: the server's time for one request had passed with %.0f %% of the "
+            "contact table computed: compute it ahead by percuss-tables",
+            maker->shared->settings->limit_seconds, 100.0 * done);
     else if (deadline > 0.0 && clock_now() - maker->arrival > deadline)
         maker->status = fault_set(
             &maker->fault, PERCUSS_TIMEOUT,
@@ -143,6 +149,7 @@ const struct contact_table_source *table_maker_begin(struct table_maker *maker,
     maker->cache = cache;
     maker->request = request;
     maker->arrival = arrival;
+    maker->begun = clock_now();
     maker->client = client;
     maker->cancelled = NULL;
     maker->status = PERCUSS_OK;

@@ -15,7 +15,7 @@ struct table_maker {
     bool makes;                /* may take its time: the long lane */
     struct table_cache *cache; /* of the request at hand, as all below */
     const percuss_v1_Request *request;
-    double arrival;               /* of it, monotonic, s */
+    double arrival, begun;        /* of it, and of what is done for it; monotonic, s */
     const uint8_t *client;        /* who asks */
     const atomic_bool *cancelled; /* its client wants no answer any more; NULL: cannot say so */
     enum percuss_status status;   /* why a table could not be had */

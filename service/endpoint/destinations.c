@@ -11,11 +11,13 @@
 #include "endpoint/clock.h"
 #include "endpoint/key_map.h"
 
+enum { EXPECTED = 1024 };
 static const double STALL_PAUSE = 1.0; /* s */
 
 /* A client. */
 struct destination {
-    struct key_node node; /* key: client */
+    struct key_node node;      /* key: client */
+    struct digest participant; /* of its first reader */
     LIST_ENTRY(destination) all;
     uint8_t client[16];
     unsigned readers[CHANNEL_COUNT];
@@ -32,6 +34,7 @@ struct remote_reader {
 };
 
 struct destinations {
+    size_t most;
     writer_maker *make;
     void *context;        /* of that */
     pthread_mutex_t lock; /* of the clients and what is in them */
@@ -42,16 +45,17 @@ struct destinations {
     LIST_HEAD(reader_list, remote_reader) all_readers;
 };
 
-struct destinations *destinations_create(writer_maker *make, void *context)
+struct destinations *destinations_create(size_t most, writer_maker *make, void *context)
 {
     struct destinations *destinations = calloc(1, sizeof *destinations);
     if (!destinations)
         return NULL;
+    destinations->most = most;
     destinations->make = make;
     destinations->context = context;
     pthread_mutex_init(&destinations->lock, NULL);
-    if (key_map_create(&destinations->clients, DESTINATIONS_MOST) &&
-        key_map_create(&destinations->readers, DESTINATIONS_MOST))
+    if (key_map_create(&destinations->clients, EXPECTED) &&
+        key_map_create(&destinations->readers, EXPECTED))
         return destinations;
     destinations_free(destinations);
     return NULL;
@@ -83,18 +87,34 @@ static struct destination *find(const struct destinations *destinations, const u
     return node ? KEY_MAP_OWNER(node, struct destination, node) : NULL;
 }
 
+/* Whether a participant may bring another client: one alone leaves half of the places to others. */
+static bool has_place(const struct destinations *destinations, struct digest participant)
+{
+    const struct destination *destination;
+    size_t half = (destinations->most + 1) / 2, count = 0;
+    if (destinations->clients.count < half)
+        return true;
+    LIST_FOREACH(destination, &destinations->all_clients, all)
+    {
+        count += destination->participant.first == participant.first &&
+                 destination->participant.second == participant.second;
+    }
+    return count < half && destinations->clients.count < destinations->most;
+}
+
 /* The destination, old or new; NULL: too many clients, or no memory. */
 static struct destination *find_or_create(struct destinations *destinations,
-                                          const uint8_t client[16])
+                                          const struct destination_reader *reader)
 {
-    struct destination *destination = find(destinations, client);
-    if (destination || destinations->clients.count >= DESTINATIONS_MOST)
+    struct destination *destination = find(destinations, reader->client);
+    if (destination || !has_place(destinations, reader->participant))
         return destination;
     destination = calloc(1, sizeof *destination);
     if (!destination)
         return NULL;
-    destination->node.key = digest_of_octets(client);
-    memcpy(destination->client, client, sizeof destination->client);
+    destination->node.key = digest_of_octets(reader->client);
+    destination->participant = reader->participant;
+    memcpy(destination->client, reader->client, sizeof destination->client);
     key_map_insert(&destinations->clients, &destination->node);
     LIST_INSERT_HEAD(&destinations->all_clients, destination, all);
     return destination;
@@ -116,20 +136,20 @@ bool destinations_know(const struct destinations *destinations, struct digest re
     return key_map_find(&destinations->readers, reader) != NULL;
 }
 
-bool destinations_add(struct destinations *destinations, struct digest reader,
-                      const uint8_t client[16], unsigned channel)
+bool destinations_add(struct destinations *destinations, const struct destination_reader *reader)
 {
+    unsigned channel = reader->channel;
     struct remote_reader *added = calloc(1, sizeof *added);
     if (!added)
         return false;
     /* the client's writer of this channel, made for its first reader */
     pthread_mutex_lock(&destinations->lock);
-    struct destination *destination = find_or_create(destinations, client);
+    struct destination *destination = find_or_create(destinations, reader);
     if (destination) {
         destination->readers[channel]++;
         if (!destination->writers[channel])
             destination->writers[channel] =
-                destinations->make(destinations->context, client, channel);
+                destinations->make(destinations->context, reader->client, channel);
     }
     pthread_mutex_unlock(&destinations->lock);
     if (!destination) {
@@ -137,7 +157,7 @@ bool destinations_add(struct destinations *destinations, struct digest reader,
         return false;
     }
     /* by this key the reader is known when it goes */
-    added->node.key = reader;
+    added->node.key = reader->key;
     added->destination = destination;
     added->channel = channel;
     key_map_insert(&destinations->readers, &added->node);

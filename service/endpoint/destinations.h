@@ -11,9 +11,6 @@
 #include "base/hash.h"
 #include "endpoint/answer.h"
 
-/* More clients than this at once get no replies. */
-enum { DESTINATIONS_MOST = 1024 };
-
 /* What is written to clients: the replies of each exchange, and these. */
 enum { CHANNEL_PROGRESS = EXCHANGE_COUNT, CHANNEL_SAMPLES, CHANNEL_TRACE, CHANNEL_COUNT };
 
@@ -27,16 +24,24 @@ enum delivery {
 typedef dds_entity_t writer_maker(void *context, const uint8_t client[16], unsigned channel);
 
 struct destinations;
-struct destinations *destinations_create(writer_maker *make, void *context); /* NULL: no memory */
+/* For at most `most` clients at once. NULL: no memory. */
+struct destinations *destinations_create(size_t most, writer_maker *make, void *context);
 void destinations_free(struct destinations *destinations);
 
 /* Whether the reader of that key is known. */
 bool destinations_know(const struct destinations *destinations, struct digest reader);
 
+struct destination_reader {
+    struct digest key;
+    struct digest participant; /* of DDS, that it belongs to */
+    const uint8_t *client;     /* 16 octets */
+    unsigned channel;
+};
+
 /* A reader that is not known has come; for the first one of a client and channel a writer is made.
- * False: too many clients, or no memory. */
-bool destinations_add(struct destinations *destinations, struct digest reader,
-                      const uint8_t client[16], unsigned channel);
+ * False: too many clients, or more than half of the places for those of one participant, or no
+ * memory. */
+bool destinations_add(struct destinations *destinations, const struct destination_reader *reader);
 
 /* A known reader has gone; `client` becomes its client. The writer that nobody reads any more, for
  * the caller to delete; 0: none. */

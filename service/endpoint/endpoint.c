@@ -10,8 +10,16 @@
 #include <sys/random.h>
 
 #include "endpoint/describe.h"
+#include "endpoint/inbox.h"
 
-enum { TAKEN_AT_ONCE = 32, WRITE_ATTEMPTS = 20 };
+/* Samples are taken all before any is looked at, so that those of many writers can take turns;
+ * looked at are a few before the next look at who has come. */
+enum {
+    TAKEN_AT_ONCE = 32,
+    TAKEN_BEFORE = 32 * TAKEN_AT_ONCE,
+    SERVED_AT_ONCE = 16,
+    WRITE_ATTEMPTS = 20
+};
 
 /* What wakes the reading thread: the kinds of requests, and these. */
 enum {
@@ -31,7 +39,8 @@ struct endpoint {
     struct dents_topic dents;
     struct reply_writers *writers; /* thread-safe, but for what its header says */
     /* of the thread that runs it */
-    void *samples[EXCHANGE_COUNT]; /* the one at hand; its memory serves the next one */
+    void *samples[EXCHANGE_COUNT];         /* the one at hand; its memory serves the next one */
+    struct inbox *inboxes[EXCHANGE_COUNT]; /* taken as serialised data */
     /* of the thread that looks for other servers */
     dds_entity_t servers; /* the reader of what they announce */
     atomic_bool stopped;  /* any thread sets it */
@@ -54,12 +63,23 @@ static bool created(dds_entity_t entity, const char *what, struct fault *fault)
     return entity > 0;
 }
 
+static void drop_taken(void *taken)
+{
+    ddsi_serdata_unref(taken);
+}
+
 static bool create_readers(struct endpoint *endpoint, struct fault *fault)
 {
     dds_qos_t *qos = wire_qos_exchange(NULL);
     bool good = true;
     for (int i = 0; good && i < EXCHANGE_COUNT; i++) {
         endpoint->samples[i] = dds_alloc(requests[i].type->m_size);
+        endpoint->inboxes[i] = inbox_create(WIRE_WINDOW, drop_taken);
+        if (!endpoint->inboxes[i]) {
+            fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+            good = false;
+            break;
+        }
         dds_entity_t topic =
             wire_topic_create(endpoint->participant, requests[i].type, requests[i].topic);
         good = created(topic, requests[i].topic, fault);
@@ -116,7 +136,7 @@ static bool create_waitset(struct endpoint *endpoint, struct fault *fault)
     return good;
 }
 
-struct endpoint *endpoint_create(uint32_t domain, struct fault *fault)
+struct endpoint *endpoint_create(uint32_t domain, size_t clients, struct fault *fault)
 {
     struct endpoint *endpoint = calloc(1, sizeof *endpoint);
     if (!endpoint || getrandom(endpoint->server, sizeof endpoint->server, 0) < 0) {
@@ -132,7 +152,7 @@ struct endpoint *endpoint_create(uint32_t domain, struct fault *fault)
         goto failed;
     }
     /* readers, writers, and what wakes the reading thread */
-    endpoint->writers = reply_writers_create(endpoint->participant, fault);
+    endpoint->writers = reply_writers_create(endpoint->participant, clients, fault);
     if (!endpoint->writers || !create_readers(endpoint, fault) ||
         !create_announcer(endpoint, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS,
                           &endpoint->status_writer, fault) ||
@@ -153,6 +173,8 @@ void endpoint_free(struct endpoint *endpoint)
 {
     if (!endpoint)
         return;
+    for (int i = 0; i < EXCHANGE_COUNT; i++)
+        inbox_free(endpoint->inboxes[i]);
     /* with its domain, which runs threads of its own: a process has one endpoint */
     if (endpoint->participant > 0)
         dds_delete(dds_get_parent(endpoint->participant));
@@ -200,20 +222,37 @@ static bool decode(struct endpoint *endpoint, enum exchange exchange, struct dds
     return ddsi_serdata_to_sample(taken, endpoint->samples[exchange], NULL, NULL);
 }
 
-/* Takes what is there, up to a bound; true: more may be left. */
+/* Decodes and handles what was taken, if it is for this server, and lets go of it. */
+static void serve(struct endpoint *endpoint, const struct endpoint_handler *handler,
+                  enum exchange exchange, struct ddsi_serdata *taken, bool alone)
+{
+    if (decode(endpoint, exchange, taken) && is_ours(endpoint, exchange))
+        handle(handler, exchange, endpoint->samples[exchange], alone);
+    ddsi_serdata_unref(taken);
+}
+
+/* Takes what is there, up to a bound; true: more may be left. One that comes alone is served at
+ * once. */
 static bool take(struct endpoint *endpoint, const struct endpoint_handler *handler,
                  enum exchange exchange)
 {
     struct ddsi_serdata *taken[TAKEN_AT_ONCE];
     dds_sample_info_t infos[TAKEN_AT_ONCE];
-    dds_return_t count =
-        dds_takecdr(endpoint->readers[exchange], taken, TAKEN_AT_ONCE, infos, DDS_ANY_STATE);
-    /* samples without data only tell that a client's writer has gone */
-    for (dds_return_t i = 0; i < count; i++) {
-        if (infos[i].valid_data && decode(endpoint, exchange, taken[i]) &&
-            is_ours(endpoint, exchange))
-            handle(handler, exchange, endpoint->samples[exchange], count == 1);
-        ddsi_serdata_unref(taken[i]);
+    struct inbox *inbox = endpoint->inboxes[exchange];
+    dds_return_t count = TAKEN_AT_ONCE;
+    for (int all = 0; count == TAKEN_AT_ONCE && all < TAKEN_BEFORE; all += TAKEN_AT_ONCE) {
+        count =
+            dds_takecdr(endpoint->readers[exchange], taken, TAKEN_AT_ONCE, infos, DDS_ANY_STATE);
+        bool alone = count == 1 && inbox_is_empty(inbox);
+        /* samples without data only tell that a client's writer has gone */
+        for (dds_return_t i = 0; i < count; i++) {
+            if (!infos[i].valid_data)
+                ddsi_serdata_unref(taken[i]);
+            else if (alone)
+                serve(endpoint, handler, exchange, taken[i], true);
+            else
+                inbox_put(inbox, infos[i].publication_handle, taken[i]);
+        }
     }
     return count == TAKEN_AT_ONCE;
 }
@@ -223,6 +262,16 @@ static void tell_alive(struct endpoint *endpoint, const struct endpoint_handler 
     dds_set_guardcondition(endpoint->nudge, false);
     if (handler->alive)
         handler->alive(handler->context);
+}
+
+/* True: some are left. */
+static bool serve_some(struct endpoint *endpoint, const struct endpoint_handler *handler,
+                       enum exchange exchange)
+{
+    struct inbox *inbox = endpoint->inboxes[exchange];
+    for (int i = 0; i < SERVED_AT_ONCE && !inbox_is_empty(inbox); i++)
+        serve(endpoint, handler, exchange, inbox_take(inbox), false);
+    return !inbox_is_empty(inbox);
 }
 
 void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *handler)
@@ -247,7 +296,7 @@ void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *hand
         /* then the requests, some of each kind */
         for (int i = 0; i < EXCHANGE_COUNT; i++) {
             ready[i] = ready[i] && take(endpoint, handler, i);
-            left = left || ready[i];
+            left = serve_some(endpoint, handler, i) || ready[i] || left;
         }
     }
 }

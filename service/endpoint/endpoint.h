@@ -13,8 +13,9 @@
 
 struct endpoint;
 
-/* Joins the domain: when this returns, requests are received. NULL with a fault if DDS refuses. */
-struct endpoint *endpoint_create(uint32_t domain, struct fault *fault);
+/* Joins the domain: when this returns, requests are received. Replies are for at most so many
+ * clients. NULL with a fault if DDS refuses. */
+struct endpoint *endpoint_create(uint32_t domain, size_t clients, struct fault *fault);
 
 /* Leaves the domain. No other thread may be using the endpoint. */
 void endpoint_free(struct endpoint *endpoint);

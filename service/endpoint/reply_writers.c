@@ -54,11 +54,12 @@ static dds_entity_t create_writer(void *context, const uint8_t client[16], unsig
     return writer > 0 ? writer : 0;
 }
 
-struct reply_writers *reply_writers_create(dds_entity_t participant, struct fault *fault)
+struct reply_writers *reply_writers_create(dds_entity_t participant, size_t clients,
+                                           struct fault *fault)
 {
     struct reply_writers *writers = calloc(1, sizeof *writers);
     if (writers)
-        writers->destinations = destinations_create(create_writer, writers);
+        writers->destinations = destinations_create(clients, create_writer, writers);
     if (!writers || !writers->destinations) {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
         free(writers);
@@ -116,7 +117,9 @@ static void follow_one(void *context, const struct subscription *subscription)
     unsigned channel = find_channel(subscription->topic);
     if (known || !subscription->alive || !subscription->is_client || channel == CHANNEL_COUNT)
         return;
-    bool good = destinations_add(destinations, subscription->key, subscription->client, channel);
+    struct destination_reader reader = {subscription->key, subscription->participant,
+                                        subscription->client, channel};
+    bool good = destinations_add(destinations, &reader);
     follow->presence(follow->context, subscription->client, good ? READER_COME : READER_REFUSED);
 }
 

@@ -14,8 +14,9 @@
 
 struct reply_writers;
 
-/* NULL with a fault if DDS refuses. */
-struct reply_writers *reply_writers_create(dds_entity_t participant, struct fault *fault);
+/* For at most so many clients. NULL with a fault if DDS refuses. */
+struct reply_writers *reply_writers_create(dds_entity_t participant, size_t clients,
+                                           struct fault *fault);
 void reply_writers_free(struct reply_writers *writers);
 
 /* The reader of subscriptions, to wait on. */

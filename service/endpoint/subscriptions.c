@@ -62,6 +62,8 @@ void subscriptions_take(dds_entity_t reader,
                 .alive = infos[i].instance_state == DDS_ALIVE_INSTANCE_STATE,
                 .topic = infos[i].valid_data ? endpoint->topic_name : "",
             };
+            if (infos[i].valid_data)
+                subscription.participant = digest_of_octets(endpoint->participant_key.v);
             subscription.is_client =
                 infos[i].valid_data && find_client(endpoint->qos, subscription.client);
             visit(context, &subscription);

@@ -14,6 +14,7 @@
 /* A reader that has come or gone; of one that has gone only the key is told. */
 struct subscription {
     struct digest key;
+    struct digest participant; /* of DDS, which it belongs to */
     bool alive;
     bool is_client; /* it reads in a client's partition: that client's */
     uint8_t client[16];

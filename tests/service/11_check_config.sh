@@ -29,7 +29,8 @@ mkdir "$work/somewhere"
 settings "domain: 7" "workers: 3" "queue_capacity: 10" "inline_solves: false" \
     "tokens: {count: 10, megabytes: 1, minutes: 0.5}" "replies: {per_client: 10, megabytes: 1}" \
     "session_minutes: 1" "drain_seconds: 0" "log_level: debug" "tables: somewhere" "bodies_days: 2.5" \
-    "store: dents.db" "stored_replies: 10" "bodies: reduced" "log_format: json"
+    "store: dents.db" "stored_replies: 10" "bodies: reduced" "log_format: json" \
+    "limits: {seconds: 10, samples: 1000, clients: 64}"
 expect 0 check
 [ "$(ls "$work")" = "$(printf '%s\n' catalogue.yaml err log out percussd.yaml somewhere)" ] || fail "it leaves files"
 
@@ -42,6 +43,7 @@ refused 3 "inline_solves: maybe: must be true or false" "domain: 1" "inline_solv
 refused 2 "log_level: loud: must be error, warning, info or debug" "log_level: loud"
 refused 2 "log_format: xml: must be text, journal or json" "log_format: xml"
 refused 2 "tokens: 5: must be a mapping of keys" "tokens: 5"
+refused 2 "limits.samples: 2000001: must be a whole number, 1 to 2000000" "limits: {samples: 2000001}"
 refused 2 "tokens.size: unknown key" "tokens: {size: 5}"
 refused 2 "session_minutes: long: must be a number" "session_minutes: long"
 refused 3 "workers: stands twice" "workers: 1" "workers: 2"

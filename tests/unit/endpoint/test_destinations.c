@@ -26,20 +26,52 @@ static struct digest key_of(uint64_t number)
 
 static const uint8_t one[16] = {1}, other[16] = {2};
 
+/* A reader of a participant of its own. */
+static bool add(struct destinations *destinations, uint64_t key, const uint8_t client[16],
+                unsigned channel)
+{
+    struct destination_reader reader = {key_of(key), key_of(100 + key), client, channel};
+    return destinations_add(destinations, &reader);
+}
+
+static void one_participant_leaves_places_to_others(void **state)
+{
+    (void)state;
+    dds_entity_t made = 0;
+    uint8_t client[16] = {0};
+    struct destinations *destinations = destinations_create(4, number_writer, &made);
+    struct destination_reader reader = {.participant = key_of(7), .client = client};
+    for (uint8_t i = 1; i <= 4; i++) {
+        reader.key = key_of(client[0] = i);
+        assert_int_equal(destinations_add(destinations, &reader), i <= 2);
+    }
+    /* more readers of the clients it has take no place */
+    reader.key = key_of(client[0] = 2);
+    reader.key.second = 1;
+    assert_true(destinations_add(destinations, &reader));
+    /* newcomers, as long as there are places */
+    for (uint8_t i = 5; i <= 7; i++) {
+        client[0] = i;
+        assert_int_equal(add(destinations, i, client, 0), i <= 6);
+    }
+    assert_int_equal(destinations_count(destinations), 4);
+    destinations_free(destinations);
+}
+
 static void a_writer_lives_as_long_as_its_readers(void **state)
 {
     (void)state;
     enum delivery delivery;
     uint8_t client[16];
     dds_entity_t made = 0;
-    struct destinations *destinations = destinations_create(number_writer, &made);
+    struct destinations *destinations = destinations_create(4, number_writer, &made);
     assert_int_equal(destinations_writer(destinations, one, 0, &delivery), 0);
     assert_int_equal(delivery, DELIVERY_NO_READER);
     /* two readers of one channel share a writer */
-    assert_true(destinations_add(destinations, key_of(1), one, 0));
-    assert_true(destinations_add(destinations, key_of(2), one, 0));
-    assert_true(destinations_add(destinations, key_of(3), one, CHANNEL_TRACE));
-    assert_true(destinations_add(destinations, key_of(4), other, 0));
+    assert_true(add(destinations, 1, one, 0));
+    assert_true(add(destinations, 2, one, 0));
+    assert_true(add(destinations, 3, one, CHANNEL_TRACE));
+    assert_true(add(destinations, 4, other, 0));
     assert_int_equal(made, 3);
     assert_int_equal(destinations_count(destinations), 2);
     assert_int_equal(destinations_writer(destinations, one, 0, &delivery), 1);
@@ -66,9 +98,9 @@ static void who_stalls_is_left_alone_on_that_channel(void **state)
     (void)state;
     enum delivery delivery;
     dds_entity_t made = 0;
-    struct destinations *destinations = destinations_create(number_writer, &made);
-    assert_true(destinations_add(destinations, key_of(1), one, 0));
-    assert_true(destinations_add(destinations, key_of(2), one, 1));
+    struct destinations *destinations = destinations_create(4, number_writer, &made);
+    assert_true(add(destinations, 1, one, 0));
+    assert_true(add(destinations, 2, one, 1));
     destinations_stall(destinations, one, 0);
     destinations_stall(destinations, other, 0); /* is not there */
     assert_int_equal(destinations_writer(destinations, one, 0, &delivery), 0);
@@ -78,27 +110,29 @@ static void who_stalls_is_left_alone_on_that_channel(void **state)
     destinations_free(destinations);
 }
 
+enum { MOST = 1024 };
+
 static void too_many_clients_are_refused(void **state)
 {
     (void)state;
     dds_entity_t made = 0;
-    struct destinations *destinations = destinations_create(number_writer, &made);
+    struct destinations *destinations = destinations_create(MOST, number_writer, &made);
     uint8_t client[16] = {0};
-    for (uint32_t i = 0; i <= DESTINATIONS_MOST; i++) {
+    for (uint32_t i = 0; i <= MOST; i++) {
         memcpy(client, &i, sizeof i);
-        assert_int_equal(destinations_add(destinations, key_of(i), client, 0),
-                         i < DESTINATIONS_MOST);
+        assert_int_equal(add(destinations, i, client, 0), i < MOST);
     }
     /* a channel more of one that is there is none too many */
     memset(client, 0, sizeof client);
-    assert_true(destinations_add(destinations, key_of(DESTINATIONS_MOST + 1), client, 1));
-    assert_int_equal(destinations_count(destinations), DESTINATIONS_MOST);
+    assert_true(add(destinations, MOST + 1, client, 1));
+    assert_int_equal(destinations_count(destinations), MOST);
     destinations_free(destinations);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_participant_leaves_places_to_others),
         cmocka_unit_test(a_writer_lives_as_long_as_its_readers),
         cmocka_unit_test(who_stalls_is_left_alone_on_that_channel),
         cmocka_unit_test(too_many_clients_are_refused),
