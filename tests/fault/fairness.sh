@@ -7,7 +7,7 @@
 # usage: fairness.sh [SECONDS of each measurement (5)]
 . "$(dirname "$0")/../service/lib.sh"
 seconds=${1:-5}
-crowd=$(dirname "$0")
+
 crowd=$build/tests/fault/crowd/crowd
 
 # beside NAME ARGUMENT...: a burden, and what probes find meanwhile

@@ -131,22 +131,41 @@ others=$!
 wait_for 10 busy || fail "the status does not tell of it"
 expect 0 query
 
-say "a second one waits, and hears so"
+say "another client's runs beside it"
+expect 0 ensemble --samples 100
+kill -0 "$others" || fail "the long one has ended"
+
+say "a fourth one waits, and hears so"
+for i in 2 3; do
+    "$bin/percuss" ensemble --domain "$domain" --a steel-sphere --b al-beam \
+        --speed uniform:0.089:0.411 --samples 2000000 >/dev/null 2>"$work/beside-$i" 9>&- &
+    beside="${beside:-} $!"
+done
+long=$others
+others="$others $beside"
+sleep 2
 "$bin/percuss" ensemble --domain "$domain" --a steel-sphere --b al-beam --timeout 3 --progress \
     --speed uniform:0.089:0.411 --samples 100 >"$work/second" 2>"$work/waiting" 9>&- &
 second=$!
 sleep 4
+is_gone "$second" && fail "it does not wait"
 
 say "interrupted, it says what was found so far"
-kill -INT "$others"
+kill -INT "$long"
 code=0
-wait "$others" || code=$?
-others=
+wait "$long" || code=$?
+others=$beside
 [ "$code" -eq 1 ] || fail "exit code $code"
 grep -q '"message": "cancelled: [0-9]* of 2000000 samples were solved"' "$work/long" ||
     fail "$(cat "$work/long" "$err")"
 wait "$second" || fail "the one that waited: $(cat "$work/waiting")"
 grep -q '0/100' "$work/waiting" || fail "it heard nothing: $(cat "$work/waiting")"
+# shellcheck disable=SC2086
+kill -INT $beside
+for child in $beside; do
+    wait "$child" || true
+done
+others=
 wait_for 5 idle || fail "it goes on"
 
 say "one whose client is gone is dropped"
