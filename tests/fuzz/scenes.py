@@ -42,19 +42,22 @@ def scene(chance):
 
 
 def give(harness, folder):
-    """Those that were given, and whether the last one ended the harness."""
+    """Those that were given, whether the last one ended the harness, and how many had no answer."""
     done = subprocess.run([harness, folder], capture_output=True, text=True, errors="replace", check=False)
     lines = done.stderr.splitlines()
     paths = [Path(line) for line in lines if line.startswith(str(folder))]
     if done.returncode and paths:
         print(f"found: {paths[-1].name}: {lines[-1][:300]}", flush=True)
-    return paths, done.returncode != 0
+    unanswered = [f"{above}: {line}" for above, line in zip(lines, lines[1:]) if line.startswith("unanswered")]
+    print("\n".join(unanswered), end="\n" if unanswered else "", flush=True)
+    return paths, done.returncode != 0, len(unanswered)
 
 
 def main():
     harness, end = sys.argv[1], time.time() + float(sys.argv[2])
     chance = random.Random(int(sys.argv[3]) if len(sys.argv) > 3 else 1)
     found, count = Path(tempfile.mkdtemp(prefix="fuzz-found-")), 0
+    without = 0
     while time.time() < end:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
@@ -62,13 +65,14 @@ def main():
                 (folder / f"{count + i:07d}").write_bytes(scene(chance))
             count += AT_ONCE
             while any(folder.iterdir()):
-                paths, ended = give(harness, folder)
+                paths, ended, unanswered = give(harness, folder)
+                without += unanswered
                 if ended and paths:
                     shutil.copy(paths[-1], found)
                 for path in paths:
                     path.unlink()
     bad = len(list(found.iterdir()))
-    print(f"{count} scenes, {bad} found" + (f", in {found}" if bad else ""))
+    print(f"{count} scenes, {without} unanswered, {bad} found" + (f", in {found}" if bad else ""))
     sys.exit(bad > 0)
 
 

@@ -221,9 +221,22 @@ static void require_numbers(const struct solve_result *result)
                  "energies");
 }
 
+/* Where the numerics fail, and say so: no answer is given, and scenes.py counts them. */
+static bool is_unanswered(const struct solve_result *result)
+{
+    bool known = result->status == PERCUSS_INTERNAL &&
+                 (strncmp(result->fault.text, "energy.closure: ", 16) == 0 ||
+                  strncmp(result->fault.text, "contact region: no equilibrium", 30) == 0);
+    if (known)
+        fprintf(stderr, "unanswered: %s\n", result->fault.text);
+    return known;
+}
+
 static void judge(const struct solve_result *result, const struct solve_request *request,
                   const struct patience *patience)
 {
+    if (is_unanswered(result))
+        return;
     const char *broken = invariant_broken(result, solve_tolerance(&request->options));
     FUZZ_REQUIRE(!broken, "%s; status %d: %s", broken, result->status, result->fault.text);
     FUZZ_REQUIRE(!patience->refused || result->status != PERCUSS_OK || patience->asked,
