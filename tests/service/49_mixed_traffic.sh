@@ -86,15 +86,17 @@ turn_wrong() {
     "$peers/wire_damaged" requests "$domain" 200 >/dev/null 2>damaged 9>&- || true
 }
 
-# killed while they are answered
+# killed while they are answered; the programs themselves, not shells that run them
 turn_vanishing() {
-    percuss ensemble --a steel-sphere --b al-beam --speed uniform:0.1:0.4 --samples 200000 >/dev/null 2>&1 9>&- &
-    percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.4:2000 --tolerance 1e-6 >/dev/null 2>&1 9>&- &
-    percuss query --a steel-sphere --b al-beam --speed 0.3 --contact-model concurrent-fe >/dev/null 2>&1 9>&- &
+    common="--domain $domain --a steel-sphere --b al-beam"
+    "$bin/percuss" ensemble $common --speed uniform:0.1:0.4 --samples 200000 >/dev/null 2>&1 9>&- &
+    gone=$!
+    "$bin/percuss" sweep $common --speed 0.1:0.4:2000 --tolerance 1e-6 >/dev/null 2>&1 9>&- &
+    gone="$gone $!"
+    "$bin/percuss" query $common --speed 0.3 --contact-model concurrent-fe >/dev/null 2>&1 9>&- &
+    gone="$gone $!"
     sleep "0.$((3 + turn % 6))"
-    for child in $(jobs -p); do
-        kill -KILL "$child" 2>/dev/null || true
-    done
+    kill -KILL $gone 2>/dev/null || true
     wait
 }
 
