@@ -3,10 +3,12 @@
 
 #include "json_writer.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "cli.h"
 
@@ -15,10 +17,21 @@ json_t *json_number(double number)
     return isfinite(number) ? json_real(number) : json_null();
 }
 
+/* Null for what is not UTF-8. NULL: out of memory, here and below. */
 static json_t *text(const char *text)
 {
+    errno = 0;
     json_t *value = json_string(text);
-    return value ? value : json_null();
+    return value || errno == ENOMEM ? value : json_null();
+}
+
+/* An array or object without one of its members is none. */
+static json_t *whole_or_none(json_t *value, bool whole)
+{
+    if (whole)
+        return value;
+    json_decref(value);
+    return NULL;
 }
 
 static json_t *octets(const uint8_t octets[16])
@@ -31,44 +44,49 @@ static json_t *octets(const uint8_t octets[16])
 static json_t *numbers(const double *numbers, size_t count)
 {
     json_t *array = json_array();
-    for (size_t i = 0; i < count; i++)
-        json_array_append_new(array, json_number(numbers[i]));
-    return array;
+    bool good = array;
+    for (size_t i = 0; good && i < count; i++)
+        good = json_array_append_new(array, json_number(numbers[i])) == 0;
+    return whole_or_none(array, good);
 }
 
 static json_t *counts(const uint64_t *counts, size_t count)
 {
     json_t *array = json_array();
-    for (size_t i = 0; i < count; i++)
-        json_array_append_new(array, json_integer((json_int_t)counts[i]));
-    return array;
+    bool good = array;
+    for (size_t i = 0; good && i < count; i++)
+        good = json_array_append_new(array, json_integer((json_int_t)counts[i])) == 0;
+    return whole_or_none(array, good);
 }
 
 static json_t *texts(char *const *texts, size_t count)
 {
     json_t *array = json_array();
-    for (size_t i = 0; i < count; i++)
-        json_array_append_new(array, json_string(texts[i]));
-    return array;
+    bool good = array;
+    for (size_t i = 0; good && i < count; i++)
+        good = json_array_append_new(array, text(texts[i])) == 0;
+    return whole_or_none(array, good);
 }
 
 static json_t *objects(const struct json_member *member, const char *elements, size_t count)
 {
     json_t *array = json_array();
-    for (size_t i = 0; i < count; i++)
-        json_array_append_new(array,
-                              json_object_of(member->members(), elements + i * member->size));
-    return array;
+    bool good = array;
+    for (size_t i = 0; good && i < count; i++)
+        good = json_array_append_new(
+                   array, json_object_of(member->members(), elements + i * member->size)) == 0;
+    return whole_or_none(array, good);
 }
 
 static json_t *overrides(const struct json_member *member, const struct percuss_override *overrides,
                          size_t count)
 {
     json_t *value = json_object();
-    for (size_t i = 0; i < count; i++)
-        json_object_set_new(value, member->name_of(overrides[i].parameter),
-                            json_number(overrides[i].value));
-    return value;
+    bool good = value;
+    for (size_t i = 0; good && i < count; i++)
+        good = json_object_set_new(value, member->name_of(overrides[i].parameter),
+                                   json_number(overrides[i].value)) == 0;
+    return whole_or_none(value, good);
 }
 
 static size_t count_of(const struct json_member *member, const void *source)
@@ -119,14 +137,37 @@ static json_t *value(const struct json_member *member, const void *source)
 json_t *json_object_of(const struct json_member *members, const void *source)
 {
     json_t *object = json_object();
-    for (; members->name; members++)
-        json_object_set_new(object, members->name, value(members, source));
-    return object;
+    bool good = object;
+    for (; good && members->name; members++)
+        good = json_object_set_new(object, members->name, value(members, source)) == 0;
+    return whole_or_none(object, good);
+}
+
+char *json_text(const json_t *value)
+{
+    static const size_t flags = JSON_INDENT(2) | JSON_REAL_PRECISION(17);
+    /* json_dumps of jansson 2.14 loses a key where its buffer cannot grow */
+    size_t size = value ? json_dumpb(value, NULL, 0, flags) : 0;
+    char *text = size ? malloc(size + 1) : NULL;
+    if (!text)
+        return NULL;
+    if (json_dumpb(value, text, size, flags) != size) {
+        free(text);
+        return NULL;
+    }
+    text[size] = '\0';
+    return text;
 }
 
 void json_print(json_t *value)
 {
-    json_dumpf(value, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    putchar('\n');
+    /* half an object is none; that stdout cannot be written to is seen at the end */
+    char *text = json_text(value);
+    if (!text) {
+        fprintf(stderr, "percuss: out of memory\n");
+        exit(EXIT_ANSWERED_WITH_WARNING);
+    }
+    puts(text);
+    free(text);
     json_decref(value);
 }

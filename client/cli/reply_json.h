@@ -9,7 +9,7 @@
 #include "json_writer.h"
 
 /* The reply with the wire's names and nesting; choices as their names, undefined and infinite
- * numbers as null. The caller releases it. */
+ * numbers as null. The caller releases it. NULL: out of memory. */
 json_t *reply_to_json(const struct percuss_reply *reply);
 
 /* Its JSON Schema; the caller releases it. */

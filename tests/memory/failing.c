@@ -3,6 +3,7 @@
 
 #include "memory/failing.h"
 
+#include <errno.h>
 #include <execinfo.h>
 #include <string.h>
 #include <unistd.h>
@@ -79,6 +80,7 @@ static bool fails(void)
     if (!memory.failed)
         memory.caller_count = backtrace(memory.callers, CALLERS);
     memory.failed = true;
+    errno = ENOMEM;
     return true;
 }
 
