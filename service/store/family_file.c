@@ -154,14 +154,14 @@ static char *text_of(json_t *object)
     struct lists lists = {0};
     struct fault fault;
     char key[TABLE_KEY_SIZE];
-    char *text = json_dumps(object, JSON_REAL_PRECISION(7) | JSON_COMPACT);
+    char *text = json_numbers_text(object, JSON_REAL_PRECISION(7) | JSON_COMPACT);
     json_t *again = text ? json_loads(text, 0, NULL) : NULL;
     free(text);
     text = NULL;
     if (again && read_lists(again, &lists, &fault) == PERCUSS_OK) {
         content_key(&lists, key);
         json_object_set_new(object, "content", json_string(key));
-        text = json_dumps(object, JSON_REAL_PRECISION(7) | JSON_COMPACT);
+        text = json_numbers_text(object, JSON_REAL_PRECISION(7) | JSON_COMPACT);
     }
     lists_free(&lists);
     json_decref(again);

@@ -81,3 +81,18 @@ enum percuss_status json_numbers_check_hash(const json_t *root, const char *name
     return fault_set(fault, PERCUSS_BAD_REQUEST, "%s: %.40s: must be %s: the file is damaged", name,
                      text ? text : "missing", expected);
 }
+
+char *json_numbers_text(const json_t *value, size_t flags)
+{
+    /* json_dumps of jansson 2.14 loses a key where its buffer cannot grow */
+    size_t size = json_dumpb(value, NULL, 0, flags);
+    char *text = size ? malloc(size + 1) : NULL;
+    if (!text)
+        return NULL;
+    if (json_dumpb(value, text, size, flags) != size) {
+        free(text);
+        return NULL;
+    }
+    text[size] = '\0';
+    return text;
+}

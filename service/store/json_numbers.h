@@ -34,4 +34,7 @@ enum percuss_status json_numbers_take_array(const json_t *array, const char *nam
 enum percuss_status json_numbers_check_hash(const json_t *root, const char *name,
                                             const char *expected, struct fault *fault);
 
+/* A value as text with jansson's flags, for free(); NULL: out of memory. */
+char *json_numbers_text(const json_t *value, size_t flags);
+
 #endif

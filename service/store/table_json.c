@@ -57,7 +57,8 @@ static json_t *object_of(const struct indentation_table *table, const struct tab
 char *table_json_write(const struct indentation_table *table, const struct table_origin *origin)
 {
     json_t *object = object_of(table, origin);
-    char *text = object ? json_dumps(object, JSON_REAL_PRECISION(17) | JSON_INDENT(1)) : NULL;
+    char *text =
+        object ? json_numbers_text(object, JSON_REAL_PRECISION(17) | JSON_INDENT(1)) : NULL;
     json_decref(object);
     return text;
 }
