@@ -1,53 +1,13 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "fault/disk.h"
+#include "fault/disk_parts.h"
 
-#include <sqlite3.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* What a disk writes in one piece; the store's page is eight of them. */
-enum { SECTOR = 512, FILES = 8, NAME = 256 };
-
-struct image {
-    char name[NAME];
-    bool exists;
-    size_t size, room;
-    unsigned char *bytes;
-};
-
-enum change_kind { CHANGE_CREATE, CHANGE_WRITE, CHANGE_CUT, CHANGE_SYNC, CHANGE_DELETE };
-
-struct change {
-    enum change_kind kind;
-    int file;
-    size_t offset, size;
-    unsigned char *bytes; /* of a write */
-};
-
-struct record {
-    struct change *changes;
-    size_t count, room;
-};
-
-static struct {
-    struct image files[FILES];
-    struct record record, kept;
-    unsigned long operations, fail_at;
-    bool for_good, full, failed;
-    /* of the record that was kept: files as they are on the disk for certain, which has the changes
-     * before `settled`; and how far it was looked through for that */
-    struct image certain[FILES];
-    size_t settled[FILES], looked;
-    uint64_t chance;
-} disk;
-
-struct handle {
-    sqlite3_file base;
-    int file;
-};
+struct disk disk;
 
 static void *need(void *memory)
 {
@@ -69,7 +29,7 @@ static void image_grow(struct image *image, size_t size)
     }
 }
 
-static void image_write(struct image *image, size_t offset, const void *bytes, size_t size)
+void disk_image_write(struct image *image, size_t offset, const void *bytes, size_t size)
 {
     image_grow(image, offset + size);
     memcpy(image->bytes + offset, bytes, size);
@@ -81,10 +41,10 @@ static void image_copy(struct image *to, const struct image *from)
     to->exists = from->exists;
     to->size = 0;
     if (from->size)
-        image_write(to, 0, from->bytes, from->size);
+        disk_image_write(to, 0, from->bytes, from->size);
 }
 
-static void note(enum change_kind kind, int file, size_t offset, size_t size, const void *bytes)
+void disk_note(enum change_kind kind, int file, size_t offset, size_t size, const void *bytes)
 {
     struct record *record = &disk.record;
     if (record->count == record->room) {
@@ -105,7 +65,7 @@ static void record_free(struct record *record)
     *record = (struct record){0};
 }
 
-static bool fails(bool needs_room)
+bool disk_fails(bool needs_room)
 {
     disk.operations++;
     if (!disk.fail_at || (disk.full && !needs_room))
@@ -117,7 +77,7 @@ static bool fails(bool needs_room)
     return now;
 }
 
-static int find(const char *name)
+int disk_find(const char *name)
 {
     for (int i = 0; i < FILES; i++)
         if (disk.files[i].name[0] && strcmp(disk.files[i].name, name) == 0)
@@ -125,9 +85,9 @@ static int find(const char *name)
     return -1;
 }
 
-static int find_or_name(const char *name)
+int disk_name(const char *name)
 {
-    int file = find(name);
+    int file = disk_find(name);
     for (int i = 0; file < 0 && i < FILES; i++)
         if (!disk.files[i].name[0]) {
             strncpy(disk.files[i].name, name, NAME - 1);
@@ -136,187 +96,6 @@ static int find_or_name(const char *name)
     if (file < 0)
         abort();
     return file;
-}
-
-static int file_close(sqlite3_file *base)
-{
-    (void)base;
-    return SQLITE_OK;
-}
-
-static struct image *image_of(sqlite3_file *base)
-{
-    return &disk.files[((struct handle *)base)->file];
-}
-
-static int file_read(sqlite3_file *base, void *to, int size, sqlite3_int64 offset)
-{
-    const struct image *image = image_of(base);
-    size_t from = (size_t)offset, wanted = (size_t)size;
-    if (fails(false))
-        return SQLITE_IOERR_READ;
-    size_t there = from < image->size ? image->size - from : 0;
-    size_t got = there < wanted ? there : wanted;
-    if (got)
-        memcpy(to, image->bytes + from, got);
-    memset((char *)to + got, 0, wanted - got);
-    return got == wanted ? SQLITE_OK : SQLITE_IOERR_SHORT_READ;
-}
-
-static int file_write(sqlite3_file *base, const void *from, int size, sqlite3_int64 offset)
-{
-    if (fails(true)) {
-        /* some of it may be there */
-        size_t part = (size_t)size / 2;
-        image_write(image_of(base), (size_t)offset, from, part);
-        note(CHANGE_WRITE, ((struct handle *)base)->file, (size_t)offset, part, from);
-        return disk.full ? SQLITE_FULL : SQLITE_IOERR_WRITE;
-    }
-    image_write(image_of(base), (size_t)offset, from, (size_t)size);
-    note(CHANGE_WRITE, ((struct handle *)base)->file, (size_t)offset, (size_t)size, from);
-    return SQLITE_OK;
-}
-
-static int file_truncate(sqlite3_file *base, sqlite3_int64 size)
-{
-    struct image *image = image_of(base);
-    if (fails(false))
-        return SQLITE_IOERR_TRUNCATE;
-    if ((size_t)size < image->size)
-        image->size = (size_t)size;
-    note(CHANGE_CUT, ((struct handle *)base)->file, 0, (size_t)size, NULL);
-    return SQLITE_OK;
-}
-
-static int file_sync(sqlite3_file *base, int flags)
-{
-    (void)flags;
-    if (fails(true))
-        return disk.full ? SQLITE_FULL : SQLITE_IOERR_FSYNC;
-    note(CHANGE_SYNC, ((struct handle *)base)->file, 0, 0, NULL);
-    return SQLITE_OK;
-}
-
-static int file_size(sqlite3_file *base, sqlite3_int64 *size)
-{
-    *size = (sqlite3_int64)image_of(base)->size;
-    return SQLITE_OK;
-}
-
-static int file_lock(sqlite3_file *base, int level)
-{
-    (void)base, (void)level;
-    return SQLITE_OK;
-}
-
-static int file_is_reserved(sqlite3_file *base, int *reserved)
-{
-    (void)base;
-    *reserved = 0;
-    return SQLITE_OK;
-}
-
-static int file_control(sqlite3_file *base, int operation, void *argument)
-{
-    (void)base, (void)operation, (void)argument;
-    return SQLITE_NOTFOUND;
-}
-
-static int file_sector(sqlite3_file *base)
-{
-    (void)base;
-    return SECTOR;
-}
-
-/* As SQLite supposes of every disk: a write that is torn leaves what is beside it. */
-static int file_promises(sqlite3_file *base)
-{
-    (void)base;
-    return SQLITE_IOCAP_POWERSAFE_OVERWRITE;
-}
-
-static int disk_open(sqlite3_vfs *vfs, const char *name, sqlite3_file *base, int flags,
-                     int *out_flags)
-{
-    static const sqlite3_io_methods methods = {
-        .iVersion = 1,
-        .xClose = file_close,
-        .xRead = file_read,
-        .xWrite = file_write,
-        .xTruncate = file_truncate,
-        .xSync = file_sync,
-        .xFileSize = file_size,
-        .xLock = file_lock,
-        .xUnlock = file_lock,
-        .xCheckReservedLock = file_is_reserved,
-        .xFileControl = file_control,
-        .xSectorSize = file_sector,
-        .xDeviceCharacteristics = file_promises,
-    };
-    struct handle *handle = (struct handle *)base;
-    (void)vfs;
-    handle->base.pMethods = NULL;
-    if (fails(false))
-        return SQLITE_CANTOPEN;
-    handle->file = find_or_name(name ? name : "temporary");
-    struct image *image = &disk.files[handle->file];
-    if (!image->exists) {
-        if (!(flags & SQLITE_OPEN_CREATE))
-            return SQLITE_CANTOPEN;
-        image->exists = true;
-        image->size = 0;
-        note(CHANGE_CREATE, handle->file, 0, 0, NULL);
-    }
-    if (out_flags)
-        *out_flags = flags;
-    handle->base.pMethods = &methods;
-    return SQLITE_OK;
-}
-
-static int disk_delete(sqlite3_vfs *vfs, const char *name, int sync_folder)
-{
-    int file = find(name);
-    (void)vfs, (void)sync_folder;
-    if (fails(false))
-        return SQLITE_IOERR_DELETE;
-    if (file < 0 || !disk.files[file].exists)
-        return SQLITE_IOERR_DELETE_NOENT;
-    disk.files[file].exists = false;
-    disk.files[file].size = 0;
-    note(CHANGE_DELETE, file, 0, 0, NULL);
-    return SQLITE_OK;
-}
-
-static int disk_access(sqlite3_vfs *vfs, const char *name, int flags, int *there)
-{
-    int file = find(name);
-    (void)vfs, (void)flags;
-    if (fails(false))
-        return SQLITE_IOERR_ACCESS;
-    *there = file >= 0 && disk.files[file].exists;
-    return SQLITE_OK;
-}
-
-static int disk_full_name(sqlite3_vfs *vfs, const char *name, int size, char *full)
-{
-    (void)vfs;
-    sqlite3_snprintf(size, full, "%s", name);
-    return SQLITE_OK;
-}
-
-void disk_install(void)
-{
-    static sqlite3_vfs vfs;
-    vfs = *sqlite3_vfs_find(NULL);
-    vfs.iVersion = 1;
-    vfs.szOsFile = sizeof(struct handle);
-    vfs.pNext = NULL;
-    vfs.zName = "disk";
-    vfs.xOpen = disk_open;
-    vfs.xDelete = disk_delete;
-    vfs.xAccess = disk_access;
-    vfs.xFullPathname = disk_full_name;
-    sqlite3_vfs_register(&vfs, 1);
 }
 
 static void forget_files(struct image *files)
@@ -384,7 +163,7 @@ static void apply(struct image *image, const struct change *change)
         image->size = 0;
         break;
     case CHANGE_WRITE:
-        image_write(image, change->offset, change->bytes, change->size);
+        disk_image_write(image, change->offset, change->bytes, change->size);
         break;
     case CHANGE_CUT:
         image->size = change->size < image->size ? change->size : image->size;
@@ -411,7 +190,7 @@ static void apply_in_part(struct image *image, const struct change *change)
     for (size_t at = 0; at < change->size; at += SECTOR) {
         size_t size = change->size - at < SECTOR ? change->size - at : SECTOR;
         if (disk_draw(2))
-            image_write(image, change->offset + at, change->bytes + at, size);
+            disk_image_write(image, change->offset + at, change->bytes + at, size);
     }
 }
 
@@ -477,7 +256,7 @@ void disk_lose_power(size_t cut, unsigned seed)
 
 static struct image *named(const char *name)
 {
-    return &disk.files[find_or_name(name)];
+    return &disk.files[disk_name(name)];
 }
 
 size_t disk_size(const char *name)
@@ -492,7 +271,7 @@ unsigned char disk_byte(const char *name, size_t at)
 
 void disk_write(const char *name, size_t at, const void *bytes, size_t size)
 {
-    image_write(named(name), at, bytes, size);
+    disk_image_write(named(name), at, bytes, size);
 }
 
 void disk_cut(const char *name, size_t size)
