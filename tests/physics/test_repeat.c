@@ -137,6 +137,7 @@ static size_t record_of(const struct solve_result *result, double record[RECORD]
     n += sizeof result->energy / sizeof(double);
     record[n++] = result->restitution_time;
     record[n++] = result->restitution_modes;
+    record[n++] = result->restitution_model;
     record[n++] = isnan(result->restitution_by_speed) ? 0.0 : result->restitution_by_speed;
     record[n++] = result->time_shift;
     record[n++] = result->omitted_error;
@@ -185,6 +186,47 @@ static void same_bytes_whatever_came_before(void **state)
         solve_and_record(lab->workspace, &lab->means, i, record);
         if (memcmp(record, expected[i], sizeof record) != 0)
             fail_msg("scene %d differs in trial %d", i, trial);
+    }
+    lab_free(lab);
+}
+
+/* One of few places, so that a workspace has kept what belongs to it, or any other one. */
+static struct solve_request drawn_scene(uint64_t *seed)
+{
+    static const double places[] = {-0.3, 0.0, 0.1, 0.25};
+    static const double tolerances[] = {1e-2, 1e-3, 1e-4};
+    const struct spot ball = sphere_spot("ball", 0.015);
+    bool known = random_between(seed, 0.0, 1.0) < 0.7;
+    double along = known ? places[(int)random_between(seed, 0.0, COUNT(places) - 1e-9)]
+                         : random_between(seed, -0.35, 0.35);
+    double around = known ? 0.0 : random_between(seed, 0.0, 6.0);
+    const char *beam = random_between(seed, 0.0, 1.0) < 0.5 ? "beam" : "damped";
+    struct solve_request request =
+        random_between(seed, 0.0, 1.0) < 0.2
+            ? strike(ball, end_spot("rod", 0.4), random_between(seed, 0.1, 0.4))
+            : strike(ball, side_spot(beam, along, 0.010, around), random_between(seed, 0.1, 0.4));
+    request.options.tolerance = tolerances[(int)random_between(seed, 0.0, 3.0 - 1e-9)];
+    return request;
+}
+
+static void kept_sites_do_not_change_a_bit(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static double warm[RECORD], record[RECORD];
+    struct lab *lab = lab_of_bodies();
+    uint64_t seed = 2463534242u;
+    for (int trial = 0; trial < 200; trial++) {
+        struct solve_request request = drawn_scene(&seed);
+        assert_int_equal(solve(lab->workspace, &lab->means, &request, &result), PERCUSS_OK);
+        record_of(&result, warm);
+        struct solve_workspace *fresh = solve_workspace_create();
+        assert_non_null(fresh);
+        solve(fresh, &lab->means, &request, &result);
+        record_of(&result, record);
+        solve_workspace_free(fresh);
+        if (memcmp(record, warm, sizeof record) != 0)
+            fail_msg("request %d differs", trial);
     }
     lab_free(lab);
 }
@@ -287,6 +329,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(same_bytes_whatever_came_before),
+        cmocka_unit_test(kept_sites_do_not_change_a_bit),
         cmocka_unit_test(same_bytes_on_many_threads),
         cmocka_unit_test(a_warm_solve_takes_no_memory),
         cmocka_unit_test(a_workspace_does_not_grow),
