@@ -16,12 +16,15 @@ struct force_log force_log_make(struct arena *arena, size_t contacts)
 static bool grow(struct force_log *log)
 {
     size_t room = log->room ? 2 * log->room : FIRST_ROOM;
-    struct force_step *steps = arena_take(log->arena, room, sizeof *steps);
-    if (!steps)
+    struct force_step *steps = arena_reserve(log->arena, room, sizeof *steps);
+    double(*values)[NODES] =
+        arena_reserve(log->arena, 2 * log->contacts * (room - log->count), sizeof *values);
+    if (!steps || !values)
         return false;
     if (log->count > 0)
         memcpy(steps, log->steps, log->count * sizeof *steps);
     log->steps = steps;
+    log->values = values;
     log->room = room;
     return true;
 }
@@ -29,15 +32,18 @@ static bool grow(struct force_log *log)
 void force_log_add(struct force_log *log, double start, int level, double (*const force)[NODES],
                    double (*const indentation)[NODES])
 {
-    size_t size = log->contacts * sizeof *force;
+    size_t n = log->contacts;
     struct force_step step = {.start = start, .level = level};
-    step.force = arena_take(log->arena, log->contacts, sizeof *force);
-    step.indentation = arena_take(log->arena, log->contacts, sizeof *indentation);
-    if (!step.force || !step.indentation || (log->count == log->room && !grow(log))) {
-        log->complete = false;
+    log->complete = log->complete && !(log->most > 0 && log->count == log->most) &&
+                    (log->count < log->room || grow(log));
+    if (!log->complete)
         return;
+    step.force = log->values;
+    step.indentation = log->values + n;
+    log->values += 2 * n;
+    for (size_t c = 0; c < n; c++) { /* of known size each: no calls */
+        memcpy(step.force[c], force[c], sizeof *force);
+        memcpy(step.indentation[c], indentation[c], sizeof *indentation);
     }
-    memcpy(step.force, force, size);
-    memcpy(step.indentation, indentation, size);
     log->steps[log->count++] = step;
 }

@@ -24,8 +24,10 @@ struct force_log {
     struct arena *arena; /* everything lives here */
     size_t contacts;
     struct force_step *steps;
+    double (*values)[NODES]; /* for the forces and indentations of those to come */
     size_t count, room;
-    bool complete; /* false: memory ran out */
+    size_t most;   /* steps that are taken down; 0: any number */
+    bool complete; /* false: memory ran out, or there were more */
 };
 
 /* An empty log of so many contacts. */

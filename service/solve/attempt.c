@@ -15,6 +15,10 @@ static const double MAX_WORK_CVODE = 4e9;
  * wrong. */
 enum { LONG = 10 };
 
+/* Steps that are taken down of a solution, 200 kB: a long sequence has more, and little of it is of
+ * first order. */
+enum { MOST_LOGGED = 2048 };
+
 double attempt_work_allowed(enum percuss_method method)
 {
     return method == PERCUSS_METHOD_CVODE ? MAX_WORK_CVODE : MAX_WORK;
@@ -26,15 +30,17 @@ double attempt_horizon(const struct problem *problem, const struct scene *scene)
     return asked > 0.0 ? asked : fmax(SOLVE_HORIZON, 2.0 * scene_longest_period(scene));
 }
 
-enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
-                                const struct scene *scene)
+static enum percuss_status run(struct attempt_context *context, struct attempt *attempt,
+                               const struct scene *scene, struct force_log *log)
 {
     struct impact_settings settings = {
         .accuracy = attempt->accuracy,
         .horizon = attempt_horizon(context->problem, scene),
         .max_work = context->work,
+        .log = log,
         .pace = context->pace,
     };
+    attempt->log = log;
     if (!impact_create(&attempt->outcome, scene, context->arena))
         return PERCUSS_INTERNAL;
     /* the method asked for, or the closed form where that is exact */
@@ -48,6 +54,25 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
     /* what it took is no longer there for the others */
     context->work -= impact_work(scene, &attempt->outcome);
     return status;
+}
+
+enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
+                                const struct scene *scene)
+{
+    return run(context, attempt, scene, NULL);
+}
+
+enum percuss_status attempt_run_logged(struct attempt_context *context, struct attempt *attempt,
+                                       const struct scene *scene)
+{
+    if (scene->contacts > 1)
+        return run(context, attempt, scene, NULL);
+    struct force_log *log = arena_take(context->arena, 1, sizeof *log);
+    if (!log)
+        return PERCUSS_INTERNAL;
+    *log = force_log_make(context->arena, scene->contacts);
+    log->most = MOST_LOGGED;
+    return run(context, attempt, scene, log);
 }
 
 enum percuss_status attempt_assemble(struct attempt_context *context, struct attempt *attempt)
@@ -75,6 +100,15 @@ enum percuss_status attempt_run_scaled(struct attempt_context *context, struct a
     return status;
 }
 
+/* LEFT accuracy^POWER */
+static const double LEFT = 0.1;
+static const double POWER = 0.8;
+
+double attempt_steps_leave(double accuracy)
+{
+    return LEFT * pow(accuracy, POWER);
+}
+
 bool attempt_is_spent(const struct attempt *attempt)
 {
     return attempt->outcome.end_reason == PERCUSS_END_LIMIT;
@@ -95,4 +129,12 @@ bool attempt_is_long(const struct attempt *attempt)
         if (attempt->outcome.tracks[c].count >= LONG)
             return true;
     return false;
+}
+
+bool attempt_is_followed(const struct attempt_context *context, const struct attempt *attempt)
+{
+    const struct force_log *log = attempt->log;
+    return log && log->complete && log->count > 0 && !attempt_is_long(attempt) &&
+           !attempt_is_spent(attempt) && attempt->outcome.plastic == 0.0 &&
+           context->problem->impulse_compression[0] > 0.0;
 }

@@ -24,6 +24,7 @@ struct attempt {
     double accuracy; /* of the time steps, see impact_settings */
     struct assembly *assembly;
     struct impact_outcome outcome;
+    const struct force_log *log; /* of that outcome; NULL: it was not taken down */
 };
 
 /* Until when a scene is watched: the request's horizon, or the default, s. */
@@ -32,6 +33,11 @@ double attempt_horizon(const struct problem *problem, const struct scene *scene)
 /* Solves a scene by the request's method: the attempt's own, or one derived from it. */
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
                                 const struct scene *scene);
+
+/* The same, and takes the forces down where first order can tell what small changes do to them: one
+ * contact of the modal method. */
+enum percuss_status attempt_run_logged(struct attempt_context *context, struct attempt *attempt,
+                                       const struct scene *scene);
 
 /* Assembles the attempt's scene by its choice. PERCUSS_OK or PERCUSS_INTERNAL. */
 enum percuss_status attempt_assemble(struct attempt_context *context, struct attempt *attempt);
@@ -53,6 +59,9 @@ bool attempt_is_sequence(const struct attempt *attempt);
 /* How much longer steps another solution takes for comparison, as accuracy (impact_settings). */
 static const double ATTEMPT_LONGER = 100.0;
 
+/* What steps of an accuracy have been seen to leave of one blow's e (docs/accuracy.md). */
+double attempt_steps_leave(double accuracy);
+
 /* Finest accuracy of the time steps that is tried. */
 static const double ATTEMPT_FINEST = 1e-17;
 
@@ -61,6 +70,10 @@ static inline bool attempt_can_shorten(double accuracy)
 {
     return accuracy > 1.01 * ATTEMPT_FINEST;
 }
+
+/* Whether first order tells what small changes do to it: its forces were taken down, of a contact
+ * that approaches, does not yield and does not close too often. */
+bool attempt_is_followed(const struct attempt_context *context, const struct attempt *attempt);
 
 /* Whether a contact closes so often that one comparison may agree by chance. */
 bool attempt_is_long(const struct attempt *attempt);

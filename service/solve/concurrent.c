@@ -42,6 +42,7 @@ static void adopt(struct solution *solution, const struct problem *problem,
 {
     const struct impact_outcome *answer = &search->answer;
     solution->outcome = *answer;
+    solution->log = NULL;
     solution->steps = (struct step_error){
         .restitution = search->answer_error,
         .impulse = search->answer_error * problem->impulse_compression[0],

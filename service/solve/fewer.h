@@ -9,6 +9,10 @@
 #include "impact/impact.h"
 #include "solve/problem.h"
 
+/* What modes that solutions beside a sequence lack may do to the impulse: sequences amplify that
+ * five- to twentyfold as a rule. */
+static const double FEWER_SEQUENCE = 1e-4;
+
 /* Leaves out the highest modes, whose inertia and viscosity would change no contact's impulse by
  * more than `allowed` of that of compression, as the answer's forces tell (mode_search.c); their
  * static compliance goes into `fewer->residual`. Modes in motion at the beginning stay. Arrays come

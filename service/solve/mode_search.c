@@ -88,9 +88,9 @@ bool mode_search_expects_sequence(const struct problem *problem)
     return false;
 }
 
-static double first_allowed(const struct attempt_context *context)
+static double first_allowed(const struct attempt_context *context, bool sequence)
 {
-    if (!mode_search_expects_sequence(context->problem))
+    if (!sequence)
         return fmin(FIRST_SINGLE * context->problem->tolerance, MOST_SINGLE);
     bool group = context->problem->contact_count > 1;
     return fmin(FIRST_SEQUENCE * context->problem->tolerance, group ? MOST_GROUP : MOST_SEQUENCE);
@@ -126,8 +126,9 @@ static void improve(const struct attempt_context *context, const struct mode_err
 enum percuss_status mode_search(struct attempt_context *context, struct attempt *best,
                                 struct mode_error *error)
 {
+    bool sequence = mode_search_expects_sequence(context->problem);
     best->choice = (struct mode_choice){
-        .cut = INFINITY, .allowed = first_allowed(context), .most = MODE_SEARCH_MOST};
+        .cut = INFINITY, .allowed = first_allowed(context, sequence), .most = MODE_SEARCH_MOST};
     *error = (struct mode_error){0};
     for (int raise = 0;; raise++) {
         /* the next attempt: more modes, or shorter steps */
@@ -140,7 +141,7 @@ enum percuss_status mode_search(struct attempt_context *context, struct attempt 
         best->choice = next.choice;
         /* solved where it is another one */
         if (raise == 0 || is_another(&next, best)) {
-            status = attempt_run(context, &next, &next.assembly->scene);
+            status = attempt_run_logged(context, &next, &next.assembly->scene);
             if (status)
                 return status;
             /* what is cut off for its effort does not replace what was solved */

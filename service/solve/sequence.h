@@ -13,6 +13,7 @@ struct mode_error {
     double restitution, impulse;
     bool covers_steps; /* what longer time steps do to a sequence is in it */
     bool by_steps;     /* it is too large, and longer time steps do more */
+    double amplified;  /* change of e over what was changed of one blow's; 0: not known */
     bool unchecked;    /* the effort did not suffice to find it out */
     const struct attempt
         *longer; /* solved with longer time steps; NULL: not needed. In the arena */

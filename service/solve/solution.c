@@ -94,6 +94,7 @@ static void conclude(const struct attempt_context *context, const struct attempt
     solution->assembly = best->assembly;
     solution->scene = &best->assembly->scene;
     solution->outcome = best->outcome;
+    solution->log = attempt_is_followed(context, best) ? best->log : NULL;
     solution->step_accuracy = best->accuracy;
     /* what is cut off for its effort takes all that was left, but for a step */
     double allowed = attempt_work_allowed(context->problem->request->options.method);

@@ -23,6 +23,7 @@ struct solution {
     struct impact_outcome outcome; /* the answer */
     bool revised;                  /* the problem was formulated anew on the way */
     struct assembly *assembly;     /* of the scene */
+    const struct force_log *log;   /* of the answer where first order says something of it; NULL */
     double step_accuracy;          /* that it was solved with, see impact_settings */
     struct mode_error modes;
     struct step_error steps;

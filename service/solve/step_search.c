@@ -23,9 +23,6 @@ static const double MOST_GROUP = 1e-6;
 static const double AUDITED = 1e-8;
 static const double AUDIT = 1e-9;
 static const double CLOSURE = 10.0;
-/* The accuracy asked for has been seen to leave LEFT accuracy^POWER of e (docs/accuracy.md). */
-static const double LEFT = 0.1;
-static const double POWER = 0.8;
 /* The energy's defect counts so many times, to be safe. */
 static const double SAFETY = 4.0;
 /* Of ATTEMPT_LONGER: rounding. */
@@ -63,7 +60,7 @@ static double error_of_steps(const struct attempt_context *context, const struct
     double defect = SAFETY * outcome_energy_defect(context->problem, &best->outcome);
     double rebound = best->outcome.plastic > 0.0 ? e + sqrt(e * e + defect) : 2.0 * e;
     double change = defect > 0.0 ? defect / rebound : 0.0;
-    return fmax(change, LEFT * pow(best->accuracy, POWER));
+    return fmax(change, attempt_steps_leave(best->accuracy));
 }
 
 static struct step_error estimate_alone(const struct attempt_context *context,
@@ -155,7 +152,8 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         bool lost = !outcome_keeps_energy(error->energy_defect);
         if (lost)
             context->work = fmax(context->work, LAST_EFFORT * attempt_work_allowed(method));
-        status = attempt_run(context, &finer, &best->assembly->scene);
+        status = best->log ? attempt_run_logged(context, &finer, &best->assembly->scene)
+                           : attempt_run(context, &finer, &best->assembly->scene);
         if (status || (attempt_is_spent(&finer) && !lost))
             return status;
         before = *best;

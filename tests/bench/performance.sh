@@ -52,6 +52,7 @@ request to problem|formulate problem_create|
 scenes (modes, couplings)|attempt_assemble|
 contact steps|contact_phase|
 flights|march_run|contact_phase energy_audit
+first order along the answer|tangent_follow|
 audit of the energy|energy_audit|
 answer (report)|report_fill|
 PARTS
@@ -140,7 +141,7 @@ counts() {
         intervals=$(calls "$name" . flight_kernel_step)
         [ "$intervals" -gt 0 ] || intervals=$(calls "$name" flight_find motion_)
         modes=$(sed -n 's/.* \([0-9]*\) modes$/\1/p' "$work/$name.log")
-        echo "$name $modes $(calls "$name" . attempt_run) $steps $intervals"
+        echo "$name $modes $(calls "$name" . impact_modal) $steps $intervals"
     done | awk '
         { modes = modes " " $2 " |"; runs = runs " " $3 " |"; steps = steps " " $4 " |"
           intervals = intervals " " $5 " |"

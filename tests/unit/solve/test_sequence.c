@@ -41,6 +41,34 @@ static void widens_what_is_known(void **state)
     search_free(search);
 }
 
+/* A loose tolerance needs no solution beside the answer where first order says enough; a tight one
+ * has one. */
+static void first_order_stands_for_solutions(void **state)
+{
+    (void)state;
+    static const struct {
+        double tolerance;
+        bool followed;
+    } cases[] = {{1e-2, true}, {1e-3, true}, {1e-4, false}};
+    struct search *search = search_create();
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct solve_request request =
+            strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.2);
+        request.options.tolerance = cases[i].tolerance;
+        struct attempt_context *context = search_begin(search, &request);
+        struct attempt reference = search_attempt(search, 400, 1e-11);
+        struct attempt best = {.accuracy = fmin(1e-5, 0.01 * cases[i].tolerance)};
+        struct mode_error error;
+        assert_int_equal(mode_search(context, &best, &error), PERCUSS_OK);
+        assert_true(error.covers_steps);
+        assert_int_equal(context->nearby->solutions == 1, cases[i].followed);
+        assert_true(search_error(search, &best, &reference) <= error.restitution);
+        assert_true(error.restitution <= cases[i].tolerance);
+        assert_true(error.amplified > 1.0);
+    }
+    search_free(search);
+}
+
 /* Steps so long that they matter more than the modes are told apart, and named. */
 static void tells_steps_from_modes(void **state)
 {
@@ -80,6 +108,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(widens_what_is_known),
+        cmocka_unit_test(first_order_stands_for_solutions),
         cmocka_unit_test(tells_steps_from_modes),
         cmocka_unit_test(without_effort_it_stays_unchecked),
     };

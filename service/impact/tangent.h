@@ -1,0 +1,36 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What a small change of a contact does to a solution of it, to first order: the linearised
+ * equations along the forces that were taken down, through all of its sub-impacts. Laws begin and
+ * end without stiffness, so that the instants of touch and release need no terms of their own. */
+#ifndef PERCUSS_IMPACT_TANGENT_H
+#define PERCUSS_IMPACT_TANGENT_H
+
+#include "impact/force_log.h"
+#include "impact/scene.h"
+
+/* The change. */
+struct tangent_source {
+    double force;      /* of the law, share of its force */
+    double compliance; /* in series, m/N */
+    /* what answers a slow force F with a displacement -viscosity F' - inertia F'': m s/N, m s^2/N
+     */
+    double viscosity, inertia;
+};
+
+/* What it does. */
+struct tangent {
+    double impulse; /* to the contact's, N s */
+    double largest; /* the largest of what that is after each sub-impact */
+    double strain;  /* largest change of a sub-impact's impulse over that impulse: first order is
+                       enough where it is far below 1 */
+};
+
+/* Follows the source along the log of a solution of the scene by impact_modal: one contact, which
+ * did not yield. OK, INTERNAL without memory, or TIMEOUT where the pace stopped it. */
+enum percuss_status tangent_follow(const struct scene *scene, const struct force_log *log,
+                                   const struct tangent_source *source, struct arena *arena,
+                                   struct pace *pace, struct tangent *tangent);
+
+#endif
