@@ -128,7 +128,8 @@ void carrier_take(struct carrier *carrier, const struct scene *scene, struct mot
     carrier->force = (const double(*)[NODES])force;
     motion_step_gaps(motion, motion, scene, carrier->level);
     for (size_t c = 0; c < scene->contacts; c++)
-        motion_push_gaps(motion, scene, carrier->level, c, force[c]);
+        if (motion_bears(force[c]))
+            motion_push_gaps(motion, scene, carrier->level, c, force[c]);
     /* damped modes */
     for (size_t g = 0; carrier->damped && g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];

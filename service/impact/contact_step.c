@@ -12,6 +12,8 @@
 
 /* Newton's method takes two to five iterations, and some ten from a bad start. */
 enum { MAX_ITERATIONS = 40 };
+/* Contact by contact some five; where it takes so many, all at once are the shorter way. */
+enum { MAX_APART = 20 };
 
 /* One contact: its method squares the relative change, so that after this one rounding is left. */
 static const double SQUARES_TO_ROUNDING = 1e-7;
@@ -30,65 +32,20 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
                          struct arena *arena)
 {
     size_t n = scene->contacts;
-    size_t unknowns = n * NODES;
     *step = (struct contact_step){.arena = arena, .last_change = node_solver_last_change(accuracy)};
     step->indentation = arena_take(arena, n, sizeof *step->indentation);
     step->force = arena_take(arena, n, sizeof *step->force);
     step->stiffness = arena_take(arena, n, sizeof *step->stiffness);
     step->end_indentation = arena_take(arena, n, sizeof(double));
-    step->matrix = arena_take(arena, unknowns * unknowns, sizeof(double));
-    step->excess = arena_take(arena, unknowns, sizeof(double));
+    step->matrix = arena_reserve(arena, n * n, sizeof(double));
     step->target = arena_take(arena, n, sizeof *step->target);
+    step->taken = arena_take(arena, n, sizeof *step->taken);
     step->approach = arena_take(arena, n, sizeof(double));
     step->end_force = arena_take(arena, n, sizeof(double));
     return step->indentation && step->force && step->stiffness && step->end_indentation &&
-           step->matrix && step->excess && step->target && step->approach && step->end_force &&
+           step->matrix && step->target && step->taken && step->approach && step->end_force &&
+           coupling_create(&step->coupling, scene, arena) &&
            carrier_create(&step->carrier, scene, arena);
-}
-
-/* What a unit force of contact b at node j does to the approach of contact a at node i, with the
- * residual flexibility: rigid double integral, modes, and the series compliance at the same node;
- * and to the approach at the end, without that compliance. OK, INTERNAL without memory, TIMEOUT
- * where the pace stopped it. */
-static enum percuss_status find_coupling(struct contact_step *step, const struct scene *scene,
-                                         int level)
-{
-    size_t n = scene->contacts;
-    double h = step_length(level);
-    /* the modes' tables */
-    enum percuss_status status = scene_prepare(scene, level, step->pace);
-    if (status != PERCUSS_OK)
-        return status;
-    double(*all)[STEP_POINTS][NODES] = arena_take(step->arena, n * n, sizeof *all);
-    if (!all)
-        return PERCUSS_INTERNAL;
-    /* pairs of contacts */
-    for (size_t a = 0; a < n; a++) {
-        for (size_t b = 0; b <= a; b++) {
-            double(*m)[NODES] = all[a * n + b];
-            /* the rigid bodies, and the series compliance */
-            for (int j = 0; j < NODES; j++)
-                m[NODES][j] = scene->w[a * n + b] * h * h * collocation.position_end[j];
-            for (int i = 0; i < NODES; i++) {
-                for (int j = 0; j < NODES; j++)
-                    m[i][j] = scene->w[a * n + b] * h * h * collocation.position[i][j];
-                m[i][i] += scene->residual[a * n + b];
-            }
-            /* the modes that move both */
-            for (size_t g = 0; g < scene->groups; g++) {
-                const struct scene_group *group = &scene->group[g];
-                const double *pa = group->participation[a];
-                const double *pb = group->participation[b];
-                if (pa && pb)
-                    kernel_response(group->set->tables[level], group->stride, pa, pb, m);
-            }
-            /* W, the residual flexibility and the modes' products are symmetric */
-            if (a != b)
-                memcpy(all[b * n + a], m, sizeof all[b * n + a]);
-        }
-    }
-    step->coupling[level] = all;
-    return PERCUSS_OK;
 }
 
 /* Approaches at the nodes and the end if no force acted on this step. */
@@ -108,20 +65,6 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
         }
         target[NODES] = -(gap + (travel + bend)) - target[NODES];
     }
-}
-
-/* Approach at the end of the step under its forces. */
-static double end_approach(const struct contact_step *step, const struct scene *scene,
-                           size_t contact, int level)
-{
-    double approach = step->target[contact][NODES];
-    for (size_t b = 0; b < scene->contacts; b++) {
-        const double *to_end = step->coupling[level][contact * scene->contacts + b][NODES];
-        const double *force = step->force[b];
-        approach -= (to_end[0] * force[0] + to_end[1] * force[1]) +
-                    (to_end[2] * force[2] + to_end[3] * force[3]);
-    }
-    return approach;
 }
 
 void contact_step_take(struct contact_step *step, const struct scene *scene, struct motion *motion)
@@ -178,6 +121,61 @@ static inline double larger(double a, double b)
     return b > a || isnan(b) ? b : a;
 }
 
+/* What the other contacts' forces take from the approaches. */
+static void take_residual(const struct scene *scene, const double *force, double *taken)
+{
+    size_t n = scene->contacts;
+    memset(taken, 0, n * sizeof *taken);
+    for (size_t b = 0; b < n; b++) {
+        const double *by = scene->residual + b * n; /* symmetric */
+        if (force[b] == 0.0)
+            continue;
+        for (size_t a = 0; a < n; a++)
+            taken[a] += by[a] * force[b];
+        taken[b] -= by[b] * force[b];
+    }
+}
+
+/* Several contacts: Newton's method for d_a + sum_b C_ab F_b(d_b) = approach_a, each beside the
+ * others' forces as they are: the changes fall by a share at a time. False: not fast enough. */
+static bool local_apart(const struct scene *scene, const double *approach, double *indentation,
+                        double *force)
+{
+    size_t n = scene->contacts;
+    double taken[PERCUSS_MAX_CONTACTS];
+    double stiffness[PERCUSS_MAX_CONTACTS];
+    double change[PERCUSS_MAX_CONTACTS];
+    double previous = INFINITY;
+    double share = 0.0; /* of the change before it, that the last but one was */
+    for (int iteration = 0; iteration < MAX_APART; iteration++) {
+        double largest = 0.0;
+        double scale = 0.0;
+        for (size_t c = 0; c < n; c++)
+            force[c] = contact_law_force(&scene->laws[c], indentation[c], &stiffness[c]);
+        take_residual(scene, force, taken);
+        /* the update, and whether it was the last one */
+        for (size_t c = 0; c < n; c++) {
+            double own = scene->residual[c * (n + 1)];
+            change[c] = (indentation[c] + own * force[c] + taken[c] - approach[c]) /
+                        (1.0 + own * stiffness[c]);
+            indentation[c] -= change[c];
+            largest = larger(largest, fabs(change[c]));
+            scale = larger(scale, larger(fabs(indentation[c]), fabs(approach[c])));
+        }
+        double left = largest * (isfinite(previous) ? larger(share, largest / previous) : 1.0);
+        if (largest <= SQUARES_TO_ROUNDING * scale && left <= TO_ROUNDING * scale) {
+            for (size_t c = 0; c < n; c++)
+                force[c] = larger(0.0, force[c] - stiffness[c] * change[c]);
+            return true;
+        }
+        if (!(largest <= previous))
+            return false;
+        share = largest / previous;
+        previous = largest;
+    }
+    return false;
+}
+
 /* All contacts at once: Newton's method for d_a + sum_b C_ab F_b(d_b) = approach_a. */
 static bool local_of_many(const struct scene *scene, const double *approach, double *indentation,
                           double *force, double *matrix)
@@ -230,6 +228,12 @@ bool contact_local_indentation(const struct scene *scene, const double *approach
     if (scene->contacts == 1 && local_of_one(&scene->laws[0], scene->residual[0], approach[0],
                                              SQUARES_TO_ROUNDING, &indentation[0], &force[0]))
         return true;
+    double start[PERCUSS_MAX_CONTACTS];
+    size_t size = scene->contacts * sizeof *start;
+    memcpy(start, indentation, size);
+    if (scene->contacts > 1 && local_apart(scene, approach, indentation, force))
+        return true;
+    memcpy(indentation, start, size);
     return local_of_many(scene, approach, indentation, force, matrix);
 }
 
@@ -248,14 +252,29 @@ static void foresee(struct contact_step *step, size_t contact, const struct cont
     }
 }
 
+/* Approaches at the end of the step under its forces. */
+static void find_approaches(struct contact_step *step, const struct scene *scene, int level)
+{
+    if (scene->contacts == 1) {
+        const double *m = coupling_own(&step->coupling, level, 0)->by[NODES];
+        const double *force = step->force[0];
+        step->approach[0] = step->target[0][NODES] - ((m[0] * force[0] + m[1] * force[1]) +
+                                                      (m[2] * force[2] + m[3] * force[3]));
+        return;
+    }
+    coupling_take(&step->coupling, scene, level, step->force, step->taken);
+    for (size_t c = 0; c < scene->contacts; c++)
+        step->approach[c] = step->target[c][NODES] - step->taken[c][NODES];
+}
+
 /* The contacts at the end of the step, from where the cubics end: one contact as exactly as its
  * nodes, several to rounding. */
 static bool find_end(struct contact_step *step, const struct scene *scene, int level)
 {
+    find_approaches(step, scene, level);
     for (size_t c = 0; c < scene->contacts; c++) {
         const double *at_end = collocation.end[0];
         const double *d = step->indentation[c];
-        step->approach[c] = end_approach(step, scene, c, level);
         step->end_indentation[c] =
             (at_end[0] * d[0] + at_end[1] * d[1]) + (at_end[2] * d[2] + at_end[3] * d[3]);
     }
@@ -267,32 +286,58 @@ static bool find_end(struct contact_step *step, const struct scene *scene, int l
                                      step->matrix);
 }
 
+static void foresee_all(struct contact_step *step, size_t contacts,
+                        const struct contact_start *start, int level)
+{
+    for (size_t c = 0; c < contacts; c++)
+        foresee(step, c, &start[c], step_length(level));
+}
+
+/* All contacts at once, from the start again. */
+static enum contact_step_end solve_together(struct contact_step *step,
+                                            const struct node_problem *problem,
+                                            const struct contact_start *start)
+{
+    size_t unknowns = problem->scene->contacts * NODES;
+    if (!step->together)
+        step->together = arena_reserve(step->arena, unknowns * unknowns, sizeof(double));
+    if (!step->together)
+        return STEP_MEMORY;
+    foresee_all(step, problem->scene->contacts, start, problem->level);
+    return node_solve_together(problem, step->together, step->indentation, step->force,
+                               step->stiffness, &step->iterations)
+               ? STEP_SOLVED
+               : STEP_UNSOLVED;
+}
+
 enum contact_step_end contact_step_solve(struct contact_step *step, const struct scene *scene,
                                          const struct motion *motion, int level,
                                          const struct contact_start *start)
 {
     /* a level that is new to the scene */
-    if (!step->coupling[level]) {
-        enum percuss_status status = find_coupling(step, scene, level);
+    if (!step->coupling.level[level]) {
+        enum percuss_status status =
+            coupling_prepare(&step->coupling, scene, level, step->arena, step->pace);
         if (status != PERCUSS_OK)
             return status == PERCUSS_TIMEOUT ? STEP_STOPPED : STEP_MEMORY;
     }
     /* approaches without force, and starting values */
     free_approaches(step, scene, motion, level);
-    for (size_t c = 0; c < scene->contacts; c++)
-        foresee(step, c, &start[c], step_length(level));
+    foresee_all(step, scene->contacts, start, level);
     /* forces and indentations at the nodes */
-    struct node_problem problem = {
-        .laws = scene->laws,
-        .contacts = scene->contacts,
-        .coupling = (const double(*)[STEP_POINTS][NODES])step->coupling[level],
+    const struct node_problem problem = {
+        .scene = scene,
+        .coupling = &step->coupling,
+        .level = level,
         .target = (const double(*)[STEP_POINTS])step->target,
-        .matrix = step->matrix,
-        .excess = step->excess,
+        .taken = step->taken,
         .last_change = step->last_change,
     };
-    if (!node_solve(&problem, step->indentation, step->force, step->stiffness, &step->iterations))
-        return STEP_UNSOLVED;
+    if (!node_solve(&problem, step->indentation, step->force, step->stiffness, &step->iterations)) {
+        enum contact_step_end end = solve_together(step, &problem, start);
+        if (end != STEP_SOLVED)
+            return end;
+    }
     if (step->carrier.damped)
         step->loss = contact_step_loss(scene, motion, level, step->force);
     return find_end(step, scene, level) ? STEP_SOLVED : STEP_UNSOLVED;

@@ -10,6 +10,7 @@
 
 #include "base/watch.h"
 #include "impact/carrier.h"
+#include "impact/coupling.h"
 
 struct contact_step {
     double (*indentation)[NODES]; /* [contact] local, at the nodes */
@@ -21,10 +22,11 @@ struct contact_step {
     double last_change;         /* relative, see node_solver.h */
 
     struct carrier carrier;
-    /* [contact][contact], m/N: of the approach at the nodes and the end; NULL: not yet */
-    double (*coupling[STEP_LEVELS])[STEP_POINTS][NODES];
+    struct coupling coupling;
     double (*target)[STEP_POINTS]; /* approaches without force */
-    double *matrix, *excess;
+    double (*taken)[STEP_POINTS];  /* what the forces take from them */
+    double *matrix;                /* contacts^2 */
+    double *together; /* (contacts NODES)^2: NULL until contacts had to be solved for at once */
     double *approach, *end_force;
     struct arena *arena;
     struct pace *pace; /* asked before a level's tables are made; NULL (as created): nobody */

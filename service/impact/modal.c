@@ -139,18 +139,22 @@ static int limit_level(const struct modal_run *run, int level, int finest)
     return level;
 }
 
+/* The largest scale of a contact that is closed; 0 where there is but one contact. */
+static double group_force(const struct modal_run *run)
+{
+    double group = 0.0;
+    for (size_t c = 0; run->march.scene.contacts > 1 && c < run->march.scene.contacts; c++)
+        if (run->march.closed[c])
+            group = larger(group, run->scales[c].force);
+    return group;
+}
+
 /* Force against which a contact's roughness counts: its scale, or what it bears already. */
-static double force_scale(const struct modal_run *run, size_t contact)
+static double force_scale(const struct modal_run *run, size_t contact, double group)
 {
     const double *force = run->step.force[contact];
     double own = larger(larger(force[0], force[1]), larger(force[2], force[3]));
-    double group = 0.0;
     own = larger(own, run->scales[contact].force);
-    if (run->march.scene.contacts == 1)
-        return own;
-    for (size_t c = 0; c < run->march.scene.contacts; c++)
-        if (run->march.closed[c])
-            group = larger(group, run->scales[c].force);
     return larger(own, SHARE_OF_GROUP * group);
 }
 
@@ -160,13 +164,14 @@ static double step_roughness(const struct modal_run *run)
 {
     double worst = 0.0;
     size_t contacts = run->march.scene.contacts;
+    double group = group_force(run);
     for (size_t c = 0; c < contacts; c++) {
         const double *force = run->step.force[c];
         double highest = 0.0;
         for (int j = 0; j < NODES; j++)
             highest += collocation.highest[j] * force[j];
         double off = contacts > 1 ? run->step.end_force[c] - collocation_value(force, 1.0) : 0.0;
-        worst = larger(worst, larger(fabs(highest), fabs(off)) / force_scale(run, c));
+        worst = larger(worst, larger(fabs(highest), fabs(off)) / force_scale(run, c, group));
     }
     return worst;
 }

@@ -122,10 +122,11 @@ void motion_push_gaps(struct motion *end, const struct scene *scene, int level, 
     }
     impulse *= h;
     travel *= h * h;
-    for (size_t a = 0; a < scene->contacts; a++) {
-        end->gap[a] += scene->w[a * scene->contacts + contact] * travel;
-        end->gap_rate[a] += scene->w[a * scene->contacts + contact] * impulse;
-    }
+    const double *w = scene->w + contact * scene->contacts; /* symmetric */
+    for (size_t a = 0; a < scene->contacts; a++)
+        end->gap[a] += w[a] * travel;
+    for (size_t a = 0; a < scene->contacts; a++)
+        end->gap_rate[a] += w[a] * impulse;
 }
 
 void motion_push(struct motion *end, const struct scene *scene, int level,

@@ -4,8 +4,8 @@
 #include "impact/node_solver.h"
 
 #include <math.h>
+#include <string.h>
 
-#include "base/vector_clones.h"
 #include "numeric/linear.h"
 
 /* Two nodes of a contact, wherever they lie: what every vector unit has; the lanes' order of
@@ -18,6 +18,11 @@ typedef long long pair_mask __attribute__((vector_size(2 * sizeof(long long))));
 /* Newton's method takes two or three iterations in an ordinary step; where it takes so many it
  * would take for ever. */
 enum { MAX_ITERATIONS = 40 };
+
+/* Contact by contact some five are taken; where one leaves more than this share of the change of
+ * the one before, after these first ones, all contacts at once are the shorter way. */
+enum { FIRST_ITERATIONS = 3, MAX_APART = 20 };
+static const double SLOWEST = 0.5;
 
 /* A change below this share of the approaches, which can be far larger than the indentations in a
  * long contact, is their rounding. */
@@ -72,6 +77,7 @@ static inline bool eliminate(const struct row a[NODES], const double b[NODES], d
  * can be far larger in a long contact, and set the rounding. */
 struct progress {
     double change, previous;
+    double share; /* of the change before that one, which `previous` was */
     double indentation, target;
 };
 
@@ -125,7 +131,7 @@ static inline void assemble_one(const struct node_problem *problem, const double
                                 const double force[NODES], const double stiffness[NODES],
                                 struct row a[NODES], double excess[NODES])
 {
-    const double(*m)[NODES] = problem->coupling[0];
+    const double(*m)[NODES] = coupling_own(problem->coupling, problem->level, 0)->by;
     const double *target = problem->target[0];
     excess[0] = d[0] - target[0] + row_of(m[0], force, stiffness, &a[0]);
     excess[1] = d[1] - target[1] + row_of(m[1], force, stiffness, &a[1]);
@@ -146,7 +152,7 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
         struct row matrix[NODES];
         double excess[NODES];
         double change[NODES];
-        contact_law_forces(problem->laws, d, force, stiffness);
+        contact_law_forces(problem->scene->laws, d, force, stiffness);
         assemble_one(problem, d, force, stiffness, matrix, excess);
         bool solved = eliminate(matrix, excess, change);
         ++*iterations;
@@ -166,193 +172,212 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
     return false;
 }
 
-static inline double product_of(const double x[NODES], const double y[NODES])
+/* The excess e of a contact at its nodes. */
+static inline void find_excess(const struct node_problem *problem, size_t contact,
+                               const double d[NODES], double excess[NODES])
 {
-    pair sum = CONST_PAIR(x) * CONST_PAIR(y) + CONST_PAIR(x + 2) * CONST_PAIR(y + 2);
-    return sum[0] + sum[1];
+    const double *target = problem->target[contact];
+    const double *taken = problem->taken[contact];
+    for (int i = 0; i < NODES; i++)
+        excess[i] = d[i] - target[i] + taken[i];
 }
 
-/* A contact's four columns. */
-typedef double quad __attribute__((vector_size(NODES * sizeof(double)), aligned(8)));
-
-/* As eliminate, in place, for any number of contacts; those that do not feel each other leave
- * zeros. */
-VECTOR_CLONES static bool eliminate_many(size_t n, double *a, double *b)
+static inline bool presses(const double force[NODES], const double stiffness[NODES])
 {
-    /* forward, a contact's columns at a time */
-    for (size_t c = 0; c < n; c++) {
-        const double *row = a + c * n;
-        double inverse = 1.0 / row[c];
-        size_t right = (c + 1) / NODES * NODES;
-        if (!(row[c] > LEAST_PIVOT))
-            return false;
-        for (size_t i = c + 1; i < n; i++) {
-            double *below = a + i * n;
-            double factor = below[c] * inverse;
-            if (factor == 0.0)
-                continue;
-            for (size_t k = right; k < n; k += NODES)
-                *(quad *)(below + k) -= factor * *(const quad *)(row + k);
-            b[i] -= factor * b[c];
-        }
-    }
-    /* and back substitution */
-    for (size_t i = n; i-- > 0;) {
-        for (size_t k = i + 1; k < n; k++)
-            b[i] -= a[i * n + k] * b[k];
-        b[i] /= a[i * n + i];
-    }
-    return true;
+    bool any = false;
+    for (int i = 0; i < NODES; i++)
+        any = any || force[i] != 0.0 || stiffness[i] != 0.0;
+    return any;
 }
 
-/* Newton's system of several contacts. An open contact bears no force and its indentation follows
- * from those of the pressed ones, so that only these are solved for. */
-struct system {
-    double (*stiffness)[NODES];                  /* [contact] */
-    double change[PERCUSS_MAX_CONTACTS * NODES]; /* of the pressed ones */
-    size_t pressed[PERCUSS_MAX_CONTACTS];        /* contacts */
-    size_t pressed_count;
-};
-
-static void find_forces(const struct node_problem *problem, struct system *system,
-                        double (*indentation)[NODES], double (*force)[NODES])
+/* One contact's change beside the others' forces as they are. An open contact follows from those.
+ */
+static bool change_apart(const struct node_problem *problem, size_t contact, const double d[NODES],
+                         const double stiffness[NODES], double change[NODES])
 {
-    system->pressed_count = 0;
-    for (size_t c = 0; c < problem->contacts; c++) {
-        bool presses = false;
-        contact_law_forces(&problem->laws[c], indentation[c], force[c], system->stiffness[c]);
-        for (int i = 0; i < NODES; i++)
-            presses = presses || system->stiffness[c][i] != 0.0 || force[c][i] != 0.0;
-        if (presses)
-            system->pressed[system->pressed_count++] = c;
-    }
+    static const double none[NODES];
+    const double(*m)[NODES] = coupling_own(problem->coupling, problem->level, contact)->by;
+    struct row matrix[NODES];
+    double excess[NODES];
+    find_excess(problem, contact, d, excess);
+    row_of(m[0], none, stiffness, &matrix[0]);
+    row_of(m[1], none, stiffness, &matrix[1]);
+    row_of(m[2], none, stiffness, &matrix[2]);
+    row_of(m[3], none, stiffness, &matrix[3]);
+    matrix[0].low += (pair){1.0, 0.0};
+    matrix[1].low += (pair){0.0, 1.0};
+    matrix[2].high += (pair){1.0, 0.0};
+    matrix[3].high += (pair){0.0, 1.0};
+    return eliminate(matrix, excess, change);
 }
 
-/* The excess e of all contacts, and the matrix 1 + coupling F' of the pressed ones. */
-static void assemble(const struct node_problem *problem, const struct system *system,
-                     double (*indentation)[NODES], double (*force)[NODES])
+/* Contacts that are open, and stay so, set no scale and need no accuracy. */
+static void note_change(struct progress *progress, bool pressed, const double d[NODES],
+                        const double change[NODES])
 {
-    size_t n = problem->contacts;
-    /* e_a = d_a - target_a + sum over the pressed b of coupling_ab F_b */
-    for (size_t a = 0; a < n; a++) {
-        double *excess = problem->excess + a * NODES;
-        for (int i = 0; i < NODES; i++)
-            excess[i] = indentation[a][i] - problem->target[a][i];
-        for (size_t q = 0; q < system->pressed_count; q++) {
-            const double(*m)[NODES] = problem->coupling[a * n + system->pressed[q]];
+    if (!pressed && !(d[0] > 0.0 || d[1] > 0.0 || d[2] > 0.0 || d[3] > 0.0))
+        return;
+    progress->change = larger(progress->change, largest_of(change));
+    progress->indentation = larger(progress->indentation, largest_of(d));
+}
+
+/* As settled, where others' forces are those of before: what is left falls by a share, which is no
+ * larger than those of the last two changes (two, as contacts can matter to each other in turn). */
+static bool settled_apart(const struct progress *progress, double last_change)
+{
+    double share = isfinite(progress->previous) ? progress->change / progress->previous : 1.0;
+    double left = progress->change * larger(share, progress->share);
+    return progress->change == 0.0 || (settled(progress, last_change) &&
+                                       (left <= last_change * last_change * progress->indentation ||
+                                        progress->change <= ROUNDING_OF_SUMS * progress->target));
+}
+
+/* The largest approach without force, whose rounding counts. */
+static double largest_target(const struct node_problem *problem)
+{
+    double largest = 0.0;
+    for (size_t c = 0; c < problem->scene->contacts; c++)
+        largest = larger(largest, largest_of(problem->target[c]));
+    return largest;
+}
+
+/* Several contacts, each by itself beside the others. */
+static bool solve_apart(const struct node_problem *problem, double (*d)[NODES],
+                        double (*force)[NODES], double (*stiffness)[NODES],
+                        unsigned long *iterations)
+{
+    size_t n = problem->scene->contacts;
+    double change[PERCUSS_MAX_CONTACTS][NODES];
+    struct progress progress = {.previous = INFINITY, .target = largest_target(problem)};
+    for (int iteration = 0; iteration < MAX_APART; iteration++) {
+        for (size_t c = 0; c < n; c++)
+            contact_law_forces(&problem->scene->laws[c], d[c], force[c], stiffness[c]);
+        coupling_take(problem->coupling, problem->scene, problem->level, force, problem->taken);
+        ++*iterations;
+        /* the update, and whether it was the last one */
+        progress.change = progress.indentation = 0.0;
+        for (size_t c = 0; c < n; c++) {
+            bool pressed = presses(force[c], stiffness[c]);
+            if (!pressed)
+                find_excess(problem, c, d[c], change[c]);
+            else if (!change_apart(problem, c, d[c], stiffness[c], change[c]))
+                return false;
             for (int i = 0; i < NODES; i++)
-                excess[i] += product_of(m[i], force[system->pressed[q]]);
+                d[c][i] -= change[c][i];
+            if (!isfinite((change[c][0] + change[c][1]) + (change[c][2] + change[c][3])))
+                return false;
+            note_change(&progress, pressed, d[c], change[c]);
         }
-    }
-    /* rows and columns of the pressed ones */
-    size_t size = system->pressed_count * NODES;
-    for (size_t p = 0; p < system->pressed_count; p++)
-        for (size_t q = 0; q < system->pressed_count; q++) {
-            size_t b = system->pressed[q];
-            const double(*m)[NODES] = problem->coupling[system->pressed[p] * n + b];
-            for (size_t i = 0; i < NODES; i++) {
-                double *row = problem->matrix + (p * NODES + i) * size + q * NODES;
-                for (size_t j = 0; j < NODES; j += 2)
-                    PAIR(row + j) = CONST_PAIR(m[i] + j) * CONST_PAIR(system->stiffness[b] + j);
-                row[i] += p == q ? 1.0 : 0.0;
-            }
+        if (settled_apart(&progress, problem->last_change)) {
+            for (size_t c = 0; c < n; c++)
+                follow(force[c], stiffness[c], change[c]);
+            return true;
         }
-}
-
-/* Solves the system of the pressed ones for their changes, in the order given. False: a pivot is
- * too small for that. */
-static bool eliminate_pressed(const struct node_problem *problem, struct system *system)
-{
-    const double *m = problem->matrix;
-    if (system->pressed_count != 1)
-        return eliminate_many(system->pressed_count * NODES, problem->matrix, system->change);
-    struct row rows[NODES];
-    double right[NODES];
-    for (int i = 0; i < NODES; i++, m += NODES) {
-        rows[i] = (struct row){CONST_PAIR(m), CONST_PAIR(m + 2)};
-        right[i] = system->change[i];
-    }
-    return eliminate(rows, right, system->change);
-}
-
-/* The right side of the system of the pressed ones. */
-static void take_excess(const struct node_problem *problem, struct system *system)
-{
-    for (size_t p = 0; p < system->pressed_count; p++)
-        for (size_t i = 0; i < NODES; i++)
-            system->change[p * NODES + i] = problem->excess[system->pressed[p] * NODES + i];
-}
-
-/* Turns the excess into the changes of all indentations: of the pressed ones by their system, of
- * an open one a: change_a = e_a - sum over the pressed b of coupling_ab F'_b change_b. */
-static bool find_changes(const struct node_problem *problem, struct system *system,
-                         double (*indentation)[NODES], double (*force)[NODES])
-{
-    size_t n = problem->contacts;
-    bool open[PERCUSS_MAX_CONTACTS];
-    /* the pressed ones by their system, with exchanges of rows where it needs them */
-    take_excess(problem, system);
-    if (!eliminate_pressed(problem, system)) {
-        assemble(problem, system, indentation, force);
-        take_excess(problem, system);
-        if (!linear_solve(system->pressed_count * NODES, problem->matrix, system->change))
+        if (iteration >= FIRST_ITERATIONS && progress.change > SLOWEST * progress.previous)
             return false;
+        progress.share = progress.change / progress.previous;
+        progress.previous = progress.change;
     }
-    /* the open ones by what those change */
-    for (size_t a = 0; a < n; a++)
-        open[a] = true;
-    for (size_t p = 0; p < system->pressed_count; p++)
-        open[system->pressed[p]] = false;
-    for (size_t q = 0; q < system->pressed_count; q++) {
-        size_t b = system->pressed[q];
-        double forces[NODES];
-        for (int j = 0; j < NODES; j++)
-            forces[j] = system->stiffness[b][j] * system->change[q * NODES + (size_t)j];
-        for (size_t a = 0; a < n; a++)
-            for (size_t i = 0; open[a] && i < NODES; i++)
-                problem->excess[a * NODES + i] -=
-                    product_of(problem->coupling[a * n + b][i], forces);
-    }
-    /* the changes of the pressed ones beside them */
-    for (size_t p = 0; p < system->pressed_count; p++)
-        for (size_t i = 0; i < NODES; i++)
-            problem->excess[system->pressed[p] * NODES + i] = system->change[p * NODES + i];
-    return true;
+    return false;
 }
 
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
                 double (*force)[NODES], double (*stiffness)[NODES], unsigned long *iterations)
 {
-    /* one contact by itself, unless that fails */
-    if (problem->contacts == 1 &&
-        solve_one(problem, indentation[0], force[0], stiffness[0], iterations))
-        return true;
-    /* any number: forces, Newton's system and its solution */
+    if (problem->scene->contacts == 1)
+        return solve_one(problem, indentation[0], force[0], stiffness[0], iterations);
+    return solve_apart(problem, indentation, force, stiffness, iterations);
+}
+
+/* Newton's system of several contacts. An open contact bears no force and its indentation follows
+ * from those of the pressed ones, so that only these are solved for. */
+struct system {
+    double *matrix;
+    double right[PERCUSS_MAX_CONTACTS * NODES]; /* of the pressed ones */
+    size_t pressed[PERCUSS_MAX_CONTACTS];       /* contacts */
+    size_t count;
+};
+
+/* The matrix 1 + coupling F' of the pressed ones. */
+static void assemble(const struct node_problem *problem, const struct system *system,
+                     double (*const stiffness)[NODES])
+{
+    size_t size = system->count * NODES;
+    for (size_t p = 0; p < system->count; p++)
+        for (size_t q = 0; q < system->count; q++) {
+            double by[STEP_POINTS][NODES];
+            size_t b = system->pressed[q];
+            coupling_between(problem->scene, problem->level, system->pressed[p], b, by);
+            for (size_t i = 0; i < NODES; i++) {
+                double *row = system->matrix + (p * NODES + i) * size + q * NODES;
+                for (size_t j = 0; j < NODES; j++)
+                    row[j] = by[i][j] * stiffness[b][j];
+                row[i] += p == q ? 1.0 : 0.0;
+            }
+        }
+}
+
+/* Turns the excess into the changes of all indentations: of the pressed ones by their system, of
+ * an open one a: change_a = e_a - sum over the pressed b of coupling_ab F'_b change_b. */
+static bool find_changes(const struct node_problem *problem, struct system *system,
+                         double (*const force)[NODES], double (*const stiffness)[NODES],
+                         double (*change)[NODES])
+{
+    size_t n = problem->scene->contacts;
+    double thrust[PERCUSS_MAX_CONTACTS][NODES] = {{0}};
+    system->count = 0;
+    for (size_t c = 0; c < n; c++)
+        if (presses(force[c], stiffness[c]))
+            system->pressed[system->count++] = c;
+    /* the pressed ones, with exchanges of rows where it needs them */
+    assemble(problem, system, stiffness);
+    for (size_t p = 0; p < system->count; p++)
+        memcpy(system->right + p * NODES, change[system->pressed[p]], sizeof *change);
+    if (!linear_solve(system->count * NODES, system->matrix, system->right))
+        return false;
+    for (size_t p = 0; p < system->count; p++)
+        for (size_t i = 0; i < NODES; i++)
+            thrust[system->pressed[p]][i] =
+                stiffness[system->pressed[p]][i] * system->right[p * NODES + i];
+    /* all of them by what those change */
+    coupling_take(problem->coupling, problem->scene, problem->level, thrust, problem->taken);
+    for (size_t c = 0; c < n; c++)
+        for (int i = 0; i < NODES; i++)
+            change[c][i] -= problem->taken[c][i];
+    return true;
+}
+
+bool node_solve_together(const struct node_problem *problem, double *matrix,
+                         double (*indentation)[NODES], double (*force)[NODES],
+                         double (*stiffness)[NODES], unsigned long *iterations)
+{
+    size_t n = problem->scene->contacts;
+    double change[PERCUSS_MAX_CONTACTS][NODES];
+    struct progress progress = {.previous = INFINITY, .target = largest_target(problem)};
     struct system system;
-    system.stiffness = stiffness; /* the rest is scratch */
-    struct progress progress = {.previous = INFINITY};
-    for (size_t c = 0; c < problem->contacts; c++)
-        progress.target = larger(progress.target, largest_of(problem->target[c]));
+    system.matrix = matrix; /* the rest is scratch */
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        find_forces(problem, &system, indentation, force);
-        assemble(problem, &system, indentation, force);
-        if (!find_changes(problem, &system, indentation, force))
+        /* forces, the excess, Newton's system and its solution */
+        for (size_t c = 0; c < n; c++)
+            contact_law_forces(&problem->scene->laws[c], indentation[c], force[c], stiffness[c]);
+        coupling_take(problem->coupling, problem->scene, problem->level, force, problem->taken);
+        for (size_t c = 0; c < n; c++)
+            find_excess(problem, c, indentation[c], change[c]);
+        if (!find_changes(problem, &system, force, stiffness, change))
             return false;
         ++*iterations;
         /* the update, and whether it was the last one */
         progress.change = progress.indentation = 0.0;
-        for (size_t c = 0; c < problem->contacts; c++) {
-            const double *change = problem->excess + c * NODES;
+        for (size_t c = 0; c < n; c++) {
             for (int i = 0; i < NODES; i++)
-                indentation[c][i] -= change[i];
-            if (!isfinite((change[0] + change[1]) + (change[2] + change[3])))
+                indentation[c][i] -= change[c][i];
+            if (!isfinite((change[c][0] + change[c][1]) + (change[c][2] + change[c][3])))
                 return false;
-            progress.change = larger(progress.change, largest_of(change));
-            progress.indentation = larger(progress.indentation, largest_of(indentation[c]));
+            note_change(&progress, presses(force[c], stiffness[c]), indentation[c], change[c]);
         }
-        if (settled(&progress, problem->last_change)) {
-            for (size_t c = 0; c < problem->contacts; c++)
-                follow(force[c], stiffness[c], problem->excess + c * NODES);
+        if (progress.change == 0.0 || settled(&progress, problem->last_change)) {
+            for (size_t c = 0; c < n; c++)
+                follow(force[c], stiffness[c], change[c]);
             return true;
         }
         progress.previous = progress.change;

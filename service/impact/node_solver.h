@@ -5,24 +5,23 @@
  *
  *   e_ai(d) = d_ai + sum_bj coupling_ab,ij F_b(d_bj) - target_ai = 0
  *
- * for contact a at node i, by Newton's method: (1 + coupling F') change = e, d -= change. An open
- * contact has F = F' = 0: its columns are those of the identity. */
+ * for contact a at node i. Newton's method, (1 + coupling F') change = e, d -= change, contact by
+ * contact: within one short step others hardly matter, so that each takes its own change and the
+ * others' forces as they were. Where they matter, all contacts at once. */
 #ifndef PERCUSS_IMPACT_NODE_SOLVER_H
 #define PERCUSS_IMPACT_NODE_SOLVER_H
 
 #include <math.h>
 #include <stdbool.h>
 
-#include "impact/scene.h"
+#include "impact/coupling.h"
 
 struct node_problem {
-    const struct contact_law *laws; /* [contact] */
-    size_t contacts;
-    /* [contact a][contact b]: approach of a at node i by the force of b at node j, m/N, and
-     * [contact]: approaches without force; what belongs to the step's end is not used */
-    const double (*coupling)[STEP_POINTS][NODES];
-    const double (*target)[STEP_POINTS];
-    double *matrix, *excess; /* scratch: (contacts NODES)^2, contacts NODES */
+    const struct scene *scene;
+    const struct coupling *coupling; /* prepared for the level */
+    int level;
+    const double (*target)[STEP_POINTS]; /* [contact]: approaches without force, the nodes' */
+    double (*taken)[STEP_POINTS];        /* [contact]: scratch */
     double last_change; /* the iteration ends with a relative change of the indentations below */
 };
 
@@ -39,9 +38,14 @@ static inline double node_solver_last_change(double accuracy)
 }
 
 /* [contact][node]: `indentation` holds starting values and becomes the solution, `force` belongs to
- * it, `stiffness` to the values before its last change. False: no convergence. Adds to *iterations.
- */
+ * it, `stiffness` to the values before its last change. False: no convergence, as far as contacts
+ * are taken one by one: the values are then of no use. Adds to *iterations. */
 bool node_solve(const struct node_problem *problem, double (*indentation)[NODES],
                 double (*force)[NODES], double (*stiffness)[NODES], unsigned long *iterations);
+
+/* The same, all contacts at once. `matrix`: (contacts NODES)^2, scratch. */
+bool node_solve_together(const struct node_problem *problem, double *matrix,
+                         double (*indentation)[NODES], double (*force)[NODES],
+                         double (*stiffness)[NODES], unsigned long *iterations);
 
 #endif

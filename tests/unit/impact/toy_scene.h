@@ -10,7 +10,7 @@
 #include "check.h"
 #include "impact/impact.h"
 
-enum { TOY_CONTACTS = 4, TOY_GROUPS = 4 };
+enum { TOY_CONTACTS = 12, TOY_GROUPS = 4 };
 
 struct toy {
     struct scene scene;
