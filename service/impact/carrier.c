@@ -58,11 +58,6 @@ static void turn_to(const struct carrier *carrier, const struct scene_group *gro
 {
     const double *const here[2] = {state[0], state[1]};
     const double *from = carrier->level < 0 ? NULL : middle_of(group, carrier->level);
-    enum middle_term turn;
-    if (from && carrier->force && find_turn(carrier->level, level, &turn)) {
-        kernel_turn(from, turn, 1.0, group->stride, here, state);
-        return;
-    }
     /* by way of the step's end, or back to its start if it was not taken */
     if (from)
         kernel_turn(from, TURN_HALF, carrier->force ? 1.0 : -1.0, group->stride, here, state);
@@ -84,6 +79,51 @@ static void enter(const struct carrier *carrier, const struct scene *scene, size
                          (const double *const[]){state[0], state[1]}, sums[c]);
 }
 
+/* The contact whose part goes in one pass with the turn: one that bears a force, if any does that
+ * moves the group. NONE: none moves it. */
+enum { NONE = PERCUSS_MAX_CONTACTS };
+static size_t choose_one(const struct carrier *carrier, const struct scene *scene,
+                         const double *const *phi)
+{
+    size_t one = NONE;
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (phi[c] && (one == NONE || motion_bears(carrier->force[c])))
+            one = c;
+    return one;
+}
+
+/* The same from a step that was taken to one about as long. */
+static void enter_next(const struct carrier *carrier, const struct scene *scene, size_t g,
+                       struct kernel_carry *carry, double (*sums)[STEP_POINTS])
+{
+    const struct scene_group *group = &scene->group[g];
+    const double *const *phi = group->participation;
+    double *const state[2] = {carrier->q[g], carrier->v[g]};
+    carry->from = middle_of(group, carrier->level);
+    /* the only contact, and none */
+    if (scene->contacts == 1 && phi[0]) {
+        carry->force = carrier->force[0];
+        kernel_carry(carry, group->stride, phi[0], state, sums[0]);
+        return;
+    }
+    size_t one = choose_one(carrier, scene, phi);
+    if (one == NONE) {
+        kernel_turn(carry->from, carry->turn, 1.0, group->stride,
+                    (const double *const[]){state[0], state[1]}, state);
+        return;
+    }
+    /* the others' forces before it, their approaches behind */
+    carry->force = carrier->force[one];
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (c != one && phi[c] && motion_bears(carrier->force[c]))
+            kernel_kick(carry->from, group->stride, phi[c], carrier->force[c], state);
+    kernel_carry(carry, group->stride, phi[one], state, sums[one]);
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (c != one && phi[c])
+            kernel_swing(carry->next, group->stride, phi[c],
+                         (const double *const[]){state[0], state[1]}, sums[c]);
+}
+
 /* The same of a damped group, from the start of the step. */
 static void enter_damped(const struct scene *scene, const struct scene_group *group,
                          const double *const start[2], int level, double (*sums)[STEP_POINTS])
@@ -97,10 +137,8 @@ static void enter_damped(const struct scene *scene, const struct scene_group *gr
 void carrier_enter(struct carrier *carrier, const struct scene *scene, const struct motion *motion,
                    int level, double (*sums)[STEP_POINTS])
 {
-    /* one contact, from a step to one about as long: in one pass */
-    struct kernel_carry carry = {.force = carrier->force ? carrier->force[0] : NULL};
-    bool at_once =
-        scene->contacts == 1 && carrier->force && find_turn(carrier->level, level, &carry.turn);
+    struct kernel_carry carry = {0};
+    bool next = carrier->force && find_turn(carrier->level, level, &carry.turn);
     for (size_t c = 0; c < scene->contacts; c++)
         for (int i = 0; i < STEP_POINTS; i++)
             sums[c][i] = 0.0;
@@ -108,15 +146,12 @@ void carrier_enter(struct carrier *carrier, const struct scene *scene, const str
         const struct scene_group *group = &scene->group[g];
         const double *const start[2] = {motion->q[g], motion->v[g]};
         carry.next = middle_of(group, level);
-        if (!carry.next) {
+        if (!carry.next)
             enter_damped(scene, group, start, level, sums);
-        } else if (at_once && group->participation[0]) {
-            carry.from = middle_of(group, carrier->level);
-            kernel_carry(&carry, group->stride, group->participation[0],
-                         (double *const[]){carrier->q[g], carrier->v[g]}, sums[0]);
-        } else {
+        else if (next)
+            enter_next(carrier, scene, g, &carry, sums);
+        else
             enter(carrier, scene, g, start, level, sums);
-        }
     }
     carrier->level = level;
     carrier->force = NULL;

@@ -137,9 +137,10 @@ static void take_residual(const struct scene *scene, const double *force, double
 }
 
 /* Several contacts: Newton's method for d_a + sum_b C_ab F_b(d_b) = approach_a, each beside the
- * others' forces as they are: the changes fall by a share at a time. False: not fast enough. */
-static bool local_apart(const struct scene *scene, const double *approach, double *indentation,
-                        double *force)
+ * others' forces as they are, until a relative change below `last` of those that press: the changes
+ * fall by a share at a time. False: not fast enough. */
+static bool local_apart(const struct scene *scene, const double *approach, double last,
+                        double *indentation, double *force)
 {
     size_t n = scene->contacts;
     double taken[PERCUSS_MAX_CONTACTS];
@@ -150,6 +151,7 @@ static bool local_apart(const struct scene *scene, const double *approach, doubl
     for (int iteration = 0; iteration < MAX_APART; iteration++) {
         double largest = 0.0;
         double scale = 0.0;
+        double reach = 0.0;
         for (size_t c = 0; c < n; c++)
             force[c] = contact_law_force(&scene->laws[c], indentation[c], &stiffness[c]);
         take_residual(scene, force, taken);
@@ -159,11 +161,15 @@ static bool local_apart(const struct scene *scene, const double *approach, doubl
             change[c] = (indentation[c] + own * force[c] + taken[c] - approach[c]) /
                         (1.0 + own * stiffness[c]);
             indentation[c] -= change[c];
+            reach = larger(reach, larger(fabs(indentation[c]), fabs(approach[c])));
+            if (!(force[c] > 0.0 || indentation[c] > 0.0 || isnan(change[c])))
+                continue;
             largest = larger(largest, fabs(change[c]));
-            scale = larger(scale, larger(fabs(indentation[c]), fabs(approach[c])));
+            scale = larger(scale, fabs(indentation[c]));
         }
         double left = largest * (isfinite(previous) ? larger(share, largest / previous) : 1.0);
-        if (largest <= SQUARES_TO_ROUNDING * scale && left <= TO_ROUNDING * scale) {
+        if ((largest <= last * scale && left <= last * last * scale) ||
+            largest <= TO_ROUNDING * reach) {
             for (size_t c = 0; c < n; c++)
                 force[c] = larger(0.0, force[c] - stiffness[c] * change[c]);
             return true;
@@ -222,19 +228,26 @@ bool contact_bears(const struct scene *scene, size_t contact, double stiffness)
     return -scene->residual[contact * (scene->contacts + 1)] * stiffness < BEARABLE;
 }
 
+/* Several contact by contact until a relative change below `last`, or else all at once. */
+static bool find_local(const struct scene *scene, const double *approach, double last,
+                       double *indentation, double *force, double *matrix)
+{
+    double start[PERCUSS_MAX_CONTACTS];
+    size_t size = scene->contacts * sizeof *start;
+    memcpy(start, indentation, size);
+    if (scene->contacts > 1 && local_apart(scene, approach, last, indentation, force))
+        return true;
+    memcpy(indentation, start, size);
+    return local_of_many(scene, approach, indentation, force, matrix);
+}
+
 bool contact_local_indentation(const struct scene *scene, const double *approach,
                                double *indentation, double *force, double *matrix)
 {
     if (scene->contacts == 1 && local_of_one(&scene->laws[0], scene->residual[0], approach[0],
-                                             SQUARES_TO_ROUNDING, &indentation[0], &force[0]))
+                                             SQUARES_TO_ROUNDING, indentation, force))
         return true;
-    double start[PERCUSS_MAX_CONTACTS];
-    size_t size = scene->contacts * sizeof *start;
-    memcpy(start, indentation, size);
-    if (scene->contacts > 1 && local_apart(scene, approach, indentation, force))
-        return true;
-    memcpy(indentation, start, size);
-    return local_of_many(scene, approach, indentation, force, matrix);
+    return find_local(scene, approach, SQUARES_TO_ROUNDING, indentation, force, matrix);
 }
 
 /* Indentations at the nodes as the step before has it: a Taylor series. */
@@ -267,8 +280,7 @@ static void find_approaches(struct contact_step *step, const struct scene *scene
         step->approach[c] = step->target[c][NODES] - step->taken[c][NODES];
 }
 
-/* The contacts at the end of the step, from where the cubics end: one contact as exactly as its
- * nodes, several to rounding. */
+/* The contacts at the end of the step, from where the cubics end, as exactly as their nodes. */
 static bool find_end(struct contact_step *step, const struct scene *scene, int level)
 {
     find_approaches(step, scene, level);
@@ -282,8 +294,8 @@ static bool find_end(struct contact_step *step, const struct scene *scene, int l
         local_of_one(&scene->laws[0], scene->residual[0], step->approach[0], step->last_change,
                      step->end_indentation, step->end_force))
         return true;
-    return contact_local_indentation(scene, step->approach, step->end_indentation, step->end_force,
-                                     step->matrix);
+    return find_local(scene, step->approach, step->last_change, step->end_indentation,
+                      step->end_force, step->matrix);
 }
 
 static void foresee_all(struct contact_step *step, size_t contacts,

@@ -92,15 +92,15 @@ if [ "$record" = yes ]; then
 fi
 
 # three contacts at once against one: thirty groups on a beam and their ninety contacts one by one. The
-# aim is 400 %; counted it is 620 %: each contact opens with fine steps of its own (3.8 times
-# the steps), and the forces of pressed contacts are solved for together.
+# aim is 400 %; counted it is 482 %: 2.2 times the steps, as each contact opens with fine ones of its own, of 2.2
+# times the cost.
 if [ -n "$often" ] && [ "$record" = no ]; then
     program=$often
     groups=$(count beam 1e-3 groups | cut -d ' ' -f 1)
     singles=$(count beam 1e-3 singles | cut -d ' ' -f 1)
     echo "a group of three contacts: $((300 * groups / singles)) % of the instructions of one contact"
-    if [ "$groups" -le 0 ] || [ "$((groups * 300))" -gt "$((singles * 750))" ]; then
-        echo "instructions: a group of three contacts: more than 750 % of one contact" >&2
+    if [ "$groups" -le 0 ] || [ "$((groups * 300))" -gt "$((singles * 550))" ]; then
+        echo "instructions: a group of three contacts: more than 550 % of one contact" >&2
         bad=1
     fi
 fi
