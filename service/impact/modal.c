@@ -29,8 +29,8 @@ struct modal_run {
  * contact as long as this share of the horizon. */
 static const double SLOWEST_SHARE = 0.01;
 
-/* A step goes at most this share of the way to where a contact would open at its present rate. */
-static const double SHARE_TO_OPENING = 0.75;
+/* A step goes at most this share of the way to where a contact would open as it moves now. */
+static const double SHARE_TO_OPENING = 0.85;
 
 /* A contact that opens without speed in a group has no scale of its own: its roughness counts
  * against this share of the group's force. */
@@ -43,8 +43,8 @@ static const double LONGER_ROUGHER = 8.0;
 static const double TOO_ROUGH = 3.0;
 
 enum {
-    /* Roughness may ask for more than events do, as a graze is shorter than its scale: by 2^8. */
-    GRAZE_LEVELS = 8,
+    /* Roughness may ask for more than events do, as a graze is shorter than its scale: by 2^11. */
+    GRAZE_LEVELS = 11,
     /* A step takes two or three iterations; so many more cost as much as one more. */
     ITERATIONS_PER_STEP = 8
 };
@@ -121,15 +121,21 @@ static void close_contact(struct modal_run *run, size_t contact, double time)
     find_finest(run);
 }
 
+/* When a closed contact would open as it moves now, along a parabola; INFINITY: never. */
+static double time_to_opening(const struct contact_start *now)
+{
+    double square = now->rate * now->rate - 2.0 * now->curvature * now->indentation;
+    double fall = square >= 0.0 ? sqrt(square) - now->rate : 0.0;
+    return fall > 0.0 && now->indentation > 0.0 ? 2.0 * now->indentation / fall : INFINITY;
+}
+
 /* A step must not jump over a contact's end, nor pump a mode, nor pass the horizon. */
 static int limit_level(const struct modal_run *run, int level, int finest)
 {
     for (size_t c = 0; c < run->march.scene.contacts; c++) {
         if (!run->march.closed[c])
             continue;
-        double left = run->longest[c];
-        if (run->now[c].rate < 0.0)
-            left = smaller(left, SHARE_TO_OPENING * run->now[c].indentation / -run->now[c].rate);
+        double left = smaller(run->longest[c], SHARE_TO_OPENING * time_to_opening(&run->now[c]));
         while (level < finest && step_length(level) > left)
             level++;
     }
@@ -261,6 +267,15 @@ static int next_level(const struct modal_run *run, int level, double roughness)
     return roughness > run->limits.roughness ? level + 1 : level;
 }
 
+/* The level that a phase begins with: contacts of a group close within its steps. */
+static int first_level(const struct modal_run *run)
+{
+    if (run->march.scene.contacts > 1)
+        return run->finest;
+    int level = step_level(run->scales[0].duration * run->limits.opening_share);
+    return level < run->finest ? level : run->finest;
+}
+
 /* Solves the step of a level and counts what that took. */
 static enum contact_step_end solve_step(struct modal_run *run, int level)
 {
@@ -275,19 +290,19 @@ static enum contact_step_end solve_step(struct modal_run *run, int level)
 static enum percuss_end_reason go_through(struct modal_run *run)
 {
     struct march *march = &run->march;
-    int level = run->finest;
+    int level = first_level(run);
     while (march_in_contact(march)) {
         if (++march->used > march->most || !pace_keeps(march->pace, march->cost))
             return PERCUSS_END_LIMIT;
         /* the length of the next step */
         int finest = run->finest;
-        int deepest = finest + GRAZE_LEVELS;
+        int deepest = finest + GRAZE_LEVELS < STEP_LEVELS ? finest + GRAZE_LEVELS : STEP_LEVELS - 1;
         level = limit_level(run, level < deepest ? level : deepest, finest);
         if (run->yielding.any)
             level = yielding_level(&run->yielding, level);
         double h = step_length(level);
         double time = march->outcome->motion.time;
-        if (time + h == time || march->horizon - time < step_length(finest))
+        if (time + h == time || march->horizon - time < step_length(deepest))
             return PERCUSS_END_IN_CONTACT;
 
         /* one that has no solution or is too coarse is tried again with half its length */

@@ -12,9 +12,12 @@ struct step_limits {
      * contact's force. The impulse converges with the eighth power of the step, the coefficient
      * with the third, hence about accuracy^(3/8). */
     double roughness;
-    /* The step in which a contact opens or closes may be this part of the contact's duration: the
-     * impulse within it is about its 5/2 power. */
+    /* The step in which a contact ends may be this part of its duration (impact_scale.h): the
+     * impulse within it is about its 5/2 power, and its end lies somewhere between the nodes. */
     double event_share;
+    /* The one in which it begins: the nodes begin with it, and its force like t^(3/2), which they
+     * follow to a hundredth of their largest. */
+    double opening_share;
     /* See step_limits_stable. 0.5 still closes the audit to 1e-5 over 20 wave passages, 2 does
      * not; 0.02 closes it to 1e-11. */
     double coupling;

@@ -46,6 +46,31 @@ static void a_mass_bounces_off_a_spring(void **state)
     }
 }
 
+/* A Hertz contact of a rigid pair, wherever its length lies between two levels of the ladder: its
+ * impulse 2 v/w as the accuracy says (see docs/accuracy.md), in few steps: its beginning and its
+ * end take no more of them than its middle. */
+static void a_contact_takes_few_steps(void **state)
+{
+    (void)state;
+    static const struct {
+        double accuracy;
+        unsigned long most;
+    } cases[] = {{1e-3, 11}, {1e-4, 12}, {1e-5, 14}, {1e-6, 19}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int k = 0; k < 8; k++) {
+            struct toy toy;
+            toy_init(&toy, 1);
+            toy.laws[0] = contact_law_hertz(1e8);
+            toy.gap_rate[0] = -pow(32.0, k / 8.0); /* an eighth of an octave in duration, each */
+            struct impact_outcome outcome = run(&toy, false, cases[i].accuracy, 1e3);
+            double impulse = -2.0 * toy.gap_rate[0];
+            measured("impulse", outcome.tracks[0].impulse, impulse,
+                     0.1 * pow(cases[i].accuracy, 0.8) * impulse);
+            assert_in_range(outcome.steps + outcome.rejected, 6, cases[i].most);
+            toy_free(&toy);
+        }
+}
+
 /* The closed form of a rigid pair against the integration, and e = 1 by both. */
 static void the_closed_form_of_a_rigid_pair_agrees(void **state)
 {
@@ -257,6 +282,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mass_bounces_off_a_spring),
+        cmocka_unit_test(a_contact_takes_few_steps),
         cmocka_unit_test(the_closed_form_of_a_rigid_pair_agrees),
         cmocka_unit_test(both_methods_agree_on_toys),
         cmocka_unit_test(scales_follow_from_the_energy),
