@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "wire_loopback.h"
+#include "wire_security.h"
 
 /* The domain of an earlier participant of this process serves as well, as soon as it is ready. */
 static dds_return_t create_domain(uint32_t domain)
@@ -19,15 +20,30 @@ static dds_return_t create_domain(uint32_t domain)
     return created == DDS_RETCODE_PRECONDITION_NOT_MET || created > 0 ? DDS_RETCODE_OK : created;
 }
 
-dds_entity_t wire_participant_create(uint32_t domain)
+bool wire_is_configured(void)
 {
     const char *uri = getenv("CYCLONEDDS_URI");
-    if (!uri || !*uri) {
-        dds_return_t made = create_domain(domain);
-        if (made < 0)
-            return made;
-    }
-    return dds_create_participant(domain, NULL, NULL);
+    return uri && *uri;
+}
+
+dds_entity_t wire_participant_create(uint32_t domain)
+{
+    return wire_participant_create_secured(domain, NULL);
+}
+
+dds_entity_t wire_participant_create_secured(uint32_t domain, const char *security)
+{
+    dds_return_t made = wire_is_configured() ? DDS_RETCODE_OK : create_domain(domain);
+    if (made < 0)
+        return made;
+    dds_qos_t *qos = security ? dds_create_qos() : NULL;
+    if (qos)
+        wire_security_set(security, qos);
+    dds_entity_t participant = dds_create_participant(domain, qos, NULL);
+    dds_delete_qos(qos);
+    /* what the plugins find wrong is no more than an error to DDS, and a line in its log */
+    return security && participant == DDS_RETCODE_ERROR ? DDS_RETCODE_NOT_ALLOWED_BY_SECURITY
+                                                        : participant;
 }
 
 const char *wire_participant_problem(dds_return_t code)
@@ -35,6 +51,8 @@ const char *wire_participant_problem(dds_return_t code)
     if (code == DDS_RETCODE_UNSUPPORTED)
         return "its sockets cannot be closed to other machines: /proc/self/fd and socket filters "
                "are needed for it, or a configuration in CYCLONEDDS_URI";
+    if (code == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+        return "its certificate or its permissions are not good, or do not belong together";
     return dds_strretcode(-code);
 }
 

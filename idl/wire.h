@@ -31,6 +31,13 @@ enum { WIRE_PARTITION_SIZE = 35, WIRE_WINDOW = 1024 };
  * for wire_participant_problem. */
 dds_entity_t wire_participant_create(uint32_t domain);
 
+/* The same with DDS Security: as the identity whose folder `security` is, which wire_security_check
+ * has found good; NULL: without. */
+dds_entity_t wire_participant_create_secured(uint32_t domain, const char *security);
+
+/* Whether CYCLONEDDS_URI configures the network, so that other machines may be heard. */
+bool wire_is_configured(void);
+
 /* What such a code means, in words. */
 const char *wire_participant_problem(dds_return_t code);
 

@@ -48,7 +48,7 @@ for folder in service/*/; do
         for include in $(sed -n 's/^ *# *include *"\([^"]*\)".*/\1/p' "$file"); do
             case $include in
             percuss/vocabulary.h | percuss/fields.h) continue ;;
-            wire.h | wire_whole.h | percuss_wire.h)
+            wire.h | wire_security.h | wire_whole.h | percuss_wire.h)
                 case $layer in endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
                 continue
                 ;;

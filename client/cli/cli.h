@@ -23,6 +23,7 @@ struct common {
     double timeout; /* s for the answer; NAN: not given */
     bool json;
     char server[PERCUSS_SERVER_ID_SIZE]; /* what its id begins with; empty: any */
+    const char *security;                /* folder of the identity to use; NULL: not given */
 };
 
 /* Long options without a letter; each command goes on from OPTION_OWN. */
@@ -31,11 +32,13 @@ enum option_key {
     OPTION_TIMEOUT,
     OPTION_JSON,
     OPTION_SERVER,
+    OPTION_SECURITY,
     OPTION_SCENE,
     OPTION_OWN = 300
 };
 
-/* Parses --domain, --timeout, --server and --json into the `struct common` that is its input. */
+/* Parses --domain, --timeout, --server, --security and --json into the `struct common` that is its
+ * input. */
 extern const struct argp common_argp;
 
 /* One command: argv[0] is "percuss <command>"; `common` holds what stood before the command.

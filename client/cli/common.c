@@ -25,6 +25,10 @@ static const struct argp_option common_options[] = {
      "the server to ask: how its id begins, as percuss status shows it (default: the one up "
      "longest of those found within a moment)",
      90},
+    {"security", OPTION_SECURITY, "DIR", 0,
+     "folder of the identity to ask a secured server with (default: PERCUSS_SECURITY, or else "
+     "none)",
+     90},
     {"json", OPTION_JSON, NULL, 0, "print one JSON object", 90},
     {0},
 };
@@ -86,6 +90,9 @@ static error_t parse_common(int key, char *text, struct argp_state *state)
         return 0;
     case OPTION_SERVER:
         parse_server(text, common->server, state);
+        return 0;
+    case OPTION_SECURITY:
+        common->security = text;
         return 0;
     /* how it is told */
     case OPTION_JSON:
@@ -156,13 +163,15 @@ int make_client(const struct common *common, const uint8_t *id, struct percuss_c
     memcpy(config.server, common->server, sizeof config.server);
     if (id)
         memcpy(config.id, id, sizeof config.id);
-    return complain_result(percuss_client_create(&config, client));
+    return complain_result(percuss_client_create_secured(&config, common->security, client));
 }
 
 int connect_client(const struct common *common, struct percuss_client *client)
 {
     enum percuss_result result = percuss_client_connect(client, common_patience(common));
-    if (result != PERCUSS_RESULT_NO_SERVER || common->server[0])
+    /* one that is secured is not started that easily */
+    bool secured = common->security || getenv("PERCUSS_SECURITY");
+    if (result != PERCUSS_RESULT_NO_SERVER || common->server[0] || secured)
         return complain_result(result);
     complain_no_server(percuss_error_text(), common->domain);
     return EXIT_NO_SERVER;

@@ -42,7 +42,7 @@ int command_status(int argc, char **argv, struct common *common)
     struct percuss_server_list list;
     parse_only_common(argc, argv, "Shows what the servers are doing.", common);
     int code = make_client(common, NULL, &client);
-    if (code == EXIT_ANSWERED)
+    if (code == EXIT_ANSWERED && !percuss_client_observes(client))
         code = connect_client(common, client);
     /* what a server announces that does not answer is of interest, too */
     if (code != EXIT_ANSWERED && code != EXIT_TIMEOUT) {

@@ -10,6 +10,7 @@
 #include <sys/random.h>
 
 #include "error.h"
+#include "wire_security.h"
 
 enum { DEFAULT_WINDOW = 256, HIGHEST_DOMAIN = 230 };
 
@@ -25,6 +26,12 @@ static uint32_t environment_domain(void)
     unsigned long domain = strtoul(text, &end, 10);
     bool good = isdigit((unsigned char)*text) && !*end && domain <= HIGHEST_DOMAIN;
     return good ? (uint32_t)domain : NOT_A_DOMAIN;
+}
+
+static const char *environment_security(void)
+{
+    const char *folder = getenv("PERCUSS_SECURITY");
+    return folder && *folder ? folder : NULL;
 }
 
 struct percuss_client_config percuss_client_config_default(void)
@@ -56,6 +63,15 @@ static enum percuss_result check_config(const struct percuss_client_config *conf
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "server: '%.33s': up to 32 of the digits 0..9, a..f are allowed",
                          config->server);
+    return PERCUSS_RESULT_OK;
+}
+
+/* All of an identity, or none. */
+static enum percuss_result check_security(const char *security)
+{
+    char problem[512];
+    if (security && !wire_security_check(security, problem, sizeof problem))
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "%s", problem);
     return PERCUSS_RESULT_OK;
 }
 
@@ -149,9 +165,9 @@ dds_entity_t client_reply_reader_create(struct percuss_client *client,
 }
 
 /* Everything is a child of the participant and goes with it. */
-static enum percuss_result create_entities(struct percuss_client *client)
+static enum percuss_result create_entities(struct percuss_client *client, const char *security)
 {
-    client->participant = wire_participant_create(client->domain);
+    client->participant = wire_participant_create_secured(client->domain, security);
     if (client->participant < 0)
         return error_set(PERCUSS_RESULT_TRANSPORT, "DDS participant: %s",
                          wire_participant_problem(client->participant));
@@ -160,6 +176,9 @@ static enum percuss_result create_entities(struct percuss_client *client)
         return error_dds("waitset", client->waitset);
     client->reply_reader =
         client_reply_reader_create(client, &percuss_v1_Reply_desc, WIRE_TOPIC_REPLY);
+    client->observes = client->reply_reader == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY;
+    if (client->observes)
+        return PERCUSS_RESULT_OK;
     if (client->reply_reader < 0)
         return error_dds("reader of " WIRE_TOPIC_REPLY, client->reply_reader);
     /* whoever waits is woken when the server goes, too */
@@ -189,9 +208,19 @@ static void create_lock(struct percuss_client *client)
 enum percuss_result percuss_client_create(const struct percuss_client_config *config,
                                           struct percuss_client **client)
 {
+    return percuss_client_create_secured(config, NULL, client);
+}
+
+enum percuss_result percuss_client_create_secured(const struct percuss_client_config *config,
+                                                  const char *security,
+                                                  struct percuss_client **client)
+{
     struct percuss_client_config chosen = config ? *config : percuss_client_config_default();
+    const char *identity = security ? security : environment_security();
     *client = NULL;
     enum percuss_result result = check_config(&chosen);
+    if (result == PERCUSS_RESULT_OK)
+        result = check_security(identity);
     if (result != PERCUSS_RESULT_OK)
         return result;
     struct percuss_client *created = calloc(1, sizeof *created);
@@ -199,6 +228,7 @@ enum percuss_result percuss_client_create(const struct percuss_client_config *co
         return error_set(PERCUSS_RESULT_NO_MEMORY, "a client");
     create_lock(created);
     created->domain = chosen.domain;
+    created->secured = identity != NULL;
     created->next_sequence = chosen.first_sequence;
     created->pending.window = chosen.window;
     memcpy(created->wanted, chosen.server, sizeof created->wanted);
@@ -206,7 +236,7 @@ enum percuss_result percuss_client_create(const struct percuss_client_config *co
     /* who it is, and its endpoints */
     result = choose_id(chosen.id, created->id);
     if (result == PERCUSS_RESULT_OK)
-        result = create_entities(created);
+        result = create_entities(created, identity);
     if (result != PERCUSS_RESULT_OK) {
         percuss_client_free(created);
         return result;
@@ -232,6 +262,11 @@ void percuss_client_free(struct percuss_client *client)
 void percuss_client_id(const struct percuss_client *client, uint8_t id[16])
 {
     memcpy(id, client->id, 16);
+}
+
+bool percuss_client_observes(const struct percuss_client *client)
+{
+    return client->observes;
 }
 
 bool percuss_client_server(struct percuss_client *client, uint8_t server[16])

@@ -25,6 +25,8 @@ struct percuss_client {
     /* constant once created */
     uint8_t id[16];
     uint32_t domain;
+    bool secured;                        /* by DDS Security */
+    bool observes;                       /* its permissions let it only see what servers announce */
     char wanted[PERCUSS_SERVER_ID_SIZE]; /* what the id of the server begins with; empty: any */
     dds_entity_t participant;
     dds_entity_t waitset;

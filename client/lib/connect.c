@@ -134,7 +134,8 @@ static enum percuss_result explain(const struct search *search)
                          "no percussd has answered in DDS domain %u, where somebody reads requests "
                          "who has not announced himself",
                          client->domain);
-    return error_set(PERCUSS_RESULT_NO_SERVER, "no percussd in DDS domain %u", client->domain);
+    return error_set(PERCUSS_RESULT_NO_SERVER, "no percussd in DDS domain %u%s", client->domain,
+                     client->secured ? " accepts our certificate and permissions" : "");
 }
 
 /* The answering one that was up first; those that have not announced themselves come last. */
@@ -254,6 +255,8 @@ enum percuss_result percuss_client_connect(struct percuss_client *client, double
 {
     struct search search = {.client = client, .start = receive_now(), .heard = INFINITY};
     enum percuss_result result = receive_deadline(timeout, &search.deadline);
+    if (client->observes)
+        return error_dds("asking a server", DDS_RETCODE_NOT_ALLOWED_BY_SECURITY);
     if (result == PERCUSS_RESULT_OK)
         result = servers_open(client);
     if (result != PERCUSS_RESULT_OK)

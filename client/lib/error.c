@@ -22,6 +22,8 @@ enum percuss_result error_set(enum percuss_result result, const char *format, ..
 
 enum percuss_result error_dds(const char *what, int code)
 {
+    if (code == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+        return error_set(PERCUSS_RESULT_TRANSPORT, "%s: our permissions do not allow it", what);
     return error_set(PERCUSS_RESULT_TRANSPORT, "%s: %s", what, dds_strretcode(-code));
 }
 

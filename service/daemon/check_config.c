@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "catalogue/catalogue.h"
+#include "endpoint/endpoint.h"
 #include "store/database_check.h"
 #include "store/schema.h"
 #include "store/table_store.h"
@@ -104,10 +105,20 @@ static bool check_store(const struct settings *settings)
     return false;
 }
 
-/* By joining it for a moment. */
+static bool check_security(const struct settings *settings)
+{
+    struct fault fault;
+    if (!settings->security[0] || endpoint_check_security(settings->security, &fault))
+        return true;
+    fprintf(stderr, "percussd: %s\n", fault.text);
+    return false;
+}
+
+/* By joining it for a moment, with the identity, which is whole. */
 static bool check_domain(const struct settings *settings)
 {
-    dds_entity_t participant = wire_participant_create(settings->domain);
+    dds_entity_t participant = wire_participant_create_secured(
+        settings->domain, settings->security[0] ? settings->security : NULL);
     if (participant < 0)
         fprintf(stderr, "percussd: domain: %u: %s\n", settings->domain,
                 wire_participant_problem(participant));
@@ -119,10 +130,11 @@ static bool check_domain(const struct settings *settings)
 bool check_config(const struct settings *settings)
 {
     bool (*const checks[])(const struct settings *) = {check_catalogue, check_tables, check_bodies,
-                                                       check_store, check_domain};
+                                                       check_store};
     bool good = true;
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         good = checks[i](settings) && good;
+    good = check_security(settings) && check_domain(settings) && good;
     if (good)
         puts("ok");
     return good;

@@ -6,9 +6,11 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "daemon/backup_job.h"
 #include "daemon/body_cache.h"
+#include "daemon/dds_log.h"
 #include "daemon/dispatch.h"
 #include "daemon/log.h"
 #include "daemon/memory.h"
@@ -52,11 +54,26 @@ static bool open_specimens(struct shared *shared, struct fault *fault)
                                                      &shared->specimens, fault) == PERCUSS_OK;
 }
 
+/* Whoever comes to this machine's ports, unless something keeps him out. */
+static void tell_who_may_ask(const char *security)
+{
+    if (geteuid() == 0)
+        log_line(LEVEL_WARNING, "runs as root: any other user would do");
+    if (security)
+        log_line(LEVEL_INFO, "DDS Security: the identity in %s", security);
+    else if (wire_is_configured())
+        log_line(LEVEL_WARNING, "CYCLONEDDS_URI is set and the setting security is not: whoever "
+                                "reaches this machine's ports may ask");
+}
+
 /* Specimens are announced before anybody can hit them. */
 static bool open_endpoint(struct shared *shared, struct fault *fault)
 {
-    shared->endpoint =
-        endpoint_create(shared->settings->domain, shared->settings->limit_clients, fault);
+    const struct settings *settings = shared->settings;
+    const char *security = settings->security[0] ? settings->security : NULL;
+    dds_log_begin();
+    tell_who_may_ask(security);
+    shared->endpoint = endpoint_create(settings->domain, security, settings->limit_clients, fault);
     if (!shared->endpoint)
         return false;
     if (!shared->specimens)
@@ -268,6 +285,7 @@ void service_tick(struct service *service)
         tidy_bodies(service);
     token_store_sweep(shared->tokens, now);
     reply_store_sweep(shared->replies, now);
+    dds_log_report();
     unsigned long long undelivered = atomic_load(&shared->undelivered);
     if (undelivered > service->reported)
         log_line(LEVEL_WARNING, "%llu replies were not taken by their clients",

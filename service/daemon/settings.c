@@ -27,6 +27,7 @@ struct setting {
 
 static const struct setting table[] = {
     {"catalogue", KIND_PATH, AT(catalogue), 0, 0},
+    {"security", KIND_PATH, AT(security), 0, 0},
     {"domain", KIND_WHOLE, AT(domain), 0, SETTINGS_MAX_DOMAIN},
     {"workers", KIND_WHOLE, AT(workers), 1, 256},
     {"queue_capacity", KIND_WHOLE, AT(queue_capacity), 1, 65536},

@@ -17,6 +17,7 @@ struct settings {
     char tables[SETTINGS_PATH_SIZE];    /* folder of contact tables; empty: none */
     char bodies[SETTINGS_PATH_SIZE];    /* folder of reduced bodies; empty: none */
     double bodies_days;                 /* that one stays there unused */
+    char security[SETTINGS_PATH_SIZE];  /* folder of its identity; empty: without DDS Security */
     unsigned domain;
     unsigned workers;
     unsigned queue_capacity;

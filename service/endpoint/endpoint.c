@@ -11,6 +11,7 @@
 
 #include "endpoint/describe.h"
 #include "endpoint/inbox.h"
+#include "wire_security.h"
 
 /* Samples are taken all before any is looked at, so that those of many writers can take turns;
  * looked at are a few before the next look at who has come. */
@@ -136,8 +137,20 @@ static bool create_waitset(struct endpoint *endpoint, struct fault *fault)
     return good;
 }
 
-struct endpoint *endpoint_create(uint32_t domain, size_t clients, struct fault *fault)
+bool endpoint_check_security(const char *security, struct fault *fault)
 {
+    char problem[sizeof fault->text];
+    if (wire_security_check(security, problem, sizeof problem))
+        return true;
+    fault_set(fault, PERCUSS_BAD_REQUEST, "%s", problem);
+    return false;
+}
+
+struct endpoint *endpoint_create(uint32_t domain, const char *security, size_t clients,
+                                 struct fault *fault)
+{
+    if (security && !endpoint_check_security(security, fault))
+        return NULL;
     struct endpoint *endpoint = calloc(1, sizeof *endpoint);
     if (!endpoint || getrandom(endpoint->server, sizeof endpoint->server, 0) < 0) {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory or of random numbers");
@@ -145,7 +158,7 @@ struct endpoint *endpoint_create(uint32_t domain, size_t clients, struct fault *
         return NULL;
     }
     /* the domain */
-    endpoint->participant = wire_participant_create(domain);
+    endpoint->participant = wire_participant_create_secured(domain, security);
     if (endpoint->participant < 0) {
         fault_set(fault, PERCUSS_INTERNAL, "DDS: participant: %s",
                   wire_participant_problem(endpoint->participant));

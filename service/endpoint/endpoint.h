@@ -13,9 +13,14 @@
 
 struct endpoint;
 
-/* Joins the domain: when this returns, requests are received. Replies are for at most so many
- * clients. NULL with a fault if DDS refuses. */
-struct endpoint *endpoint_create(uint32_t domain, size_t clients, struct fault *fault);
+/* Joins the domain: when this returns, requests are received. `security`: the folder of its
+ * identity (wire_security.h); NULL: without DDS Security. Replies are for at most so many
+ * `clients`. NULL with a fault if DDS refuses. */
+struct endpoint *endpoint_create(uint32_t domain, const char *security, size_t clients,
+                                 struct fault *fault);
+
+/* Whether that folder has what an identity needs, without joining. False with a fault. */
+bool endpoint_check_security(const char *security, struct fault *fault);
 
 /* Leaves the domain. No other thread may be using the endpoint. */
 void endpoint_free(struct endpoint *endpoint);

@@ -51,6 +51,17 @@ PERCUSS_API struct percuss_client_config percuss_client_config_default(void);
 PERCUSS_API enum percuss_result percuss_client_create(const struct percuss_client_config *config,
                                                       struct percuss_client **client);
 
+/* The same by DDS Security, as the identity whose folder `security` is, made by percuss-keys.sh and
+ * read here. NULL: the one that PERCUSS_SECURITY in the environment names, if it names one, as
+ * percuss_client_create does. INVALID_ARGUMENT for a folder that is not whole. */
+PERCUSS_API enum percuss_result
+percuss_client_create_secured(const struct percuss_client_config *config, const char *security,
+                              struct percuss_client **client);
+
+/* Whether the permissions of its identity let it only see what servers announce: it can be
+ * connected to none. */
+PERCUSS_API bool percuss_client_observes(const struct percuss_client *client);
+
 /* Forgets what is outstanding and leaves the domain; NULL is allowed. */
 PERCUSS_API void percuss_client_free(struct percuss_client *client);
 

@@ -3,6 +3,7 @@
 """The client."""
 
 import ctypes
+import os
 from collections.abc import Sequence
 from types import TracebackType
 
@@ -33,12 +34,14 @@ class Client:
         first_sequence: int = 1,
         window: int = 256,
         server: str = "",
+        security: str | os.PathLike | None = None,
     ) -> None:
         """domain: 0..230; None: what PERCUSS_DOMAIN in the environment says, or else 0. id: 16 octets,
         not all zero; None: random; a kept one lets a restarted client repeat requests. first_sequence: of
         the first request, > 0; a kept id goes on where it stopped. window: most outstanding requests,
         1..1024. server: hexadecimal digits with which the id of the server to stay with begins (as in
-        Server.server.hex()); empty: any."""
+        Server.server.hex()); empty: any. security: the folder of the identity to ask a secured server with;
+        None: what PERCUSS_SECURITY in the environment says, or else none."""
         self._handle = ctypes.c_void_p()
         if id is not None and (len(id) != 16 or not any(id)):
             raise ValueError(f"id: {id!r}: 16 octets, not all zero, are allowed")
@@ -56,7 +59,10 @@ class Client:
         if domain is None:
             domain = _library.percuss_client_config_default().domain
         config = _abi.ClientConfig(domain, octets, first_sequence, window, server.lower().encode())
-        check(_library.percuss_client_create(ctypes.byref(config), ctypes.byref(self._handle)))
+        folder = None if security is None else os.fsencode(security)
+        check(
+            _library.percuss_client_create_secured(ctypes.byref(config), folder, ctypes.byref(self._handle))
+        )
 
     def close(self) -> None:
         """Forgets what is outstanding and leaves the domain; may be called again."""
@@ -225,9 +231,10 @@ def connect(
     first_sequence: int = 1,
     window: int = 256,
     server: str = "",
+    security: str | os.PathLike | None = None,
 ) -> Client:
     """A connected client, to be used in a `with` statement; see Client and Client.connect."""
-    client = Client(domain, id, first_sequence, window, server)
+    client = Client(domain, id, first_sequence, window, server, security)
     try:
         client.connect(timeout)
     except CallError:

@@ -1,0 +1,112 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "wire_security.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <openssl/pem.h>
+#include <openssl/x509.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Files of an identity, and the properties that name them (DDS Security 1.1, 9.3.1 and 9.4.1). */
+static const struct {
+    const char *file, *property;
+    bool secret;
+} files[] = {
+    {"identity_ca.pem", "dds.sec.auth.identity_ca", false},
+    {"cert.pem", "dds.sec.auth.identity_certificate", false},
+    {"key.pem", "dds.sec.auth.private_key", true},
+    {"permissions_ca.pem", "dds.sec.access.permissions_ca", false},
+    {"governance.p7s", "dds.sec.access.governance", false},
+    {"permissions.p7s", "dds.sec.access.permissions", false},
+};
+
+/* Cyclone DDS's plugins. */
+static const struct {
+    const char *property, *value;
+} plugins[] = {
+    {"dds.sec.auth.library.path", "dds_security_auth"},
+    {"dds.sec.auth.library.init", "init_authentication"},
+    {"dds.sec.auth.library.finalize", "finalize_authentication"},
+    {"dds.sec.access.library.path", "dds_security_ac"},
+    {"dds.sec.access.library.init", "init_access_control"},
+    {"dds.sec.access.library.finalize", "finalize_access_control"},
+    {"dds.sec.crypto.library.path", "dds_security_crypto"},
+    {"dds.sec.crypto.library.init", "init_crypto"},
+    {"dds.sec.crypto.library.finalize", "finalize_crypto"},
+};
+
+enum { FILE_COUNT = sizeof files / sizeof *files, PLUGIN_COUNT = sizeof plugins / sizeof *plugins };
+
+/* What is wrong with a file; NULL: nothing. */
+static const char *find_fault(const char *path, bool secret)
+{
+    struct stat about;
+    if (stat(path, &about) != 0 || access(path, R_OK) != 0)
+        return strerror(errno);
+    if (!S_ISREG(about.st_mode) || about.st_size == 0)
+        return "must be a file that is not empty";
+    if (secret && (about.st_mode & (S_IRWXG | S_IRWXO)))
+        return "must be open to its owner alone (chmod 0600)";
+    return NULL;
+}
+
+static FILE *open_file(const char *folder, const char *name)
+{
+    char path[PATH_MAX];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return fopen(path, "rbe");
+}
+
+/* DDS would take another key, with which nobody would ever believe the certificate. */
+static bool key_fits(const char *folder)
+{
+    FILE *certificate_file = open_file(folder, "cert.pem"),
+         *key_file = open_file(folder, "key.pem");
+    X509 *certificate = certificate_file ? PEM_read_X509(certificate_file, NULL, NULL, NULL) : NULL;
+    /* the empty pass phrase, so that nobody is asked for one */
+    EVP_PKEY *key = key_file ? PEM_read_PrivateKey(key_file, NULL, NULL, "") : NULL;
+    bool good = certificate && key && X509_check_private_key(certificate, key) == 1;
+    X509_free(certificate);
+    EVP_PKEY_free(key);
+    if (certificate_file)
+        fclose(certificate_file);
+    if (key_file)
+        fclose(key_file);
+    return good;
+}
+
+bool wire_security_check(const char *folder, char *problem, size_t size)
+{
+    char path[PATH_MAX];
+    /* threads of DDS use OpenSSL until the process has ended */
+    OPENSSL_init_crypto(OPENSSL_INIT_NO_ATEXIT, NULL);
+    for (size_t i = 0; i < FILE_COUNT; i++) {
+        int length = snprintf(path, sizeof path, "%s/%s", folder, files[i].file);
+        const char *fault = (size_t)length < sizeof path ? find_fault(path, files[i].secret)
+                                                         : "has too long a name";
+        if (fault) {
+            snprintf(problem, size, "security: %s/%s: %s", folder, files[i].file, fault);
+            return false;
+        }
+    }
+    if (key_fits(folder))
+        return true;
+    snprintf(problem, size, "security: %s: key.pem must be the key of cert.pem", folder);
+    return false;
+}
+
+void wire_security_set(const char *folder, dds_qos_t *qos)
+{
+    char name[PATH_MAX + sizeof "file:"];
+    for (size_t i = 0; i < PLUGIN_COUNT; i++)
+        dds_qset_prop(qos, plugins[i].property, plugins[i].value);
+    for (size_t i = 0; i < FILE_COUNT; i++) {
+        snprintf(name, sizeof name, "file:%s/%s", folder, files[i].file);
+        dds_qset_prop(qos, files[i].property, name);
+    }
+}

@@ -1,0 +1,153 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+# A secured deployment: who has an identity of the same authority may do what its role says; who has
+# none, a foreign or a forged one gets nothing; and nothing starts half secured.
+. "$(dirname "$0")/lib.sh"
+
+command -v openssl >/dev/null || {
+    say "no openssl: skipped"
+    exit 77
+}
+keys=$work/keys
+
+make_keys() {
+    sh "$source_dir/deploy/security/percuss-keys.sh" "$@"
+}
+
+# as NAME COMMAND [ARGUMENT...]: a command of percuss with that identity
+as() {
+    identity=$1
+    command=$2
+    shift 2
+    percuss "$command" --security "$keys/$identity" "$@"
+}
+
+ask_as() {
+    identity=$1
+    shift
+    as "$identity" query --a steel-sphere --b al-beam --speed 0.3 "$@"
+}
+
+# strike NAME: an impact on the specimen bar-1
+strike() {
+    as "$1" query --a steel-sphere --b al-rod-1 --speed 0.3 --specimen-b bar-1
+}
+
+say "an authority, and one of each role"
+mkdir "$keys" "$work/foreign"
+expect 0 make_keys create "$keys"
+for role in serves asks administers observes; do
+    expect 0 make_keys add "$keys" "the-one-that-$role" "$role"
+    mv "$keys/the-one-that-$role" "$keys/$role" # a folder may be moved
+done
+expect 0 make_keys create "$work/foreign"
+expect 0 make_keys add "$work/foreign" asks asks
+[ -z "$(find "$keys" "$work/foreign" -type f -perm /077)" ] || fail "a file is open to others"
+expect 1 make_keys create "$keys"
+says "is there already"
+expect 1 make_keys add "$keys" '../x' asks
+says "letters, digits"
+expect 1 make_keys add "$keys" somebody reigns
+says "must be serves, asks, administers or observes"
+
+say "a daemon does not start half secured"
+settings "security: $keys/half"
+for file in identity_ca.pem cert.pem key.pem permissions_ca.pem governance.p7s permissions.p7s; do
+    rm -rf "$keys/half"
+    cp -r "$keys/serves" "$keys/half"
+    rm "$keys/half/$file"
+    expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain"
+    says "$file: No such file"
+    expect 1 "$bin/percussd" --config "$work/percussd.yaml" --check-config
+    says "$file: No such file"
+done
+cp "$keys/serves/permissions.p7s" "$keys/half"
+cp "$work/foreign/asks/key.pem" "$keys/half"
+expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain"
+says "key.pem must be the key of cert.pem"
+cp "$keys/serves/key.pem" "$keys/half"
+chmod 0640 "$keys/half/key.pem"
+expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain"
+says "key.pem: must be open to its owner alone"
+chmod 0600 "$keys/half/key.pem"
+sed 's/<default>DENY/<default>ALLOW/' "$keys/serves/permissions.p7s" >"$keys/half/permissions.p7s"
+expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain"
+says "its certificate or its permissions are not good"
+
+say "a client neither"
+expect 2 as nobody ping
+says "identity_ca.pem: No such file"
+
+say "roles"
+settings "security: $keys/serves" "store: $work/store.db"
+start_daemon
+logged "DDS Security: the identity in" || fail "the log does not say that it is secured"
+expect 0 ask_as asks
+grep -v "^  server" "$out" >"$work/secured"
+expect 0 as asks bodies
+expect 0 strike asks
+expect 3 as asks dents --specimen bar-1 --clear
+says "our permissions do not allow it"
+expect 0 as asks dents --specimen bar-1
+expect 0 strike administers
+expect 0 as administers dents --specimen bar-1 --clear
+expect 5 as asks dents --specimen bar-1
+expect 0 as observes status
+expect 3 ask_as observes
+says "our permissions do not allow it"
+expect 3 as observes ping
+says "our permissions do not allow it"
+expect 3 ask_as serves
+
+say "by the environment"
+PERCUSS_SECURITY=$keys/asks
+export PERCUSS_SECURITY
+expect 0 query
+unset PERCUSS_SECURITY
+
+say "without an identity, or with a foreign one, there is no server"
+expect 3 query --timeout 1
+says "no percussd in DDS domain $domain"
+cp -r "$work/foreign/asks" "$keys/foreign"
+expect 3 ask_as foreign
+says "no percussd in DDS domain $domain accepts our certificate and permissions"
+wait_for 10 logged "Certificate not valid" || fail "the daemon does not log the stranger"
+expect 3 percuss status --timeout 1
+
+say "nor with permissions that somebody else has signed"
+cp -r "$keys/observes" "$keys/forged"
+openssl smime -verify -noverify -text -in "$keys/asks/permissions.p7s" 2>/dev/null |
+    tr -d '\r' | sed 's/asks/observes/g' >"$work/permissions.xml"
+grep -q "CN=the-one-that-observes,OU=observes" "$work/permissions.xml" || fail "no forgery"
+authority=$work/foreign/authority
+openssl smime -sign -text -in "$work/permissions.xml" -out "$keys/forged/permissions.p7s" \
+    -signer "$authority/permissions_ca.pem" -inkey "$authority/permissions_ca.key"
+cp "$authority/permissions_ca.pem" "$authority/governance.p7s" "$keys/forged"
+expect 3 ask_as forged
+says "no percussd in DDS domain $domain accepts our certificate and permissions"
+expect 0 ask_as asks
+stop_daemon
+
+say "who is secured asks nobody who is not, and the answers are the same"
+settings
+start_daemon
+logged "DDS Security" && fail "the log says that it is secured"
+expect 3 ask_as asks --timeout 1
+expect 0 query
+grep -v "^  server" "$out" | cmp - "$work/secured" || fail "another answer"
+stop_daemon
+
+say "a daemon that others may reach says so"
+CYCLONEDDS_URI=file://$source_dir/config/cyclonedds.xml
+export CYCLONEDDS_URI
+start_daemon
+logged "warning CYCLONEDDS_URI is set and the setting security is not" || fail "the log does not say so"
+expect 0 query
+stop_daemon
+settings "security: $keys/serves"
+start_daemon
+logged "warning CYCLONEDDS_URI" && fail "the log says that anybody may ask"
+expect 0 ask_as asks
+expect 3 query --timeout 1
+stop_daemon
