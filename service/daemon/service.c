@@ -291,6 +291,9 @@ void service_tick(struct service *service)
         log_line(LEVEL_WARNING, "%llu replies were not taken by their clients",
                  undelivered - service->reported);
     service->reported = undelivered;
+    unsigned long long strange = endpoint_strange(shared->endpoint);
+    if (strange)
+        log_line(LEVEL_WARNING, "%llu requests bore the id of another client: ignored", strange);
     status_announce(shared);
     neighbours_look(&service->neighbours, shared->endpoint,
                     shared->snapshots.current->set->revision);

@@ -3,24 +3,16 @@
 
 #include "endpoint/endpoint.h"
 
-#include <dds/ddsi/ddsi_serdata.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/random.h>
 
 #include "endpoint/describe.h"
-#include "endpoint/inbox.h"
+#include "endpoint/intake.h"
 #include "wire_security.h"
 
-/* Samples are taken all before any is looked at, so that those of many writers can take turns;
- * looked at are a few before the next look at who has come. */
-enum {
-    TAKEN_AT_ONCE = 32,
-    TAKEN_BEFORE = 32 * TAKEN_AT_ONCE,
-    SERVED_AT_ONCE = 16,
-    WRITE_ATTEMPTS = 20
-};
+enum { WRITE_ATTEMPTS = 20 };
 
 /* What wakes the reading thread: the kinds of requests, and these. */
 enum {
@@ -35,25 +27,15 @@ struct endpoint {
     /* never changed once it is made; DDS lets any thread use its entities */
     uint8_t server[16];
     dds_entity_t participant, waitset, stop, nudge;
-    dds_entity_t readers[EXCHANGE_COUNT];
     dds_entity_t status_writer, body_writer;
     struct dents_topic dents;
     struct reply_writers *writers; /* thread-safe, but for what its header says */
     /* of the thread that runs it */
-    void *samples[EXCHANGE_COUNT];         /* the one at hand; its memory serves the next one */
-    struct inbox *inboxes[EXCHANGE_COUNT]; /* taken as serialised data */
+    struct intake intakes[EXCHANGE_COUNT];
     /* of the thread that looks for other servers */
-    dds_entity_t servers; /* the reader of what they announce */
-    atomic_bool stopped;  /* any thread sets it */
-};
-
-static const struct {
-    const char *topic;
-    const dds_topic_descriptor_t *type;
-} requests[EXCHANGE_COUNT] = {
-    [EXCHANGE_SINGLE] = {WIRE_TOPIC_REQUEST, &percuss_v1_Request_desc},
-    [EXCHANGE_BATCH] = {WIRE_TOPIC_BATCH_REQUEST, &percuss_v1_BatchRequest_desc},
-    [EXCHANGE_ENSEMBLE] = {WIRE_TOPIC_ENSEMBLE_REQUEST, &percuss_v1_EnsembleRequest_desc},
+    dds_entity_t servers;  /* the reader of what they announce */
+    atomic_bool stopped;   /* any thread sets it */
+    atomic_ullong strange; /* requests from others than the client whose id they bore */
 };
 
 /* The entity, or a fault that says what it was for. */
@@ -64,32 +46,11 @@ static bool created(dds_entity_t entity, const char *what, struct fault *fault)
     return entity > 0;
 }
 
-static void drop_taken(void *taken)
+static bool open_intakes(struct endpoint *endpoint, struct fault *fault)
 {
-    ddsi_serdata_unref(taken);
-}
-
-static bool create_readers(struct endpoint *endpoint, struct fault *fault)
-{
-    dds_qos_t *qos = wire_qos_exchange(NULL);
     bool good = true;
-    for (int i = 0; good && i < EXCHANGE_COUNT; i++) {
-        endpoint->samples[i] = dds_alloc(requests[i].type->m_size);
-        endpoint->inboxes[i] = inbox_create(WIRE_WINDOW, drop_taken);
-        if (!endpoint->inboxes[i]) {
-            fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-            good = false;
-            break;
-        }
-        dds_entity_t topic =
-            wire_topic_create(endpoint->participant, requests[i].type, requests[i].topic);
-        good = created(topic, requests[i].topic, fault);
-        if (!good)
-            break;
-        endpoint->readers[i] = dds_create_reader(endpoint->participant, topic, qos, NULL);
-        good = created(endpoint->readers[i], "reader of requests", fault);
-    }
-    dds_delete_qos(qos);
+    for (int i = 0; good && i < EXCHANGE_COUNT; i++)
+        good = intake_open(&endpoint->intakes[i], i, endpoint->participant, fault);
     return good;
 }
 
@@ -103,16 +64,6 @@ static bool create_announcer(struct endpoint *endpoint, const dds_topic_descript
     *writer = dds_create_writer(endpoint->participant, topic, qos, NULL);
     dds_delete_qos(qos);
     return created(*writer, name, fault);
-}
-
-/* Requests wake by the status of their reader. A read condition would do so while DDS still holds
- * the reader's lock, so that taking them costs another sleep, some 8 us. The status tells of new
- * samples only: whoever is woken takes until none is left. */
-static bool attach_requests(struct endpoint *endpoint, enum exchange exchange)
-{
-    dds_entity_t reader = endpoint->readers[exchange];
-    return dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS) == DDS_RETCODE_OK &&
-           dds_waitset_attach(endpoint->waitset, reader, exchange) == DDS_RETCODE_OK;
 }
 
 static bool create_waitset(struct endpoint *endpoint, struct fault *fault)
@@ -133,7 +84,7 @@ static bool create_waitset(struct endpoint *endpoint, struct fault *fault)
                 dds_waitset_attach(endpoint->waitset, subscriptions, SOURCE_SUBSCRIPTIONS) ==
                     DDS_RETCODE_OK;
     for (int i = 0; good && i < EXCHANGE_COUNT; i++)
-        good = attach_requests(endpoint, i);
+        good = intake_attach(&endpoint->intakes[i], endpoint->waitset);
     return good;
 }
 
@@ -166,7 +117,7 @@ struct endpoint *endpoint_create(uint32_t domain, const char *security, size_t c
     }
     /* readers, writers, and what wakes the reading thread */
     endpoint->writers = reply_writers_create(endpoint->participant, clients, fault);
-    if (!endpoint->writers || !create_readers(endpoint, fault) ||
+    if (!endpoint->writers || !open_intakes(endpoint, fault) ||
         !create_announcer(endpoint, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS,
                           &endpoint->status_writer, fault) ||
         !create_announcer(endpoint, &percuss_v1_Body_desc, WIRE_TOPIC_BODY, &endpoint->body_writer,
@@ -187,87 +138,17 @@ void endpoint_free(struct endpoint *endpoint)
     if (!endpoint)
         return;
     for (int i = 0; i < EXCHANGE_COUNT; i++)
-        inbox_free(endpoint->inboxes[i]);
+        intake_close(&endpoint->intakes[i]);
     /* with its domain, which runs threads of its own: a process has one endpoint */
     if (endpoint->participant > 0)
         dds_delete(dds_get_parent(endpoint->participant));
     reply_writers_free(endpoint->writers);
-    for (int i = 0; i < EXCHANGE_COUNT; i++) {
-        if (endpoint->samples[i])
-            dds_sample_free(endpoint->samples[i], requests[i].type, DDS_FREE_ALL);
-    }
     free(endpoint);
 }
 
 const uint8_t *endpoint_server(const struct endpoint *endpoint)
 {
     return endpoint->server;
-}
-
-/* Whether the sample at hand names this server, or none. */
-static bool is_ours(const struct endpoint *endpoint, enum exchange exchange)
-{
-    static const uint8_t anybody[16];
-    const void *sample = endpoint->samples[exchange];
-    const uint8_t *server = ((const percuss_v1_Request *)sample)->server;
-    if (exchange == EXCHANGE_BATCH)
-        server = ((const percuss_v1_BatchRequest *)sample)->server;
-    else if (exchange == EXCHANGE_ENSEMBLE)
-        server = ((const percuss_v1_EnsembleRequest *)sample)->server;
-    return memcmp(server, anybody, sizeof anybody) == 0 ||
-           memcmp(server, endpoint->server, sizeof endpoint->server) == 0;
-}
-
-static void handle(const struct endpoint_handler *handler, enum exchange exchange,
-                   const void *sample, bool alone)
-{
-    if (exchange == EXCHANGE_SINGLE)
-        handler->single(handler->context, sample, alone);
-    else if (exchange == EXCHANGE_BATCH)
-        handler->batch(handler->context, sample);
-    else
-        handler->ensemble(handler->context, sample);
-}
-
-/* Decodes into the sample of this exchange. */
-static bool decode(struct endpoint *endpoint, enum exchange exchange, struct ddsi_serdata *taken)
-{
-    return ddsi_serdata_to_sample(taken, endpoint->samples[exchange], NULL, NULL);
-}
-
-/* Decodes and handles what was taken, if it is for this server, and lets go of it. */
-static void serve(struct endpoint *endpoint, const struct endpoint_handler *handler,
-                  enum exchange exchange, struct ddsi_serdata *taken, bool alone)
-{
-    if (decode(endpoint, exchange, taken) && is_ours(endpoint, exchange))
-        handle(handler, exchange, endpoint->samples[exchange], alone);
-    ddsi_serdata_unref(taken);
-}
-
-/* Takes what is there, up to a bound; true: more may be left. One that comes alone is served at
- * once. */
-static bool take(struct endpoint *endpoint, const struct endpoint_handler *handler,
-                 enum exchange exchange)
-{
-    struct ddsi_serdata *taken[TAKEN_AT_ONCE];
-    dds_sample_info_t infos[TAKEN_AT_ONCE];
-    struct inbox *inbox = endpoint->inboxes[exchange];
-    dds_return_t count = TAKEN_AT_ONCE;
-    for (int all = 0; count == TAKEN_AT_ONCE && all < TAKEN_BEFORE; all += TAKEN_AT_ONCE) {
-        count =
-            dds_takecdr(endpoint->readers[exchange], taken, TAKEN_AT_ONCE, infos, DDS_ANY_STATE);
-        bool alone = count == 1 && inbox_is_empty(inbox);
-        /* samples without data only tell that a client's writer has gone */
-        for (dds_return_t i = 0; i < count; i++) {
-            if (!infos[i].valid_data)
-                ddsi_serdata_unref(taken[i]);
-            else if (alone)
-                serve(endpoint, handler, exchange, taken[i], true);
-            else
-                inbox_put(inbox, infos[i].publication_handle, taken[i]);
-        }
-    }
-    return count == TAKEN_AT_ONCE;
 }
 
 static void tell_alive(struct endpoint *endpoint, const struct endpoint_handler *handler)
@@ -277,20 +158,12 @@ static void tell_alive(struct endpoint *endpoint, const struct endpoint_handler 
         handler->alive(handler->context);
 }
 
-/* True: some are left. */
-static bool serve_some(struct endpoint *endpoint, const struct endpoint_handler *handler,
-                       enum exchange exchange)
-{
-    struct inbox *inbox = endpoint->inboxes[exchange];
-    for (int i = 0; i < SERVED_AT_ONCE && !inbox_is_empty(inbox); i++)
-        serve(endpoint, handler, exchange, inbox_take(inbox), false);
-    return !inbox_is_empty(inbox);
-}
-
 void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *handler)
 {
     bool ready[SOURCE_COUNT] = {false};
     bool left = false; /* requests that no wake-up will tell of */
+    struct intake_desk desk = {endpoint->server, reply_writers_owners(endpoint->writers),
+                               &endpoint->strange, handler};
     while (!atomic_load(&endpoint->stopped)) {
         /* who has something, since the last time or now */
         dds_attach_t woken[SOURCE_COUNT];
@@ -308,8 +181,8 @@ void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *hand
         ready[SOURCE_SUBSCRIPTIONS] = ready[SOURCE_DENTS] = ready[SOURCE_NUDGE] = left = false;
         /* then the requests, some of each kind */
         for (int i = 0; i < EXCHANGE_COUNT; i++) {
-            ready[i] = ready[i] && take(endpoint, handler, i);
-            left = serve_some(endpoint, handler, i) || ready[i] || left;
+            ready[i] = ready[i] && intake_take(&endpoint->intakes[i], &desk);
+            left = intake_serve(&endpoint->intakes[i], &desk) || ready[i] || left;
         }
     }
 }
@@ -335,6 +208,11 @@ enum delivery endpoint_publish(struct endpoint *endpoint, const uint8_t client[1
                                unsigned channel, const void *sample, unsigned patience)
 {
     return reply_writers_publish(endpoint->writers, client, channel, sample, patience);
+}
+
+unsigned long long endpoint_strange(struct endpoint *endpoint)
+{
+    return atomic_exchange(&endpoint->strange, 0);
 }
 
 void endpoint_flush(struct endpoint *endpoint, double seconds)

@@ -7,6 +7,7 @@
 #define PERCUSS_ENDPOINT_ENDPOINT_H
 
 #include "endpoint/dents_topic.h"
+#include "endpoint/handler.h"
 #include "endpoint/reply_writers.h"
 #include "endpoint/servers.h"
 #include "model/body.h"
@@ -28,19 +29,6 @@ void endpoint_free(struct endpoint *endpoint);
 /* 16 octets that name this server, drawn when it was created. */
 const uint8_t *endpoint_server(const struct endpoint *endpoint);
 
-/* What happens with arriving samples, all in the thread of endpoint_run. The samples are borrowed.
- * `alone`: no other request came with this one, so there is time to answer it on the spot. */
-struct endpoint_handler {
-    void *context;
-    void (*single)(void *context, const percuss_v1_Request *request, bool alone);
-    void (*batch)(void *context, const percuss_v1_BatchRequest *batch);
-    void (*ensemble)(void *context, const percuss_v1_EnsembleRequest *request);
-    void (*clear)(void *context,
-                  const char *specimen); /* of this server; see endpoint_open_dents */
-    presence_function *presence;
-    void (*alive)(void *context); /* after endpoint_nudge; NULL: nobody wants to know */
-};
-
 /* Reads until endpoint_stop, which any thread may call. */
 void endpoint_run(struct endpoint *endpoint, const struct endpoint_handler *handler);
 void endpoint_stop(struct endpoint *endpoint);
@@ -55,6 +43,9 @@ enum delivery endpoint_reply(struct endpoint *endpoint, const uint8_t client[16]
 /* Writes a sample to a client, see reply_writers_publish. Thread-safe. */
 enum delivery endpoint_publish(struct endpoint *endpoint, const uint8_t client[16],
                                unsigned channel, const void *sample, unsigned patience);
+
+/* Requests since the last call that bore the id of another client and were ignored. Thread-safe. */
+unsigned long long endpoint_strange(struct endpoint *endpoint);
 
 /* Waits until the clients have what was written, at most `seconds`. */
 void endpoint_flush(struct endpoint *endpoint, double seconds);

@@ -49,7 +49,8 @@ void inbox_free(struct inbox *inbox)
 {
     if (!inbox)
         return;
-    for (void *sample; (sample = inbox_take(inbox));)
+    uint64_t writer;
+    for (void *sample; (sample = inbox_take(inbox, &writer));)
         inbox->release(sample);
     key_map_release(&inbox->piles);
     free(inbox);
@@ -107,12 +108,13 @@ void inbox_put(struct inbox *inbox, uint64_t writer, void *sample)
         inbox->release(pile_take(pile));
 }
 
-void *inbox_take(struct inbox *inbox)
+void *inbox_take(struct inbox *inbox, uint64_t *writer)
 {
     struct pile *pile = TAILQ_FIRST(&inbox->turns);
     if (!pile)
         return NULL;
     void *sample = pile_take(pile);
+    *writer = pile->node.key.first;
     TAILQ_REMOVE(&inbox->turns, pile, turn);
     TAILQ_INSERT_TAIL(&inbox->turns, pile, turn);
     pile_drop_if_empty(inbox, pile);

@@ -21,8 +21,8 @@ void inbox_free(struct inbox *inbox); /* NULL is allowed */
  * of DDS; without memory the new one is. */
 void inbox_put(struct inbox *inbox, uint64_t writer, void *sample);
 
-/* The next sample, the caller's from now on; NULL: none is left. */
-void *inbox_take(struct inbox *inbox);
+/* The next sample, the caller's from now on, and who wrote it; NULL: none is left. */
+void *inbox_take(struct inbox *inbox, uint64_t *writer);
 
 bool inbox_is_empty(const struct inbox *inbox);
 

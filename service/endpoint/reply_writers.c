@@ -13,6 +13,7 @@ struct reply_writers {
     dds_entity_t participant, source;
     dds_entity_t topics[CHANNEL_COUNT];
     struct destinations *destinations;
+    struct owners *owners;
 };
 
 static const struct {
@@ -60,9 +61,11 @@ struct reply_writers *reply_writers_create(dds_entity_t participant, size_t clie
     struct reply_writers *writers = calloc(1, sizeof *writers);
     if (writers)
         writers->destinations = destinations_create(clients, create_writer, writers);
-    if (!writers || !writers->destinations) {
+    if (writers)
+        writers->owners = owners_create();
+    if (!writers || !writers->destinations || !writers->owners) {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-        free(writers);
+        reply_writers_free(writers);
         return NULL;
     }
     writers->participant = participant;
@@ -77,7 +80,13 @@ void reply_writers_free(struct reply_writers *writers)
     if (!writers)
         return;
     destinations_free(writers->destinations);
+    owners_free(writers->owners);
     free(writers);
+}
+
+struct owners *reply_writers_owners(const struct reply_writers *writers)
+{
+    return writers->owners;
 }
 
 dds_entity_t reply_writers_source(const struct reply_writers *writers)
@@ -96,6 +105,7 @@ static unsigned find_channel(const char *topic)
 /* What a visit of the subscriptions needs. */
 struct follow {
     struct destinations *destinations;
+    struct owners *owners;
     presence_function *presence;
     void *context;
 };
@@ -105,12 +115,14 @@ static void follow_one(void *context, const struct subscription *subscription)
     const struct follow *follow = context;
     struct destinations *destinations = follow->destinations;
     bool known = destinations_know(destinations, subscription->key);
+    struct digest participant = owners_participant(subscription->key);
     /* a reader goes, and with the last one of its kind the writer */
     if (known && !subscription->alive) {
         uint8_t client[16];
         dds_entity_t unread = destinations_remove(destinations, subscription->key, client);
         if (unread)
             dds_delete(unread);
+        owners_remove(follow->owners, client, participant);
         follow->presence(follow->context, client, READER_GONE);
     }
     /* a client's reader comes */
@@ -120,12 +132,14 @@ static void follow_one(void *context, const struct subscription *subscription)
     struct destination_reader reader = {subscription->key, subscription->participant,
                                         subscription->client, channel};
     bool good = destinations_add(destinations, &reader);
+    if (good)
+        owners_add(follow->owners, subscription->client, participant);
     follow->presence(follow->context, subscription->client, good ? READER_COME : READER_REFUSED);
 }
 
 void reply_writers_follow(struct reply_writers *writers, presence_function *presence, void *context)
 {
-    struct follow follow = {writers->destinations, presence, context};
+    struct follow follow = {writers->destinations, writers->owners, presence, context};
     subscriptions_take(writers->source, follow_one, &follow);
 }
 

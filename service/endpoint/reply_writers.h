@@ -11,6 +11,7 @@
 
 #include "base/fault.h"
 #include "endpoint/destinations.h"
+#include "endpoint/owners.h"
 
 struct reply_writers;
 
@@ -18,6 +19,9 @@ struct reply_writers;
 struct reply_writers *reply_writers_create(dds_entity_t participant, size_t clients,
                                            struct fault *fault);
 void reply_writers_free(struct reply_writers *writers);
+
+/* Whose the clients' ids are; of the thread of reply_writers_follow. */
+struct owners *reply_writers_owners(const struct reply_writers *writers);
 
 /* The reader of subscriptions, to wait on. */
 dds_entity_t reply_writers_source(const struct reply_writers *writers);

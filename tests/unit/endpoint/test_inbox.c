@@ -21,12 +21,14 @@ static void writers_take_turns(void **state)
     static const int order[] = {1, 4, 5, 2, 3};
     struct inbox *inbox = inbox_create(10, note_released);
     assert_true(inbox_is_empty(inbox));
-    assert_null(inbox_take(inbox));
+    uint64_t writer;
+    assert_null(inbox_take(inbox, &writer));
     for (int i = 0; i < 5; i++)
         inbox_put(inbox, writers[i], &samples[i]);
     for (int i = 0; i < 5; i++) {
         assert_false(inbox_is_empty(inbox));
-        assert_int_equal(*(int *)inbox_take(inbox), order[i]);
+        assert_int_equal(*(int *)inbox_take(inbox, &writer), order[i]);
+        assert_int_equal(writer, writers[order[i] - 1]);
     }
     assert_true(inbox_is_empty(inbox));
     inbox_free(inbox);
@@ -42,7 +44,9 @@ static void too_many_push_out_the_oldest(void **state)
         inbox_put(inbox, 7, &samples[i]);
     inbox_put(inbox, 8, &samples[3]);
     assert_int_equal(released, 1);
-    assert_int_equal(*(int *)inbox_take(inbox), 10);
+    uint64_t writer;
+    assert_int_equal(*(int *)inbox_take(inbox, &writer), 10);
+    assert_int_equal(writer, 7);
     /* what is left goes with it */
     inbox_free(inbox);
     assert_int_equal(released, 1101);
