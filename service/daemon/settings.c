@@ -27,7 +27,6 @@ struct setting {
 
 static const struct setting table[] = {
     {"catalogue", KIND_PATH, AT(catalogue), 0, 0},
-    {"security", KIND_PATH, AT(security), 0, 0},
     {"domain", KIND_WHOLE, AT(domain), 0, SETTINGS_MAX_DOMAIN},
     {"workers", KIND_WHOLE, AT(workers), 1, 256},
     {"queue_capacity", KIND_WHOLE, AT(queue_capacity), 1, 65536},
@@ -48,6 +47,7 @@ static const struct setting table[] = {
     {"tables", KIND_PATH, AT(tables), 0, 0},
     {"bodies", KIND_PATH, AT(bodies), 0, 0},
     {"bodies_days", KIND_NUMBER, AT(bodies_days), 0.001, 100000},
+    {"security", KIND_PATH, AT(security), 0, 0},
     {"log_level", KIND_LEVEL, AT(log_level), 0, 0},
     {"log_format", KIND_FORMAT, AT(log_format), 0, 0},
 };

@@ -357,6 +357,7 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("client_connect", c_int, [_Client, c_double]),
     ("client_id", None, [_Client, _Octets]),
     ("client_server", c_bool, [_Client, _Octets]),
+    ("client_observes", c_bool, [_Client]),
     ("solve", c_int, [_Client, POINTER(Request), c_double, POINTER(Reply)]),
     ("submit", c_int, [_Client, POINTER(Request), POINTER(c_uint64)]),
     ("wait", c_int, [_Client, c_uint64, c_double, POINTER(Reply)]),

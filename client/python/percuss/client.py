@@ -34,7 +34,7 @@ class Client:
         first_sequence: int = 1,
         window: int = 256,
         server: str = "",
-        security: str | os.PathLike | None = None,
+        security: str | os.PathLike[str] | None = None,
     ) -> None:
         """domain: 0..230; None: what PERCUSS_DOMAIN in the environment says, or else 0. id: 16 octets,
         not all zero; None: random; a kept one lets a restarted client repeat requests. first_sequence: of
@@ -103,6 +103,11 @@ class Client:
         """The id of the server that the client stays with; None before the first one."""
         octets = (ctypes.c_uint8 * 16)()
         return bytes(octets) if _library.percuss_client_server(self._open, octets) else None
+
+    @property
+    def observes(self) -> bool:
+        """Whether the permissions of its identity let it only see what servers announce: it cannot be connected."""
+        return bool(_library.percuss_client_observes(self._open))
 
     def connect(self, timeout: float = 3.0) -> None:
         """Waits until a server answers and stays with it; of several found within a moment, with the one
@@ -231,7 +236,7 @@ def connect(
     first_sequence: int = 1,
     window: int = 256,
     server: str = "",
-    security: str | os.PathLike | None = None,
+    security: str | os.PathLike[str] | None = None,
 ) -> Client:
     """A connected client, to be used in a `with` statement; see Client and Client.connect."""
     client = Client(domain, id, first_sequence, window, server, security)
