@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Installs what is missing, builds everything into build/ and runs every test. With CI=true a skipped test
-# is a failure, clang builds everything too, every reader is fuzzed for some seconds, and README is followed on
-# an empty machine.
+# is a failure, clang builds everything too, every reader is fuzzed for some seconds, and on an empty machine
+# README is followed and the packages are installed (tests/fresh.sh runs this suite on one, too).
 # PERCUSS_NO_SKIPS=true: skipped tests are failures, and that is all.
 set -eu
 cd "$(dirname "$0")/.."
@@ -28,5 +28,5 @@ sh tests/clang.sh
 sh tests/fuzz.sh 5
 # what this machine does not allow is said, and no failure
 code=0
-sh tests/fresh.sh || code=$?
+sh tests/fresh.sh quickstart packages || code=$?
 [ "$code" -eq 0 ] || [ "$code" -eq 77 ]
