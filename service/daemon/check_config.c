@@ -114,6 +114,21 @@ static bool check_security(const struct settings *settings)
     return false;
 }
 
+/* The file whose lock is waited for: one to write to, or one that can be made. */
+static bool check_standby(const struct settings *settings)
+{
+    struct fault fault;
+    if (!settings->standby[0] || access(settings->standby, R_OK | W_OK) == 0)
+        return true;
+    if (errno != ENOENT)
+        fault_set(&fault, PERCUSS_BAD_REQUEST, "%.300s: cannot be written to: %s",
+                  settings->standby, strerror(errno));
+    else if (database_folder_check(settings->standby, &fault) == PERCUSS_OK)
+        return true;
+    fprintf(stderr, "percussd: standby: %s\n", fault.text);
+    return false;
+}
+
 /* By joining it for a moment, with the identity, which is whole. */
 static bool check_domain(const struct settings *settings)
 {
@@ -130,7 +145,7 @@ static bool check_domain(const struct settings *settings)
 bool check_config(const struct settings *settings)
 {
     bool (*const checks[])(const struct settings *) = {check_catalogue, check_tables, check_bodies,
-                                                       check_store};
+                                                       check_store, check_standby};
     bool good = true;
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         good = checks[i](settings) && good;

@@ -15,6 +15,7 @@
 #include "daemon/notify.h"
 #include "daemon/service.h"
 #include "daemon/settings.h"
+#include "daemon/standby.h"
 #include "daemon/store_care.h"
 #include "endpoint/clock.h"
 
@@ -143,7 +144,17 @@ int main(int argc, char **argv)
     struct notifier notifier = notifier_open();
     /* blocked before there are threads, so that no thread takes them */
     sigset_t signals = block_signals();
-    struct service *service = service_create(&settings, &fault);
+    /* its turn, where several have the task */
+    uint8_t server[16];
+    enum standby_end place = settings.standby[0]
+                                 ? standby_wait(&settings, &signals, &notifier, server, &fault)
+                                 : STANDBY_TAKEN;
+    if (place == STANDBY_STOPPED)
+        return EXIT_SUCCESS;
+    struct service *service =
+        place == STANDBY_TAKEN
+            ? service_create(&settings, settings.standby[0] ? server : NULL, &fault)
+            : NULL;
     if (!service) {
         log_line(LEVEL_ERROR, "%s", fault.text);
         return EXIT_FAILURE;

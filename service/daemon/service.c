@@ -67,13 +67,14 @@ static void tell_who_may_ask(const char *security)
 }
 
 /* Specimens are announced before anybody can hit them. */
-static bool open_endpoint(struct shared *shared, struct fault *fault)
+static bool open_endpoint(struct shared *shared, const uint8_t *server, struct fault *fault)
 {
     const struct settings *settings = shared->settings;
     const char *security = settings->security[0] ? settings->security : NULL;
     dds_log_begin();
     tell_who_may_ask(security);
-    shared->endpoint = endpoint_create(settings->domain, security, settings->limit_clients, fault);
+    shared->endpoint =
+        endpoint_create(settings->domain, security, settings->limit_clients, server, fault);
     if (!shared->endpoint)
         return false;
     if (!shared->specimens)
@@ -171,7 +172,8 @@ static void tidy_bodies(struct service *service)
                         settings->bodies_days);
 }
 
-struct service *service_create(const struct settings *settings, struct fault *fault)
+struct service *service_create(const struct settings *settings, const uint8_t *server,
+                               struct fault *fault)
 {
     struct service *service = calloc(1, sizeof *service);
     if (!service) {
@@ -181,7 +183,7 @@ struct service *service_create(const struct settings *settings, struct fault *fa
     struct shared *shared = &service->shared;
     reducer_begin(&service->reducer, settings->bodies);
     if (!shared_create(shared, settings, fault) || !open_specimens(shared, fault) ||
-        !open_endpoint(shared, fault) || !start_workers(service, fault) ||
+        !open_endpoint(shared, server, fault) || !start_workers(service, fault) ||
         !start_reader(service, fault)) {
         service_free(service);
         return NULL;

@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/fault.h"
 #include "daemon/settings.h"
@@ -14,9 +15,10 @@
 /* Of the main thread alone. */
 struct service;
 
-/* Loads the catalogue, joins the domain and starts the threads; `settings` stays the caller's and
- * must outlive the service. NULL with a fault. */
-struct service *service_create(const struct settings *settings, struct fault *fault);
+/* Loads the catalogue, joins the domain under that server id (NULL: one of its own) and starts the
+ * threads; `settings` stays the caller's and must outlive the service. NULL with a fault. */
+struct service *service_create(const struct settings *settings, const uint8_t *server,
+                               struct fault *fault);
 
 /* Reads the catalogue again; a bad one is logged and changes nothing. */
 void service_reload(struct service *service);

@@ -42,6 +42,7 @@ static const struct setting table[] = {
     {"store", KIND_PATH, AT(store), 0, 0},
     {"backup", KIND_PATH, AT(backup), 0, 0},
     {"stored_replies", KIND_WHOLE, AT(stored_replies), 1, 10000000},
+    {"standby", KIND_PATH, AT(standby), 0, 0},
     {"session_minutes", KIND_NUMBER, AT(session_minutes), 0.001, 100000},
     {"drain_seconds", KIND_NUMBER, AT(drain_seconds), 0, 86400},
     {"tables", KIND_PATH, AT(tables), 0, 0},

@@ -30,6 +30,7 @@ struct settings {
     char store[SETTINGS_PATH_SIZE];  /* empty: no specimens */
     char backup[SETTINGS_PATH_SIZE]; /* of the store; empty: none */
     unsigned stored_replies;
+    char standby[SETTINGS_PATH_SIZE]; /* whose lock says which daemon answers; empty: this one */
     double session_minutes;
     double drain_seconds;
     enum log_level log_level;

@@ -88,6 +88,14 @@ static bool create_waitset(struct endpoint *endpoint, struct fault *fault)
     return good;
 }
 
+/* The given id, or one that nobody has. */
+static bool adopt_id(struct endpoint *endpoint, const uint8_t *server)
+{
+    if (server)
+        memcpy(endpoint->server, server, sizeof endpoint->server);
+    return server || getrandom(endpoint->server, sizeof endpoint->server, 0) >= 0;
+}
+
 bool endpoint_check_security(const char *security, struct fault *fault)
 {
     char problem[sizeof fault->text];
@@ -98,12 +106,12 @@ bool endpoint_check_security(const char *security, struct fault *fault)
 }
 
 struct endpoint *endpoint_create(uint32_t domain, const char *security, size_t clients,
-                                 struct fault *fault)
+                                 const uint8_t *server, struct fault *fault)
 {
     if (security && !endpoint_check_security(security, fault))
         return NULL;
     struct endpoint *endpoint = calloc(1, sizeof *endpoint);
-    if (!endpoint || getrandom(endpoint->server, sizeof endpoint->server, 0) < 0) {
+    if (!endpoint || !adopt_id(endpoint, server)) {
         fault_set(fault, PERCUSS_INTERNAL, "out of memory or of random numbers");
         free(endpoint);
         return NULL;

@@ -16,9 +16,10 @@ struct endpoint;
 
 /* Joins the domain: when this returns, requests are received. `security`: the folder of its
  * identity (wire_security.h); NULL: without DDS Security. Replies are for at most so many
- * `clients`. NULL with a fault if DDS refuses. */
+ * `clients`. `server`: the id to answer under; NULL: it is drawn. NULL with a fault if DDS refuses.
+ */
 struct endpoint *endpoint_create(uint32_t domain, const char *security, size_t clients,
-                                 struct fault *fault);
+                                 const uint8_t *server, struct fault *fault);
 
 /* Whether that folder has what an identity needs, without joining. False with a fault. */
 bool endpoint_check_security(const char *security, struct fault *fault);
@@ -26,7 +27,7 @@ bool endpoint_check_security(const char *security, struct fault *fault);
 /* Leaves the domain. No other thread may be using the endpoint. */
 void endpoint_free(struct endpoint *endpoint);
 
-/* 16 octets that name this server, drawn when it was created. */
+/* 16 octets that name this server. */
 const uint8_t *endpoint_server(const struct endpoint *endpoint);
 
 /* Reads until endpoint_stop, which any thread may call. */

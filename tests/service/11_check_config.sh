@@ -67,11 +67,13 @@ expect 0 check --catalogue "$source_dir/config/catalogue.yaml"
 cp "$source_dir/config/catalogue.yaml" "$work/catalogue.yaml"
 
 say "everything that would stop a start is found at once"
-settings "tables: no-tables" "store: no-folder/dents.db" "bodies: no-folder/bodies"
+settings "tables: no-tables" "store: no-folder/dents.db" "bodies: no-folder/bodies" \
+    "standby: no-folder/standby.lock"
 expect 1 check
 says "tables: $work/no-tables: cannot be read: No such file or directory"
 says "store: $work/no-folder/dents.db: cannot be made: No such file or directory"
 says "bodies: $work/no-folder/bodies: cannot be made: No such file or directory"
+says "standby: $work/no-folder/standby.lock: cannot be made: No such file or directory"
 [ ! -s "$out" ] || fail "it prints something on stdout"
 settings "store: catalogue.yaml"
 expect 1 check

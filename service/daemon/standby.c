@@ -1,0 +1,148 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/standby.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/random.h>
+#include <unistd.h>
+
+#include "catalogue/catalogue.h"
+#include "daemon/log.h"
+#include "endpoint/clock.h"
+
+/* 32 hexadecimal digits and the end of the line. */
+enum { LINE_SIZE = 33 };
+
+/* Between two looks at whether the place is free: far below the lease of a killed daemon. */
+static const struct timespec TURN = {.tv_nsec = 50000000};
+
+static enum percuss_status refuse(const char *path, const char *problem, struct fault *fault)
+{
+    return fault_set(fault, PERCUSS_BAD_REQUEST, "%.400s: %s", path, problem);
+}
+
+/* The whole file is locked, now or not at all. The lock is the process's, so that a child which
+ * outlives it does not keep it. */
+static enum percuss_status lock(int file, const char *path, struct fault *fault)
+{
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    if (fcntl(file, F_SETLK, &whole) == 0)
+        return PERCUSS_OK;
+    if (errno == EACCES || errno == EAGAIN)
+        return fault_set(fault, PERCUSS_BUSY, "%.400s: is held by another process", path);
+    return refuse(path, strerror(errno), fault);
+}
+
+/* False: that is no line of ours. */
+static bool parse(const char line[LINE_SIZE], uint8_t server[16])
+{
+    static const char digits[] = "0123456789abcdef";
+    for (int i = 0; i < 32; i++) {
+        const char *digit = line[i] ? strchr(digits, line[i]) : NULL;
+        if (!digit)
+            return false;
+        unsigned value = (unsigned)(digit - digits);
+        server[i / 2] = (uint8_t)(i % 2 ? server[i / 2] | value : value << 4);
+    }
+    return line[LINE_SIZE - 1] == '\n';
+}
+
+/* A new id, on the disk before anybody hears of it. */
+static enum percuss_status draw(int file, const char *path, uint8_t server[16], struct fault *fault)
+{
+    char line[LINE_SIZE + 1];
+    if (getrandom(server, 16, 0) != 16)
+        return fault_set(fault, PERCUSS_INTERNAL, "no random numbers");
+    for (int i = 0; i < 16; i++)
+        snprintf(line + 2 * i, 3, "%02x", server[i]);
+    line[LINE_SIZE - 1] = '\n';
+    if (pwrite(file, line, LINE_SIZE, 0) == LINE_SIZE && fsync(file) == 0)
+        return PERCUSS_OK;
+    return refuse(path, "cannot be written", fault);
+}
+
+/* The id in the file. */
+static enum percuss_status identify(int file, const char *path, uint8_t server[16],
+                                    struct fault *fault)
+{
+    char line[LINE_SIZE + 1];
+    ssize_t size = pread(file, line, sizeof line, 0);
+    if (size < 0)
+        return refuse(path, "cannot be read", fault);
+    if (size == 0)
+        return draw(file, path, server, fault);
+    if (size == LINE_SIZE && parse(line, server))
+        return PERCUSS_OK;
+    return refuse(path, "must be empty or hold a server id of 32 hexadecimal digits", fault);
+}
+
+enum percuss_status standby_take(const char *path, uint8_t server[16], struct fault *fault)
+{
+    int file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (file < 0)
+        return refuse(path, strerror(errno), fault);
+    enum percuss_status status = lock(file, path, fault);
+    if (!status)
+        status = identify(file, path, server, fault);
+    /* left open where it is locked, to the end of the process */
+    if (status)
+        close(file);
+    return status;
+}
+
+/* Whether the catalogue could be served: better said now than when it is needed. */
+static enum percuss_status try_catalogue(const struct settings *settings, struct fault *fault)
+{
+    struct body_set *set;
+    const char *folder = settings->bodies[0] ? settings->bodies : NULL;
+    enum percuss_status status = catalogue_load_reducing(settings->catalogue, folder, &set, fault);
+    if (!status)
+        body_set_free(set);
+    return status;
+}
+
+/* Until the next look at the place; false: a signal asks for the end. */
+static bool rest(const struct settings *settings, const sigset_t *signals)
+{
+    struct fault fault;
+    int signal_number = sigtimedwait(signals, NULL, &TURN);
+    if (signal_number == SIGTERM || signal_number == SIGINT)
+        return false;
+    if (signal_number == SIGHUP && try_catalogue(settings, &fault))
+        log_line(LEVEL_ERROR, "standby: %s", fault.text);
+    return true;
+}
+
+enum standby_end standby_wait(const struct settings *settings, const sigset_t *signals,
+                              const struct notifier *notifier, uint8_t server[16],
+                              struct fault *fault)
+{
+    enum percuss_status status = standby_take(settings->standby, server, fault);
+    double told = -INFINITY;
+    if (status != PERCUSS_BUSY)
+        return status ? STANDBY_FAILED : STANDBY_TAKEN;
+    /* it can take over, and says that it waits */
+    log_line(LEVEL_INFO, "standby: %s: waits until it ends", fault->text);
+    if (try_catalogue(settings, fault))
+        return STANDBY_FAILED;
+    notify(notifier, "READY=1\nSTATUS=standby: waits until the one that answers ends");
+    /* until the place is free */
+    while (status == PERCUSS_BUSY) {
+        if (!rest(settings, signals))
+            return STANDBY_STOPPED;
+        if (notifier->watchdog > 0.0 && clock_now() - told > 0.25 * notifier->watchdog) {
+            notify(notifier, "WATCHDOG=1");
+            told = clock_now();
+        }
+        status = standby_take(settings->standby, server, fault);
+    }
+    if (status)
+        return STANDBY_FAILED;
+    log_line(LEVEL_INFO, "standby: the place is free: takes over");
+    return STANDBY_TAKEN;
+}

@@ -1,0 +1,116 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+# Two daemons with the same settings: one answers, the other waits for its place and takes it, under the
+# same server id, with the store as it is.
+. "$(dirname "$0")/lib.sh"
+
+settings "store: specimens.db" "standby: standby.lock"
+start_daemon
+
+# start_standby: beside the one that answers, with a log of its own
+start_standby() {
+    "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" 2>"$work/standby.log" 9>&- &
+    others=$!
+    wait_for 20 grep -q "waits until it ends" "$work/standby.log" || fail "$(cat "$work/standby.log")"
+}
+
+# takes_over: the standby is now the daemon
+takes_over() {
+    wait_for 20 grep -q 'ready: domain' "$work/standby.log" || fail "$(cat "$work/standby.log")"
+    daemon=$others
+    others=
+    cp "$work/standby.log" "$log"
+}
+
+strike() {
+    percuss query --a steel-sphere --b al-rod-1 --speed 0.3 --contact-model closed-form \
+        --compliance half-space --specimen-b bar-1 --json "$@"
+}
+
+say "who waits is not in the domain: it answers nothing, and is announced to nobody"
+start_standby
+expect 0 percuss status --json
+[ "$(grep -c '"server": "' "$out")" = 1 ] || fail "$(cat "$out")"
+server=$(field server)
+[ "$server" = "$(cat "$work/standby.lock")" ] || fail "another id than in the file"
+expect 0 strike
+expect 0 query --json
+cp "$out" "$work/first"
+
+say "SIGHUP: a catalogue that it could not serve is said at once"
+cp "$work/catalogue.yaml" "$work/good.yaml"
+echo nonsense >"$work/catalogue.yaml"
+kill -HUP $others
+wait_for 20 grep -q "error   standby: .*catalogue.yaml" "$work/standby.log" || fail "$(cat "$work/standby.log")"
+cp "$work/good.yaml" "$work/catalogue.yaml"
+
+say "the one that answers is killed: the other one takes its place, its id and its store"
+kill -KILL "$daemon"
+wait "$daemon" 2>/dev/null || true
+takes_over
+expect 0 query --json --server "$server"
+numbers "$work/first" >"$work/a"
+numbers "$out" >"$work/b"
+cmp -s "$work/a" "$work/b" || fail "other numbers: $(diff "$work/a" "$work/b")"
+expect 0 strike
+expect 0 percuss dents --specimen bar-1 --json
+[ "$(field impacts)" = 2 ] || fail "$(cat "$out")"
+
+say "a program on the IDL alone: what it has no answer to it asks again"
+start_standby
+expect 0 "$peers/wire_specimens" "$domain" rig 60 "$work/rig" "$daemon" 20
+wait "$daemon" 2>/dev/null || true
+known=$(wc -l <"$work/rig")
+expect 0 "$peers/wire_specimens" "$domain" rig 60 "$work/rig"
+shows "60 answered, $known of them again"
+takes_over
+expect 0 percuss dents --specimen rig --json
+[ "$(field impacts)" = 60 ] || fail "$(cat "$out")"
+
+say "states that only the former one knew are refused as unknown"
+cat >"$work/request.json" <<'JSON'
+{"bodies": [{"id": "steel-sphere", "position": [0.515, 0, 0], "velocity": [-0.3, 0, 0]},
+            {"id": "al-rod-1", "state": "STATE"}],
+ "contacts": [{"a": 0, "b": 1, "point": [0.5, 0, 0], "normal": [1, 0, 0]}]}
+JSON
+sed 's/STATE//' "$work/request.json" >"$work/fresh.json"
+expect 0 percuss query --request "$work/fresh.json" --json
+state=$(sed -n 's/^ *"state": "\([0-9a-f]\{32\}\)"$/\1/p' "$out" | tail -n 1)
+[ -n "$state" ] || fail "no state"
+sed "s/STATE/$state/" "$work/request.json" >"$work/later.json"
+expect 0 percuss query --request "$work/later.json" --json
+start_standby
+kill -KILL "$daemon"
+wait "$daemon" 2>/dev/null || true
+takes_over
+expect 5 percuss query --request "$work/later.json"
+says "bodies[1].state"
+
+say "the one that answers ends in good order: the same"
+start_standby
+stop_daemon
+takes_over
+expect 0 percuss dents --specimen bar-1 --json --server "$server"
+[ "$(field impacts)" = 2 ] || fail "$(cat "$out")"
+
+say "a standby ends when it is asked to, and one that could not serve does not begin to wait"
+start_standby
+kill -TERM $others
+wait $others || fail "it ended with $?"
+others=
+sed "s|catalogue.yaml|none.yaml|" "$work/percussd.yaml" >"$work/second.yaml"
+expect 1 "$bin/percussd" --config "$work/second.yaml" --domain "$domain"
+says "none.yaml: cannot be read"
+
+say "a file that is somebody's is left alone"
+sed "s|standby.lock|good.yaml|" "$work/percussd.yaml" >"$work/second.yaml"
+expect 1 "$bin/percussd" --config "$work/second.yaml" --domain "$domain"
+says "good.yaml: must be empty or hold a server id of 32 hexadecimal digits"
+cmp -s "$work/catalogue.yaml" "$work/good.yaml" || fail "it is written to"
+
+say "the store guards itself besides: without the lock a second daemon does not get it"
+sed "/^standby/d" "$work/percussd.yaml" >"$work/second.yaml"
+expect 1 "$bin/percussd" --config "$work/second.yaml" --domain "$domain"
+says "specimens.db: is in use by another process"
+stop_daemon
