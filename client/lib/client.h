@@ -44,6 +44,8 @@ struct percuss_client {
     percuss_v1_Reply taken[CLIENT_TAKE_AT_ONCE];
     bool connected;
     bool lost;                   /* the server does not write to us any more */
+    double lost_since;           /* s; where lost */
+    uint64_t successions;        /* how often another process has taken the server's place */
     struct client_server server; /* whom we stay with; its id is all zero before the first one */
     char server_name[SERVERS_NAME_SIZE];                 /* in words */
     struct client_server answering[CLIENT_MOST_SERVERS]; /* pings of percuss_client_connect */

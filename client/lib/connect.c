@@ -16,6 +16,7 @@
 #include "matched.h"
 #include "receive.h"
 #include "servers.h"
+#include "succession.h"
 
 static const double MATCH_POLL = 1e-3;       /* s */
 static const double PING_INTERVAL = 5e-3;    /* s */
@@ -225,23 +226,12 @@ static bool is_answered(const struct percuss_client *client, const void *subject
     return client->answering_count > *before;
 }
 
-static enum percuss_result write_ping(struct percuss_client *client, const uint8_t *server)
-{
-    percuss_v1_Request ping = {0};
-    memcpy(ping.client, client->id, sizeof ping.client);
-    if (server)
-        memcpy(ping.server, server, sizeof ping.server);
-    dds_return_t code = dds_write(client->request_writer, &ping);
-    return code < 0 && code != DDS_RETCODE_TIMEOUT ? error_dds("writing a ping", code)
-                                                   : PERCUSS_RESULT_OK;
-}
-
 /* Pings all servers and collects who answers, until another one has or the next ping is due. */
 static enum percuss_result ping_all(struct search *search)
 {
     struct percuss_client *client = search->client;
     pthread_mutex_lock(&client->lock);
-    enum percuss_result result = write_ping(client, NULL);
+    enum percuss_result result = succession_ping(client, NULL);
     double until = fmin(search->deadline, receive_now() + PING_INTERVAL);
     if (result == PERCUSS_RESULT_OK)
         result = receive_until(client, is_answered, &search->count, until);
@@ -307,7 +297,7 @@ enum percuss_result percuss_ping(struct percuss_client *client, double timeout, 
         receive_until(client, never, NULL, 0.0);
         uint64_t before = client->pings_answered;
         double start = receive_now();
-        result = write_ping(client, client->server.id);
+        result = succession_ping(client, client->server.id);
         if (result == PERCUSS_RESULT_OK)
             result = receive_until(client, ping_is_answered, &before, deadline);
         if (result == PERCUSS_RESULT_TIMEOUT)

@@ -11,6 +11,7 @@
 #include "error.h"
 #include "gather.h"
 #include "receive.h"
+#include "succession.h"
 
 enum percuss_result exchange_check_connected(const struct percuss_client *client)
 {
@@ -60,6 +61,23 @@ static enum percuss_result enter(struct percuss_client *client, uint64_t sequenc
     return result;
 }
 
+/* Writes a request that is entered; what cannot be sent is not waited for. */
+static enum percuss_result write_request(struct percuss_client *client, percuss_v1_Request *wire,
+                                         struct pending *pending)
+{
+    /* who asks whom */
+    memcpy(wire->client, client->id, sizeof wire->client);
+    memcpy(wire->server, client->server.id, sizeof wire->server);
+    wire->sequence = pending->sequence;
+    /* with histories if somebody gathers them */
+    wire->options.trace = wire->options.trace || pending->gather;
+    dds_return_t code = dds_write(client->request_writer, wire);
+    if (code >= 0)
+        return PERCUSS_RESULT_OK;
+    pending_remove(&client->pending, pending);
+    return error_dds("writing the request", code);
+}
+
 /* Enters and writes a request; the lock is held. */
 static enum percuss_result send_request(struct percuss_client *client,
                                         const struct percuss_request *request, bool waited,
@@ -74,20 +92,8 @@ static enum percuss_result send_request(struct percuss_client *client,
         result = enter(client, request->sequence, waited, pending);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    /* who asks whom */
-    memcpy(wire.client, client->id, sizeof wire.client);
-    memcpy(wire.server, client->server.id, sizeof wire.server);
-    wire.sequence = (*pending)->sequence;
-    /* with histories if somebody gathers them */
-    wire.options.trace = wire.options.trace || gather;
     (*pending)->gather = gather;
-    /* what was not sent is not waited for */
-    dds_return_t code = dds_write(client->request_writer, &wire);
-    if (code < 0) {
-        pending_remove(&client->pending, *pending);
-        return error_dds("writing the request", code);
-    }
-    return PERCUSS_RESULT_OK;
+    return write_request(client, &wire, *pending);
 }
 
 /* Hands over a ready reply and forgets the request. */
@@ -116,29 +122,64 @@ static bool histories_are_complete(const struct percuss_client *client, const vo
     return gather_is_complete(histories->gather, histories->contacts);
 }
 
+/* Waits for the reply, and the histories if they are gathered. */
+static enum percuss_result await_all(struct percuss_client *client, const struct pending *pending,
+                                     double deadline)
+{
+    enum percuss_result result = exchange_await(client, pending, deadline);
+    /* a refusal has no contacts */
+    struct histories histories = {pending->gather, pending->reply.contact_count};
+    if (result != PERCUSS_RESULT_OK || !pending->gather)
+        return result;
+    result = receive_until(client, histories_are_complete, &histories, deadline);
+    if (result == PERCUSS_RESULT_TIMEOUT)
+        error_set(result, "the histories of request %llu have not all come from %s",
+                  (unsigned long long)pending->sequence, client->server_name);
+    return result;
+}
+
+/* Asks the successor of a server that has gone, under the same number: what was answered and stored
+ * before is not done again. False: nothing has changed. */
+static bool ask_successor(struct percuss_client *client, const struct percuss_request *request,
+                          struct pending *pending, double deadline, enum percuss_result *result)
+{
+    struct request_storage storage;
+    percuss_v1_Request wire;
+    /* the histories of two servers are not mixed */
+    if (pending->gather || !succession_follow(client, deadline))
+        return false;
+    *result = convert_request(request, &storage, &wire);
+    if (*result == PERCUSS_RESULT_OK)
+        *result = write_request(client, &wire, pending);
+    return true;
+}
+
 enum percuss_result exchange_solve(struct percuss_client *client,
                                    const struct percuss_request *request, double deadline,
                                    struct gather *gather, struct percuss_reply *reply)
 {
     struct pending *pending;
     pthread_mutex_lock(&client->lock);
+    /* one that was lost while nobody waited may have a successor */
+    if (client->connected && client->lost)
+        succession_follow(client, deadline);
     enum percuss_result result = send_request(client, request, true, gather, &pending);
-    if (result == PERCUSS_RESULT_OK) {
-        result = exchange_await(client, pending, deadline);
-        /* a refusal has no contacts */
-        struct histories histories = {gather, pending->reply.contact_count};
-        if (result == PERCUSS_RESULT_OK && gather) {
-            result = receive_until(client, histories_are_complete, &histories, deadline);
-            if (result == PERCUSS_RESULT_TIMEOUT)
-                error_set(result, "the histories of request %llu have not all come from %s",
-                          (unsigned long long)pending->sequence, client->server_name);
-        }
-        /* handed over, or given up: nothing stays behind */
-        if (result == PERCUSS_RESULT_OK)
-            result = collect(client, pending, reply);
-        else
-            pending_remove(&client->pending, pending);
+    if (result != PERCUSS_RESULT_OK)
+        goto unsent;
+    /* of the server, or of the process that has taken its place */
+    result = await_all(client, pending, deadline);
+    while (result == PERCUSS_RESULT_NO_SERVER &&
+           ask_successor(client, request, pending, deadline, &result)) {
+        if (result != PERCUSS_RESULT_OK)
+            goto unsent;
+        result = await_all(client, pending, deadline);
     }
+    /* handed over, or given up: nothing stays behind */
+    if (result == PERCUSS_RESULT_OK)
+        result = collect(client, pending, reply);
+    else
+        pending_remove(&client->pending, pending);
+unsent:
     pthread_mutex_unlock(&client->lock);
     return result;
 }

@@ -38,10 +38,29 @@ static bool is_ours(const struct percuss_client *client, const uint8_t server[16
     return memcmp(client->server.id, server, sizeof client->server.id) == 0;
 }
 
+/* Stays with the process that has taken the place of the server that has gone: it answers under the
+ * same id. The lock is held. */
+static void follow_successor(struct percuss_client *client, const struct client_server *server)
+{
+    client->server = *server;
+    matched_participant(dds_get_matched_publication_data, client->reply_reader, server->writer,
+                        &client->server.participant);
+    /* where it runs is not known yet */
+    char *place = strstr(client->server_name, " (");
+    if (place)
+        *place = '\0';
+    client->lost = false;
+    client->successions++;
+    receive_note_loss(client);
+}
+
 /* The answer to a ping, from any server while we are looking for one; the lock is held. */
 static void file_ping(struct percuss_client *client, const struct client_server *server)
 {
     size_t i = 0;
+    if (client->connected && client->lost && is_ours(client, server->id) &&
+        server->writer != client->server.writer)
+        follow_successor(client, server);
     client->pings_answered += client->connected && is_ours(client, server->id);
     while (i < client->answering_count && memcmp(client->answering[i].id, server->id, 16) != 0)
         i++;
@@ -238,9 +257,16 @@ static bool is_there(const struct percuss_client *client, dds_instance_handle_t 
     return found;
 }
 
+static void note_loss(struct percuss_client *client, bool lost)
+{
+    if (lost && !client->lost)
+        client->lost_since = receive_now();
+    client->lost = lost;
+}
+
 void receive_note_loss(struct percuss_client *client)
 {
-    client->lost = !is_there(client, client->server.writer);
+    note_loss(client, !is_there(client, client->server.writer));
 }
 
 /* Whether some writer of replies has come or gone, and that one has. Being read, the status no
@@ -289,7 +315,7 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
 
     pthread_mutex_lock(&client->lock);
     /* another server may have been chosen meanwhile */
-    client->lost = client->lost || (gone && writer == client->server.writer);
+    note_loss(client, client->lost || (gone && writer == client->server.writer));
     client->leading = false;
     pthread_cond_broadcast(&client->changed);
     return result;
@@ -304,14 +330,22 @@ static void follow(struct percuss_client *client, double deadline)
     pthread_cond_timedwait(&client->changed, &client->lock, &time);
 }
 
-enum percuss_result receive_until(struct percuss_client *client, receive_condition *done,
-                                  const void *subject, double deadline)
+/* Whether the server that was asked when there had been so many `successions` is not there any
+ * more. */
+static bool is_without_server(const struct percuss_client *client, uint64_t successions)
+{
+    return client->connected && (client->lost || client->successions != successions);
+}
+
+static enum percuss_result receive(struct percuss_client *client, receive_condition *done,
+                                   const void *subject, double deadline, bool regardless)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
+    const uint64_t successions = client->successions;
     bool looked = false;
     while (result == PERCUSS_RESULT_OK && !done(client, subject)) {
         double left = deadline - receive_now();
-        if (client->connected && client->lost)
+        if (!regardless && is_without_server(client, successions))
             return error_lost(client->server_name);
         if (left <= 0.0 && looked)
             return PERCUSS_RESULT_TIMEOUT;
@@ -322,4 +356,16 @@ enum percuss_result receive_until(struct percuss_client *client, receive_conditi
             result = lead(client, fmax(left, 0.0));
     }
     return result;
+}
+
+enum percuss_result receive_until(struct percuss_client *client, receive_condition *done,
+                                  const void *subject, double deadline)
+{
+    return receive(client, done, subject, deadline, false);
+}
+
+enum percuss_result receive_regardless(struct percuss_client *client, receive_condition *done,
+                                       const void *subject, double deadline)
+{
+    return receive(client, done, subject, deadline, true);
 }
