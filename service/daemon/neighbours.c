@@ -10,6 +10,7 @@
 
 struct look {
     struct neighbours *neighbours;
+    const uint8_t *server; /* our own id */
     const char *revision;
 };
 
@@ -22,9 +23,15 @@ static struct neighbour *find(struct neighbours *neighbours, const uint8_t serve
     return i < NEIGHBOURS_MOST ? &neighbours->each[i] : NULL;
 }
 
-static void warn(const struct neighbour *neighbour, const percuss_v1_ServerStatus *status)
+static void warn(const struct neighbour *neighbour, const percuss_v1_ServerStatus *status,
+                 bool has_our_id)
 {
-    if (neighbour->alike)
+    if (has_our_id)
+        log_line(LEVEL_ERROR,
+                 "%s answers in this domain under the id of this one: the file `standby` of its "
+                 "settings is a copy of ours: one of the two must end",
+                 neighbour->name);
+    else if (neighbour->alike)
         log_line(LEVEL_WARNING,
                  "%s answers in this domain too, with the same catalogue: clients that name no "
                  "server ask the one that has been up longest",
@@ -59,12 +66,12 @@ static void note(void *context, const percuss_v1_ServerStatus *status)
     if (!is_new && alike == neighbour->alike)
         return;
     neighbour->alike = alike;
-    warn(neighbour, status);
+    warn(neighbour, status, memcmp(status->server, look->server, 16) == 0);
 }
 
 void neighbours_look(struct neighbours *neighbours, struct endpoint *endpoint, const char *revision)
 {
-    struct look look = {neighbours, revision};
+    struct look look = {neighbours, endpoint_server(endpoint), revision};
     for (size_t i = 0; i < neighbours->count; i++)
         neighbours->each[i].there = false;
     endpoint_visit_servers(endpoint, note, &look);

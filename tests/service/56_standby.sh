@@ -94,6 +94,59 @@ takes_over
 expect 0 percuss dents --specimen bar-1 --json --server "$server"
 [ "$(field impacts)" = 2 ] || fail "$(cat "$out")"
 
+say "one that is stopped for longer than its lease keeps its place: there are never two"
+start_standby
+kill -STOP "$daemon"
+sleep 3
+! grep -q "takes over" "$work/standby.log" || fail "$(cat "$work/standby.log")"
+kill -CONT "$daemon"
+expect 0 strike --timeout 20
+[ "$(field server)" = "$server" ] || fail "answered by $(field server)"
+expect 0 percuss status --json
+[ "$(field process)" = "$daemon" ] || fail "$(cat "$out")"
+
+say "of two that wait one takes the place, and the other one waits on"
+first=$others
+"$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" 2>"$work/third.log" 9>&- &
+others="$first $!"
+third=$!
+wait_for 20 grep -q "waits until it ends" "$work/third.log" || fail "$(cat "$work/third.log")"
+kill -KILL "$daemon"
+wait "$daemon" 2>/dev/null || true
+one_is_ready() {
+    [ "$(cat "$work/standby.log" "$work/third.log" | grep -c 'ready: domain')" = 1 ]
+}
+wait_for 20 one_is_ready || fail "$(cat "$work/standby.log" "$work/third.log")"
+sleep 0.3
+one_is_ready || fail "two answer"
+daemon=$third
+others=$first
+if grep -q 'ready: domain' "$work/standby.log"; then
+    daemon=$first
+    others=$third
+fi
+kill -TERM $others
+wait $others || fail "it ended with $?"
+others=
+
+say "a copy of the lock's file makes two daemons of one id, which both of them say"
+cp "$work/standby.lock" "$work/copy.lock"
+sed -e "s|standby.lock|copy.lock|" -e "s|specimens.db|other.db|" "$work/percussd.yaml" >"$work/second.yaml"
+daemon_log=$work/standby.log
+[ "$daemon" != "$third" ] || daemon_log=$work/third.log
+"$bin/percussd" --config "$work/second.yaml" --domain "$domain" 2>"$work/second.log" 9>&- &
+others=$!
+both_say() {
+    grep -q "error   percussd .* (process $others on .*) answers in this domain under the id of this one" \
+        "$daemon_log" &&
+        grep -q "error   percussd .* (process $daemon on .*) answers in this domain under the id of" \
+            "$work/second.log"
+}
+wait_for 20 both_say || fail "$(cat "$work/second.log" "$daemon_log")"
+kill -TERM $others
+wait $others || fail "it ended with $?"
+others=
+
 say "a standby ends when it is asked to, and one that could not serve does not begin to wait"
 start_standby
 kill -TERM $others
