@@ -45,6 +45,7 @@ struct percuss_client {
     bool connected;
     bool lost;                   /* the server does not write to us any more */
     double lost_since;           /* s; where lost */
+    double newcomer_until;       /* s; until then a new writer of replies may be its successor's */
     uint64_t successions;        /* how often another process has taken the server's place */
     struct client_server server; /* whom we stay with; its id is all zero before the first one */
     char server_name[SERVERS_NAME_SIZE];                 /* in words */

@@ -14,12 +14,11 @@
 #include "error.h"
 #include "exchange.h"
 #include "matched.h"
+#include "ping.h"
 #include "receive.h"
 #include "servers.h"
-#include "succession.h"
 
 static const double MATCH_POLL = 1e-3;       /* s */
-static const double PING_INTERVAL = 5e-3;    /* s */
 static const double DISCOVERY_SPREAD = 0.05; /* s between the discovery of one server and another */
 static const double GRACE = 2.0; /* s until incompatible qualities of service are a verdict */
 
@@ -231,7 +230,7 @@ static enum percuss_result ping_all(struct search *search)
 {
     struct percuss_client *client = search->client;
     pthread_mutex_lock(&client->lock);
-    enum percuss_result result = succession_ping(client, NULL);
+    enum percuss_result result = ping_write(client, NULL);
     double until = fmin(search->deadline, receive_now() + PING_INTERVAL);
     if (result == PERCUSS_RESULT_OK)
         result = receive_until(client, is_answered, &search->count, until);
@@ -297,7 +296,7 @@ enum percuss_result percuss_ping(struct percuss_client *client, double timeout, 
         receive_until(client, never, NULL, 0.0);
         uint64_t before = client->pings_answered;
         double start = receive_now();
-        result = succession_ping(client, client->server.id);
+        result = ping_write(client, client->server.id);
         if (result == PERCUSS_RESULT_OK)
             result = receive_until(client, ping_is_answered, &before, deadline);
         if (result == PERCUSS_RESULT_TIMEOUT)

@@ -13,7 +13,10 @@
 #include "error.h"
 #include "gather.h"
 #include "matched.h"
+#include "ping.h"
 
+/* s from the discovery of a writer of replies until it would have answered a ping */
+static const double NEWCOMER = 0.2;
 static const double LONGEST_WAIT = 1e6; /* s; so that infinity fits nanoseconds and a timespec */
 
 double receive_now(void)
@@ -38,8 +41,9 @@ static bool is_ours(const struct percuss_client *client, const uint8_t server[16
     return memcmp(client->server.id, server, sizeof client->server.id) == 0;
 }
 
-/* Stays with the process that has taken the place of the server that has gone: it answers under the
- * same id. The lock is held. */
+/* Stays with the process that has taken the place of the server: it answers under the same id,
+ * which only one process at a time has, so that the former one has gone whether DDS knows it yet or
+ * not. The lock is held. */
 static void follow_successor(struct percuss_client *client, const struct client_server *server)
 {
     client->server = *server;
@@ -58,8 +62,7 @@ static void follow_successor(struct percuss_client *client, const struct client_
 static void file_ping(struct percuss_client *client, const struct client_server *server)
 {
     size_t i = 0;
-    if (client->connected && client->lost && is_ours(client, server->id) &&
-        server->writer != client->server.writer)
+    if (client->connected && is_ours(client, server->id) && server->writer != client->server.writer)
         follow_successor(client, server);
     client->pings_answered += client->connected && is_ours(client, server->id);
     while (i < client->answering_count && memcmp(client->answering[i].id, server->id, 16) != 0)
@@ -269,16 +272,19 @@ void receive_note_loss(struct percuss_client *client)
     note_loss(client, !is_there(client, client->server.writer));
 }
 
-/* Whether some writer of replies has come or gone, and that one has. Being read, the status no
- * longer wakes. */
-static bool has_gone(const struct percuss_client *client, dds_instance_handle_t writer)
+/* Whether some writer of replies has come or gone, and that one has; and whether one has come.
+ * Being read, the status no longer wakes. */
+static bool has_gone(const struct percuss_client *client, dds_instance_handle_t writer,
+                     bool *newcomer)
 {
     uint32_t changes = 0;
+    *newcomer = false;
     dds_subscription_matched_status_t matched;
     dds_get_status_changes(client->reply_reader, &changes);
     if (!(changes & DDS_SUBSCRIPTION_MATCHED_STATUS))
         return false;
     dds_get_subscription_matched_status(client->reply_reader, &matched);
+    *newcomer = matched.total_count_change > 0;
     return !is_there(client, writer);
 }
 
@@ -298,7 +304,8 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
     if (triggered < 0)
         result = error_dds("waiting for replies", triggered);
     /* before what has arrived is taken: what a server wrote arrives before it is seen to go */
-    bool gone = triggered > 0 && has_gone(client, writer);
+    bool newcomer = false;
+    bool gone = triggered > 0 && has_gone(client, writer, &newcomer);
     if (triggered > 0)
         result = take_all(client, client->reply_reader, take_replies);
     if (triggered > 0 && result == PERCUSS_RESULT_OK && batch_reader)
@@ -314,6 +321,8 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
     }
 
     pthread_mutex_lock(&client->lock);
+    if (newcomer)
+        client->newcomer_until = receive_now() + NEWCOMER;
     /* another server may have been chosen meanwhile */
     note_loss(client, client->lost || (gone && writer == client->server.writer));
     client->leading = false;
@@ -337,6 +346,13 @@ static bool is_without_server(const struct percuss_client *client, uint64_t succ
     return client->connected && (client->lost || client->successions != successions);
 }
 
+/* Asks who has come, if it is the server's successor, and waits up to `seconds` for anything. */
+static enum percuss_result ask_newcomer(struct percuss_client *client, double seconds)
+{
+    enum percuss_result result = ping_write(client, client->server.id);
+    return result ? result : lead(client, fmax(fmin(seconds, PING_INTERVAL), 0.0));
+}
+
 static enum percuss_result receive(struct percuss_client *client, receive_condition *done,
                                    const void *subject, double deadline, bool regardless)
 {
@@ -344,7 +360,7 @@ static enum percuss_result receive(struct percuss_client *client, receive_condit
     const uint64_t successions = client->successions;
     bool looked = false;
     while (result == PERCUSS_RESULT_OK && !done(client, subject)) {
-        double left = deadline - receive_now();
+        const double now = receive_now(), left = deadline - now;
         if (!regardless && is_without_server(client, successions))
             return error_lost(client->server_name);
         if (left <= 0.0 && looked)
@@ -352,6 +368,8 @@ static enum percuss_result receive(struct percuss_client *client, receive_condit
         looked = true;
         if (client->leading)
             follow(client, deadline);
+        else if (client->connected && now < client->newcomer_until)
+            result = ask_newcomer(client, left);
         else
             result = lead(client, fmax(left, 0.0));
     }

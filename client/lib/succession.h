@@ -7,9 +7,6 @@
 
 #include "client.h"
 
-/* Pings the server of that id; NULL: all. The lock is held. */
-enum percuss_result succession_ping(struct percuss_client *client, const uint8_t *server);
-
 /* Waits for a moment for the successor of a server that has gone, and stays with it; the lock is
  * held at entry and return. False: there is none. */
 bool succession_follow(struct percuss_client *client, double deadline);
