@@ -27,9 +27,20 @@ static bool pending_is_ready(const struct percuss_client *client, const void *su
     return pending->ready;
 }
 
+static enum percuss_result refuse_orphan(const struct percuss_client *client,
+                                         const struct pending *pending)
+{
+    return error_set(PERCUSS_RESULT_NO_SERVER,
+                     "request %llu was asked of a process that has gone, and whose place %s has "
+                     "taken: ask again with this sequence",
+                     (unsigned long long)pending->sequence, client->server_name);
+}
+
 enum percuss_result exchange_await(struct percuss_client *client, const struct pending *pending,
                                    double deadline)
 {
+    if (pending->orphaned)
+        return refuse_orphan(client, pending);
     enum percuss_result result = receive_until(client, pending_is_ready, pending, deadline);
     if (result == PERCUSS_RESULT_TIMEOUT)
         error_set(result, "request %llu is not answered yet by %s",
@@ -69,6 +80,7 @@ static enum percuss_result write_request(struct percuss_client *client, percuss_
     memcpy(wire->client, client->id, sizeof wire->client);
     memcpy(wire->server, client->server.id, sizeof wire->server);
     wire->sequence = pending->sequence;
+    pending->orphaned = false;
     /* with histories if somebody gathers them */
     wire->options.trace = wire->options.trace || pending->gather;
     dds_return_t code = dds_write(client->request_writer, wire);
@@ -235,7 +247,8 @@ static enum percuss_result wait_for(struct percuss_client *client, uint64_t sequ
 static bool any_is_settled(const struct percuss_client *client, const void *subject)
 {
     (void)subject;
-    return pending_first_ready(&client->pending) || !pending_has_unwaited(&client->pending);
+    return pending_first_ready(&client->pending) || !pending_has_unwaited(&client->pending) ||
+           pending_first_orphan(&client->pending);
 }
 
 static enum percuss_result wait_for_any(struct percuss_client *client, double deadline,
@@ -248,6 +261,9 @@ static enum percuss_result wait_for_any(struct percuss_client *client, double de
     if (result != PERCUSS_RESULT_OK)
         return result;
     struct pending *pending = pending_first_ready(&client->pending);
+    const struct pending *orphan = pending_first_orphan(&client->pending);
+    if (!pending && orphan)
+        return refuse_orphan(client, orphan);
     if (!pending)
         return error_set(PERCUSS_RESULT_UNKNOWN_SEQUENCE, "no request is outstanding");
     return collect(client, pending, reply);

@@ -55,6 +55,22 @@ bool pending_has_unwaited(const struct pending_table *table)
     return false;
 }
 
+void pending_orphan(struct pending_table *table)
+{
+    for (size_t i = 0; i < PENDING_BUCKETS; i++)
+        for (struct pending *pending = table->buckets[i]; pending; pending = pending->next)
+            pending->orphaned = !pending->ready;
+}
+
+const struct pending *pending_first_orphan(const struct pending_table *table)
+{
+    for (size_t i = 0; i < PENDING_BUCKETS; i++)
+        for (const struct pending *pending = table->buckets[i]; pending; pending = pending->next)
+            if (pending->orphaned && !pending->waited)
+                return pending;
+    return NULL;
+}
+
 void pending_set_ready(struct pending_table *table, struct pending *pending,
                        enum percuss_result result)
 {

@@ -55,6 +55,7 @@ static void follow_successor(struct percuss_client *client, const struct client_
         *place = '\0';
     client->lost = false;
     client->successions++;
+    pending_orphan(&client->pending);
     receive_note_loss(client);
 }
 

@@ -135,6 +135,9 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
     bool cancelled = false;
     unsigned told = 0;
     while (!pending->ready) {
+        /* the server may have gone while the watcher was told */
+        if (pending->orphaned)
+            return error_lost(client->server_name);
         /* any sign of life begins the timeout again */
         struct news news = {pending, pending->ensemble->heard};
         double deadline = receive_now() + timeout;

@@ -105,6 +105,23 @@ expect 0 strike --timeout 20
 expect 0 percuss status --json
 [ "$(field process)" = "$daemon" ] || fail "$(cat "$out")"
 
+say "what was submitted is not waited for in vain: it is to be asked again, and is counted once"
+"$peers/standby_client" "$domain" bar-2 "$work/go" submit >"$work/client" 2>&1 9>&- &
+asking=$!
+wait_for 20 grep -q connected "$work/client" || fail "$(cat "$work/client")"
+kill -STOP "$daemon"
+: >"$work/go"
+wait_for 20 grep -q submitted "$work/client" || fail "$(cat "$work/client")"
+kill -KILL "$daemon"
+wait "$daemon" 2>/dev/null || true
+takes_over
+wait "$asking" || fail "it ended with $?: $(cat "$work/client")"
+grep -q '^lost: .*' "$work/client" || fail "it was not told: $(cat "$work/client")"
+grep -q '^lost 1, status 0$' "$work/client" || fail "$(cat "$work/client")"
+expect 0 percuss dents --specimen bar-2 --json
+[ "$(field impacts)" = 1 ] || fail "$(cat "$out")"
+start_standby
+
 say "of two that wait one takes the place, and the other one waits on"
 first=$others
 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" 2>"$work/third.log" 9>&- &

@@ -72,7 +72,7 @@ done
 others=
 answered=$(sed -n 's/^answered //p' "$work"/client-* | awk '{ sum += $1 } END { print sum }')
 sed -n 's/^waited //p' "$work"/client-* | sort -n >"$work/waits"
-echo "  $answered answers; of $(wc -l <"$work/waits") waits over 0.25 s the median is" \
+echo "  $answered answers; of $(wc -l <"$work/waits") waits over 0.1 s the median is" \
     "$(awk '{ all[NR] = $1 } END { print all[int((NR + 1) / 2)] }' "$work/waits") s," \
     "the longest $(tail -n 1 "$work/waits") s; a lease is $lease s"
 awk -v most=$((2 * lease)) '$1 > most { bad = 1 } END { exit bad }' "$work/waits" ||

@@ -3,10 +3,11 @@
 
 /* A program that knows nothing of standbys: it asks one request after the other until FILE is
  * there, and takes anything but an answer for the end. With a SPECIMEN each of them is an impact on
- * it; "-": none. Prints the restitution of each, what took longer than a quarter of a second, and
- * how many there were.
+ * it; "-": none. Prints the restitution of each, what took longer than a tenth of a second, and
+ * how many there were. With "submit" it sends one request when FILE is there, and again, with its
+ * number, whenever it is told that whoever was asked has gone.
  *
- * usage: standby_client DOMAIN SPECIMEN FILE [COUNT] */
+ * usage: standby_client DOMAIN SPECIMEN FILE [COUNT | submit] */
 #include <percuss/percuss.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +15,7 @@
 #include <time.h>
 #include <unistd.h>
 
-static const double patience = 30.0, long_wait = 0.25; /* s */
+static const double patience = 30.0, long_wait = 0.1; /* s */
 
 static double now(void)
 {
@@ -49,6 +50,32 @@ static void fill(struct percuss_request *request, const char *specimen)
     request->options.compliance = PERCUSS_COMPLIANCE_HALF_SPACE;
 }
 
+/* One request, submitted until it is answered. */
+static int submit(struct percuss_client *client, struct percuss_request *request, const char *file)
+{
+    struct percuss_reply reply;
+    double begun = now();
+    unsigned lost = 0;
+    puts("connected");
+    while (access(file, F_OK) != 0)
+        usleep(10000);
+    enum percuss_result result = percuss_submit(client, request, &request->sequence);
+    printf("submitted %llu\n", (unsigned long long)request->sequence);
+    while (result == PERCUSS_RESULT_OK &&
+           (result = percuss_wait(client, 0, patience, &reply)) == PERCUSS_RESULT_NO_SERVER) {
+        printf("lost: %s\n", percuss_error_text());
+        lost++;
+        result = percuss_client_connect(client, patience);
+        if (result == PERCUSS_RESULT_OK)
+            result = percuss_submit(client, request, NULL);
+    }
+    if (result)
+        return give_up("submit", 0, begun);
+    printf("lost %u, status %d\n", lost, (int)reply.status);
+    percuss_reply_free(&reply);
+    return EXIT_SUCCESS;
+}
+
 int main(int argc, char **argv)
 {
     static struct percuss_request request;
@@ -63,6 +90,8 @@ int main(int argc, char **argv)
     if (percuss_client_create(&config, &client) || percuss_client_connect(client, patience))
         return give_up("connect", 0, begun);
     fill(&request, argv[2]);
+    if (argc > 4 && strcmp(argv[4], "submit") == 0)
+        return submit(client, &request, argv[3]);
     for (; asked < most && access(argv[3], F_OK) != 0; asked++) {
         struct percuss_reply reply;
         begun = now();

@@ -57,6 +57,27 @@ static void hands_out_in_order_of_arrival(void **state)
     assert_null(table.last_ready);
 }
 
+static void tells_whose_server_has_gone(void **state)
+{
+    (void)state;
+    struct pending_table table = {.window = 8};
+    for (uint64_t i = 1; i <= 3; i++)
+        add(&table, i);
+    assert_null(pending_first_orphan(&table));
+    /* an answer stays one; 2 belongs to a thread that waits for it */
+    pending_set_ready(&table, pending_find(&table, 1), PERCUSS_RESULT_OK);
+    pending_find(&table, 2)->waited = true;
+    pending_orphan(&table);
+    assert_false(pending_find(&table, 1)->orphaned);
+    assert_true(pending_find(&table, 2)->orphaned);
+    assert_int_equal(pending_first_orphan(&table)->sequence, 3);
+    /* what is asked later is asked of the successor */
+    pending_remove(&table, pending_find(&table, 3));
+    add(&table, 4);
+    assert_null(pending_first_orphan(&table));
+    pending_clear(&table);
+}
+
 static void keeps_the_window(void **state)
 {
     (void)state;
@@ -75,6 +96,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finds_by_sequence),
         cmocka_unit_test(hands_out_in_order_of_arrival),
+        cmocka_unit_test(tells_whose_server_has_gone),
         cmocka_unit_test(keeps_the_window),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
