@@ -164,6 +164,26 @@ kill -TERM $others
 wait $others || fail "it ended with $?"
 others=
 
+say "the manager hears that who waits is there, and goes on to be there"
+timeout 60 python3 "$here/manager.py" "$work/notify" >"$work/heard" 9>&- &
+manager=$!
+others=$manager
+wait_for 5 test -S "$work/notify" || fail "no manager"
+export NOTIFY_SOCKET="$work/notify" WATCHDOG_USEC=400000
+start_standby
+unset NOTIFY_SOCKET WATCHDOG_USEC
+fed_thrice() {
+    [ "$(grep -c '^WATCHDOG=1$' "$work/heard")" -ge 3 ]
+}
+wait_for 20 fed_thrice || fail "$(cat "$work/heard")"
+grep -q '^READY=1$' "$work/heard" || fail "$(cat "$work/heard")"
+grep -q '^STATUS=standby: waits' "$work/heard" || fail "$(cat "$work/heard")"
+kill -TERM $others
+wait $others || fail "it ended with $?"
+kill "$manager"
+wait "$manager" 2>/dev/null || true
+others=
+
 say "a standby ends when it is asked to, and one that could not serve does not begin to wait"
 start_standby
 kill -TERM $others
