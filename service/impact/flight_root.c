@@ -120,13 +120,23 @@ static int sign_changes(const struct piece *piece)
 /* Pieces of 2^-MOST_HALVINGS are rounding: two roots so close are a graze. */
 enum { MOST_HALVINGS = 50 };
 
+/* Whether the polynomial rises from the beginning of a piece on: its first derivative that is not
+ * zero is positive, and so is the first difference of its coefficients. */
+static bool begins_to_rise(const struct piece *piece)
+{
+    int j = 1;
+    while (j < ROOT_TERMS - 1 && piece->b[j] == piece->b[0])
+        j++;
+    return piece->b[j] > piece->b[0];
+}
+
 /* The first piece in which the polynomial rises through zero just once, or [low, low] where it
  * begins at or above zero and rises. False: nowhere. */
 static bool find_rise(struct piece *piece, int halvings)
 {
     int changes = sign_changes(piece);
     const double *b = piece->b;
-    if (b[0] >= 0.0 && b[1] > b[0]) {
+    if (b[0] >= 0.0 && begins_to_rise(piece)) {
         piece->high = piece->low;
         return true;
     }

@@ -317,6 +317,30 @@ static void the_first_of_two_contacts(void **state)
     toy_free(&toy);
 }
 
+/* A contact that is pressed where it rests closes at once: it does not wait, overlapping, for
+ * another one's touch. */
+static void a_pressed_contact_at_rest(void **state)
+{
+    (void)state;
+    struct toy toy;
+    struct motion motion;
+    struct flight flight;
+    double time;
+    size_t contact;
+    toy_init(&toy, 2);
+    toy.gap[0] = 2e-4;
+    toy.gap_rate[0] = -1.0;
+    toy.gap_acceleration[1] = -5e4;
+    assert_true(motion_create(&motion, &toy.scene, &toy.arena));
+    assert_true(flight_create(&flight, &toy.scene, &toy.arena));
+    motion_start(&motion, &toy.scene);
+    assert_int_equal(flight_find(&flight, &toy.scene, &motion, 1.0, 1000, &time, &contact),
+                     FLIGHT_TOUCH);
+    assert_int_equal(contact, 1);
+    assert_true(time == 0.0);
+    toy_free(&toy);
+}
+
 /* The effort is bounded: a fast mode far away costs nothing, a hopeless scan stops. */
 static void effort_is_bounded(void **state)
 {
@@ -350,6 +374,7 @@ int main(void)
         cmocka_unit_test(many_modes_at_several_contacts),
         cmocka_unit_test(completes_when_the_bound_is_passed),
         cmocka_unit_test(the_first_of_two_contacts),
+        cmocka_unit_test(a_pressed_contact_at_rest),
         cmocka_unit_test(effort_is_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

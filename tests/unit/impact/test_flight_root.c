@@ -125,6 +125,24 @@ static void a_touch_at_once(void **state)
     }
 }
 
+/* Touching at rest: what presses closes at once, what draws apart or does nothing never. */
+static void a_touch_at_rest(void **state)
+{
+    (void)state;
+    for (int presses = -1; presses <= 1; presses++) {
+        struct toy toy;
+        struct motion motion;
+        double time = -1.0;
+        toy_init(&toy, 1);
+        toy.gap_acceleration[0] = -9.81 * presses;
+        start(&toy, &motion);
+        assert_true(flight_root_touch(&motion, &toy.scene, 0, 1.0, &time) == (presses == 1));
+        if (presses == 1)
+            near(time, 0.0, 0.0);
+        toy_free(&toy);
+    }
+}
+
 /* Modes of which none turns by more than 1 rad together make an approach with three roots: the
  * derivatives 2, 4, 6 and 8 of four modes are set by their displacements, those 3, 5, 7 and 9 by
  * their velocities, gap and its rate do the rest. What remains from the tenth on is a bounded
@@ -197,7 +215,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parabolas_exceed),          cmocka_unit_test(touches_by_arc_cosine),
         cmocka_unit_test(tells_a_graze_from_a_miss), cmocka_unit_test(a_touch_at_once),
-        cmocka_unit_test(the_first_of_three_roots),
+        cmocka_unit_test(a_touch_at_rest),           cmocka_unit_test(the_first_of_three_roots),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
