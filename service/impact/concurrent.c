@@ -78,10 +78,13 @@ static enum percuss_status begin_contact(struct concurrent *run)
     struct march *march = &run->march;
     const struct scene *scene = &march->scene;
     const struct motion *now = &march->outcome->motion;
-    /* the step: a share of what a contact at this speed takes */
+    /* the step: a share of what a contact at this speed takes, or of what is left of the window */
     motion_approach(now, scene, 0, &d, &rate);
     run->scale = impact_scale_of(march->stated, 0, rate);
-    run->level = step_level(HERTZ_DURATION * run->scale.duration / run->least_steps);
+    double lasts = fmin(HERTZ_DURATION * run->scale.duration, march->horizon - now->time);
+    run->level = step_level(lasts / run->least_steps);
+    while (run->level > 0 && now->time + step_length(run->level) == now->time)
+        run->level--;
     /* what a force that rises to 1 N does to bodies at rest */
     enum percuss_status status = scene_prepare(scene, run->level, march->pace);
     if (status != PERCUSS_OK)

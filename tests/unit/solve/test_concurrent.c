@@ -149,6 +149,28 @@ static void a_watch_stops_it(void **state)
     lab_free(lab);
 }
 
+/* The window ends soon after the touch: steps are shares of what is left of it, and what they find
+ * is what Hertz's law has there. */
+static void a_short_window_is_not_passed(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    struct solve_request request = on_rod("rod", 0.05);
+    request.options.horizon = 1e-7; /* of a contact of some 100 us */
+    solve(lab->workspace, &lab->means, &request, &result);
+    assert_int_equal(result.status, PERCUSS_TRUNCATED);
+    assert_int_equal(result.end_reason, PERCUSS_END_IN_CONTACT);
+    /* one of at least 48 steps may end beyond it */
+    assert_true(result.window >= request.options.horizon);
+    assert_true(result.window <= request.options.horizon * (1.0 + 1.0 / 48.0));
+    double impulse = result.contacts[0].impulse;
+    request.options.contact_model = PERCUSS_CONTACT_HERTZ;
+    request.options.horizon = result.window;
+    solve(lab->workspace, &lab->means, &request, &result);
+    measured_relative("impulse", impulse, result.contacts[0].impulse, 0.02);
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -158,6 +180,7 @@ int main(void)
         cmocka_unit_test(a_beam_is_hit_twice),
         cmocka_unit_test(what_its_region_is_not_made_for_is_refused),
         cmocka_unit_test(a_watch_stops_it),
+        cmocka_unit_test(a_short_window_is_not_passed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
