@@ -46,7 +46,8 @@ void region_watch(struct region *region, struct pace *pace, double done);
 
 /* Static equilibrium at an indentation (m; any sign), or under a force (N, > 0), reached from the
  * committed state. INTERNAL with a reason where no equilibrium is found or the indentation is
- * beyond what the mesh was made for; the committed state stays as it was. */
+ * beyond what the mesh was made for (BAD_REQUEST where a body flows long before the finest element
+ * touches); the committed state stays as it was. */
 enum percuss_status region_press(struct region *region, double indentation,
                                  struct region_answer *answer, struct fault *fault);
 enum percuss_status region_load(struct region *region, double force, struct region_answer *answer,

@@ -60,8 +60,9 @@ static enum percuss_status make_mesh(struct region *region, const struct region_
                                      struct fault *fault)
 {
     /* contact radii at the largest load and at first yield */
-    double top = sqrt(2.0 * input->radius * input->indentation);
-    double low = fmax(fmin(first_yield_radius(input), 0.4 * top), 1e-3 * top);
+    double top = region->top = sqrt(2.0 * input->radius * input->indentation);
+    region->first_yield = first_yield_radius(input);
+    double low = fmax(fmin(region->first_yield, 0.4 * top), REGION_FINEST * top);
     double core = (double)input->resolution;
     struct mesh_grade grade = {
         .size = 0.7 * low / core, .core = input->resolution, .growth = 1.0 + 0.25 * M_PI / core};

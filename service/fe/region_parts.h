@@ -11,6 +11,9 @@
 #include "fe/region.h"
 #include "fe/solid.h"
 
+/* Of the contact radius at the largest load, the least that elements are made for. */
+static const double REGION_FINEST = 1e-3;
+
 /* What a step starts from. */
 struct contact_state {
     double indentation, force;
@@ -27,7 +30,9 @@ struct region {
     double *gaps;      /* of the virgin surfaces, m */
     struct contact_state committed, start, present;
     double stiffness;
-    double peak; /* N */
+    double peak;        /* N */
+    double top;         /* m, contact radius at the largest load */
+    double first_yield; /* m, contact radius at which a body first flows */
     double *offsets, *compliance, *more, *initial, *scratch;
     struct region_effort effort;
     struct pace *pace; /* NULL: nobody */

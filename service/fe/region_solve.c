@@ -165,6 +165,22 @@ static bool is_loading(const struct region *region, const struct target *target)
     }
 }
 
+/* Newton's method failed in steps however short. Where bodies flow long before the finest element
+ * is in contact, it does. */
+static enum percuss_status refuse(const struct region *region, const struct target *target,
+                                  double value, struct fault *fault)
+{
+    if (region->first_yield < REGION_FINEST * region->top)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "material: yield: a body flows from a contact radius of %.3g m on, %.2g "
+                         "of the %.3g m to come: a contact region of finite elements bears %g: "
+                         "another contact_model, or a higher yield",
+                         region->first_yield, region->first_yield / region->top, region->top,
+                         REGION_FINEST);
+    return fault_set(fault, PERCUSS_INTERNAL, "contact region: no equilibrium at %s %g",
+                     target->kind == BY_FORCE ? "the force" : "the indentation", value);
+}
+
 /* From the committed state to the target, in halves of halves where Newton's method fails. */
 static enum percuss_status reach(struct region *region, const struct target *target,
                                  struct fault *fault)
@@ -195,9 +211,7 @@ static enum percuss_status reach(struct region *region, const struct target *tar
             return fault_set(fault, PERCUSS_TIMEOUT, "contact region: stopped");
         part *= 0.5;
         if (part < ldexp(1.0, -HALVINGS_MAX) || target->kind == BY_EDGE)
-            return fault_set(fault, PERCUSS_INTERNAL, "contact region: no equilibrium at %s %g",
-                             target->kind == BY_FORCE ? "the force" : "the indentation",
-                             next.value);
+            return refuse(region, target, next.value, fault);
     }
     /* far from the boundary of the mesh still */
     for (int k = 0; k < 2; k++)

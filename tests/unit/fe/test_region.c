@@ -311,6 +311,22 @@ static void refuses_bad_input(void **state)
     region_destroy(region);
 }
 
+/* A metal that flows at a thousandth of a thousandth of the largest load: no mesh is made for the
+ * beginning, and where Newton's method fails for it the yield is named. */
+static void what_flows_at_once_is_refused_by_name(void **state)
+{
+    (void)state;
+    static const struct material hard = {"hard", 600e9, 0.22, 15000.0, INFINITY, 0.0};
+    static const struct material annealed = {"annealed", 210e9, 0.30, 7800.0, 1.16e6, 0.0};
+    struct region *region = make(&hard, &annealed, 5.27e-3, 2.62e-5, 6);
+    struct region_answer answer;
+    struct fault fault;
+    assert_int_equal(region_approach(region, 7.35e-7, 2.64e-8, &answer, &fault),
+                     PERCUSS_BAD_REQUEST);
+    assert_non_null(strstr(fault.text, "material: yield: "));
+    region_destroy(region);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -324,6 +340,7 @@ int main(void)
         cmocka_unit_test(presses_through_a_spring),
         cmocka_unit_test(a_phase_moves_the_nodes),
         cmocka_unit_test(refuses_bad_input),
+        cmocka_unit_test(what_flows_at_once_is_refused_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
