@@ -5,9 +5,15 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
 
 #include "cli.h"
 #include "json_writer.h"
+
+enum { KEY_WATCH = OPTION_OWN, MOST_RATES = 16 };
+static const double SHORTEST_PERIOD = 0.1, LONGEST_PERIOD = 86400.0; /* s */
 
 JSON_TABLE(server, PERCUSS_SERVER_FIELDS)
 
@@ -36,27 +42,104 @@ static void print_server(const struct percuss_server *server)
         printf("activity    %s, %.0f %%\n", server->activity, 100.0 * server->progress);
 }
 
+/* What was seen at the last look, to tell how fast it goes. */
+struct last_look {
+    uint8_t server[16];
+    uint64_t answered;
+    double uptime;
+};
+
+static void print_rate(const struct percuss_server *server, struct last_look *last)
+{
+    bool same = memcmp(last->server, server->server, sizeof last->server) == 0;
+    double seconds = server->uptime - last->uptime;
+    if (same && seconds > 0.0 && server->answered >= last->answered)
+        printf("rate        %.4g answers a second\n",
+               (double)(server->answered - last->answered) / seconds);
+    memcpy(last->server, server->server, sizeof last->server);
+    last->answered = server->answered;
+    last->uptime = server->uptime;
+}
+
+struct look {
+    struct common *common;
+    double period; /* s; 0: one look is enough */
+    struct last_look last[MOST_RATES];
+};
+
+static enum percuss_result look(struct percuss_client *client, struct look *look)
+{
+    struct percuss_server_list list;
+    enum percuss_result result = percuss_servers(client, common_timeout(look->common), &list);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    if (look->common->json)
+        print_json(&list);
+    else if (look->period > 0.0 && isatty(STDOUT_FILENO))
+        fputs("\033[H\033[J", stdout); /* from the top of an empty screen */
+    for (size_t i = 0; !look->common->json && i < list.count; i++) {
+        print_server(&list.servers[i]);
+        if (look->period > 0.0 && i < MOST_RATES)
+            print_rate(&list.servers[i], &look->last[i]);
+    }
+    if (!look->common->json && list.count == 0)
+        puts("no percussd announces itself");
+    percuss_server_list_free(&list);
+    return fflush(stdout) == 0 ? PERCUSS_RESULT_OK : PERCUSS_RESULT_TRANSPORT;
+}
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct look *look = state->input;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = look->common;
+        return 0;
+    case KEY_WATCH:
+        look->period = text ? parse_number("watch", text, state) : 1.0;
+        if (!(look->period >= SHORTEST_PERIOD && look->period <= LONGEST_PERIOD))
+            argp_error(state, "--watch: %s: 0.1 to 86400 s are allowed", text);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
 int command_status(int argc, char **argv, struct common *common)
 {
+    static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
+    static const struct argp_option options[] = {
+        {"watch", KEY_WATCH, "SECONDS", OPTION_ARG_OPTIONAL,
+         "look again every so many seconds (default 1), until it is interrupted", 10},
+        {0},
+    };
+    static const struct argp status_argp = {
+        .options = options,
+        .parser = parse,
+        .doc = "Shows what the servers are doing.",
+        .children = children,
+    };
     struct percuss_client *client;
-    struct percuss_server_list list;
-    parse_only_common(argc, argv, "Shows what the servers are doing.", common);
+    struct look looks = {.common = common};
+    argp_parse(&status_argp, argc, argv, 0, NULL, &looks);
     int code = make_client(common, NULL, &client);
     if (code == EXIT_ANSWERED && !percuss_client_observes(client))
         code = connect_client(common, client);
-    /* what a server announces that does not answer is of interest, too */
-    if (code != EXIT_ANSWERED && code != EXIT_TIMEOUT) {
+    /* what a server announces that does not answer is of interest, too; who watches may wait for
+     * one */
+    if (code != EXIT_ANSWERED && code != EXIT_TIMEOUT && looks.period == 0.0) {
         percuss_client_free(client);
         return code;
     }
-    enum percuss_result result = percuss_servers(client, common_timeout(common), &list);
+    enum percuss_result result = look(client, &looks);
+    while (result == PERCUSS_RESULT_OK && looks.period > 0.0) {
+        nanosleep(&(struct timespec){(time_t)looks.period,
+                                     (long)(1e9 * (looks.period - floor(looks.period)))},
+                  NULL);
+        result = look(client, &looks);
+    }
     if (result != PERCUSS_RESULT_OK)
         code = complain_result(result);
-    else if (common->json)
-        print_json(&list);
-    for (size_t i = 0; !common->json && i < list.count; i++)
-        print_server(&list.servers[i]);
-    percuss_server_list_free(&list);
     percuss_client_free(client);
     return code;
 }

@@ -73,10 +73,13 @@ void deliver_at_once(struct shared *shared, const struct request_name *name,
     }
     endpoint_reply(shared->endpoint, name->client, answer);
     answer_release(answer);
-    if (status == PERCUSS_OK)
+    if (status == PERCUSS_OK) {
+        atomic_fetch_add(&shared->metrics.pings, 1);
         return;
+    }
     note_refusal(name, status, message);
     atomic_fetch_add(&shared->refused, 1);
+    metrics_count_refusal(&shared->metrics, name->exchange, status);
 }
 
 const char *delivery_too_many(const struct shared *shared, char message[DELIVERY_MESSAGE])
@@ -114,6 +117,7 @@ void deliver(struct shared *shared, const struct request_name *name, struct answ
         return;
     }
     count(shared, answer);
+    metrics_count(&shared->metrics, answer);
     note_answer(name, answer);
     /* stored first: who has seen the reply finds it when asking again */
     if (answer->passing)

@@ -14,6 +14,7 @@
 #include "daemon/dispatch.h"
 #include "daemon/log.h"
 #include "daemon/memory.h"
+#include "daemon/metrics_file.h"
 #include "daemon/neighbours.h"
 #include "daemon/pool.h"
 #include "daemon/pulse.h"
@@ -44,14 +45,16 @@ struct service {
     struct neighbours neighbours;
     struct reducer reducer;
     double tidied;               /* the folder of bodies; monotonic, s */
+    bool metrics_fail;           /* which the log has said */
     unsigned long long reported; /* of the undelivered replies: those that are in the log */
 };
 
 static bool open_specimens(struct shared *shared, struct fault *fault)
 {
     const struct settings *settings = shared->settings;
-    return !settings->store[0] || specimen_lane_open(settings->store, settings->stored_replies,
-                                                     &shared->specimens, fault) == PERCUSS_OK;
+    return !settings->store[0] ||
+           specimen_lane_open(settings->store, settings->stored_replies, &shared->metrics.commits,
+                              &shared->specimens, fault) == PERCUSS_OK;
 }
 
 /* Whoever comes to this machine's ports, unless something keeps him out. */
@@ -230,9 +233,11 @@ static void load_again(struct service *service)
     struct snapshot *before;
     if (snapshots_reload(&shared->snapshots, shared->settings->catalogue, &before, &fault)) {
         log_line(LEVEL_ERROR, "reload: %s; the old catalogue stays", fault.text);
+        atomic_fetch_add(&shared->metrics.failed_reloads, 1);
         reducer_unloaded(&service->reducer, shared->snapshots.current->set, &fault);
         return;
     }
+    atomic_fetch_add(&shared->metrics.reloads, 1);
     /* only this thread replaces it */
     const struct body_set *now = shared->snapshots.current->set;
     announce_bodies(service, now, before->set);
@@ -266,6 +271,17 @@ void service_back_up(struct service *service)
         job_refuse(displaced);
 }
 
+/* A file that cannot be written is told once. */
+static void write_metrics(struct service *service)
+{
+    struct fault fault;
+    const char *path = service->shared.settings->metrics;
+    bool good = !path[0] || metrics_file_write(&service->shared, path, &fault);
+    if (!good && !service->metrics_fail)
+        log_line(LEVEL_ERROR, "%s", fault.text);
+    service->metrics_fail = !good;
+}
+
 static void look_at_reducer(struct service *service)
 {
     struct shared *shared = &service->shared;
@@ -297,6 +313,7 @@ void service_tick(struct service *service)
     if (strange)
         log_line(LEVEL_WARNING, "%llu requests bore the id of another client: ignored", strange);
     status_announce(shared);
+    write_metrics(service);
     neighbours_look(&service->neighbours, shared->endpoint,
                     shared->snapshots.current->set->revision);
 }

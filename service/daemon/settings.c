@@ -49,6 +49,7 @@ static const struct setting table[] = {
     {"bodies", KIND_PATH, AT(bodies), 0, 0},
     {"bodies_days", KIND_NUMBER, AT(bodies_days), 0.001, 100000},
     {"security", KIND_PATH, AT(security), 0, 0},
+    {"metrics", KIND_PATH, AT(metrics), 0, 0},
     {"log_level", KIND_LEVEL, AT(log_level), 0, 0},
     {"log_format", KIND_FORMAT, AT(log_format), 0, 0},
 };

@@ -31,6 +31,7 @@ struct settings {
     char backup[SETTINGS_PATH_SIZE]; /* of the store; empty: none */
     unsigned stored_replies;
     char standby[SETTINGS_PATH_SIZE]; /* whose lock says which daemon answers; empty: this one */
+    char metrics[SETTINGS_PATH_SIZE]; /* file for a monitoring system; empty: none */
     double session_minutes;
     double drain_seconds;
     enum log_level log_level;

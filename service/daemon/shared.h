@@ -11,6 +11,7 @@
 
 #include "daemon/activity.h"
 #include "daemon/ensembles.h"
+#include "daemon/metrics.h"
 #include "daemon/settings.h"
 #include "daemon/snapshot.h"
 #include "daemon/table_cache.h"
@@ -40,6 +41,7 @@ struct shared {
     struct ensembles ensembles; /* in their lane */
     struct activity activity;   /* of what takes minutes */
     struct activity reduction;  /* of percuss-reduce, which the main thread runs */
+    struct metrics metrics;
     struct queue *lanes[LANE_COUNT];
 
     /* for the threads that their headers name */

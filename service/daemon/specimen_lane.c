@@ -10,6 +10,7 @@
 
 #include "daemon/log.h"
 #include "daemon/store_care.h"
+#include "endpoint/clock.h"
 #include "endpoint/encode.h"
 #include "endpoint/question.h"
 #include "endpoint/reply_bytes.h"
@@ -21,17 +22,20 @@ static const char DAMAGED_BODY[] = "(damaged)";
 struct specimen_lane {
     struct specimen_store *store;
     struct endpoint *endpoint;
+    struct histogram *commits;
     atomic_size_t count;
     struct body_state *states[PERCUSS_MAX_BODIES]; /* of the request at hand */
 };
 
 enum percuss_status specimen_lane_open(const char *path, unsigned replies,
-                                       struct specimen_lane **lane, struct fault *fault)
+                                       struct histogram *commits, struct specimen_lane **lane,
+                                       struct fault *fault)
 {
     struct specimen_lane *created = calloc(1, sizeof *created);
     *lane = NULL;
     if (!created)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    created->commits = commits;
     enum percuss_status status = specimen_store_open(path, replies, &created->store, fault);
     if (!status)
         status = store_care_check(created->store, false, fault);
@@ -148,7 +152,9 @@ static const char *store(struct specimen_lane *lane, const struct question *ques
     if (!reply->bytes)
         return "out of memory: nothing has changed, ask again";
     /* impact and reply are stored together or not at all */
+    double begun = clock_now();
     enum percuss_status status = specimen_store_commit(lane->store, changes, count, reply, &fault);
+    metrics_note_time(lane->commits, clock_now() - begun);
     free(reply->bytes);
     if (status) {
         log_line(LEVEL_ERROR, "%s", fault.text);

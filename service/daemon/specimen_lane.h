@@ -7,15 +7,18 @@
 #ifndef PERCUSS_DAEMON_SPECIMEN_LANE_H
 #define PERCUSS_DAEMON_SPECIMEN_LANE_H
 
+#include "daemon/metrics.h"
 #include "daemon/responder.h"
 #include "endpoint/endpoint.h"
 
 struct specimen_lane;
 
 /* Opens the store and logs what is damaged in it. Its status is specimen_store_open's;
- * PERCUSS_BAD_REQUEST too where it is damaged so that it must not be used. */
+ * PERCUSS_BAD_REQUEST too where it is damaged so that it must not be used. `commits` notes how long
+ * its writing takes. */
 enum percuss_status specimen_lane_open(const char *path, unsigned replies,
-                                       struct specimen_lane **lane, struct fault *fault);
+                                       struct histogram *commits, struct specimen_lane **lane,
+                                       struct fault *fault);
 void specimen_lane_close(struct specimen_lane *lane); /* NULL is allowed */
 
 /* From now on the specimens are announced there. */
