@@ -4,13 +4,14 @@
 # SIGTERM: what has been asked is answered, what comes later is refused.
 . "$(dirname "$0")/lib.sh"
 
-settings "workers: 1"
+# where others want the processor too, four of them by CVODE take longer than anybody waits by default
+settings "workers: 1" "drain_seconds: 90"
 start_daemon
 
 say "requests that are being answered or wait when the signal comes are answered"
 others=
 for i in 1 2 3 4; do
-    query --method cvode --json >"$work/answer-$i" 2>&1 9>&- &
+    query --method cvode --json --timeout 90 >"$work/answer-$i" 2>&1 9>&- &
     others="$others $!"
 done
 sleep 0.8
@@ -33,5 +34,5 @@ others=
 for i in 1 2 3 4; do
     [ "$(field status "$work/answer-$i")" = OK ] || fail "answer $i: $(cat "$work/answer-$i")"
 done
-wait_for 20 is_gone "$daemon" || fail "it does not end"
+wait_for 90 is_gone "$daemon" || fail "it does not end"
 wait "$daemon" || fail "it ends with $?"
