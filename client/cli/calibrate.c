@@ -303,7 +303,7 @@ int command_calibrate(int argc, char **argv, struct common *common)
     }
     /* its twins, and the parameters that bring them closest */
     run.list = calloc(run.set.count, sizeof *run.list);
-    int code = run.list ? twins_open(&run.twins, common, &calibrate.scene) : EXIT_FAILURE;
+    int code = run.list ? twins_open(&run.twins, common, &calibrate.scene) : complain_memory();
     if (code == EXIT_ANSWERED) {
         code = prepare(&run);
         if (code == EXIT_ANSWERED)

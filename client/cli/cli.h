@@ -61,6 +61,9 @@ double common_patience(const struct common *common);
 /* Prints "percuss: ..." to stderr. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* That memory has run out; returns the exit code for it. */
+int complain_memory(void);
+
 /* Prints the library's error of a call and returns its exit code. */
 int complain_result(enum percuss_result result);
 

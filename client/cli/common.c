@@ -141,6 +141,12 @@ void complain(const char *format, ...)
     va_end(arguments);
 }
 
+int complain_memory(void)
+{
+    complain("out of memory");
+    return EXIT_FAILURE;
+}
+
 int complain_result(enum percuss_result result)
 {
     if (result == PERCUSS_RESULT_OK)
@@ -151,6 +157,8 @@ int complain_result(enum percuss_result result)
         return EXIT_TIMEOUT;
     case PERCUSS_RESULT_INVALID_ARGUMENT:
         return EXIT_USAGE;
+    case PERCUSS_RESULT_NO_MEMORY:
+        return EXIT_ANSWERED_WITH_WARNING;
     default:
         return EXIT_NO_SERVER;
     }

@@ -154,11 +154,11 @@ static int run(const struct compare *compare, struct twins *twins, struct measur
     struct twin *list = calloc(set->count, sizeof *list);
     struct comparison comparison = {
         .scene = &compare->scene, .set = set, .twins = list, .warnings = &twins->warnings};
-    int code = list ? twins_ask(twins, set, NULL, 0, 1.0, list) : EXIT_FAILURE;
+    int code = list ? twins_ask(twins, set, NULL, 0, 1.0, list) : complain_memory();
     if (code == EXIT_ANSWERED)
         code = twins_complete(twins, set, list);
     if (code == EXIT_ANSWERED)
-        code = evaluate(compare, &comparison) ? report(compare, &comparison) : EXIT_FAILURE;
+        code = evaluate(compare, &comparison) ? report(compare, &comparison) : complain_memory();
     free(list);
     return code;
 }

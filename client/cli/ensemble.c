@@ -361,10 +361,8 @@ int command_ensemble(int argc, char **argv, struct common *common)
 {
     struct ensemble ensemble = {.common = common, .scene = scene_default()};
     ensemble.request = malloc(sizeof *ensemble.request);
-    if (!ensemble.request) {
-        complain("out of memory");
-        return EXIT_FAILURE;
-    }
+    if (!ensemble.request)
+        return complain_memory();
     percuss_ensemble_request_init(ensemble.request);
     ensemble.request->seed = 1;
     argp_parse(&ensemble_argp, argc, argv, 0, NULL, &ensemble);

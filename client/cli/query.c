@@ -251,7 +251,7 @@ static int ask_file(const struct query *query)
     struct json_fault fault;
     struct json_request *request = malloc(sizeof *request);
     if (!request)
-        return EXIT_FAILURE;
+        return complain_memory();
     int code = EXIT_USAGE;
     if (!request_json_load(query->file, request, &fault))
         complain("%s", fault.text);

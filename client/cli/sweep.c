@@ -231,10 +231,10 @@ static int run_curve(struct run *run)
     unsigned count = run->sweep->count;
     run->replies = calloc(count, sizeof *run->replies);
     run->sequences = calloc(count, sizeof *run->sequences);
+    if (!run->replies || !run->sequences)
+        return complain_memory();
     int code = scene_find_bodies(&run->scene, run->sweep->common, run->client, &run->bodies);
-    if (code == EXIT_ANSWERED)
-        code = run->replies && run->sequences ? ask_all(run) : EXIT_FAILURE;
-    return code;
+    return code == EXIT_ANSWERED ? ask_all(run) : code;
 }
 
 static void free_run(struct run *run)
@@ -267,10 +267,8 @@ static int print(const struct sweep *sweep, const struct run *runs, size_t count
     struct tally tally = {.unit = "points"};
     struct sweep_curve curves[MOST_CURVES];
     double *speeds = calloc(sweep->count, sizeof *speeds);
-    if (!speeds || !take_warnings(runs, count, &tally)) {
-        complain("out of memory");
-        return EXIT_FAILURE;
-    }
+    if (!speeds || !take_warnings(runs, count, &tally))
+        return complain_memory();
     /* all curves over the same speeds */
     for (unsigned i = 0; i < sweep->count; i++)
         speeds[i] = speed_at(sweep, i);
@@ -317,7 +315,7 @@ static int run_sweep(const struct sweep *sweep, struct percuss_client *client)
 {
     struct run *runs = calloc(MOST_CURVES, sizeof *runs);
     if (!runs)
-        return EXIT_FAILURE;
+        return complain_memory();
     /* a curve for each body and contact model */
     size_t count = list_runs(sweep, client, runs);
     int code = EXIT_ANSWERED;

@@ -93,8 +93,7 @@ static int take_warnings(struct twins *twins, const struct percuss_reply *reply,
     snprintf(place, sizeof place, "impact %zu", index + 1);
     if (tally_take(&twins->warnings, reply, place))
         return EXIT_ANSWERED;
-    complain("out of memory");
-    return EXIT_FAILURE;
+    return complain_memory();
 }
 
 /* Solves a batch; a busy server is asked again. */
@@ -122,7 +121,7 @@ int twins_ask(struct twins *twins, const struct measured_set *set,
 {
     struct percuss_request *requests = calloc(PORTION, sizeof *requests);
     struct percuss_reply replies[PORTION] = {0};
-    int code = requests ? EXIT_ANSWERED : EXIT_FAILURE;
+    int code = requests ? EXIT_ANSWERED : complain_memory();
     tally_clear(&twins->warnings);
     for (size_t first = 0; code == EXIT_ANSWERED && first < set->count; first += PORTION) {
         /* as many as one batch holds */

@@ -13,9 +13,11 @@ static _Thread_local char error_text[512];
 
 enum percuss_result error_set(enum percuss_result result, const char *format, ...)
 {
+    const char *lack = result == PERCUSS_RESULT_NO_MEMORY ? "out of memory: " : "";
+    int length = snprintf(error_text, sizeof error_text, "%s", lack);
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(error_text, sizeof error_text, format, arguments);
+    vsnprintf(error_text + length, sizeof error_text - (size_t)length, format, arguments);
     va_end(arguments);
     return result;
 }

@@ -6,7 +6,8 @@
 
 #include <percuss/result.h>
 
-/* Keeps the text for percuss_error_text of this thread and returns `result`. */
+/* Keeps the text for percuss_error_text of this thread and returns `result`. That of NO_MEMORY begins
+ * with "out of memory: ", so that it only has to say for what. */
 enum percuss_result error_set(enum percuss_result result, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 

@@ -117,7 +117,7 @@ static enum percuss_result collect(struct percuss_client *client, struct pending
     pending->reply = (struct percuss_reply){0};
     pending_remove(&client->pending, pending);
     if (result != PERCUSS_RESULT_OK)
-        error_set(result, "%s: a reply", percuss_result_text(result));
+        error_set(result, "a reply");
     return result;
 }
 

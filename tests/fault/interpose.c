@@ -86,8 +86,21 @@ bool interpose_has_failed(void)
     return atomic_load(&files.failed);
 }
 
+bool interpose_fails(void)
+{
+    return fails(false);
+}
+
+bool interpose_is_meant(void)
+{
+    const char *program = getenv("PERCUSS_FAULT_PROGRAM");
+    return !program || strcmp(program, program_invocation_short_name) == 0;
+}
+
 __attribute__((constructor)) static void begin(void)
 {
+    if (!interpose_is_meant())
+        return;
     const char *at = getenv("PERCUSS_FAULT_AT"), *what = getenv("PERCUSS_FAULT_DO");
     files.path = getenv("PERCUSS_FAULT_PATH");
     files.at = at ? strtoul(at, NULL, 10) : 0;
