@@ -207,7 +207,13 @@ static void expect(struct yielding *yielding, size_t contact, double h)
         note(yielding, contact,
              (struct yielding_event){EVENT_PASSING, time + h * place, within, joint});
 
-    /* loading beyond the limit ends */
+    /* loading beyond the limit ends; what falls from there already has turned between two steps, by
+     * less than rounding lets either of them see */
+    if (path.rise <= 0.0 && exceeds(yielding, contact, path.value[0])) {
+        path.turns = true;
+        path.peak = 0.0;
+        path.largest = path.value[0];
+    }
     if (!path.turns || !exceeds(yielding, contact, path.largest))
         return;
     within = near_peak(yielding, fmin(duration, unloading_time(yielding, contact, &path, h)));

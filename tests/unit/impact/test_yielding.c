@@ -246,6 +246,52 @@ static void a_peak_within_rounding_is_the_same_again(void **state)
     toy_free(&toy);
 }
 
+/* Steps that end so near the peak that its rate is rounding may have the turn in neither: what
+ * falls from beyond the limit yields there, or its dent would be lost. */
+static void a_turn_between_two_steps_is_no_loss(void **state)
+{
+    (void)state;
+    static const double rates[] = {0.0, -1e-7};
+    for (size_t i = 0; i < COUNT(rates); i++) {
+        struct toy toy;
+        struct impact_outcome outcome;
+        bool closed = true;
+        int level = 30;
+        double nodes[1][NODES], end;
+        const double h = step_length(level);
+        toy_on_soft(&toy, 1.0);
+        assert_true(impact_create(&outcome, &toy.scene, &toy.arena));
+        impact_begin(&outcome, &toy.scene);
+        /* the step that follows: down from twice the limit, without an event expected */
+        struct contact_start now = {2.0 * contact_law_limit(&outcome.laws[0]), rates[i], -3e3, 0.0};
+        for (int j = 0; j < NODES; j++) {
+            double t = h * collocation.node[j];
+            nodes[0][j] = now.indentation + t * (now.rate + 0.5 * now.curvature * t);
+        }
+        end = now.indentation + h * (now.rate + 0.5 * now.curvature * h);
+        struct contact_step step = {.indentation = nodes, .end_indentation = &end};
+        struct impact_scale scale = {.duration = 1e-5};
+        struct scene scene = toy.scene;
+        scene.laws = outcome.laws;
+        struct yielding yielding = {.scene = &scene,
+                                    .outcome = &outcome,
+                                    .step = &step,
+                                    .now = &now,
+                                    .closed = &closed,
+                                    .scales = &scale,
+                                    .accuracy = 1e-16};
+        assert_true(yielding_create(&yielding, &toy.arena));
+        /* the parabola's top; a rounding or two of it */
+        const double peak = now.indentation - 0.5 * now.rate * now.rate / now.curvature;
+        assert_true(yielding_passes(&yielding, h, &level));
+        near(outcome.laws[0].history.max_indentation, peak, 1e-15 * peak);
+        assert_true(outcome.laws[0].history.dent > 0.0);
+        /* once */
+        assert_false(yielding_passes(&yielding, h, &level));
+        toy_free(&toy);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -255,6 +301,7 @@ int main(void)
         cmocka_unit_test(both_methods_agree),
         cmocka_unit_test(yielding_costs_few_steps),
         cmocka_unit_test(a_peak_within_rounding_is_the_same_again),
+        cmocka_unit_test(a_turn_between_two_steps_is_no_loss),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
