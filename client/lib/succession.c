@@ -9,8 +9,8 @@
 #include "receive.h"
 
 /* s from the loss of a server until another process has had time to take its place, which takes a
- * tenth of it where the machine has time */
-static const double SUCCESSION = 1.0;
+ * quarter of it where the machine has time; a killed one has been gone for a lease by then */
+static const double SUCCESSION = 0.4;
 
 static bool is_followed(const struct percuss_client *client, const void *subject)
 {

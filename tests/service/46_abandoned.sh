@@ -15,8 +15,9 @@ used() {
     awk '{ print $14 + $15 }' "/proc/$daemon/stat"
 }
 
-say "a client whose server is killed knows within 2 s"
-# a lease of 2 s counts from the last word of the server; half a second for a busy machine
+say "a client whose server is killed knows within 2.4 s"
+# a lease of 2 s counts from the last word of the server; then a solve waits 0.4 s for a successor; half a
+# second for a busy machine
 for kind in cheap slow ensemble; do
     start_daemon
     "$crowd" "$domain" probe "$kind" 60 --samples 2000000 >"$out" 2>"$err" 9>&- &
@@ -31,7 +32,7 @@ for kind in cheap slow ensemble; do
     took=$(echo "$killed $(now)" | awk '{ printf "%.2f", $2 - $1 }')
     echo "$kind: $took s"
     grep -q "percussd" "$err" || fail "$kind: does not say which server"
-    awk -v took="$took" 'BEGIN { exit !(took <= 2.5) }' || fail "$kind: after $took s"
+    awk -v took="$took" 'BEGIN { exit !(took <= 2.9) }' || fail "$kind: after $took s"
 done
 
 say "what killed clients asked for is given up, whatever it is"
