@@ -87,7 +87,8 @@ sh -c "exec $(cat "$work/advised")" 2>"$log" 9>&- &
 daemon=$!
 wait_for 20 is_up_or_dead || fail "the daemon is not ready after 20 s"
 logged 'ready: domain' || fail "the daemon did not start"
-! logged warning || fail "it starts with a warning"
+# the suite may run as root, which the log does not like
+! grep -v 'runs as root' "$log" | grep -q warning || fail "it starts with a warning"
 
 say "its settings have their tables: the answer is that of the source's settings"
 rod() {
