@@ -10,6 +10,7 @@
 #include <sys/random.h>
 
 #include "error.h"
+#include "participants.h"
 #include "wire_security.h"
 
 enum { DEFAULT_WINDOW = 256, HIGHEST_DOMAIN = 230 };
@@ -125,26 +126,40 @@ static void watch_refusals(struct percuss_client *client)
         replies_refused(client->reply_reader, requested, client);
 }
 
+/* Notes an endpoint that was made, or not, of a topic, which is from then on the endpoint's. */
+static dds_entity_t own(struct percuss_client *client, dds_entity_t topic, dds_entity_t endpoint)
+{
+    if (topic > 0)
+        dds_delete(topic);
+    if (endpoint > 0 && client->endpoint_count == CLIENT_MOST_ENDPOINTS) {
+        dds_delete(endpoint);
+        return DDS_RETCODE_OUT_OF_RESOURCES;
+    }
+    if (endpoint > 0)
+        client->endpoints[client->endpoint_count++] = endpoint;
+    return endpoint;
+}
+
 dds_entity_t client_reader_create(struct percuss_client *client,
                                   const dds_topic_descriptor_t *descriptor, const char *topic,
                                   dds_qos_t *qos)
 {
-    dds_entity_t reader = wire_topic_create(client->participant, descriptor, topic);
-    if (reader > 0)
-        reader = dds_create_reader(client->participant, reader, qos, NULL);
+    dds_entity_t about = wire_topic_create(client->participant, descriptor, topic);
+    dds_entity_t reader =
+        about > 0 ? dds_create_reader(client->participant, about, qos, NULL) : about;
     dds_delete_qos(qos);
-    return reader;
+    return own(client, about, reader);
 }
 
 dds_entity_t client_writer_create(struct percuss_client *client,
                                   const dds_topic_descriptor_t *descriptor, const char *topic)
 {
     dds_qos_t *qos = wire_qos_exchange(NULL);
-    dds_entity_t writer = wire_topic_create(client->participant, descriptor, topic);
-    if (writer > 0)
-        writer = dds_create_writer(client->participant, writer, qos, NULL);
+    dds_entity_t about = wire_topic_create(client->participant, descriptor, topic);
+    dds_entity_t writer =
+        about > 0 ? dds_create_writer(client->participant, about, qos, NULL) : about;
     dds_delete_qos(qos);
-    return writer;
+    return own(client, about, writer);
 }
 
 dds_entity_t client_reply_reader_create(struct percuss_client *client,
@@ -164,10 +179,9 @@ dds_entity_t client_reply_reader_create(struct percuss_client *client,
     return code < 0 ? code : reader;
 }
 
-/* Everything is a child of the participant and goes with it. */
 static enum percuss_result create_entities(struct percuss_client *client, const char *security)
 {
-    client->participant = wire_participant_create_secured(client->domain, security);
+    client->participant = participants_hold(client->domain, security);
     if (client->participant < 0)
         return error_set(PERCUSS_RESULT_TRANSPORT, "DDS participant: %s",
                          wire_participant_problem(client->participant));
@@ -193,6 +207,16 @@ static enum percuss_result create_entities(struct percuss_client *client, const 
         return error_dds("writer of " WIRE_TOPIC_REQUEST, client->request_writer);
     watch_refusals(client);
     return PERCUSS_RESULT_OK;
+}
+
+static void delete_entities(struct percuss_client *client)
+{
+    if (client->waitset > 0)
+        dds_delete(client->waitset);
+    for (size_t i = 0; i < client->endpoint_count; i++)
+        dds_delete(client->endpoints[i]);
+    if (client->participant > 0)
+        participants_release(client->participant);
 }
 
 static void create_lock(struct percuss_client *client)
@@ -249,8 +273,7 @@ void percuss_client_free(struct percuss_client *client)
 {
     if (!client)
         return;
-    if (client->participant > 0)
-        dds_delete(client->participant);
+    delete_entities(client);
     pending_clear(&client->pending);
     for (int i = 0; i < CLIENT_TAKE_AT_ONCE; i++)
         dds_sample_free(&client->taken[i], &percuss_v1_Reply_desc, DDS_FREE_CONTENTS);

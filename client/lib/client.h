@@ -12,7 +12,12 @@
 #include "pending.h"
 #include "wire.h"
 
-enum { CLIENT_TAKE_AT_ONCE = 4, CLIENT_MOST_SERVERS = 16, SERVERS_NAME_SIZE = 128 };
+enum {
+    CLIENT_TAKE_AT_ONCE = 4,
+    CLIENT_MOST_SERVERS = 16,
+    SERVERS_NAME_SIZE = 128,
+    CLIENT_MOST_ENDPOINTS = 16
+};
 
 /* A server that has answered a ping. */
 struct client_server {
@@ -28,7 +33,7 @@ struct percuss_client {
     bool secured;                        /* by DDS Security */
     bool observes;                       /* its permissions let it only see what servers announce */
     char wanted[PERCUSS_SERVER_ID_SIZE]; /* what the id of the server begins with; empty: any */
-    dds_entity_t participant;
+    dds_entity_t participant; /* of all clients of the domain and identity, see participants.h */
     dds_entity_t waitset;
     dds_entity_t request_writer;
     dds_entity_t reply_reader;
@@ -60,11 +65,13 @@ struct percuss_client {
     dds_entity_t trace_reader;               /* 0 until the first trace */
     dds_entity_t server_reader, body_reader; /* 0 until asked for */
     dds_entity_t dents_reader, dents_writer;
+    dds_entity_t endpoints[CLIENT_MOST_ENDPOINTS]; /* all of them, to be deleted */
+    size_t endpoint_count;
     int announcement_room; /* of the largest read so far, see announcements.c */
 };
 
-/* A reader or writer with its topic in the client's participant. `qos` is released. A negative
- * return is a DDS code. */
+/* A reader or writer, which goes with the client. `qos` is released. A negative return is a DDS
+ * code. */
 dds_entity_t client_reader_create(struct percuss_client *client,
                                   const dds_topic_descriptor_t *descriptor, const char *topic,
                                   dds_qos_t *qos);

@@ -22,19 +22,17 @@ struct batch_sample {
 /* Endpoints of batches are made at the first one; most clients never need them. Lock is held. */
 static enum percuss_result open_endpoints(struct percuss_client *client)
 {
-    if (client->batch_writer)
+    if (client->batch_reader)
         return PERCUSS_RESULT_OK;
-    dds_entity_t writer =
-        client_writer_create(client, &percuss_v1_BatchRequest_desc, WIRE_TOPIC_BATCH_REQUEST);
-    if (writer < 0)
-        return error_dds("writer of " WIRE_TOPIC_BATCH_REQUEST, writer);
+    if (client->batch_writer <= 0)
+        client->batch_writer =
+            client_writer_create(client, &percuss_v1_BatchRequest_desc, WIRE_TOPIC_BATCH_REQUEST);
+    if (client->batch_writer < 0)
+        return error_dds("writer of " WIRE_TOPIC_BATCH_REQUEST, client->batch_writer);
     dds_entity_t reader =
         client_reply_reader_create(client, &percuss_v1_BatchReply_desc, WIRE_TOPIC_BATCH_REPLY);
-    if (reader < 0) {
-        dds_delete(writer);
+    if (reader < 0)
         return error_dds("reader of " WIRE_TOPIC_BATCH_REPLY, reader);
-    }
-    client->batch_writer = writer;
     client->batch_reader = reader;
     return PERCUSS_RESULT_OK;
 }
