@@ -115,7 +115,7 @@ only 'sqlite3' 'service/store'
 only 'hdf5' 'service/mesh'
 only 'zmumps' 'service/spatial'
 only 'dds/' 'service/endpoint|service/daemon|client/lib'
-only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/lib|client/cli'
+only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/cli'
 
 # clients do not look into the service; the slow scale is built with its complementarity solver
 found=$(grep -nE '^ *# *include *"(base|numeric|model|fe|contact|impact|solve|ensemble|store|catalogue|endpoint|daemon)/' client/*/*.[ch] |

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "error.h"
+#include "failure.h"
 #include "receive.h"
 
 enum { FIRST_ROOM = 64 };
@@ -36,7 +37,7 @@ static enum percuss_result read_into(dds_entity_t reader, int room, struct annou
     if (all->count < 0) {
         int code = all->count;
         announcements_release(all);
-        return error_dds("reading announcements", code);
+        return failure_dds("reading announcements", code);
     }
     return all->count == room ? PERCUSS_RESULT_PENDING : PERCUSS_RESULT_OK;
 }
@@ -69,7 +70,7 @@ enum percuss_result announcements_open(struct percuss_client *client, dds_entity
         dds_entity_t reader =
             client_reader_create(client, descriptor, topic, wire_qos_announcement());
         if (reader < 0)
-            result = error_dds(topic, reader);
+            result = failure_dds(topic, reader);
         else
             *slot = reader;
     }

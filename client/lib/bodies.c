@@ -7,6 +7,8 @@
 #include "announcements.h"
 #include "convert.h"
 #include "error.h"
+#include "library.h"
+#include "moment.h"
 #include "receive.h"
 
 static int compare_ids(const void *left, const void *right)
@@ -44,13 +46,13 @@ static enum percuss_result look_at_bodies(struct percuss_client *client, dds_ent
     return PERCUSS_RESULT_OK;
 }
 
-enum percuss_result percuss_bodies(struct percuss_client *client, double timeout,
-                                   struct percuss_body_list *list)
+enum percuss_result bodies_list(struct percuss_client *client, double timeout,
+                                struct percuss_body_list *list)
 {
     struct percuss_server server = {0};
     double deadline;
     *list = (struct percuss_body_list){0};
-    enum percuss_result result = receive_deadline(timeout, &deadline);
+    enum percuss_result result = moment_deadline(timeout, &deadline);
     /* opened first, so that the copies arrive while we wait for the server's announcement */
     if (result == PERCUSS_RESULT_OK)
         result = announcements_open(client, &client->body_reader, &percuss_v1_Body_desc,
@@ -62,26 +64,10 @@ enum percuss_result percuss_bodies(struct percuss_client *client, double timeout
     /* complete when as many are there as the server says it has */
     while ((result = look_at_bodies(client, client->body_reader, &server, list)) ==
            PERCUSS_RESULT_PENDING) {
-        if (receive_now() >= deadline)
+        if (moment_now() >= deadline)
             return error_set(PERCUSS_RESULT_TIMEOUT,
                              "the server has not announced all its %u bodies", server.bodies);
         dds_sleepfor(ANNOUNCEMENTS_INTERVAL);
     }
     return result;
-}
-
-const struct percuss_body *percuss_body_find(const struct percuss_body_list *list, const char *id)
-{
-    for (size_t i = 0; i < list->count; i++)
-        if (!strcmp(list->bodies[i].id, id))
-            return &list->bodies[i];
-    return NULL;
-}
-
-void percuss_body_list_free(struct percuss_body_list *list)
-{
-    if (!list)
-        return;
-    free(list->bodies);
-    *list = (struct percuss_body_list){0};
 }

@@ -10,6 +10,8 @@
 #include <sys/random.h>
 
 #include "error.h"
+#include "failure.h"
+#include "library.h"
 #include "participants.h"
 #include "wire_security.h"
 
@@ -187,24 +189,24 @@ static enum percuss_result create_entities(struct percuss_client *client, const 
                          wire_participant_problem(client->participant));
     client->waitset = dds_create_waitset(client->participant);
     if (client->waitset < 0)
-        return error_dds("waitset", client->waitset);
+        return failure_dds("waitset", client->waitset);
     client->reply_reader =
         client_reply_reader_create(client, &percuss_v1_Reply_desc, WIRE_TOPIC_REPLY);
     client->observes = client->reply_reader == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY;
     if (client->observes)
         return PERCUSS_RESULT_OK;
     if (client->reply_reader < 0)
-        return error_dds("reader of " WIRE_TOPIC_REPLY, client->reply_reader);
+        return failure_dds("reader of " WIRE_TOPIC_REPLY, client->reply_reader);
     /* whoever waits is woken when the server goes, too */
     dds_return_t code = dds_set_status_mask(
         client->reply_reader, DDS_DATA_AVAILABLE_STATUS | DDS_SUBSCRIPTION_MATCHED_STATUS);
     if (code < 0)
-        return error_dds("status of the reader of " WIRE_TOPIC_REPLY, code);
+        return failure_dds("status of the reader of " WIRE_TOPIC_REPLY, code);
     /* where requests go out, and whom they do not suit */
     client->request_writer =
         client_writer_create(client, &percuss_v1_Request_desc, WIRE_TOPIC_REQUEST);
     if (client->request_writer < 0)
-        return error_dds("writer of " WIRE_TOPIC_REQUEST, client->request_writer);
+        return failure_dds("writer of " WIRE_TOPIC_REQUEST, client->request_writer);
     watch_refusals(client);
     return PERCUSS_RESULT_OK;
 }
@@ -250,6 +252,7 @@ enum percuss_result percuss_client_create_secured(const struct percuss_client_co
     struct percuss_client *created = calloc(1, sizeof *created);
     if (!created)
         return error_set(PERCUSS_RESULT_NO_MEMORY, "a client");
+    created->operations = &LIBRARY_OPERATIONS;
     create_lock(created);
     created->domain = chosen.domain;
     created->secured = identity != NULL;
@@ -262,14 +265,14 @@ enum percuss_result percuss_client_create_secured(const struct percuss_client_co
     if (result == PERCUSS_RESULT_OK)
         result = create_entities(created, identity);
     if (result != PERCUSS_RESULT_OK) {
-        percuss_client_free(created);
+        client_free(created);
         return result;
     }
     *client = created;
     return PERCUSS_RESULT_OK;
 }
 
-void percuss_client_free(struct percuss_client *client)
+void client_free(struct percuss_client *client)
 {
     if (!client)
         return;
@@ -282,17 +285,17 @@ void percuss_client_free(struct percuss_client *client)
     free(client);
 }
 
-void percuss_client_id(const struct percuss_client *client, uint8_t id[16])
+void client_id(const struct percuss_client *client, uint8_t id[16])
 {
     memcpy(id, client->id, 16);
 }
 
-bool percuss_client_observes(const struct percuss_client *client)
+bool client_observes(const struct percuss_client *client)
 {
     return client->observes;
 }
 
-bool percuss_client_server(struct percuss_client *client, uint8_t server[16])
+bool client_server(struct percuss_client *client, uint8_t server[16])
 {
     static const uint8_t none[16];
     pthread_mutex_lock(&client->lock);

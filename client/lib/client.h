@@ -9,6 +9,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+#include "operations.h"
 #include "pending.h"
 #include "wire.h"
 
@@ -27,6 +28,7 @@ struct client_server {
 };
 
 struct percuss_client {
+    const struct client_operations *operations; /* first, see operations.h */
     /* constant once created */
     uint8_t id[16];
     uint32_t domain;

@@ -13,7 +13,10 @@
 
 #include "error.h"
 #include "exchange.h"
+#include "failure.h"
+#include "library.h"
 #include "matched.h"
+#include "moment.h"
 #include "ping.h"
 #include "receive.h"
 #include "servers.h"
@@ -25,13 +28,13 @@ static const double GRACE = 2.0; /* s until incompatible qualities of service ar
 static enum percuss_result unanswered(const char *server, double start)
 {
     return error_set(PERCUSS_RESULT_TIMEOUT, "%s is there but has not answered for %.1f s (busy?)",
-                     server, receive_now() - start);
+                     server, moment_now() - start);
 }
 
 enum percuss_result connect_match(struct percuss_client *client, dds_entity_t writer,
                                   dds_entity_t reader, double deadline)
 {
-    const double start = receive_now();
+    const double start = moment_now();
     dds_guid_t participant;
     char name[sizeof client->server_name];
     /* the server that is ours now */
@@ -44,11 +47,11 @@ enum percuss_result connect_match(struct percuss_client *client, dds_entity_t wr
                                &participant)) {
         if (matched_both(writer, reader, &participant))
             return PERCUSS_RESULT_OK;
-        if (receive_now() >= deadline)
+        if (moment_now() >= deadline)
             return unanswered(name, start);
         dds_sleepfor((dds_duration_t)(1e9 * MATCH_POLL));
     }
-    return error_lost(name);
+    return failure_lost(name);
 }
 
 static const char *policy_name(uint32_t policy)
@@ -197,7 +200,7 @@ static enum percuss_result choose(struct search *search)
 {
     struct percuss_client *client = search->client;
     const struct client_server *server;
-    const double now = receive_now();
+    const double now = moment_now();
     /* no answer so far: patience before anybody is called incompatible */
     if (search->count == 0)
         return now - search->start < GRACE ? PERCUSS_RESULT_PENDING
@@ -231,7 +234,7 @@ static enum percuss_result ping_all(struct search *search)
     struct percuss_client *client = search->client;
     pthread_mutex_lock(&client->lock);
     enum percuss_result result = ping_write(client, NULL);
-    double until = fmin(search->deadline, receive_now() + PING_INTERVAL);
+    double until = fmin(search->deadline, moment_now() + PING_INTERVAL);
     if (result == PERCUSS_RESULT_OK)
         result = receive_until(client, is_answered, &search->count, until);
     search->count = client->answering_count;
@@ -240,12 +243,12 @@ static enum percuss_result ping_all(struct search *search)
     return result == PERCUSS_RESULT_TIMEOUT ? PERCUSS_RESULT_OK : result;
 }
 
-enum percuss_result percuss_client_connect(struct percuss_client *client, double timeout)
+enum percuss_result connect_find(struct percuss_client *client, double timeout)
 {
-    struct search search = {.client = client, .start = receive_now(), .heard = INFINITY};
-    enum percuss_result result = receive_deadline(timeout, &search.deadline);
+    struct search search = {.client = client, .start = moment_now(), .heard = INFINITY};
+    enum percuss_result result = moment_deadline(timeout, &search.deadline);
     if (client->observes)
-        return error_dds("asking a server", DDS_RETCODE_NOT_ALLOWED_BY_SECURITY);
+        return failure_dds("asking a server", DDS_RETCODE_NOT_ALLOWED_BY_SECURITY);
     if (result == PERCUSS_RESULT_OK)
         result = servers_open(client);
     if (result != PERCUSS_RESULT_OK)
@@ -258,7 +261,7 @@ enum percuss_result percuss_client_connect(struct percuss_client *client, double
     /* asks and looks around until one can be chosen; the last round begins after the deadline */
     do {
         percuss_server_list_free(&search.announced);
-        bool late = receive_now() >= search.deadline;
+        bool late = moment_now() >= search.deadline;
         result = ping_all(&search);
         if (result == PERCUSS_RESULT_OK)
             result = servers_look(client, &search.announced);
@@ -283,10 +286,10 @@ static bool ping_is_answered(const struct percuss_client *client, const void *su
     return client->pings_answered > *before;
 }
 
-enum percuss_result percuss_ping(struct percuss_client *client, double timeout, double *round_trip)
+enum percuss_result connect_ping(struct percuss_client *client, double timeout, double *round_trip)
 {
     double deadline;
-    enum percuss_result result = receive_deadline(timeout, &deadline);
+    enum percuss_result result = moment_deadline(timeout, &deadline);
     if (result != PERCUSS_RESULT_OK)
         return result;
     pthread_mutex_lock(&client->lock);
@@ -295,13 +298,13 @@ enum percuss_result percuss_ping(struct percuss_client *client, double timeout, 
         /* answers to earlier pings, which look the same, must not count */
         receive_until(client, never, NULL, 0.0);
         uint64_t before = client->pings_answered;
-        double start = receive_now();
+        double start = moment_now();
         result = ping_write(client, client->server.id);
         if (result == PERCUSS_RESULT_OK)
             result = receive_until(client, ping_is_answered, &before, deadline);
         if (result == PERCUSS_RESULT_TIMEOUT)
             result = unanswered(client->server_name, start);
-        *round_trip = receive_now() - start;
+        *round_trip = moment_now() - start;
     }
     pthread_mutex_unlock(&client->lock);
     return result;

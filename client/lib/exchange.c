@@ -9,14 +9,17 @@
 
 #include "convert.h"
 #include "error.h"
+#include "failure.h"
 #include "gather.h"
+#include "library.h"
+#include "moment.h"
 #include "receive.h"
 #include "succession.h"
 
 enum percuss_result exchange_check_connected(const struct percuss_client *client)
 {
     if (client->connected)
-        return client->lost ? error_lost(client->server_name) : PERCUSS_RESULT_OK;
+        return client->lost ? failure_lost(client->server_name) : PERCUSS_RESULT_OK;
     return error_set(PERCUSS_RESULT_NO_SERVER, "not connected: call percuss_client_connect first");
 }
 
@@ -87,7 +90,7 @@ static enum percuss_result write_request(struct percuss_client *client, percuss_
     if (code >= 0)
         return PERCUSS_RESULT_OK;
     pending_remove(&client->pending, pending);
-    return error_dds("writing the request", code);
+    return failure_dds("writing the request", code);
 }
 
 /* Enters and writes a request; the lock is held. */
@@ -196,19 +199,19 @@ unsent:
     return result;
 }
 
-enum percuss_result percuss_solve(struct percuss_client *client,
-                                  const struct percuss_request *request, double timeout,
-                                  struct percuss_reply *reply)
+enum percuss_result exchange_ask(struct percuss_client *client,
+                                 const struct percuss_request *request, double timeout,
+                                 struct percuss_reply *reply)
 {
     double deadline;
     *reply = (struct percuss_reply){0};
-    enum percuss_result result = receive_deadline(timeout, &deadline);
+    enum percuss_result result = moment_deadline(timeout, &deadline);
     return result == PERCUSS_RESULT_OK ? exchange_solve(client, request, deadline, NULL, reply)
                                        : result;
 }
 
-enum percuss_result percuss_submit(struct percuss_client *client,
-                                   const struct percuss_request *request, uint64_t *sequence)
+enum percuss_result exchange_submit(struct percuss_client *client,
+                                    const struct percuss_request *request, uint64_t *sequence)
 {
     struct pending *pending;
     pthread_mutex_lock(&client->lock);
@@ -269,12 +272,12 @@ static enum percuss_result wait_for_any(struct percuss_client *client, double de
     return collect(client, pending, reply);
 }
 
-enum percuss_result percuss_wait(struct percuss_client *client, uint64_t sequence, double timeout,
-                                 struct percuss_reply *reply)
+enum percuss_result exchange_wait(struct percuss_client *client, uint64_t sequence, double timeout,
+                                  struct percuss_reply *reply)
 {
     double deadline;
     *reply = (struct percuss_reply){0};
-    enum percuss_result result = receive_deadline(timeout, &deadline);
+    enum percuss_result result = moment_deadline(timeout, &deadline);
     if (result != PERCUSS_RESULT_OK)
         return result;
     pthread_mutex_lock(&client->lock);
@@ -284,14 +287,14 @@ enum percuss_result percuss_wait(struct percuss_client *client, uint64_t sequenc
     return result;
 }
 
-enum percuss_result percuss_poll(struct percuss_client *client, uint64_t sequence,
-                                 struct percuss_reply *reply)
+enum percuss_result exchange_poll(struct percuss_client *client, uint64_t sequence,
+                                  struct percuss_reply *reply)
 {
-    enum percuss_result result = percuss_wait(client, sequence, 0.0, reply);
+    enum percuss_result result = exchange_wait(client, sequence, 0.0, reply);
     return result == PERCUSS_RESULT_TIMEOUT ? PERCUSS_RESULT_PENDING : result;
 }
 
-enum percuss_result percuss_cancel(struct percuss_client *client, uint64_t sequence)
+enum percuss_result exchange_cancel(struct percuss_client *client, uint64_t sequence)
 {
     struct pending *pending;
     pthread_mutex_lock(&client->lock);

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "error.h"
+#include "failure.h"
 
 enum percuss_result ping_write(struct percuss_client *client, const uint8_t *server)
 {
@@ -14,6 +14,6 @@ enum percuss_result ping_write(struct percuss_client *client, const uint8_t *ser
     if (server)
         memcpy(ping.server, server, sizeof ping.server);
     dds_return_t code = dds_write(client->request_writer, &ping);
-    return code < 0 && code != DDS_RETCODE_TIMEOUT ? error_dds("writing a ping", code)
+    return code < 0 && code != DDS_RETCODE_TIMEOUT ? failure_dds("writing a ping", code)
                                                    : PERCUSS_RESULT_OK;
 }

@@ -5,35 +5,19 @@
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #include "batch.h"
 #include "convert.h"
 #include "ensemble_exchange.h"
-#include "error.h"
+#include "failure.h"
 #include "gather.h"
 #include "matched.h"
+#include "moment.h"
 #include "ping.h"
 
 /* s from the discovery of a writer of replies until it would have answered a ping */
 static const double NEWCOMER = 0.2;
 static const double LONGEST_WAIT = 1e6; /* s; so that infinity fits nanoseconds and a timespec */
-
-double receive_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-enum percuss_result receive_deadline(double timeout, double *deadline)
-{
-    if (!(timeout >= 0.0))
-        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "timeout: %g: seconds >= 0 are needed",
-                         timeout);
-    *deadline = receive_now() + timeout;
-    return PERCUSS_RESULT_OK;
-}
 
 /* Whether a reply comes from the server that we stay with; the lock is held. */
 static bool is_ours(const struct percuss_client *client, const uint8_t server[16])
@@ -248,7 +232,7 @@ static enum percuss_result take_all(struct percuss_client *client, dds_entity_t 
     dds_return_t count;
     while (take(client, reader, &count))
         continue;
-    return count < 0 ? error_dds("taking replies", count) : PERCUSS_RESULT_OK;
+    return count < 0 ? failure_dds("taking replies", count) : PERCUSS_RESULT_OK;
 }
 
 /* Whether that writer of replies is there. */
@@ -264,7 +248,7 @@ static bool is_there(const struct percuss_client *client, dds_instance_handle_t 
 static void note_loss(struct percuss_client *client, bool lost)
 {
     if (lost && !client->lost)
-        client->lost_since = receive_now();
+        client->lost_since = moment_now();
     client->lost = lost;
 }
 
@@ -303,7 +287,7 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
     dds_duration_t duration = (dds_duration_t)(1e9 * fmin(seconds, LONGEST_WAIT));
     dds_return_t triggered = dds_waitset_wait(client->waitset, NULL, 0, duration);
     if (triggered < 0)
-        result = error_dds("waiting for replies", triggered);
+        result = failure_dds("waiting for replies", triggered);
     /* before what has arrived is taken: what a server wrote arrives before it is seen to go */
     bool newcomer = false;
     bool gone = triggered > 0 && has_gone(client, writer, &newcomer);
@@ -323,7 +307,7 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
 
     pthread_mutex_lock(&client->lock);
     if (newcomer)
-        client->newcomer_until = receive_now() + NEWCOMER;
+        client->newcomer_until = moment_now() + NEWCOMER;
     /* another server may have been chosen meanwhile */
     note_loss(client, client->lost || (gone && writer == client->server.writer));
     client->leading = false;
@@ -334,7 +318,7 @@ static enum percuss_result lead(struct percuss_client *client, double seconds)
 /* Sleeps until the leader has filed something or resigns. */
 static void follow(struct percuss_client *client, double deadline)
 {
-    double until = fmin(deadline, receive_now() + LONGEST_WAIT);
+    double until = fmin(deadline, moment_now() + LONGEST_WAIT);
     struct timespec time = {.tv_sec = (time_t)until};
     time.tv_nsec = (long)(1e9 * (until - (double)time.tv_sec));
     pthread_cond_timedwait(&client->changed, &client->lock, &time);
@@ -361,9 +345,9 @@ static enum percuss_result receive(struct percuss_client *client, receive_condit
     const uint64_t successions = client->successions;
     bool looked = false;
     while (result == PERCUSS_RESULT_OK && !done(client, subject)) {
-        const double now = receive_now(), left = deadline - now;
+        const double now = moment_now(), left = deadline - now;
         if (!regardless && is_without_server(client, successions))
-            return error_lost(client->server_name);
+            return failure_lost(client->server_name);
         if (left <= 0.0 && looked)
             return PERCUSS_RESULT_TIMEOUT;
         looked = true;

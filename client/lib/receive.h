@@ -11,12 +11,6 @@
 
 #include "client.h"
 
-/* Monotonic time, s. */
-double receive_now(void);
-
-/* When a wait of `timeout` seconds that starts now is over. INVALID_ARGUMENT: not a number >= 0. */
-enum percuss_result receive_deadline(double timeout, double *deadline);
-
 typedef bool receive_condition(const struct percuss_client *client, const void *subject);
 
 /* Receives until `done` or the deadline; looks at least once at what has arrived. The lock is held

@@ -10,6 +10,9 @@
 #include "convert.h"
 #include "error.h"
 #include "exchange.h"
+#include "failure.h"
+#include "library.h"
+#include "moment.h"
 #include "receive.h"
 #include "servers.h"
 
@@ -115,13 +118,13 @@ size_t servers_reading(const struct percuss_client *client)
     return count > 0 ? (size_t)count : 0;
 }
 
-enum percuss_result percuss_servers(struct percuss_client *client, double timeout,
-                                    struct percuss_server_list *list)
+enum percuss_result servers_list(struct percuss_client *client, double timeout,
+                                 struct percuss_server_list *list)
 {
     uint8_t server[16];
-    double deadline, settled = receive_now() + SERVERS_SETTLING;
+    double deadline, settled = moment_now() + SERVERS_SETTLING;
     *list = (struct percuss_server_list){0};
-    enum percuss_result result = receive_deadline(timeout, &deadline);
+    enum percuss_result result = moment_deadline(timeout, &deadline);
     if (result == PERCUSS_RESULT_OK)
         result = servers_open(client);
     /* our own server must be among them, if there is one; else any will do */
@@ -129,7 +132,7 @@ enum percuss_result percuss_servers(struct percuss_client *client, double timeou
     while (result == PERCUSS_RESULT_OK) {
         result = servers_look(client, list);
         bool found = connected ? servers_find(list, server) != NULL : list->count > 0;
-        double now = receive_now();
+        double now = moment_now();
         /* complete when everyone who reads requests has said who he is, or has had time to */
         bool all = list->count >= servers_reading(client) || now >= fmin(settled, deadline);
         if (result != PERCUSS_RESULT_OK || (found && all))
@@ -156,9 +159,9 @@ enum percuss_result announcements_connected(struct percuss_client *client, doubl
     pthread_mutex_unlock(&client->lock);
     /* another thread may have connected again in between */
     if (!connected && result == PERCUSS_RESULT_OK)
-        result = error_lost(name);
+        result = failure_lost(name);
     if (result == PERCUSS_RESULT_OK)
-        result = percuss_servers(client, timeout, &servers);
+        result = servers_list(client, timeout, &servers);
     if (result != PERCUSS_RESULT_OK)
         return result;
     /* it may have gone meanwhile, while others are there */
@@ -166,13 +169,5 @@ enum percuss_result announcements_connected(struct percuss_client *client, doubl
     if (ours)
         *server = *ours;
     percuss_server_list_free(&servers);
-    return ours ? PERCUSS_RESULT_OK : error_lost(name);
-}
-
-void percuss_server_list_free(struct percuss_server_list *list)
-{
-    if (!list)
-        return;
-    free(list->servers);
-    *list = (struct percuss_server_list){0};
+    return ours ? PERCUSS_RESULT_OK : failure_lost(name);
 }

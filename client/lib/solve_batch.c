@@ -11,6 +11,9 @@
 #include "convert.h"
 #include "error.h"
 #include "exchange.h"
+#include "failure.h"
+#include "library.h"
+#include "moment.h"
 #include "receive.h"
 
 /* The wire form of a batch. */
@@ -28,11 +31,11 @@ static enum percuss_result open_endpoints(struct percuss_client *client)
         client->batch_writer =
             client_writer_create(client, &percuss_v1_BatchRequest_desc, WIRE_TOPIC_BATCH_REQUEST);
     if (client->batch_writer < 0)
-        return error_dds("writer of " WIRE_TOPIC_BATCH_REQUEST, client->batch_writer);
+        return failure_dds("writer of " WIRE_TOPIC_BATCH_REQUEST, client->batch_writer);
     dds_entity_t reader =
         client_reply_reader_create(client, &percuss_v1_BatchReply_desc, WIRE_TOPIC_BATCH_REPLY);
     if (reader < 0)
-        return error_dds("reader of " WIRE_TOPIC_BATCH_REPLY, reader);
+        return failure_dds("reader of " WIRE_TOPIC_BATCH_REPLY, reader);
     client->batch_reader = reader;
     return PERCUSS_RESULT_OK;
 }
@@ -82,7 +85,7 @@ static enum percuss_result send_batch(struct percuss_client *client, struct batc
     if (code >= 0)
         return PERCUSS_RESULT_OK;
     pending_remove(&client->pending, *pending);
-    return error_dds("writing the batch", code);
+    return failure_dds("writing the batch", code);
 }
 
 /* Sends a converted batch and waits until `batch` is complete. */
@@ -105,9 +108,9 @@ static enum percuss_result exchange_batch(struct percuss_client *client,
     return result;
 }
 
-enum percuss_result percuss_solve_batch(struct percuss_client *client,
-                                        const struct percuss_request *requests, size_t count,
-                                        double timeout, struct percuss_reply *replies)
+enum percuss_result solve_batch(struct percuss_client *client,
+                                const struct percuss_request *requests, size_t count,
+                                double timeout, struct percuss_reply *replies)
 {
     double deadline;
     struct batch batch = {0};
@@ -115,7 +118,7 @@ enum percuss_result percuss_solve_batch(struct percuss_client *client,
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "count: %zu: 1..%d is allowed", count,
                          PERCUSS_MAX_BATCH);
     memset(replies, 0, count * sizeof *replies);
-    enum percuss_result result = receive_deadline(timeout, &deadline);
+    enum percuss_result result = moment_deadline(timeout, &deadline);
     if (result == PERCUSS_RESULT_OK)
         result = connect_batch(client, deadline);
     if (result != PERCUSS_RESULT_OK)

@@ -11,17 +11,13 @@
 #include "ensemble_exchange.h"
 #include "error.h"
 #include "exchange.h"
+#include "failure.h"
+#include "library.h"
+#include "moment.h"
 #include "receive.h"
 
 /* Listed samples are written before the reply; they are waited for so long after it, s. */
 static const double STRAGGLER_SECONDS = 3.0;
-
-void percuss_ensemble_request_init(struct percuss_ensemble_request *request)
-{
-    memset(request, 0, sizeof *request);
-    percuss_request_init(&request->scene);
-    request->samples = 1000;
-}
 
 /* Endpoints of ensembles are made at the first one. The lock is held. */
 static enum percuss_result open_endpoints(struct percuss_client *client)
@@ -45,14 +41,14 @@ static enum percuss_result open_endpoints(struct percuss_client *client)
     if (client->ensemble_writer < 0) {
         dds_entity_t code = client->ensemble_writer;
         client->ensemble_writer = 0;
-        return error_dds("writer of " WIRE_TOPIC_ENSEMBLE_REQUEST, code);
+        return failure_dds("writer of " WIRE_TOPIC_ENSEMBLE_REQUEST, code);
     }
     for (size_t i = 0; i < sizeof readers / sizeof readers[0]; i++) {
         if (*readers[i].entity)
             continue;
         dds_entity_t reader = client_reply_reader_create(client, readers[i].type, readers[i].topic);
         if (reader < 0)
-            return error_dds(readers[i].topic, reader);
+            return failure_dds(readers[i].topic, reader);
         *readers[i].entity = reader;
     }
     return PERCUSS_RESULT_OK;
@@ -99,7 +95,7 @@ static enum percuss_result send(struct percuss_client *client, percuss_v1_Ensemb
     if (code >= 0)
         return PERCUSS_RESULT_OK;
     pending_remove(&client->pending, *pending);
-    return error_dds("writing the ensemble", code);
+    return failure_dds("writing the ensemble", code);
 }
 
 static void send_cancel(struct percuss_client *client, uint64_t sequence)
@@ -137,10 +133,10 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
     while (!pending->ready) {
         /* the server may have gone while the watcher was told */
         if (pending->orphaned)
-            return error_lost(client->server_name);
+            return failure_lost(client->server_name);
         /* any sign of life begins the timeout again */
         struct news news = {pending, pending->ensemble->heard};
-        double deadline = receive_now() + timeout;
+        double deadline = moment_now() + timeout;
         enum percuss_result result = receive_until(client, is_news, &news, deadline);
         if (result == PERCUSS_RESULT_TIMEOUT)
             return error_set(result, "no progress of ensemble %llu for %g s",
@@ -192,7 +188,7 @@ static enum percuss_result exchange_ensemble(struct percuss_client *client,
         result = await(client, pending, timeout, watcher);
         /* samples have a topic of their own, and the last ones may be later than the reply */
         if (result == PERCUSS_RESULT_OK && wire->list_samples && exchange->reply.samples > 0)
-            receive_until(client, samples_are_there, exchange, receive_now() + STRAGGLER_SECONDS);
+            receive_until(client, samples_are_there, exchange, moment_now() + STRAGGLER_SECONDS);
         if (result == PERCUSS_RESULT_NO_MEMORY)
             error_set(result, "the reply to an ensemble");
         pending_remove(&client->pending, pending);
@@ -201,17 +197,17 @@ static enum percuss_result exchange_ensemble(struct percuss_client *client,
     return result;
 }
 
-enum percuss_result percuss_solve_ensemble(struct percuss_client *client,
-                                           const struct percuss_ensemble_request *request,
-                                           double timeout, percuss_progress_function *progress,
-                                           void *context, struct percuss_ensemble_reply *reply)
+enum percuss_result solve_ensemble(struct percuss_client *client,
+                                   const struct percuss_ensemble_request *request, double timeout,
+                                   percuss_progress_function *progress, void *context,
+                                   struct percuss_ensemble_reply *reply)
 {
     double deadline;
     percuss_v1_EnsembleRequest wire;
     struct watcher watcher = {progress, context};
     struct ensemble_exchange exchange = {0};
     *reply = (struct percuss_ensemble_reply){0};
-    enum percuss_result result = receive_deadline(timeout, &deadline);
+    enum percuss_result result = moment_deadline(timeout, &deadline);
     /* the request as a sample of DDS */
     struct ensemble_storage *storage = malloc(sizeof *storage);
     if (result == PERCUSS_RESULT_OK && !storage)

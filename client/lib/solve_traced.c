@@ -8,7 +8,10 @@
 #include "connect.h"
 #include "error.h"
 #include "exchange.h"
+#include "failure.h"
 #include "gather.h"
+#include "library.h"
+#include "moment.h"
 #include "receive.h"
 
 /* The reader of traces is made when first needed, and must be known to the server before the
@@ -21,7 +24,7 @@ static enum percuss_result connect_traces(struct percuss_client *client, double 
         dds_entity_t reader =
             client_reply_reader_create(client, &percuss_v1_Trace_desc, WIRE_TOPIC_TRACE);
         if (reader < 0)
-            result = error_dds("reader of " WIRE_TOPIC_TRACE, reader);
+            result = failure_dds("reader of " WIRE_TOPIC_TRACE, reader);
         else
             client->trace_reader = reader;
     }
@@ -32,14 +35,14 @@ static enum percuss_result connect_traces(struct percuss_client *client, double 
     return result;
 }
 
-enum percuss_result percuss_solve_traced(struct percuss_client *client,
-                                         const struct percuss_request *request, double timeout,
-                                         struct percuss_reply *reply, struct percuss_trace *trace)
+enum percuss_result solve_traced(struct percuss_client *client,
+                                 const struct percuss_request *request, double timeout,
+                                 struct percuss_reply *reply, struct percuss_trace *trace)
 {
     double deadline;
     *reply = (struct percuss_reply){0};
     *trace = (struct percuss_trace){0};
-    enum percuss_result result = receive_deadline(timeout, &deadline);
+    enum percuss_result result = moment_deadline(timeout, &deadline);
     if (result == PERCUSS_RESULT_OK)
         result = connect_traces(client, deadline);
     if (result != PERCUSS_RESULT_OK)

@@ -9,6 +9,9 @@
 #include "connect.h"
 #include "convert.h"
 #include "error.h"
+#include "failure.h"
+#include "library.h"
+#include "moment.h"
 #include "receive.h"
 
 static int compare_names(const void *left, const void *right)
@@ -51,13 +54,13 @@ static enum percuss_result look_at_specimens(struct percuss_client *client,
                 : error_set(PERCUSS_RESULT_NO_MEMORY, "a list of specimens");
 }
 
-enum percuss_result percuss_specimens(struct percuss_client *client, double timeout,
-                                      struct percuss_specimen_list *list)
+enum percuss_result specimens_list(struct percuss_client *client, double timeout,
+                                   struct percuss_specimen_list *list)
 {
     struct percuss_server server = {0};
     double deadline;
     *list = (struct percuss_specimen_list){0};
-    enum percuss_result result = receive_deadline(timeout, &deadline);
+    enum percuss_result result = moment_deadline(timeout, &deadline);
     /* opened first, so that the copies arrive while we wait for the server's announcement */
     if (result == PERCUSS_RESULT_OK)
         result = announcements_open(client, &client->dents_reader, &percuss_v1_Dents_desc,
@@ -70,7 +73,7 @@ enum percuss_result percuss_specimens(struct percuss_client *client, double time
         result = look_at_specimens(client, &server, list);
         if (result != PERCUSS_RESULT_PENDING)
             return result;
-        if (receive_now() >= deadline)
+        if (moment_now() >= deadline)
             return error_set(PERCUSS_RESULT_TIMEOUT,
                              "the server has not announced all its %u specimens", server.specimens);
         result = PERCUSS_RESULT_OK;
@@ -84,7 +87,7 @@ static enum percuss_result find(struct percuss_client *client, const char *name,
                                 bool *found)
 {
     struct percuss_specimen_list list;
-    enum percuss_result result = percuss_specimens(client, timeout, &list);
+    enum percuss_result result = specimens_list(client, timeout, &list);
     *found = false;
     for (size_t i = 0; i < list.count; i++)
         *found = *found || strcmp(list.specimens[i].name, name) == 0;
@@ -101,17 +104,16 @@ static enum percuss_result open_writer(struct percuss_client *client, double dea
             client_writer_create(client, &percuss_v1_Dents_desc, WIRE_TOPIC_DENTS);
     dds_entity_t writer = client->dents_writer, reader = client->reply_reader;
     pthread_mutex_unlock(&client->lock);
-    return writer < 0 ? error_dds("writer of " WIRE_TOPIC_DENTS, writer)
+    return writer < 0 ? failure_dds("writer of " WIRE_TOPIC_DENTS, writer)
                       : connect_match(client, writer, reader, deadline);
 }
 
-enum percuss_result percuss_clear_specimen(struct percuss_client *client, const char *name,
-                                           double timeout)
+enum percuss_result specimens_clear(struct percuss_client *client, const char *name, double timeout)
 {
     percuss_v1_Dents wire = {.clear = true};
     bool found;
     double deadline;
-    enum percuss_result result = receive_deadline(timeout, &deadline);
+    enum percuss_result result = moment_deadline(timeout, &deadline);
     if (result == PERCUSS_RESULT_OK)
         result = find(client, name, timeout, &found);
     /* only what is kept can be cleared */
@@ -127,22 +129,12 @@ enum percuss_result percuss_clear_specimen(struct percuss_client *client, const 
     memcpy(wire.specimen, name, strlen(name) + 1); /* it fits: it was found */
     dds_return_t code = dds_write(client->dents_writer, &wire);
     if (code < 0)
-        return error_dds("writing to " WIRE_TOPIC_DENTS, code);
+        return failure_dds("writing to " WIRE_TOPIC_DENTS, code);
     /* done when it is not announced any more */
     while ((result = find(client, name, timeout, &found)) == PERCUSS_RESULT_OK && found) {
-        if (receive_now() >= deadline)
+        if (moment_now() >= deadline)
             return error_set(PERCUSS_RESULT_TIMEOUT, "the server has not cleared %s", name);
         dds_sleepfor(ANNOUNCEMENTS_INTERVAL);
     }
     return result;
-}
-
-void percuss_specimen_list_free(struct percuss_specimen_list *list)
-{
-    if (!list)
-        return;
-    for (size_t i = 0; i < list->count; i++)
-        free(list->specimens[i].dents);
-    free(list->specimens);
-    *list = (struct percuss_specimen_list){0};
 }

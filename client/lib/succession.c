@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "moment.h"
 #include "ping.h"
 #include "receive.h"
 
@@ -23,11 +24,11 @@ bool succession_follow(struct percuss_client *client, double deadline)
     const double end = fmin(deadline, client->lost_since + SUCCESSION);
     enum percuss_result result = PERCUSS_RESULT_OK;
     /* whoever takes the place answers what names the server */
-    while (client->lost && result == PERCUSS_RESULT_OK && receive_now() < end) {
+    while (client->lost && result == PERCUSS_RESULT_OK && moment_now() < end) {
         result = ping_write(client, client->server.id);
         if (result == PERCUSS_RESULT_OK)
             result = receive_regardless(client, is_followed, NULL,
-                                        fmin(end, receive_now() + PING_INTERVAL));
+                                        fmin(end, moment_now() + PING_INTERVAL));
         if (result == PERCUSS_RESULT_TIMEOUT)
             result = PERCUSS_RESULT_OK;
     }

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/lib and client/cli where memory runs out: a reply is handed over and printed whole,
+/* Tests client/api and client/cli where memory runs out: a reply is handed over and printed whole,
  * or it is said that there is no memory. */
 #include <jansson.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/lib/gather.c: parts of a trace in order, repeated, foreign and malformed. */
+/* Tests client/api/gather.c: parts of a trace in order, repeated, foreign and malformed. */
 #include "check.h"
 #include "gather.h"
 

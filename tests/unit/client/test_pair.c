@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/lib/pair.c: for every pair of shapes the bodies touch at one point with opposite
+/* Tests client/api/pair.c: for every pair of shapes the bodies touch at one point with opposite
  * normals and approach at the wanted speed. */
 #include <percuss/percuss.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <percuss/slow_link.h>
 
-#include "receive.h"
+#include "moment.h"
 
 static const double BUSY_INTERVAL = 0.02; /* s until a busy server is asked again */
 
@@ -16,7 +16,7 @@ static enum percuss_result exchange(struct percuss_client *client, struct percus
     enum percuss_result result = percuss_submit(client, request, &request->sequence);
     if (result != PERCUSS_RESULT_OK)
         return result;
-    double left = fmax(0.0, deadline - receive_now());
+    double left = fmax(0.0, deadline - moment_now());
     result = percuss_wait(client, request->sequence, left, reply);
     if (result != PERCUSS_RESULT_OK)
         percuss_cancel(client, request->sequence);
@@ -31,7 +31,7 @@ static enum percuss_result ask(void *context, const struct percuss_request *ques
     struct percuss_request request = *question;
     enum percuss_result result;
     double deadline;
-    if (receive_deadline(link->timeout, &deadline))
+    if (moment_deadline(link->timeout, &deadline))
         return PERCUSS_RESULT_INVALID_ARGUMENT;
     for (;;) {
         /* to whoever is there now */
@@ -44,12 +44,12 @@ static enum percuss_result ask(void *context, const struct percuss_request *ques
         /* once more while there is time, if it is busy or has gone */
         bool busy = result == PERCUSS_RESULT_OK && reply->status == PERCUSS_BUSY;
         link->connected = result == PERCUSS_RESULT_OK;
-        if (receive_now() >= deadline || (!busy && result != PERCUSS_RESULT_NO_SERVER))
+        if (moment_now() >= deadline || (!busy && result != PERCUSS_RESULT_NO_SERVER))
             return result;
         if (busy) {
             percuss_reply_free(reply);
             request.sequence = 0; /* the answer to this one is that the server is busy */
-            dds_sleepfor((dds_duration_t)(1e9 * BUSY_INTERVAL));
+            moment_sleep(BUSY_INTERVAL);
         }
     }
 }

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Between the public structs and those of the wire. */
-#ifndef PERCUSS_LIB_CONVERT_H
-#define PERCUSS_LIB_CONVERT_H
+#ifndef PERCUSS_API_CONVERT_H
+#define PERCUSS_API_CONVERT_H
 
 #include <percuss/percuss.h>
 #include <percuss/specimen.h>

@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The parts of a trace, put together as they arrive. */
-#ifndef PERCUSS_LIB_GATHER_H
-#define PERCUSS_LIB_GATHER_H
+#ifndef PERCUSS_API_GATHER_H
+#define PERCUSS_API_GATHER_H
 
 #include <percuss/percuss.h>
 

@@ -8,8 +8,8 @@
  * defines convert_sub_impact(from, storage, to); those of the elements of its lists must have been
  * defined before. Arrays are put into the storage; where memory runs out they stay empty. How many
  * NUMBERS, COUNTS and EDGES there are is the caller's to say: several lists may share it. */
-#ifndef PERCUSS_LIB_CONVERT_MEMBERS_H
-#define PERCUSS_LIB_CONVERT_MEMBERS_H
+#ifndef PERCUSS_API_CONVERT_MEMBERS_H
+#define PERCUSS_API_CONVERT_MEMBERS_H
 
 #include <percuss/fields.h>
 #include <percuss/percuss.h>

@@ -3,7 +3,6 @@
 
 #include "error.h"
 
-#include <dds/dds.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -22,21 +21,17 @@ enum percuss_result error_set(enum percuss_result result, const char *format, ..
     return result;
 }
 
-enum percuss_result error_dds(const char *what, int code)
+void error_copy(const char *text)
 {
-    if (code == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
-        return error_set(PERCUSS_RESULT_TRANSPORT, "%s: our permissions do not allow it", what);
-    return error_set(PERCUSS_RESULT_TRANSPORT, "%s: %s", what, dds_strretcode(-code));
+    snprintf(error_text, sizeof error_text, "%s", text);
+}
+
+const char *error_last(void)
+{
+    return error_text;
 }
 
 const char *percuss_error_text(void)
 {
     return error_text;
-}
-
-enum percuss_result error_lost(const char *server)
-{
-    return error_set(PERCUSS_RESULT_NO_SERVER,
-                     "%s is gone; connect again to ask another one, or the same one restarted",
-                     server);
 }

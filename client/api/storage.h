@@ -2,8 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Memory that goes as a whole: the arrays of a reply. */
-#ifndef PERCUSS_LIB_STORAGE_H
-#define PERCUSS_LIB_STORAGE_H
+#ifndef PERCUSS_API_STORAGE_H
+#define PERCUSS_API_STORAGE_H
 
 #include <stdbool.h>
 #include <stddef.h>

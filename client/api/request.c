@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include <percuss/request.h>
+#include <percuss/ensemble.h>
 #include <string.h>
 
 struct percuss_options percuss_options_default(void)
@@ -39,4 +39,11 @@ struct percuss_contact *percuss_request_add_contact(struct percuss_request *requ
     struct percuss_contact *contact = &request->contacts[request->contact_count++];
     *contact = (struct percuss_contact){.a = a, .b = b};
     return contact;
+}
+
+void percuss_ensemble_request_init(struct percuss_ensemble_request *request)
+{
+    memset(request, 0, sizeof *request);
+    percuss_request_init(&request->scene);
+    request->samples = 1000;
 }

@@ -1,0 +1,132 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The public functions that take a client. */
+
+#include "error.h"
+#include "operations.h"
+
+/* Whatever a library puts into its clients, this comes first. */
+static const struct client_operations *operations_of(const struct percuss_client *client)
+{
+    return *(const struct client_operations *const *)(const void *)client;
+}
+
+/* What went wrong in another library is told by this one. */
+static enum percuss_result report(const struct percuss_client *client, enum percuss_result result)
+{
+    const char *(*error_text)(void) = operations_of(client)->error_text;
+    if (result != PERCUSS_RESULT_OK && error_text != error_last)
+        error_copy(error_text());
+    return result;
+}
+
+void percuss_client_free(struct percuss_client *client)
+{
+    if (client)
+        operations_of(client)->free(client);
+}
+
+void percuss_client_id(const struct percuss_client *client, uint8_t id[16])
+{
+    operations_of(client)->id(client, id);
+}
+
+bool percuss_client_observes(const struct percuss_client *client)
+{
+    return operations_of(client)->observes(client);
+}
+
+bool percuss_client_server(struct percuss_client *client, uint8_t server[16])
+{
+    return operations_of(client)->server(client, server);
+}
+
+enum percuss_result percuss_client_connect(struct percuss_client *client, double timeout)
+{
+    return report(client, operations_of(client)->connect(client, timeout));
+}
+
+enum percuss_result percuss_ping(struct percuss_client *client, double timeout, double *round_trip)
+{
+    return report(client, operations_of(client)->ping(client, timeout, round_trip));
+}
+
+enum percuss_result percuss_solve(struct percuss_client *client,
+                                  const struct percuss_request *request, double timeout,
+                                  struct percuss_reply *reply)
+{
+    return report(client, operations_of(client)->solve(client, request, timeout, reply));
+}
+
+enum percuss_result percuss_solve_traced(struct percuss_client *client,
+                                         const struct percuss_request *request, double timeout,
+                                         struct percuss_reply *reply, struct percuss_trace *trace)
+{
+    return report(client,
+                  operations_of(client)->solve_traced(client, request, timeout, reply, trace));
+}
+
+enum percuss_result percuss_solve_batch(struct percuss_client *client,
+                                        const struct percuss_request *requests, size_t count,
+                                        double timeout, struct percuss_reply *replies)
+{
+    return report(client,
+                  operations_of(client)->solve_batch(client, requests, count, timeout, replies));
+}
+
+enum percuss_result percuss_solve_ensemble(struct percuss_client *client,
+                                           const struct percuss_ensemble_request *request,
+                                           double timeout, percuss_progress_function *progress,
+                                           void *context, struct percuss_ensemble_reply *reply)
+{
+    return report(client, operations_of(client)->solve_ensemble(client, request, timeout, progress,
+                                                                context, reply));
+}
+
+enum percuss_result percuss_submit(struct percuss_client *client,
+                                   const struct percuss_request *request, uint64_t *sequence)
+{
+    return report(client, operations_of(client)->submit(client, request, sequence));
+}
+
+enum percuss_result percuss_wait(struct percuss_client *client, uint64_t sequence, double timeout,
+                                 struct percuss_reply *reply)
+{
+    return report(client, operations_of(client)->wait(client, sequence, timeout, reply));
+}
+
+enum percuss_result percuss_poll(struct percuss_client *client, uint64_t sequence,
+                                 struct percuss_reply *reply)
+{
+    return report(client, operations_of(client)->poll(client, sequence, reply));
+}
+
+enum percuss_result percuss_cancel(struct percuss_client *client, uint64_t sequence)
+{
+    return report(client, operations_of(client)->cancel(client, sequence));
+}
+
+enum percuss_result percuss_servers(struct percuss_client *client, double timeout,
+                                    struct percuss_server_list *list)
+{
+    return report(client, operations_of(client)->servers(client, timeout, list));
+}
+
+enum percuss_result percuss_bodies(struct percuss_client *client, double timeout,
+                                   struct percuss_body_list *list)
+{
+    return report(client, operations_of(client)->bodies(client, timeout, list));
+}
+
+enum percuss_result percuss_specimens(struct percuss_client *client, double timeout,
+                                      struct percuss_specimen_list *list)
+{
+    return report(client, operations_of(client)->specimens(client, timeout, list));
+}
+
+enum percuss_result percuss_clear_specimen(struct percuss_client *client, const char *name,
+                                           double timeout)
+{
+    return report(client, operations_of(client)->clear_specimen(client, name, timeout));
+}

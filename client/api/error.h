@@ -1,0 +1,20 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#ifndef PERCUSS_API_ERROR_H
+#define PERCUSS_API_ERROR_H
+
+#include <percuss/result.h>
+
+/* Keeps the text for percuss_error_text of this thread and returns `result`. That of NO_MEMORY
+ * begins with "out of memory: ", so that it only has to say for what. */
+enum percuss_result error_set(enum percuss_result result, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+/* Takes over the text of another library's copy of this module. */
+void error_copy(const char *text);
+
+/* What percuss_error_text returns; not to be replaced by another library's. */
+const char *error_last(void);
+
+#endif

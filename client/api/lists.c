@@ -1,0 +1,42 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The lists that clients hand out. */
+
+#include <percuss/percuss.h>
+#include <stdlib.h>
+#include <string.h>
+
+const struct percuss_body *percuss_body_find(const struct percuss_body_list *list, const char *id)
+{
+    for (size_t i = 0; i < list->count; i++)
+        if (!strcmp(list->bodies[i].id, id))
+            return &list->bodies[i];
+    return NULL;
+}
+
+void percuss_body_list_free(struct percuss_body_list *list)
+{
+    if (!list)
+        return;
+    free(list->bodies);
+    *list = (struct percuss_body_list){0};
+}
+
+void percuss_server_list_free(struct percuss_server_list *list)
+{
+    if (!list)
+        return;
+    free(list->servers);
+    *list = (struct percuss_server_list){0};
+}
+
+void percuss_specimen_list_free(struct percuss_specimen_list *list)
+{
+    if (!list)
+        return;
+    for (size_t i = 0; i < list->count; i++)
+        free(list->specimens[i].dents);
+    free(list->specimens);
+    *list = (struct percuss_specimen_list){0};
+}
