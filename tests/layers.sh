@@ -23,11 +23,12 @@ allowed() {
     ensemble) echo "base numeric model fe contact impact solve ensemble" ;;
     catalogue) echo "base numeric model mesh catalogue" ;;
     store) echo "base numeric model fe contact store" ;;
-    endpoint) echo "base numeric model contact impact solve ensemble endpoint" ;;
+    exchange) echo "base numeric model contact impact solve ensemble exchange" ;;
+    endpoint) echo "base model contact solve exchange endpoint" ;;
     tables) echo "base model fe contact catalogue store tables" ;;
     reduce) echo "base numeric model mesh catalogue reduce" ;;
     reduce_mpi) echo "base mesh reduce reduce_mpi" ;;
-    daemon) echo "base numeric model fe contact impact solve ensemble catalogue store endpoint daemon" ;;
+    daemon) echo "base numeric model fe contact impact solve ensemble catalogue store exchange endpoint daemon" ;;
     esac
 }
 
@@ -48,7 +49,11 @@ for folder in service/*/; do
         for include in $(sed -n 's/^ *# *include *"\([^"]*\)".*/\1/p' "$file"); do
             case $include in
             percuss/vocabulary.h | percuss/fields.h) continue ;;
-            wire.h | wire_security.h | wire_whole.h | percuss_wire.h)
+            percuss_wire.h)
+                case $layer in exchange | endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
+                continue
+                ;;
+            wire.h | wire_security.h | wire_whole.h)
                 case $layer in endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
                 continue
                 ;;
@@ -115,10 +120,10 @@ only 'sqlite3' 'service/store'
 only 'hdf5' 'service/mesh'
 only 'zmumps' 'service/spatial'
 only 'dds/' 'service/endpoint|service/daemon|client/lib'
-only 'time\.h|sys/|unistd|pthread' 'service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/cli'
+only 'time\.h|sys/|unistd|pthread' 'service/exchange|service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/cli'
 
 # clients do not look into the service; the slow scale is built with its complementarity solver
-found=$(grep -nE '^ *# *include *"(base|numeric|model|fe|contact|impact|solve|ensemble|store|catalogue|endpoint|daemon)/' client/*/*.[ch] |
+found=$(grep -nE '^ *# *include *"(base|numeric|model|fe|contact|impact|solve|ensemble|store|catalogue|exchange|endpoint|daemon)/' client/*/*.[ch] |
     grep -v '^client/slowscale/.*"numeric/lcp\.h"')
 [ -z "$found" ] || complain "client looks into the service: $found"
 

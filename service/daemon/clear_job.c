@@ -8,7 +8,7 @@
 #include "daemon/log.h"
 #include "daemon/specimen_lane.h"
 #include "daemon/status.h"
-#include "endpoint/text.h"
+#include "exchange/text.h"
 
 struct clear_job {
     struct job job;

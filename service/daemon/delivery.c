@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "daemon/log.h"
-#include "endpoint/encode.h"
+#include "exchange/encode.h"
 
 struct envelope delivery_envelope(const struct shared *shared, const struct request_name *name,
                                   const struct snapshot *snapshot)

@@ -16,8 +16,8 @@
 #include "daemon/pulse.h"
 #include "daemon/queue.h"
 #include "daemon/responder.h"
-#include "endpoint/clock.h"
-#include "endpoint/question.h"
+#include "exchange/clock.h"
+#include "exchange/question.h"
 
 /* Two clients that ask within this time, s, are served side by side by the workers. */
 static const double COMPANY_SECONDS = 0.01;

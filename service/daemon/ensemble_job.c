@@ -7,9 +7,9 @@
 
 #include "daemon/delivery.h"
 #include "daemon/ensemble_run.h"
-#include "endpoint/encode.h"
-#include "endpoint/key_map.h"
-#include "endpoint/question.h"
+#include "exchange/encode.h"
+#include "exchange/key_map.h"
+#include "exchange/question.h"
 
 struct ensemble_job {
     struct client_job base;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "endpoint/encode_ensemble.h"
+#include "exchange/encode_ensemble.h"
 
 /* Listed samples: parts of about this size, but no more of them than the writer keeps; each may
  * take so many tenths of a second. */

@@ -12,12 +12,12 @@
 #include "daemon/parallel.h"
 #include "daemon/pulse.h"
 #include "daemon/table_maker.h"
-#include "endpoint/clock.h"
-#include "endpoint/decode_ensemble.h"
-#include "endpoint/encode.h"
-#include "endpoint/encode_ensemble.h"
 #include "ensemble/create.h"
 #include "ensemble/report_make.h"
+#include "exchange/clock.h"
+#include "exchange/decode_ensemble.h"
+#include "exchange/encode.h"
+#include "exchange/encode_ensemble.h"
 
 enum { MOST_WORKERS = 64 };
 

@@ -13,11 +13,11 @@
 #include "daemon/responder.h"
 #include "daemon/specimen_lane.h"
 #include "daemon/status.h"
-#include "endpoint/batch.h"
-#include "endpoint/clock.h"
-#include "endpoint/encode.h"
-#include "endpoint/key_map.h"
-#include "endpoint/question.h"
+#include "exchange/batch.h"
+#include "exchange/clock.h"
+#include "exchange/encode.h"
+#include "exchange/key_map.h"
+#include "exchange/question.h"
 
 /* Each request is an item. */
 struct impact_job {

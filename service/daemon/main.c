@@ -17,7 +17,7 @@
 #include "daemon/settings.h"
 #include "daemon/standby.h"
 #include "daemon/store_care.h"
-#include "endpoint/clock.h"
+#include "exchange/clock.h"
 
 enum { STATUS_SIZE = 400 };
 

@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 #include "base/fault.h"
-#include "endpoint/answer.h"
+#include "exchange/answer.h"
 
 enum { METRICS_BUCKETS = 16 };
 

@@ -12,7 +12,7 @@
 
 #include "daemon/queue.h"
 #include "daemon/specimen_lane.h"
-#include "endpoint/clock.h"
+#include "exchange/clock.h"
 
 static const char *const LANES[LANE_COUNT] = {[LANE_SHORT] = "short",
                                               [LANE_LONG] = "long",

@@ -13,7 +13,7 @@
 #include "daemon/errand.h"
 #include "daemon/pulse.h"
 #include "daemon/responder.h"
-#include "endpoint/clock.h"
+#include "exchange/clock.h"
 
 struct worker {
     struct queue *queue, *slower;

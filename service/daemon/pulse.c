@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "endpoint/clock.h"
+#include "exchange/clock.h"
 
 /* Solves ask deep inside whether they are still wanted, and know nothing of the thread they are in.
  */

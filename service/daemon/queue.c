@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "endpoint/key_map.h"
+#include "exchange/key_map.h"
 
 /* Of a client whose item took long so many more are passed on untried: trying them all costs others
  * the time that each is given before. */

@@ -9,11 +9,11 @@
 #include "base/hash.h"
 #include "daemon/log.h"
 #include "daemon/pulse.h"
-#include "endpoint/batch.h"
-#include "endpoint/clock.h"
-#include "endpoint/decode.h"
-#include "endpoint/encode.h"
-#include "endpoint/text.h"
+#include "exchange/batch.h"
+#include "exchange/clock.h"
+#include "exchange/decode.h"
+#include "exchange/encode.h"
+#include "exchange/text.h"
 
 struct responder *responder_create(struct shared *shared, enum lane lane)
 {

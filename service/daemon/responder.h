@@ -8,7 +8,7 @@
 #include <stdbool.h>
 
 #include "daemon/table_maker.h"
-#include "endpoint/answer.h"
+#include "exchange/answer.h"
 #include "solve/solve.h"
 
 /* What one thread needs to answer requests. */

@@ -22,7 +22,7 @@
 #include "daemon/responder.h"
 #include "daemon/specimen_lane.h"
 #include "daemon/status.h"
-#include "endpoint/clock.h"
+#include "exchange/clock.h"
 
 static const int PATIENT_NICE = 10;
 

@@ -4,7 +4,7 @@
 #include "daemon/shared.h"
 
 #include "daemon/queue.h"
-#include "endpoint/clock.h"
+#include "exchange/clock.h"
 
 enum { REMEMBERED_CLIENTS = 4096 };
 

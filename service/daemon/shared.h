@@ -16,8 +16,8 @@
 #include "daemon/snapshot.h"
 #include "daemon/table_cache.h"
 #include "endpoint/endpoint.h"
-#include "endpoint/reply_store.h"
-#include "endpoint/token_store.h"
+#include "exchange/reply_store.h"
+#include "exchange/token_store.h"
 
 struct queue;
 struct specimen_lane;

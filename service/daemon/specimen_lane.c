@@ -10,10 +10,10 @@
 
 #include "daemon/log.h"
 #include "daemon/store_care.h"
-#include "endpoint/clock.h"
-#include "endpoint/encode.h"
-#include "endpoint/question.h"
 #include "endpoint/reply_bytes.h"
+#include "exchange/clock.h"
+#include "exchange/encode.h"
+#include "exchange/question.h"
 #include "store/specimens.h"
 
 /* Not the id of any body. */

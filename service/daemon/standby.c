@@ -13,7 +13,7 @@
 
 #include "catalogue/catalogue.h"
 #include "daemon/log.h"
-#include "endpoint/clock.h"
+#include "exchange/clock.h"
 
 /* 32 hexadecimal digits and the end of the line. */
 enum { LINE_SIZE = 33 };

@@ -9,8 +9,8 @@
 
 #include "daemon/queue.h"
 #include "daemon/specimen_lane.h"
-#include "endpoint/clock.h"
-#include "endpoint/text.h"
+#include "exchange/clock.h"
+#include "exchange/text.h"
 
 static uint32_t waiting(const struct shared *shared)
 {

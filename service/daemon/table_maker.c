@@ -7,7 +7,7 @@
 
 #include "contact/law_closed_form.h"
 #include "daemon/pulse.h"
-#include "endpoint/clock.h"
+#include "exchange/clock.h"
 #include "fe/indentation.h"
 #include "store/table_key.h"
 

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "endpoint/text.h"
+#include "exchange/text.h"
 
 enum { TAKEN_AT_ONCE = 8 };
 

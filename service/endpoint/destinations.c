@@ -8,8 +8,8 @@
 #include <string.h>
 #include <sys/queue.h>
 
-#include "endpoint/clock.h"
-#include "endpoint/key_map.h"
+#include "exchange/clock.h"
+#include "exchange/key_map.h"
 
 enum { EXPECTED = 1024 };
 static const double STALL_PAUSE = 1.0; /* s */

@@ -9,7 +9,8 @@
 #include <stdbool.h>
 
 #include "base/hash.h"
-#include "endpoint/answer.h"
+#include "exchange/answer.h"
+#include "wire.h"
 
 /* What is written to clients: the replies of each exchange, and these. */
 enum { CHANNEL_PROGRESS = EXCHANGE_COUNT, CHANNEL_SAMPLES, CHANNEL_TRACE, CHANNEL_COUNT };

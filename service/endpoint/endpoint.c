@@ -8,8 +8,8 @@
 #include <string.h>
 #include <sys/random.h>
 
-#include "endpoint/describe.h"
 #include "endpoint/intake.h"
+#include "exchange/describe.h"
 #include "wire_security.h"
 
 enum { WRITE_ATTEMPTS = 20 };

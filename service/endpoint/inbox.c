@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <sys/queue.h>
 
-#include "endpoint/key_map.h"
+#include "exchange/key_map.h"
 
 enum { EXPECTED_WRITERS = 64 };
 

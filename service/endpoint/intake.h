@@ -8,10 +8,10 @@
 
 #include <stdatomic.h>
 
-#include "endpoint/answer.h"
 #include "endpoint/handler.h"
 #include "endpoint/inbox.h"
 #include "endpoint/owners.h"
+#include "exchange/answer.h"
 
 struct intake {
     enum exchange exchange;

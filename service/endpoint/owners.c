@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/queue.h>
 
-#include "endpoint/key_map.h"
+#include "exchange/key_map.h"
 
 /* Clients for which the map is laid out, and writers whose participant is remembered. */
 enum { EXPECTED = 1024, REMEMBERED = 256 };

@@ -3,6 +3,7 @@
 
 #include "endpoint/reply_bytes.h"
 
+#include <dds/dds.h>
 #include <dds/ddsi/ddsi_cdrstream.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,6 +42,11 @@ static bool decode(char *bytes, uint32_t size, percuss_v1_Reply *reply)
     return true;
 }
 
+static void free_reply(percuss_v1_Reply *reply)
+{
+    dds_sample_free(reply, &percuss_v1_Reply_desc, DDS_FREE_ALL);
+}
+
 struct answer *reply_bytes_read(const void *bytes, size_t size, bool *damaged)
 {
     struct answer *answer = answer_create(EXCHANGE_SINGLE, 0);
@@ -50,6 +56,7 @@ struct answer *reply_bytes_read(const void *bytes, size_t size, bool *damaged)
     if (good && !*damaged) {
         memcpy(copy, bytes, size);
         answer->decoded = answer->reply = dds_alloc(sizeof *answer->reply);
+        answer->free_decoded = free_reply;
         memset(answer->reply, 0, sizeof *answer->reply);
         /* about as much in memory as on the wire */
         answer->bytes += sizeof *answer->reply + size;

@@ -6,7 +6,7 @@
 #ifndef PERCUSS_ENDPOINT_REPLY_BYTES_H
 #define PERCUSS_ENDPOINT_REPLY_BYTES_H
 
-#include "endpoint/answer.h"
+#include "exchange/answer.h"
 
 /* The bytes of an answer of EXCHANGE_SINGLE, for the caller to free(); NULL: no memory. */
 void *reply_bytes_write(const struct answer *answer, size_t *size);

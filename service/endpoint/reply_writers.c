@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "endpoint/clock.h"
 #include "endpoint/subscriptions.h"
+#include "exchange/clock.h"
 
 struct reply_writers {
     dds_entity_t participant, source;

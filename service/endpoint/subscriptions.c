@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "endpoint/key_map.h"
+#include "exchange/key_map.h"
 
 enum { TAKEN_AT_ONCE = 32 };
 

@@ -9,11 +9,11 @@
 
 #include "convert.h"
 #include "daemon/responder.h"
-#include "endpoint/clock.h"
-#include "endpoint/decode.h"
-#include "endpoint/encode.h"
-#include "endpoint/question.h"
 #include "endpoint/reply_bytes.h"
+#include "exchange/clock.h"
+#include "exchange/decode.h"
+#include "exchange/encode.h"
+#include "exchange/question.h"
 
 /* What DDS puts before the data of a sample: how it is serialised. */
 enum { WIRE_HEAD = 4, XCDR2 = 2 };

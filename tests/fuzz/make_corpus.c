@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "samples.h"
-#include "unit/endpoint/sample.h"
+#include "unit/exchange/sample.h"
 
 static const char *folder;
 

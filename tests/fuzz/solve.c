@@ -10,7 +10,7 @@
 #include <math.h>
 
 #include "bench/any_scene.h"
-#include "endpoint/decode.h"
+#include "exchange/decode.h"
 #include "fuzz.h"
 #include "physics/estimates/invariants.h"
 

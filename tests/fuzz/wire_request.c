@@ -5,10 +5,10 @@
  * solver counts on, and a copy is the same question. Kept replies are read too. */
 #include <math.h>
 
-#include "endpoint/decode.h"
-#include "endpoint/decode_ensemble.h"
-#include "endpoint/question.h"
 #include "endpoint/reply_bytes.h"
+#include "exchange/decode.h"
+#include "exchange/decode_ensemble.h"
+#include "exchange/question.h"
 #include "samples.h"
 
 enum { REQUEST = 0, REPLY = 1, BATCH = 2, ENSEMBLE = 4, DENTS = 11 };

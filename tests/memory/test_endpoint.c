@@ -2,14 +2,14 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests what endpoint/ makes of requests and results: all of it, or nothing and it says so. */
-#include "endpoint/batch.h"
-#include "endpoint/encode.h"
-#include "endpoint/question.h"
 #include "endpoint/reply_bytes.h"
-#include "endpoint/reply_store.h"
-#include "endpoint/token_store.h"
+#include "exchange/batch.h"
+#include "exchange/encode.h"
+#include "exchange/question.h"
+#include "exchange/reply_store.h"
+#include "exchange/token_store.h"
 #include "memory/failing.h"
-#include "unit/endpoint/sample.h"
+#include "unit/exchange/sample.h"
 
 static struct envelope envelope;
 static struct solve_result *result;

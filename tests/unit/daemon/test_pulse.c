@@ -7,7 +7,7 @@
 
 #include "check.h"
 #include "daemon/pulse.h"
-#include "endpoint/clock.h"
+#include "exchange/clock.h"
 
 static void rest_is_no_silence(void **state)
 {

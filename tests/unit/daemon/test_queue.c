@@ -8,7 +8,7 @@
 
 #include "check.h"
 #include "daemon/queue.h"
-#include "endpoint/clock.h"
+#include "exchange/clock.h"
 
 /* The queue looks at nothing of a job but how many items it has. */
 static struct job job_of(size_t items)

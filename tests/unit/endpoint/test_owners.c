@@ -6,7 +6,7 @@
 #include "endpoint/owners.h"
 
 #include "check.h"
-#include "endpoint/key_map.h"
+#include "exchange/key_map.h"
 
 static const uint8_t client[16] = {1}, other[16] = {2};
 

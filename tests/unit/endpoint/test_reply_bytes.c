@@ -3,12 +3,12 @@
 
 /* Tests endpoint/reply_bytes.c: a reply comes back as it was, byte by byte; damaged bytes do not.
  */
-#include "sample.h"
+#include "unit/exchange/sample.h"
 
 #include <math.h>
 
-#include "endpoint/encode.h"
 #include "endpoint/reply_bytes.h"
+#include "exchange/encode.h"
 
 /* The answer, or NULL where the bytes are damaged. */
 static struct answer *read_back(const void *bytes, size_t size)
