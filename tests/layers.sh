@@ -24,11 +24,12 @@ allowed() {
     catalogue) echo "base numeric model mesh catalogue" ;;
     store) echo "base numeric model fe contact store" ;;
     exchange) echo "base numeric model contact impact solve ensemble exchange" ;;
+    respond) echo "base model fe contact solve ensemble catalogue store exchange respond" ;;
     endpoint) echo "base model contact solve exchange endpoint" ;;
     tables) echo "base model fe contact catalogue store tables" ;;
     reduce) echo "base numeric model mesh catalogue reduce" ;;
     reduce_mpi) echo "base mesh reduce reduce_mpi" ;;
-    daemon) echo "base numeric model fe contact impact solve ensemble catalogue store exchange endpoint daemon" ;;
+    daemon) echo "base numeric model fe contact impact solve ensemble catalogue store exchange respond endpoint daemon" ;;
     esac
 }
 
@@ -50,7 +51,7 @@ for folder in service/*/; do
             case $include in
             percuss/vocabulary.h | percuss/fields.h) continue ;;
             percuss_wire.h)
-                case $layer in exchange | endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
+                case $layer in exchange | respond | endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
                 continue
                 ;;
             wire.h | wire_security.h | wire_whole.h)
@@ -120,10 +121,10 @@ only 'sqlite3' 'service/store'
 only 'hdf5' 'service/mesh'
 only 'zmumps' 'service/spatial'
 only 'dds/' 'service/endpoint|service/daemon|client/lib'
-only 'time\.h|sys/|unistd|pthread' 'service/exchange|service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/cli'
+only 'time\.h|sys/|unistd|pthread' 'service/exchange|service/respond|service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/cli'
 
 # clients do not look into the service; the slow scale is built with its complementarity solver
-found=$(grep -nE '^ *# *include *"(base|numeric|model|fe|contact|impact|solve|ensemble|store|catalogue|exchange|endpoint|daemon)/' client/*/*.[ch] |
+found=$(grep -nE '^ *# *include *"(base|numeric|model|fe|contact|impact|solve|ensemble|store|catalogue|exchange|respond|endpoint|daemon)/' client/*/*.[ch] |
     grep -v '^client/slowscale/.*"numeric/lcp\.h"')
 [ -z "$found" ] || complain "client looks into the service: $found"
 

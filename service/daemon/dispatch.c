@@ -13,11 +13,12 @@
 #include "daemon/ensemble_job.h"
 #include "daemon/impact_job.h"
 #include "daemon/log.h"
+#include "daemon/means.h"
 #include "daemon/pulse.h"
 #include "daemon/queue.h"
-#include "daemon/responder.h"
 #include "exchange/clock.h"
 #include "exchange/question.h"
+#include "respond/responder.h"
 
 /* Two clients that ask within this time, s, are served side by side by the workers. */
 static const double COMPANY_SECONDS = 0.01;
@@ -43,7 +44,7 @@ struct dispatch *dispatch_create(struct shared *shared)
     if (!dispatch)
         return NULL;
     dispatch->shared = shared;
-    dispatch->responder = responder_create(shared, LANE_SHORT);
+    dispatch->responder = means_responder(shared, LANE_SHORT);
     if (dispatch->responder)
         return dispatch;
     free(dispatch);

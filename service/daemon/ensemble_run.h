@@ -1,8 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* One ensemble answered: decoded, its samples solved by several threads with progress on the wire,
- * and reported. */
+/* One ensemble answered, with progress on the wire. */
 #ifndef PERCUSS_DAEMON_ENSEMBLE_RUN_H
 #define PERCUSS_DAEMON_ENSEMBLE_RUN_H
 

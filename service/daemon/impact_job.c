@@ -10,7 +10,6 @@
 #include "daemon/cost.h"
 #include "daemon/delivery.h"
 #include "daemon/queue.h"
-#include "daemon/responder.h"
 #include "daemon/specimen_lane.h"
 #include "daemon/status.h"
 #include "exchange/batch.h"
@@ -18,6 +17,7 @@
 #include "exchange/encode.h"
 #include "exchange/key_map.h"
 #include "exchange/question.h"
+#include "respond/responder.h"
 
 /* Each request is an item. */
 struct impact_job {

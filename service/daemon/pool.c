@@ -12,8 +12,8 @@
 
 #include "daemon/errand.h"
 #include "daemon/pulse.h"
-#include "daemon/responder.h"
 #include "exchange/clock.h"
+#include "respond/responder.h"
 
 struct worker {
     struct queue *queue, *slower;

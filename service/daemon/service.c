@@ -13,16 +13,17 @@
 #include "daemon/dds_log.h"
 #include "daemon/dispatch.h"
 #include "daemon/log.h"
+#include "daemon/means.h"
 #include "daemon/memory.h"
 #include "daemon/metrics_file.h"
 #include "daemon/neighbours.h"
 #include "daemon/pool.h"
 #include "daemon/pulse.h"
 #include "daemon/reducer.h"
-#include "daemon/responder.h"
 #include "daemon/specimen_lane.h"
 #include "daemon/status.h"
 #include "exchange/clock.h"
+#include "respond/responder.h"
 
 static const int PATIENT_NICE = 10;
 
@@ -96,7 +97,7 @@ static bool add_workers(struct service *service, enum lane lane, unsigned count,
     bool patient = lane == LANE_LONG || lane == LANE_TABLES || lane == LANE_ENSEMBLES;
     struct queue *slower = lane == LANE_SHORT ? shared->lanes[LANE_LONG] : NULL;
     for (unsigned i = 0; i < count; i++) {
-        struct responder *responder = responder_create(shared, lane);
+        struct responder *responder = means_responder(shared, lane);
         if (!responder) {
             fault_set(fault, PERCUSS_INTERNAL, "out of memory");
             return false;

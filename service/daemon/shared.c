@@ -4,6 +4,7 @@
 #include "daemon/shared.h"
 
 #include "daemon/queue.h"
+#include "daemon/table_log.h"
 #include "exchange/clock.h"
 
 enum { REMEMBERED_CLIENTS = 4096 };
@@ -41,7 +42,7 @@ static bool create_stores(struct shared *shared)
         shared->lanes[lane] = queue_create(settings->queue_capacity, share_of(settings, lane));
         good = good && shared->lanes[lane];
     }
-    return table_cache_create(&shared->tables, settings->tables) && good;
+    return table_cache_create(&shared->tables, settings->tables, &table_log) && good;
 }
 
 bool shared_create(struct shared *shared, const struct settings *settings, struct fault *fault)

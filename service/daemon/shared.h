@@ -13,11 +13,11 @@
 #include "daemon/ensembles.h"
 #include "daemon/metrics.h"
 #include "daemon/settings.h"
-#include "daemon/snapshot.h"
-#include "daemon/table_cache.h"
 #include "endpoint/endpoint.h"
 #include "exchange/reply_store.h"
 #include "exchange/token_store.h"
+#include "respond/snapshot.h"
+#include "respond/table_cache.h"
 
 struct queue;
 struct specimen_lane;

@@ -8,8 +8,8 @@
 #define PERCUSS_DAEMON_SPECIMEN_LANE_H
 
 #include "daemon/metrics.h"
-#include "daemon/responder.h"
 #include "endpoint/endpoint.h"
+#include "respond/responder.h"
 
 struct specimen_lane;
 

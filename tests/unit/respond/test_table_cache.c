@@ -1,11 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/table_cache.c: which requests need a table that is not there. */
+/* Tests respond/table_cache.c: which requests need a table that is not there. */
 #include <string.h>
 
 #include "check.h"
-#include "daemon/table_cache.h"
+#include "respond/table_cache.h"
 
 static struct body bodies[] = {
     {.id = "steel", .material = {"steel", 210e9, 0.30, 7800.0, INFINITY, 0.0}},
@@ -24,7 +24,7 @@ static bool lacks(unsigned model, uint32_t a, uint32_t b)
     request.contacts._buffer = &contact;
     request.contacts._length = 1;
     struct table_cache cache;
-    assert_true(table_cache_create(&cache, ""));
+    assert_true(table_cache_create(&cache, "", NULL));
     bool result = table_cache_lacks(&cache, &set, &request);
     table_cache_release(&cache);
     return result;

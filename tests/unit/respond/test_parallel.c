@@ -1,12 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/parallel.c: every item once, and how far all are done when it is stopped. */
+/* Tests respond/parallel.c: every item once, and how far all are done when it is stopped. */
 #include <stdatomic.h>
 #include <time.h>
 
 #include "check.h"
-#include "daemon/parallel.h"
+#include "respond/parallel.h"
 
 enum { ITEMS = 1000, FIRST = 7 };
 
@@ -38,7 +38,7 @@ static bool watch(void *context, uint64_t done)
 
 static uint64_t run(struct count *count, unsigned threads)
 {
-    const struct parallel_loop loop = {threads, FIRST, ITEMS, work, watch, count};
+    const struct parallel_loop loop = {threads, FIRST, ITEMS, work, watch, count, 0};
     return parallel_run(&loop);
 }
 

@@ -1,12 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/snapshot.c: who holds a snapshot keeps it through a reload. */
+/* Tests respond/snapshot.c: who holds a snapshot keeps it through a reload. */
 #include <stdio.h>
 #include <unistd.h>
 
 #include "check.h"
-#include "daemon/snapshot.h"
+#include "respond/snapshot.h"
 
 static char path[] = "/tmp/percuss_snapshot_XXXXXX";
 

@@ -1,21 +1,19 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "daemon/responder.h"
+#include "respond/responder.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "base/hash.h"
-#include "daemon/log.h"
-#include "daemon/pulse.h"
 #include "exchange/batch.h"
 #include "exchange/clock.h"
 #include "exchange/decode.h"
 #include "exchange/encode.h"
 #include "exchange/text.h"
 
-struct responder *responder_create(struct shared *shared, enum lane lane)
+struct responder *responder_create(const struct respond_means *means)
 {
     struct responder *responder = calloc(1, sizeof *responder);
     if (!responder)
@@ -25,10 +23,8 @@ struct responder *responder_create(struct shared *shared, enum lane lane)
         free(responder);
         return NULL;
     }
-    responder->tokens = shared->tokens;
-    responder->limit = shared->settings->limit_seconds;
-    responder->lane = lane;
-    table_maker_init(&responder->maker, shared, lane == LANE_TABLES);
+    responder->means = *means;
+    table_maker_init(&responder->maker, &means->tables, means->limit);
     return responder;
 }
 
@@ -79,20 +75,20 @@ static struct token_subject subject_of(const struct question *question, size_t i
 
 /* Whether a question is to be answered, and if not, what it is refused with. */
 struct inquiry {
+    const struct respond_means *means;
     const struct question *question;
-    double limit; /* of its time, s; and when that begins, monotonic, s */
-    double begun;
+    double begun; /* monotonic, s */
     enum percuss_status status;
     struct fault fault;
 };
 
 static enum percuss_status check_limit(struct inquiry *inquiry)
 {
-    if (clock_now() - inquiry->begun <= inquiry->limit)
+    if (clock_now() - inquiry->begun <= inquiry->means->limit)
         return PERCUSS_OK;
     return fault_set(&inquiry->fault, PERCUSS_TIMEOUT,
                      "limits.seconds: %g: the server's time for one request had passed",
-                     inquiry->limit);
+                     inquiry->means->limit);
 }
 
 static bool still_wanted(struct inquiry *inquiry, const char *when)
@@ -109,9 +105,11 @@ static bool still_wanted(struct inquiry *inquiry, const char *when)
 /* What a solve asks now and then. */
 static bool goes_on(void *context, double done)
 {
+    struct inquiry *inquiry = context;
     (void)done;
-    pulse_beat();
-    return still_wanted(context, "within the solve");
+    if (inquiry->means->beat)
+        inquiry->means->beat();
+    return still_wanted(inquiry, "within the solve");
 }
 
 static struct answer *refuse(const struct inquiry *inquiry)
@@ -147,7 +145,7 @@ static enum percuss_status hold_state(struct responder *responder, const struct 
     struct subject_name name;
     struct token_subject subject = subject_of(question, index, &name);
     struct fault reason;
-    body->state = token_store_hold(responder->tokens, token, &subject, clock_now(), &reason);
+    body->state = token_store_hold(responder->means.tokens, token, &subject, clock_now(), &reason);
     if (body->state)
         return PERCUSS_OK;
     return fault_set(fault, PERCUSS_UNKNOWN_STATE, "bodies[%zu].state: %.500s", index, reason.text);
@@ -158,7 +156,7 @@ static void release_states(struct responder *responder, const struct question *q
     for (size_t i = 0; i < responder->request.body_count; i++) {
         bool is_token = question->request->bodies._buffer[i].state[0] != '\0';
         if (is_token && responder->request.bodies[i].state)
-            token_store_release(responder->tokens, responder->request.bodies[i].state);
+            token_store_release(responder->means.tokens, responder->request.bodies[i].state);
         responder->request.bodies[i].state = NULL;
     }
 }
@@ -191,7 +189,7 @@ static bool name_states(struct responder *responder, const struct question *ques
             continue;
         struct subject_name name;
         struct token_subject subject = subject_of(question, i, &name);
-        if (!token_store_put(responder->tokens, &subject, body->state_after, now,
+        if (!token_store_put(responder->means.tokens, &subject, body->state_after, now,
                              responder->states_after[i]))
             return false;
     }
@@ -203,7 +201,7 @@ static struct answer *compute(struct responder *responder, const struct question
 {
     const struct envelope *envelope = &question->envelope;
     struct solve_result *result = &responder->result;
-    struct inquiry inquiry = {question, responder->limit, clock_now(), PERCUSS_OK, {""}};
+    struct inquiry inquiry = {&responder->means, question, clock_now(), PERCUSS_OK, {""}};
     /* nobody may want it any more */
     if (!still_wanted(&inquiry, "before the solve began"))
         return refuse(&inquiry);
@@ -217,9 +215,8 @@ static struct answer *compute(struct responder *responder, const struct question
     /* why there is no result */
     if (responder->maker.status)
         return encode_refusal(envelope, responder->maker.status, responder->maker.fault.text);
-    if (result->status == PERCUSS_INTERNAL)
-        log_about(LEVEL_ERROR, &(struct log_request){envelope->client, envelope->sequence},
-                  "internal: %s", result->fault.text);
+    if (result->status == PERCUSS_INTERNAL && responder->means.complain)
+        responder->means.complain(envelope, result->fault.text);
     if (!inquiry.status)
         inquiry.status = check_deadline(question, "when the solve ended", &inquiry.fault);
     if (inquiry.status)

@@ -1,29 +1,37 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The daemon's contact tables. Those of the folder, loaded at start, serve `auto` and `table`.
- * Those computed since, because a request insisted on one, serve `table` only, so that the answers
- * to `auto` do not change while the daemon runs; the folder keeps them for the next start. */
-#ifndef PERCUSS_DAEMON_TABLE_CACHE_H
-#define PERCUSS_DAEMON_TABLE_CACHE_H
+/* The contact tables of whoever answers. Those of the folder, loaded at start, serve `auto` and
+ * `table`. Those computed since, because a request insisted on one, serve `table` only, so that the
+ * answers to `auto` do not change while it runs; the folder keeps them for the next start. */
+#ifndef PERCUSS_RESPOND_TABLE_CACHE_H
+#define PERCUSS_RESPOND_TABLE_CACHE_H
 
 #include <stdatomic.h>
 #include <stdbool.h>
 
 #include "model/body.h"
+#include "percuss_wire.h"
 #include "store/table_store.h"
-#include "wire.h"
+
+/* Who hears what becomes of tables, in any thread that makes some. */
+struct table_listener {
+    table_store_complaint *left_out;
+    void (*told)(bool warning, const char *text);
+};
 
 /* For any thread: the stores only grow. */
 struct table_cache {
     struct table_store *loaded, *made;
     const char *folder; /* empty: none */
+    const struct table_listener *listener;
     atomic_bool making; /* somebody computes a table: nobody else does */
 };
 
-/* Loads the folder (borrowed); a folder or file that does not do is logged. False: out of memory;
- * release it all the same. */
-bool table_cache_create(struct table_cache *cache, const char *folder);
+/* Loads the folder (borrowed); `listener` (borrowed; NULL: nobody) hears of a folder or file that
+ * does not do. False: out of memory; release it all the same. */
+bool table_cache_create(struct table_cache *cache, const char *folder,
+                        const struct table_listener *listener);
 void table_cache_release(struct table_cache *cache);
 
 /* The curves for `table`, or NULL. */

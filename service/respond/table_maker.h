@@ -3,27 +3,38 @@
 
 /* The contact tables for one request at a time: those that are there, and those that are computed
  * because it insists on them. */
-#ifndef PERCUSS_DAEMON_TABLE_MAKER_H
-#define PERCUSS_DAEMON_TABLE_MAKER_H
+#ifndef PERCUSS_RESPOND_TABLE_MAKER_H
+#define PERCUSS_RESPOND_TABLE_MAKER_H
 
-#include "daemon/shared.h"
+#include "percuss_wire.h"
+#include "respond/table_cache.h"
+
+struct table_maker;
+
+/* Whoever waits for a table that is computed, which takes seconds to minutes. */
+struct table_wait {
+    /* OK as long as it is wanted, of which the share `done` (0 .. 1) is computed; else why not */
+    enum percuss_status (*goes_on)(void *context, const struct table_maker *maker, double done,
+                                   struct fault *fault);
+    /* no table is computed any more; NULL: nobody wants to know */
+    void (*ended)(void *context, const struct table_maker *maker);
+    void *context;
+};
 
 /* Of one thread, unless it only finds. */
 struct table_maker {
     struct contact_table_source source;
-    struct shared *shared;
-    bool makes;                /* may take its time: the long lane */
+    struct table_wait wait;    /* without goes_on no tables are computed */
+    double limit;              /* of the time for one request, s */
     struct table_cache *cache; /* of the request at hand, as all below */
     const percuss_v1_Request *request;
-    double arrival, begun;        /* of it, and of what is done for it; monotonic, s */
-    const uint8_t *client;        /* who asks */
-    const atomic_bool *cancelled; /* its client wants no answer any more; NULL: cannot say so */
-    enum percuss_status status;   /* why a table could not be had */
+    double arrival, begun;      /* of it, and of what is done for it; monotonic, s */
+    const uint8_t *client;      /* who asks */
+    enum percuss_status status; /* why a table could not be had */
     struct fault fault;
 };
 
-/* With `makes` missing tables are computed, which takes seconds to minutes. */
-void table_maker_init(struct table_maker *maker, struct shared *shared, bool makes);
+void table_maker_init(struct table_maker *maker, const struct table_wait *wait, double limit);
 
 /* Begins with a request of a client (16 octets; a member of a batch need not name him): what
  * answers it. Who leaves the choice of the contact model takes the tables that were there at the

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "daemon/snapshot.h"
+#include "respond/snapshot.h"
 
 #include <stdlib.h>
 

@@ -2,20 +2,31 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* One request answered: validated, its states looked up, solved, and put into a reply. */
-#ifndef PERCUSS_DAEMON_RESPONDER_H
-#define PERCUSS_DAEMON_RESPONDER_H
+#ifndef PERCUSS_RESPOND_RESPONDER_H
+#define PERCUSS_RESPOND_RESPONDER_H
 
 #include <stdbool.h>
 
-#include "daemon/table_maker.h"
 #include "exchange/answer.h"
+#include "exchange/token_store.h"
+#include "respond/snapshot.h"
+#include "respond/table_maker.h"
 #include "solve/solve.h"
+
+/* What it answers by. */
+struct respond_means {
+    struct token_store *tokens; /* borrowed */
+    double limit;               /* of the time for one request, s */
+    struct table_wait tables;   /* while one is computed; without goes_on none are */
+    void (*beat)(void);         /* once a millisecond of a solve; NULL: nobody listens */
+    /* an answer is INTERNAL; NULL: nobody wants to know */
+    void (*complain)(const struct envelope *envelope, const char *text);
+};
 
 /* What one thread needs to answer requests. */
 struct responder {
-    struct token_store *tokens;
-    double limit;   /* of the time for one solve, s */
-    enum lane lane; /* that it works in */
+    struct respond_means means;
+    int lane; /* its owner's: in which it works */
     struct solve_workspace *workspace;
     struct table_maker maker; /* of contact tables that requests insist on */
     struct solve_request request;
@@ -23,9 +34,8 @@ struct responder {
     char states_after[PERCUSS_MAX_BODIES][PERCUSS_ID_SIZE]; /* their tokens */
 };
 
-/* In the lane of tables those that are missing are computed when a request insists on them, which
- * takes seconds to minutes. NULL: out of memory. */
-struct responder *responder_create(struct shared *shared, enum lane lane);
+/* NULL: out of memory. */
+struct responder *responder_create(const struct respond_means *means);
 void responder_free(struct responder *responder); /* NULL is allowed */
 
 /* A request with where it came from. */

@@ -1,34 +1,57 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "daemon/table_cache.h"
+#include "respond/table_cache.h"
+
+#include <stdarg.h>
+#include <stdio.h>
 
 #include "contact/law_closed_form.h"
-#include "daemon/log.h"
 #include "store/table_file.h"
 
-static void complain(const struct fault *fault)
+static void left_out(const struct fault *fault)
 {
-    log_line(LEVEL_WARNING, "table left out: %s", fault->text);
+    (void)fault;
 }
 
-bool table_cache_create(struct table_cache *cache, const char *folder)
+static void told(bool warning, const char *text)
+{
+    (void)warning, (void)text;
+}
+
+static const struct table_listener NOBODY = {left_out, told};
+
+static void __attribute__((format(printf, 3, 4)))
+tell(const struct table_cache *cache, bool warning, const char *format, ...)
+{
+    char text[sizeof(struct fault) + 128];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    cache->listener->told(warning, text);
+}
+
+bool table_cache_create(struct table_cache *cache, const char *folder,
+                        const struct table_listener *listener)
 {
     size_t count;
     struct fault fault;
-    *cache = (struct table_cache){
-        .loaded = table_store_create(), .made = table_store_create(), .folder = folder};
+    *cache = (struct table_cache){.loaded = table_store_create(),
+                                  .made = table_store_create(),
+                                  .folder = folder,
+                                  .listener = listener ? listener : &NOBODY};
     if (!cache->loaded || !cache->made)
         return false;
     if (!*cache->folder)
         return true;
-    if (table_store_load(cache->loaded, cache->folder, complain, &count, &fault))
-        log_line(LEVEL_WARNING, "tables: %s", fault.text);
+    if (table_store_load(cache->loaded, cache->folder, cache->listener->left_out, &count, &fault))
+        tell(cache, true, "tables: %s", fault.text);
     else
-        log_line(LEVEL_INFO, "tables: %zu from %s%s", count, cache->folder,
-                 table_store_source(cache->loaded)->family
-                     ? " and the family for all other metals"
-                     : "; no family there: other metals yield by the closed form");
+        tell(cache, false, "tables: %zu from %s%s", count, cache->folder,
+             table_store_source(cache->loaded)->family
+                 ? " and the family for all other metals"
+                 : "; no family there: other metals yield by the closed form");
     table_store_lend_family(cache->made, cache->loaded);
     return true;
 }
@@ -76,9 +99,8 @@ enum percuss_status table_cache_add(struct table_cache *cache,
     enum percuss_status status = table_store_add(cache->made, table, fault);
     if (status)
         return status;
-    log_line(LEVEL_INFO, "table of %s on %s: computed in %.1f s", a, b, seconds);
+    tell(cache, false, "table of %s on %s: computed in %.1f s", a, b, seconds);
     if (*cache->folder && table_file_save(cache->folder, table, &origin, path, &reason))
-        log_line(LEVEL_WARNING, "table of %s on %s: kept until the end only: %s", a, b,
-                 reason.text);
+        tell(cache, true, "table of %s on %s: kept until the end only: %s", a, b, reason.text);
     return PERCUSS_OK;
 }

@@ -1,12 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "daemon/table_maker.h"
+#include "respond/table_maker.h"
 
 #include <time.h>
 
 #include "contact/law_closed_form.h"
-#include "daemon/pulse.h"
 #include "exchange/clock.h"
 #include "fe/indentation.h"
 #include "store/table_key.h"
@@ -22,22 +21,15 @@ static bool go_on(void *context, double done)
 {
     struct table_maker *maker = context;
     double deadline = maker->request->options.deadline;
-    pulse_beat();
-    activity_set(&maker->shared->activity, maker, done, "computing a contact table");
-    if (atomic_load(&maker->shared->draining))
-        maker->status = fault_set(&maker->fault, PERCUSS_BUSY, SHARED_SHUTTING_DOWN);
-    else if (maker->cancelled && atomic_load(maker->cancelled))
-        maker->status =
-            fault_set(&maker->fault, PERCUSS_TIMEOUT,
-                      "cancelled with %.0f %% of the contact table computed", 100.0 * done);
-    else if (reply_store_is_gone(maker->shared->replies, maker->client))
-        maker->status = fault_set(&maker->fault, PERCUSS_TIMEOUT, SHARED_CLIENT_GONE);
-    else if (clock_now() - maker->begun > maker->shared->settings->limit_seconds)
+    maker->status = maker->wait.goes_on(maker->wait.context, maker, done, &maker->fault);
+    if (maker->status)
+        return false;
+    if (clock_now() - maker->begun > maker->limit)
         maker->status = fault_set(
             &maker->fault, PERCUSS_TIMEOUT,
             "limits.seconds: %g: the server's time for one request had passed with %.0f %% of the "
             "contact table computed: compute it ahead by percuss-tables",
-            maker->shared->settings->limit_seconds, 100.0 * done);
+            maker->limit, 100.0 * done);
     else if (deadline > 0.0 && clock_now() - maker->arrival > deadline)
         maker->status = fault_set(
             &maker->fault, PERCUSS_TIMEOUT,
@@ -76,7 +68,8 @@ static const struct contact_curves *make(struct table_maker *maker, const struct
     struct fault fault;
     double start = thread_seconds();
     enum percuss_status status = indentation_table_make(&input, &watch, &table, &fault);
-    activity_clear(&maker->shared->activity, maker);
+    if (maker->wait.ended)
+        maker->wait.ended(maker->wait.context, maker);
     /* for all who ask from now on */
     if (!status) {
         status = table_cache_add(maker->cache, &table, thread_seconds() - start, &fault);
@@ -99,7 +92,7 @@ static const struct contact_curves *find_or_make(void *context, const struct con
     const struct contact_curves *curves = table_cache_find(maker->cache, a, b);
     if (curves || maker->status)
         return curves;
-    if (maker->makes) {
+    if (maker->wait.goes_on) {
         if (!await_turn(maker))
             return NULL;
         curves = table_cache_find(maker->cache, a, b);
@@ -136,9 +129,9 @@ static bool overrides_material(const percuss_v1_Request *request)
     return false;
 }
 
-void table_maker_init(struct table_maker *maker, struct shared *shared, bool makes)
+void table_maker_init(struct table_maker *maker, const struct table_wait *wait, double limit)
 {
-    *maker = (struct table_maker){.source.context = maker, .shared = shared, .makes = makes};
+    *maker = (struct table_maker){.source.context = maker, .wait = *wait, .limit = limit};
 }
 
 const struct contact_table_source *table_maker_begin(struct table_maker *maker,
@@ -151,7 +144,6 @@ const struct contact_table_source *table_maker_begin(struct table_maker *maker,
     maker->arrival = arrival;
     maker->begun = clock_now();
     maker->client = client;
-    maker->cancelled = NULL;
     maker->status = PERCUSS_OK;
     maker->source.find = overrides_material(request) ? find_only : find_or_make;
     return contact_law_asked(request->options.contact_model)->tables == CONTACT_TABLES_ONLY

@@ -3,14 +3,14 @@
 
 /* What requests are answered from: a loaded catalogue, and the contact tables. A reload makes a new
  * snapshot; jobs that have begun keep theirs. */
-#ifndef PERCUSS_DAEMON_SNAPSHOT_H
-#define PERCUSS_DAEMON_SNAPSHOT_H
+#ifndef PERCUSS_RESPOND_SNAPSHOT_H
+#define PERCUSS_RESPOND_SNAPSHOT_H
 
 #include <pthread.h>
 
 #include "base/fault.h"
-#include "daemon/table_cache.h"
 #include "model/body.h"
+#include "respond/table_cache.h"
 
 struct snapshot {
     struct body_set *set;

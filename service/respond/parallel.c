@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "daemon/parallel.h"
+#include "respond/parallel.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -9,7 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { MOST_THREADS = 64, CHUNK = 16, NICE = 10 };
+enum { MOST_THREADS = 64, CHUNK = 16 };
 static const long long WATCH_NANOSECONDS = 100000000;
 
 struct parallel {
@@ -51,7 +51,8 @@ static void *run(void *argument)
 {
     struct thread *thread = argument;
     struct parallel *parallel = thread->parallel;
-    setpriority(PRIO_PROCESS, (id_t)gettid(), NICE);
+    if (parallel->loop->nice)
+        setpriority(PRIO_PROCESS, (id_t)gettid(), parallel->loop->nice);
     work_off(thread);
     pthread_mutex_lock(&parallel->lock);
     parallel->running--;

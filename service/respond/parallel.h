@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Several threads of low priority that work through numbered items together. */
-#ifndef PERCUSS_DAEMON_PARALLEL_H
-#define PERCUSS_DAEMON_PARALLEL_H
+/* Several threads that work through numbered items together. */
+#ifndef PERCUSS_RESPOND_PARALLEL_H
+#define PERCUSS_RESPOND_PARALLEL_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -22,6 +22,7 @@ struct parallel_loop {
     parallel_work *work;
     parallel_watch *watch;
     void *context; /* of both */
+    int nice;      /* of the threads; 0: as the caller */
 };
 
 /* Starts the threads, waits for their end and returns how far all items are done: `end` unless it

@@ -1,0 +1,348 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "respond/ensemble_answer.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "ensemble/create.h"
+#include "ensemble/report_make.h"
+#include "exchange/clock.h"
+#include "exchange/decode_ensemble.h"
+#include "exchange/encode.h"
+#include "exchange/encode_ensemble.h"
+#include "respond/parallel.h"
+
+enum { MOST_WORKERS = 64 };
+
+/* Of the thread that runs it, but for what the workers are given. */
+struct ensemble_run {
+    const struct ensemble_means *means;
+    const struct ensemble_question *question;
+    const percuss_v1_EnsembleRequest *request;
+    double deadline; /* monotonic, s; INFINITY: none */
+    double limit;    /* likewise: till when it is given time */
+    struct decoded_ensemble *decoded;
+    struct ensemble ensemble;
+    struct table_maker maker; /* of tables that are asked for */
+    unsigned worker_count;
+    struct ensemble_worker *workers[MOST_WORKERS]; /* each of one thread */
+    struct ensemble_sample *samples;               /* each of the thread that solves it */
+    struct ensemble_extra *extras;                 /* likewise */
+    uint64_t done;
+    atomic_uint moves; /* signs of life of the workers */
+    unsigned seen;     /* of them */
+    bool in_extras;
+    bool gone;               /* its client */
+    double noticed;          /* monotonic, s: when those who wait heard last */
+    atomic_bool stopped;     /* the workers are to give up */
+    enum percuss_status cut; /* what cut it short, for a reply without samples; OK: nothing */
+    char message[160];       /* of that */
+};
+
+static void beat(const struct ensemble_run *run)
+{
+    if (run->means->beat)
+        run->means->beat();
+}
+
+/* Once a second. */
+static bool is_due(const struct ensemble_run *run)
+{
+    return clock_now() >= run->noticed + 1.0;
+}
+
+static void tell(struct ensemble_run *run, uint64_t done, uint64_t samples,
+                 const struct report_progress *progress)
+{
+    run->noticed = clock_now();
+    run->means->progress(run->means->context, done, samples, progress);
+}
+
+static void tell_progress(struct ensemble_run *run, uint64_t done)
+{
+    struct report_progress progress = report_progress(&run->ensemble, run->samples, done, false);
+    tell(run, done, run->ensemble.count, &progress);
+}
+
+/* Notes why there will be no more samples. */
+static void __attribute__((format(printf, 3, 4)))
+cut_short(struct ensemble_run *run, enum percuss_status status, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(run->message, sizeof run->message, format, arguments);
+    va_end(arguments);
+    run->cut = status;
+}
+
+/* Whether anybody still wants the rest; whoever has left does not, even if he is back. */
+static bool is_wanted(struct ensemble_run *run)
+{
+    enum ensemble_wish wish = run->means->wish(run->means->context);
+    run->gone = run->gone || wish == ENSEMBLE_GONE;
+    if (run->gone)
+        return false;
+    if (wish == ENSEMBLE_CANCELLED)
+        cut_short(run, PERCUSS_TRUNCATED, "cancelled");
+    else if (clock_now() > run->deadline)
+        cut_short(run, PERCUSS_TIMEOUT, "options.deadline: %g s: has passed",
+                  run->request->scene.options.deadline);
+    else if (clock_now() > run->limit)
+        cut_short(run, PERCUSS_TIMEOUT,
+                  "limits.seconds: %g s: the server's time for one request has passed",
+                  run->means->limit);
+    return run->cut == PERCUSS_OK;
+}
+
+/* While the model is chosen. */
+static bool choice_goes_on(void *context, double done)
+{
+    struct ensemble_run *run = context;
+    (void)done;
+    beat(run);
+    if (is_due(run))
+        tell(run, 0, run->request->samples, NULL);
+    return is_wanted(run);
+}
+
+/* While the workers solve: the thread that waits for them. */
+static bool samples_go_on(void *context, uint64_t done)
+{
+    struct ensemble_run *run = context;
+    /* it lives by those it waits for */
+    unsigned moves = atomic_load(&run->moves);
+    if (moves != run->seen)
+        beat(run);
+    run->seen = moves;
+    tell_progress(run, run->in_extras ? run->done : done);
+    atomic_store(&run->stopped, !is_wanted(run));
+    return !atomic_load(&run->stopped);
+}
+
+/* Within a sample, which may take a second: what that thread has found. */
+static bool sample_goes_on(void *context, double done)
+{
+    struct ensemble_run *run = context;
+    (void)done;
+    atomic_fetch_add(&run->moves, 1);
+    return !atomic_load(&run->stopped);
+}
+
+/* While samples are solved again for the words of the warnings. */
+static bool words_go_on(void *context, double done)
+{
+    struct ensemble_run *run = context;
+    (void)done;
+    beat(run);
+    if (is_due(run))
+        tell_progress(run, run->done);
+    return is_wanted(run);
+}
+
+static bool work_on_sample(void *context, unsigned thread, uint64_t item)
+{
+    struct ensemble_run *run = context;
+    atomic_fetch_add(&run->moves, 1);
+    ensemble_solve(run->workers[thread], item, &run->samples[item], NULL);
+    return run->samples[item].status != PERCUSS_TIMEOUT;
+}
+
+static bool work_on_extra(void *context, unsigned thread, uint64_t item)
+{
+    struct ensemble_run *run = context;
+    run->extras[item] = ensemble_extra(run->workers[thread], run->done, item);
+    return sample_goes_on(run, 0.0);
+}
+
+/* From the wire to an ensemble that is ready to run. */
+static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault)
+{
+    const struct ensemble_means *means = run->means;
+    /* until when, and what of */
+    double seconds = run->request->scene.options.deadline;
+    run->deadline = seconds > 0.0 ? run->question->arrival + seconds : INFINITY;
+    run->limit = clock_now() + means->limit;
+    if (run->request->samples > means->most_samples)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "samples: %llu: must be at most %u, as the server's limits.samples says",
+                         (unsigned long long)run->request->samples, means->most_samples);
+    run->decoded = calloc(1, sizeof *run->decoded);
+    if (!run->decoded)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    enum percuss_status status = decode_ensemble(run->request, run->decoded, fault);
+    if (status)
+        return status;
+    /* as for a single request: tables that are insisted on are computed when the impact as it is
+     * stated is tried; no input changes a material, so that the workers only look them up */
+    table_maker_init(&run->maker, &means->tables, means->limit);
+    run->decoded->spec.catalogue = means->snapshot->set;
+    run->decoded->spec.tables =
+        table_maker_begin(&run->maker, means->snapshot->tables, &run->request->scene,
+                          run->question->envelope.client, run->question->arrival);
+    const struct watch watch = {choice_goes_on, run};
+    status = is_wanted(run) ? ensemble_create(&run->ensemble, &run->decoded->spec, &watch, fault)
+                            : PERCUSS_TIMEOUT;
+    /* why it was given up */
+    if (run->maker.status)
+        return fault_set(fault, run->maker.status, "%s", run->maker.fault.text);
+    if (run->cut)
+        return fault_set(fault, PERCUSS_TIMEOUT, "%s before the first sample", run->message);
+    if (status == PERCUSS_TIMEOUT && run->gone)
+        return fault_set(fault, PERCUSS_TIMEOUT, ENSEMBLE_CLIENT_GONE);
+    return status;
+}
+
+/* One worker a thread, and room for the samples. */
+static enum percuss_status create_workers(struct ensemble_run *run, struct fault *fault)
+{
+    const struct watch watch = {sample_goes_on, run};
+    unsigned wanted = run->means->workers;
+    wanted = wanted < MOST_WORKERS ? wanted : MOST_WORKERS;
+    /* computing a table is for a single thread */
+    table_maker_only_finds(&run->maker);
+    run->samples = calloc(run->ensemble.count, sizeof *run->samples);
+    if (!run->samples)
+        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    for (; run->worker_count < wanted; run->worker_count++) {
+        struct ensemble_worker **worker = &run->workers[run->worker_count];
+        if (ensemble_worker_create(worker, &run->ensemble, &watch, fault))
+            return PERCUSS_INTERNAL;
+    }
+    return PERCUSS_OK;
+}
+
+/* Solves samples until there are all, or enough, or nobody wants more. */
+static void solve_samples(struct ensemble_run *run)
+{
+    bool wanted = is_wanted(run);
+    while (wanted && run->done < run->ensemble.count) {
+        uint64_t next = ensemble_next_check(&run->ensemble, run->done);
+        struct parallel_loop loop = {run->worker_count, run->done,     next,
+                                     work_on_sample,    samples_go_on, run,
+                                     run->means->nice};
+        run->done = parallel_run(&loop);
+        wanted = run->done == next && is_wanted(run);
+        if (wanted && next < run->ensemble.count &&
+            report_progress(&run->ensemble, run->samples, next, true).enough)
+            break;
+        if (run->done < next && !atomic_load(&run->stopped))
+            cut_short(run, PERCUSS_INTERNAL, "no thread could be started");
+    }
+    tell_progress(run, run->done);
+}
+
+/* After an early end the extras are left out: they would take time that was not given. False: out
+ * of memory. */
+static bool solve_extras(struct ensemble_run *run)
+{
+    uint64_t count = run->cut ? 0 : ensemble_extras(&run->ensemble, run->done);
+    if (count == 0)
+        return true;
+    run->extras = calloc(count, sizeof *run->extras);
+    if (!run->extras)
+        return false;
+    run->in_extras = true;
+    struct parallel_loop loop = {run->worker_count, 0,   count,           work_on_extra,
+                                 samples_go_on,     run, run->means->nice};
+    if (parallel_run(&loop) < count) {
+        free(run->extras);
+        run->extras = NULL;
+    }
+    return true;
+}
+
+/* The reply on what was solved. */
+static struct answer *report_samples(struct ensemble_run *run, const struct envelope *envelope)
+{
+    const struct watch watch = {words_go_on, run};
+    const struct report_material material = {run->done, run->samples, run->extras};
+    struct ensemble_report results;
+    bool good = report_create(&results, &run->ensemble, &material, &watch);
+    /* that too may have been cut short */
+    bool cut = run->cut != PERCUSS_OK;
+    char message[256] = "";
+    if (cut)
+        snprintf(message, sizeof message, "%s: %llu of %llu samples were solved", run->message,
+                 (unsigned long long)run->done, (unsigned long long)run->ensemble.count);
+    struct ensemble_ending ending = {cut ? PERCUSS_TRUNCATED : PERCUSS_OK, message};
+    struct answer *answer = NULL;
+    if (good)
+        answer = encode_ensemble(envelope, &run->ensemble, &results, &ending);
+    if (answer)
+        answer->passing = cut; /* asked again there may be more */
+    report_release(&results);
+    return answer;
+}
+
+static struct answer *refuse(const struct envelope *envelope, enum percuss_status status,
+                             const char *message)
+{
+    struct answer *answer = encode_ensemble_refusal(envelope, status, message);
+    if (answer && status == PERCUSS_TRUNCATED)
+        answer->passing = true;
+    return answer;
+}
+
+static struct answer *carry_out(struct ensemble_run *run)
+{
+    const struct envelope *envelope = &run->question->envelope;
+    struct fault fault = {""};
+    /* the model that all samples share, and who solves them */
+    enum percuss_status status = prepare(run, &fault);
+    if (!status)
+        status = create_workers(run, &fault);
+    if (status)
+        return refuse(envelope, status, fault.text);
+    /* the samples, and what they say */
+    tell_progress(run, 0);
+    solve_samples(run);
+    bool good = solve_extras(run);
+    struct answer *answer = NULL;
+    if (good && !run->gone)
+        answer =
+            run->done ? report_samples(run, envelope) : refuse(envelope, run->cut, run->message);
+    if (good && run->done && run->request->list_samples && !run->gone)
+        good = run->means->list(run->means->context, &run->ensemble, run->samples, run->done);
+    if (good && !run->gone)
+        return answer;
+    /* who has come back meanwhile hears of his leaving; nobody else does */
+    answer_release(answer);
+    return good ? refuse(envelope, PERCUSS_TIMEOUT, ENSEMBLE_CLIENT_GONE)
+                : refuse(envelope, PERCUSS_INTERNAL, "out of memory");
+}
+
+static void release(struct ensemble_run *run)
+{
+    for (unsigned i = 0; i < run->worker_count; i++)
+        ensemble_worker_free(run->workers[i]);
+    ensemble_release(&run->ensemble);
+    free(run->extras);
+    free(run->samples);
+    free(run->decoded);
+    free(run);
+}
+
+struct answer *ensemble_answer(const struct ensemble_means *means,
+                               const struct ensemble_question *question)
+{
+    double start = clock_now();
+    struct ensemble_run *run = calloc(1, sizeof *run);
+    if (!run)
+        return NULL;
+    run->means = means;
+    run->question = question;
+    run->request = question->request;
+    struct answer *answer = carry_out(run);
+    release(run);
+    /* how long it waited, and took */
+    if (answer) {
+        answer->report->timing.queue = start - question->arrival;
+        answer->report->timing.solve = clock_now() - start;
+    }
+    return answer;
+}
