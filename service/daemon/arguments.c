@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "daemon/settings.h"
+#include "respond/settings.h"
 
 enum { KEY_CHECK = 0x100, KEY_STORE, KEY_FORMAT, USAGE = 2 };
 

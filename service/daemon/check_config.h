@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-#include "daemon/settings.h"
+#include "respond/settings.h"
 
 /* Looks at the catalogue and its bodies, the folders of tables and reduced bodies, the store, and
  * whether the domain can be joined; changes nothing. Prints "ok" on stdout, or on stderr everything

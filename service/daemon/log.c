@@ -32,18 +32,6 @@ void log_use(enum log_format format)
     used_format = format;
 }
 
-const char *log_level_name(enum log_level level)
-{
-    static const char *const names[LEVEL_COUNT] = {"error", "warning", "info", "debug"};
-    return names[level];
-}
-
-const char *log_format_name(enum log_format format)
-{
-    static const char *const names[LOG_FORMAT_COUNT] = {"text", "journal", "json"};
-    return names[format];
-}
-
 /* "2026-11-22T22:21:05.123Z" */
 static void write_time(struct text *line)
 {

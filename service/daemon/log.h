@@ -8,11 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum log_level { LEVEL_ERROR, LEVEL_WARNING, LEVEL_INFO, LEVEL_DEBUG, LEVEL_COUNT };
-
-/* For people, for the journal of systemd (which has its own clock, and takes the level as "<N>"),
- * and one JSON object a line. */
-enum log_format { LOG_TEXT, LOG_JOURNAL, LOG_JSON, LOG_FORMAT_COUNT };
+#include "respond/log_choice.h"
 
 /* Messages above this level are left out; at first everything but LEVEL_DEBUG is written. */
 void log_limit(enum log_level level);
@@ -36,11 +32,5 @@ struct log_request {
  * of their own. */
 void log_about(enum log_level level, const struct log_request *request, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-
-/* "error", "warning", ... */
-const char *log_level_name(enum log_level level);
-
-/* "text", "journal", "json" */
-const char *log_format_name(enum log_format format);
 
 #endif

@@ -14,10 +14,10 @@
 #include "daemon/log.h"
 #include "daemon/notify.h"
 #include "daemon/service.h"
-#include "daemon/settings.h"
 #include "daemon/standby.h"
 #include "daemon/store_care.h"
 #include "exchange/clock.h"
+#include "respond/settings.h"
 
 enum { STATUS_SIZE = 400 };
 

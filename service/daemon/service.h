@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 #include "base/fault.h"
-#include "daemon/settings.h"
+#include "respond/settings.h"
 
 /* Of the main thread alone. */
 struct service;

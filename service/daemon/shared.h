@@ -12,10 +12,10 @@
 #include "daemon/activity.h"
 #include "daemon/ensembles.h"
 #include "daemon/metrics.h"
-#include "daemon/settings.h"
 #include "endpoint/endpoint.h"
 #include "exchange/reply_store.h"
 #include "exchange/token_store.h"
+#include "respond/settings.h"
 #include "respond/snapshot.h"
 #include "respond/table_cache.h"
 

@@ -13,7 +13,7 @@
 
 #include "base/fault.h"
 #include "daemon/notify.h"
-#include "daemon/settings.h"
+#include "respond/settings.h"
 
 /* Tries to take the place, for as long as this process lives, and reads or draws the server id.
  * PERCUSS_BUSY: another process has it. PERCUSS_BAD_REQUEST with "FILE: ...": the file cannot be

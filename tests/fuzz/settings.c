@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The daemon's settings: every number in its range, every text ended, or a refusal in words. */
-#include "daemon/settings.h"
+#include "respond/settings.h"
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

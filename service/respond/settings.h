@@ -1,14 +1,15 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What the daemon can be told in its configuration file; config/percussd.yaml explains each key. */
-#ifndef PERCUSS_DAEMON_SETTINGS_H
-#define PERCUSS_DAEMON_SETTINGS_H
+/* What the daemon can be told in its configuration file; config/percussd.yaml explains each key. Of
+ * these, a solver in a program heeds what its answers depend on. */
+#ifndef PERCUSS_RESPOND_SETTINGS_H
+#define PERCUSS_RESPOND_SETTINGS_H
 
 #include <stdbool.h>
 
 #include "base/fault.h"
-#include "daemon/log.h"
+#include "respond/log_choice.h"
 
 enum { SETTINGS_PATH_SIZE = 4096 };
 

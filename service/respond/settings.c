@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "daemon/settings.h"
+#include "respond/settings.h"
 
 #include <errno.h>
 #include <math.h>
