@@ -18,9 +18,13 @@ enum {
     DRAIN_ATTEMPTS = 1000,
 };
 
-/* Loopback has no multicast, so peers are addressed by port: one index per process. A lease of 2 s
- * lets the daemon notice a killed client soon. Deaf at first: Cyclone DDS receives at any address
- * of the machine, whatever its interface is, until its sockets have a filter. */
+/* From the last word of a process until it is forgotten: below 2 s with what a client waits then
+ * for a standby's answer, 0.2 s. The daemon announces its state each second, which renews it. */
+static const dds_duration_t LEASE = DDS_MSECS(1700);
+
+/* Loopback has no multicast, so peers are addressed by port: one index per process. Deaf at first:
+ * Cyclone DDS receives at any address of the machine, whatever its interface is, until its sockets
+ * have a filter. */
 static dds_entity_t create_deaf(uint32_t domain)
 {
     static struct ddsi_config_network_interface_listelem interface = {
@@ -36,7 +40,7 @@ static dds_entity_t create_deaf(uint32_t domain)
     config.peers = &peer;
     config.participantIndex = DDSI_PARTICIPANT_INDEX_AUTO;
     config.maxAutoParticipantIndex = HIGHEST_INDEX;
-    config.lease_duration = DDS_SECS(2);
+    config.lease_duration = LEASE;
     config.initial_deaf = 1;
     config.initial_deaf_mute_reset = DDS_INFINITY;
     return dds_create_domain_with_rawconfig(domain, &config);

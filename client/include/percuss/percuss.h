@@ -73,8 +73,9 @@ PERCUSS_API void percuss_client_free(struct percuss_client *client);
  * quality of service still does not fit, named in percuss_error_text.
  *
  * When that server goes, whatever waits for it returns NO_SERVER with its name: at once when it
- * ends, 2 s after it was killed. To be called again then, and after a restart, since a restarted
- * server is another one; what was outstanding is lost then and may be submitted again as it was.
+ * ends, within 2 s after it was killed. To be called again then, and after a restart, since a
+ * restarted server is another one; what was outstanding is lost then and may be submitted again as
+ * it was.
  * But where another process takes its place under its id (percussd's `standby`), percuss_solve asks
  * that one, with the same sequence, and nothing is to be called. */
 PERCUSS_API enum percuss_result percuss_client_connect(struct percuss_client *client,
