@@ -56,30 +56,28 @@ const char *wire_participant_problem(dds_return_t code)
     return dds_strretcode(-code);
 }
 
+static void set_partition(dds_qos_t *qos, const char *partition)
+{
+    if (partition && *partition)
+        dds_qset_partition1(qos, partition);
+}
+
 dds_qos_t *wire_qos_exchange(const char *partition)
 {
     dds_qos_t *qos = dds_create_qos();
     dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
     dds_qset_durability(qos, DDS_DURABILITY_VOLATILE);
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, WIRE_WINDOW);
-    if (partition)
-        dds_qset_partition1(qos, partition);
+    set_partition(qos, partition);
     return qos;
 }
 
-dds_qos_t *wire_qos_announcement(void)
+dds_qos_t *wire_qos_announcement(const char *partition)
 {
     dds_qos_t *qos = dds_create_qos();
     dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
     dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
+    set_partition(qos, partition);
     return qos;
-}
-
-void wire_partition_name(const uint8_t client[16], char name[WIRE_PARTITION_SIZE])
-{
-    name[0] = 'c';
-    name[1] = '_';
-    for (int i = 0; i < 16; ++i)
-        snprintf(name + 2 + 2 * i, 3, "%02x", client[i]);
 }

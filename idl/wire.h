@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "percuss_wire.h"
+#include "wire_partition.h"
 
 #define WIRE_TOPIC_REQUEST           "percuss/v1/Request"
 #define WIRE_TOPIC_REPLY             "percuss/v1/Reply"
@@ -23,7 +24,7 @@
 #define WIRE_TOPIC_BODY              "percuss/v1/Body"
 #define WIRE_TOPIC_DENTS             "percuss/v1/Dents"
 
-enum { WIRE_PARTITION_SIZE = 35, WIRE_WINDOW = 1024 };
+enum { WIRE_WINDOW = 1024 };
 
 /* A participant in `domain`. Without CYCLONEDDS_URI in the environment it uses a built-in
  * configuration: up to 100 processes of this machine, which hear nobody else (wire_loopback.h),
@@ -48,14 +49,11 @@ dds_entity_t wire_topic_create(dds_entity_t participant, const dds_topic_descrip
                                const char *name);
 
 /* Quality of service of requests and replies of every kind: RELIABLE, VOLATILE, KEEP_LAST
- * WIRE_WINDOW per client, blocking at most 100 ms. `partition` NULL: the default partition.
+ * WIRE_WINDOW per client, blocking at most 100 ms. `partition` NULL or empty: the default one.
  * The caller deletes the result with dds_delete_qos. */
 dds_qos_t *wire_qos_exchange(const char *partition);
 
 /* Quality of service of Body, ServerStatus and Dents: RELIABLE, TRANSIENT_LOCAL, KEEP_LAST 1. */
-dds_qos_t *wire_qos_announcement(void);
-
-/* "c_" and the 32 hexadecimal digits of a client id. */
-void wire_partition_name(const uint8_t client[16], char name[WIRE_PARTITION_SIZE]);
+dds_qos_t *wire_qos_announcement(const char *partition);
 
 #endif

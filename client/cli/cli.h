@@ -22,7 +22,8 @@ struct common {
     uint32_t domain;
     double timeout; /* s for the answer; NAN: not given */
     bool json;
-    char server[PERCUSS_SERVER_ID_SIZE]; /* what its id begins with; empty: any */
+    char server[PERCUSS_SERVER_ID_SIZE]; /* what its id begins with, or a choice; empty: any */
+    const char *partition;               /* NULL: not given; empty: none */
     const char *security;                /* folder of the identity to use; NULL: not given */
 };
 
@@ -33,12 +34,13 @@ enum option_key {
     OPTION_JSON,
     OPTION_SERVER,
     OPTION_SECURITY,
+    OPTION_PARTITION,
     OPTION_SCENE,
     OPTION_OWN = 300
 };
 
-/* Parses --domain, --timeout, --server, --security and --json into the `struct common` that is its
- * input. */
+/* Parses --domain, --partition, --timeout, --server, --security and --json into the `struct common`
+ * that is its input. */
 extern const struct argp common_argp;
 
 /* One command: argv[0] is "percuss <command>"; `common` holds what stood before the command.
@@ -58,6 +60,9 @@ unsigned parse_count(const char *option, const char *text, unsigned most, struct
 double common_timeout(const struct common *common);
 double common_patience(const struct common *common);
 
+/* Whether one server is to be asked and no other. */
+bool common_names_server(const struct common *common);
+
 /* Prints "percuss: ..." to stderr. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
@@ -72,6 +77,9 @@ void complain_no_server(const char *what, unsigned domain);
 
 /* The DDS domain that PERCUSS_DOMAIN names, 0 without; what is no domain ends the process. */
 uint32_t environment_domain(void);
+
+/* The server that PERCUSS_SERVER names; empty without. */
+void environment_server(char server[PERCUSS_SERVER_ID_SIZE]);
 
 /* A client; `id` NULL: random. EXIT_ANSWERED, or complains and leaves *client NULL. */
 int make_client(const struct common *common, const uint8_t *id, struct percuss_client **client);

@@ -19,11 +19,14 @@ static const double DEFAULT_PATIENCE = 3.0; /* s for a server to appear; discove
 static const struct argp_option common_options[] = {
     {"domain", OPTION_DOMAIN, "N", 0,
      "DDS domain of the server (default: PERCUSS_DOMAIN, or else 0)", 90},
+    {"partition", OPTION_PARTITION, "NAME", 0,
+     "DDS partition of the server, see percussd (default: PERCUSS_PARTITION, or else none)", 90},
     {"timeout", OPTION_TIMEOUT, "S", 0,
      "seconds to wait for the server and then for the answer (default 3 and 30)", 90},
     {"server", OPTION_SERVER, "ID", 0,
-     "the server to ask: how its id begins, as percuss status shows it (default: the one up "
-     "longest of those found within a moment)",
+     "the server to ask: how its id begins, as percuss status shows it, or least-loaded: the one "
+     "with least to do (default: PERCUSS_SERVER, or else the one up longest of those found within "
+     "a moment)",
      90},
     {"security", OPTION_SECURITY, "DIR", 0,
      "folder of the identity to ask a secured server with (default: PERCUSS_SECURITY, or else "
@@ -56,10 +59,10 @@ static void parse_server(const char *text, char server[PERCUSS_SERVER_ID_SIZE],
                          struct argp_state *state)
 {
     size_t length = strlen(text);
-    if (length == 0 || length >= PERCUSS_SERVER_ID_SIZE ||
-        strspn(text, "0123456789abcdefABCDEF") < length)
-        argp_error(state, "--server: '%s' is not 1 to %d hexadecimal digits", text,
-                   PERCUSS_SERVER_ID_SIZE - 1);
+    bool digits = length > 0 && strspn(text, "0123456789abcdefABCDEF") == length;
+    if (length >= PERCUSS_SERVER_ID_SIZE || (!digits && strcmp(text, PERCUSS_LEAST_LOADED) != 0))
+        argp_error(state, "--server: '%s' is not 1 to %d hexadecimal digits, nor %s", text,
+                   PERCUSS_SERVER_ID_SIZE - 1, PERCUSS_LEAST_LOADED);
     for (size_t i = 0; i <= length; i++)
         server[i] = (char)tolower((unsigned char)text[i]);
 }
@@ -75,6 +78,11 @@ uint32_t environment_domain(void)
     return domain;
 }
 
+void environment_server(char server[PERCUSS_SERVER_ID_SIZE])
+{
+    memcpy(server, percuss_client_config_default().server, PERCUSS_SERVER_ID_SIZE);
+}
+
 static error_t parse_common(int key, char *text, struct argp_state *state)
 {
     struct common *common = state->input;
@@ -82,6 +90,9 @@ static error_t parse_common(int key, char *text, struct argp_state *state)
     /* which server, and how long it is waited for */
     case OPTION_DOMAIN:
         common->domain = parse_count("domain", text, HIGHEST_DOMAIN, state);
+        return 0;
+    case OPTION_PARTITION:
+        common->partition = text;
         return 0;
     case OPTION_TIMEOUT:
         common->timeout = parse_number("timeout", text, state);
@@ -131,6 +142,11 @@ double common_patience(const struct common *common)
     return isnan(common->timeout) ? DEFAULT_PATIENCE : common->timeout;
 }
 
+bool common_names_server(const struct common *common)
+{
+    return common->server[0] && strcmp(common->server, PERCUSS_LEAST_LOADED) != 0;
+}
+
 void complain(const char *format, ...)
 {
     va_list arguments;
@@ -171,7 +187,8 @@ int make_client(const struct common *common, const uint8_t *id, struct percuss_c
     memcpy(config.server, common->server, sizeof config.server);
     if (id)
         memcpy(config.id, id, sizeof config.id);
-    return complain_result(percuss_client_create_secured(&config, common->security, client));
+    return complain_result(
+        percuss_client_create_in(&config, common->partition, common->security, client));
 }
 
 int connect_client(const struct common *common, struct percuss_client *client)
@@ -179,7 +196,7 @@ int connect_client(const struct common *common, struct percuss_client *client)
     enum percuss_result result = percuss_client_connect(client, common_patience(common));
     /* one that is secured is not started that easily */
     bool secured = common->security || getenv("PERCUSS_SECURITY");
-    if (result != PERCUSS_RESULT_NO_SERVER || common->server[0] || secured)
+    if (result != PERCUSS_RESULT_NO_SERVER || common_names_server(common) || secured)
         return complain_result(result);
     complain_no_server(percuss_error_text(), common->domain);
     return EXIT_NO_SERVER;

@@ -88,6 +88,7 @@ static int run(const char *name, int argc, char **argv, struct common *common)
 int main(int argc, char **argv)
 {
     struct invocation invocation = {.common = {.timeout = NAN, .domain = environment_domain()}};
+    environment_server(invocation.common.server);
     argp_err_exit_status = EXIT_USAGE;
     argp_parse(&main_argp, argc, argv, ARGP_IN_ORDER, NULL, &invocation);
 

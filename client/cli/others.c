@@ -6,12 +6,17 @@
 #include <stdio.h>
 #include <string.h>
 
+static bool is_alike(const struct percuss_server *other, const struct percuss_server *ours)
+{
+    return strcmp(other->catalogue_revision, ours->catalogue_revision) == 0;
+}
+
 static void warn(const struct percuss_server *other, const struct percuss_server *ours)
 {
     char id[33], our_id[33];
     format_hex(other->server, id);
     format_hex(ours->server, our_id);
-    if (strcmp(other->catalogue_revision, ours->catalogue_revision) != 0)
+    if (!is_alike(other, ours))
         complain("WARNING: percussd %.8s (process %u on %s) answers here too, with ANOTHER "
                  "CATALOGUE (%s); asked is percussd %.8s (%s): choose with --server",
                  id, other->process, other->host, other->catalogue, our_id, ours->catalogue);
@@ -36,18 +41,20 @@ static const struct percuss_server *find_ours(const struct percuss_server_list *
 int others_settle(const struct common *common, struct percuss_client *client)
 {
     struct percuss_server_list list;
-    if (common->server[0] ||
+    if (common_names_server(common) ||
         percuss_servers(client, common_patience(common), &list) != PERCUSS_RESULT_OK)
         return EXIT_ANSWERED;
+    /* who leaves the choice to the load knows that there are several, but not that they differ */
+    const bool any = !common->server[0];
     const struct percuss_server *ours = find_ours(&list, client);
     int code = EXIT_ANSWERED;
     /* the first one has come to light while we stayed with another */
-    if (ours && ours != list.servers && strcmp(list.servers[0].state, "ready") == 0) {
+    if (ours && any && ours != list.servers && strcmp(list.servers[0].state, "ready") == 0) {
         code = connect_client(common, client);
         ours = find_ours(&list, client);
     }
     for (size_t i = 0; code == EXIT_ANSWERED && ours && i < list.count; i++)
-        if (&list.servers[i] != ours)
+        if (&list.servers[i] != ours && (any || !is_alike(&list.servers[i], ours)))
             warn(&list.servers[i], ours);
     percuss_server_list_free(&list);
     return code;

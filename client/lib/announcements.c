@@ -67,8 +67,8 @@ enum percuss_result announcements_open(struct percuss_client *client, dds_entity
     enum percuss_result result = PERCUSS_RESULT_OK;
     pthread_mutex_lock(&client->lock);
     if (!*slot) {
-        dds_entity_t reader =
-            client_reader_create(client, descriptor, topic, wire_qos_announcement());
+        dds_entity_t reader = client_reader_create(client, descriptor, topic,
+                                                   wire_qos_announcement(client->partition));
         if (reader < 0)
             result = failure_dds(topic, reader);
         else

@@ -5,6 +5,7 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/random.h>
@@ -37,10 +38,32 @@ static const char *environment_security(void)
     return folder && *folder ? folder : NULL;
 }
 
+static const char *environment_partition(void)
+{
+    const char *name = getenv("PERCUSS_PARTITION");
+    return name ? name : "";
+}
+
+/* Too much for an id is kept as far as it goes, without an end, and refused later. */
+static void environment_server(char server[PERCUSS_SERVER_ID_SIZE])
+{
+    const char *text = getenv("PERCUSS_SERVER");
+    for (size_t i = 0; text && text[i] && i < PERCUSS_SERVER_ID_SIZE; i++)
+        server[i] = (char)tolower((unsigned char)text[i]);
+}
+
 struct percuss_client_config percuss_client_config_default(void)
 {
-    return (struct percuss_client_config){
+    struct percuss_client_config config = {
         .domain = environment_domain(), .first_sequence = 1, .window = DEFAULT_WINDOW};
+    environment_server(config.server);
+    return config;
+}
+
+/* The beginning of an id, or the name of a choice. */
+static bool is_least_loaded(const struct percuss_client_config *config)
+{
+    return strncmp(config->server, PERCUSS_LEAST_LOADED, sizeof config->server) == 0;
 }
 
 static enum percuss_result check_config(const struct percuss_client_config *config)
@@ -62,11 +85,22 @@ static enum percuss_result check_config(const struct percuss_client_config *conf
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "first_sequence: 0 means a ping");
     /* the beginning of a server's id */
     size_t length = strnlen(config->server, sizeof config->server);
-    if (length == sizeof config->server || strspn(config->server, "0123456789abcdef") < length)
+    bool digits =
+        length < sizeof config->server && strspn(config->server, "0123456789abcdef") == length;
+    if (!digits && !is_least_loaded(config))
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
-                         "server: '%.33s': up to 32 of the digits 0..9, a..f are allowed",
+                         "server: '%.33s': up to 32 of the digits 0..9, a..f are allowed, "
+                         "or " PERCUSS_LEAST_LOADED,
                          config->server);
     return PERCUSS_RESULT_OK;
+}
+
+static enum percuss_result check_partition(const char *partition)
+{
+    if (!*partition || wire_partition_is_good(partition))
+        return PERCUSS_RESULT_OK;
+    return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                     "partition: '%.80s': " WIRE_PARTITION_RULE " are allowed", partition);
 }
 
 /* All of an identity, or none. */
@@ -156,7 +190,7 @@ dds_entity_t client_reader_create(struct percuss_client *client,
 dds_entity_t client_writer_create(struct percuss_client *client,
                                   const dds_topic_descriptor_t *descriptor, const char *topic)
 {
-    dds_qos_t *qos = wire_qos_exchange(NULL);
+    dds_qos_t *qos = wire_qos_exchange(client->partition);
     dds_entity_t about = wire_topic_create(client->participant, descriptor, topic);
     dds_entity_t writer =
         about > 0 ? dds_create_writer(client->participant, about, qos, NULL) : about;
@@ -167,10 +201,9 @@ dds_entity_t client_writer_create(struct percuss_client *client,
 dds_entity_t client_reply_reader_create(struct percuss_client *client,
                                         const dds_topic_descriptor_t *descriptor, const char *topic)
 {
-    char partition[WIRE_PARTITION_SIZE];
-    wire_partition_name(client->id, partition);
-    dds_entity_t reader =
-        client_reader_create(client, descriptor, topic, wire_qos_exchange(partition));
+    char name[WIRE_REPLIES_SIZE];
+    wire_partition_of_replies(client->id, client->partition, name);
+    dds_entity_t reader = client_reader_create(client, descriptor, topic, wire_qos_exchange(name));
     if (reader < 0)
         return reader;
     /* a read condition would wake us while DDS still holds the reader's lock; the status does so
@@ -234,17 +267,27 @@ static void create_lock(struct percuss_client *client)
 enum percuss_result percuss_client_create(const struct percuss_client_config *config,
                                           struct percuss_client **client)
 {
-    return percuss_client_create_secured(config, NULL, client);
+    return percuss_client_create_in(config, NULL, NULL, client);
 }
 
 enum percuss_result percuss_client_create_secured(const struct percuss_client_config *config,
                                                   const char *security,
                                                   struct percuss_client **client)
 {
+    return percuss_client_create_in(config, NULL, security, client);
+}
+
+enum percuss_result percuss_client_create_in(const struct percuss_client_config *config,
+                                             const char *partition, const char *security,
+                                             struct percuss_client **client)
+{
     struct percuss_client_config chosen = config ? *config : percuss_client_config_default();
     const char *identity = security ? security : environment_security();
+    const char *among = partition ? partition : environment_partition();
     *client = NULL;
     enum percuss_result result = check_config(&chosen);
+    if (result == PERCUSS_RESULT_OK)
+        result = check_partition(among);
     if (result == PERCUSS_RESULT_OK)
         result = check_security(identity);
     if (result != PERCUSS_RESULT_OK)
@@ -258,7 +301,10 @@ enum percuss_result percuss_client_create_secured(const struct percuss_client_co
     created->secured = identity != NULL;
     created->next_sequence = chosen.first_sequence;
     created->pending.window = chosen.window;
-    memcpy(created->wanted, chosen.server, sizeof created->wanted);
+    created->least_loaded = is_least_loaded(&chosen);
+    if (!created->least_loaded)
+        memcpy(created->wanted, chosen.server, sizeof created->wanted);
+    snprintf(created->partition, sizeof created->partition, "%s", among);
 
     /* who it is, and its endpoints */
     result = choose_id(chosen.id, created->id);

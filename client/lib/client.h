@@ -32,9 +32,11 @@ struct percuss_client {
     /* constant once created */
     uint8_t id[16];
     uint32_t domain;
+    char partition[WIRE_PARTITION_SIZE]; /* of the servers; empty: none */
     bool secured;                        /* by DDS Security */
     bool observes;                       /* its permissions let it only see what servers announce */
     char wanted[PERCUSS_SERVER_ID_SIZE]; /* what the id of the server begins with; empty: any */
+    bool least_loaded;                   /* of all: the one that has least to do */
     dds_entity_t participant; /* of all clients of the domain and identity, see participants.h */
     dds_entity_t waitset;
     dds_entity_t request_writer;

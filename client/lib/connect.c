@@ -17,6 +17,7 @@
 #include "library.h"
 #include "matched.h"
 #include "moment.h"
+#include "partitions.h"
 #include "ping.h"
 #include "receive.h"
 #include "servers.h"
@@ -137,18 +138,38 @@ static enum percuss_result explain(const struct search *search)
                          "no percussd has answered in DDS domain %u, where somebody reads requests "
                          "who has not announced himself",
                          client->domain);
-    return error_set(PERCUSS_RESULT_NO_SERVER, "no percussd in DDS domain %u%s", client->domain,
-                     client->secured ? " accepts our certificate and permissions" : "");
+    partitions_list(client, others, sizeof others);
+    return error_set(PERCUSS_RESULT_NO_SERVER, "no percussd in %s%s%sDDS domain %u%s%s",
+                     client->partition[0] ? "partition " : "", client->partition,
+                     client->partition[0] ? " of " : "", client->domain,
+                     client->secured ? " accepts our certificate and permissions" : "", others);
 }
 
-/* The answering one that was up first; those that have not announced themselves come last. */
-static const struct client_server *find_first(const struct search *search)
+static const struct client_server *find_answering(const struct search *search,
+                                                  const struct percuss_server *announced)
 {
-    for (size_t i = 0; i < search->announced.count; i++)
-        for (size_t k = 0; k < search->count; k++)
-            if (memcmp(search->announced.servers[i].server, search->answering[k].id, 16) == 0)
-                return &search->answering[k];
-    return search->answering;
+    for (size_t k = 0; k < search->count; k++)
+        if (memcmp(announced->server, search->answering[k].id, 16) == 0)
+            return &search->answering[k];
+    return NULL;
+}
+
+/* The answering one that was up first, or of all the one that has least to do; those that have not
+ * announced themselves come last. */
+static const struct client_server *find_best(const struct search *search)
+{
+    const struct client_server *best = NULL;
+    double least = INFINITY;
+    for (size_t i = 0; i < search->announced.count; i++) {
+        const struct percuss_server *server = &search->announced.servers[i];
+        const struct client_server *answering = find_answering(search, server);
+        double load = search->client->least_loaded ? servers_load(server) : 0.0;
+        if (answering && (!best || load < least)) {
+            best = answering;
+            least = load;
+        }
+    }
+    return best ? best : search->answering;
 }
 
 /* The one that is wanted among those that answer. PENDING: none; INVALID_ARGUMENT: several. */
@@ -208,12 +229,13 @@ static enum percuss_result choose(struct search *search)
                                            : PERCUSS_RESULT_PENDING;
     /* others that answer within a moment have a chance as well */
     search->heard = fmin(search->heard, now);
-    double settled = search->heard + (may_be_more(search) ? SERVERS_SETTLING : DISCOVERY_SPREAD);
+    bool patient = client->least_loaded || may_be_more(search);
+    double settled = search->heard + (patient ? SERVERS_SETTLING : DISCOVERY_SPREAD);
     if (now < fmin(settled, search->deadline))
         return PERCUSS_RESULT_PENDING;
     /* the best of them, or the one that is wanted */
     if (!client->wanted[0]) {
-        settle_on(search, find_first(search));
+        settle_on(search, find_best(search));
         return PERCUSS_RESULT_OK;
     }
     enum percuss_result result = find_wanted(search, &server);

@@ -112,6 +112,14 @@ enum percuss_result servers_open(struct percuss_client *client)
                               WIRE_TOPIC_SERVER_STATUS);
 }
 
+double servers_load(const struct percuss_server *server)
+{
+    if (strcmp(server->state, "ready") != 0)
+        return INFINITY;
+    double workers = fmax(1.0, server->workers);
+    return server->queue_length / workers + (server->activity[0] ? 1.0 : 0.0);
+}
+
 size_t servers_reading(const struct percuss_client *client)
 {
     dds_return_t count = dds_get_matched_subscriptions(client->request_writer, NULL, 0);

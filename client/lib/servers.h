@@ -25,6 +25,10 @@ void servers_describe(const uint8_t id[16], const struct percuss_server *server,
 const struct percuss_server *servers_find(const struct percuss_server_list *list,
                                           const uint8_t id[16]);
 
+/* Requests that wait for each of its workers; a long computation takes all of them. INFINITY: it
+ * drains. */
+double servers_load(const struct percuss_server *server);
+
 /* How many read requests, announced or not. */
 size_t servers_reading(const struct percuss_client *client);
 

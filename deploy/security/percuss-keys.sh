@@ -100,26 +100,26 @@ requests="Request BatchRequest EnsembleRequest"
 replies="Reply BatchReply EnsembleReply EnsembleProgress EnsembleSamples Trace"
 announcements="ServerStatus Body Dents"
 
-# what a role may do; a client's replies are in a partition of its own
+# what a role may do, in whatever partition; a client's replies are in one of its own
 rules() {
     case $1 in
     serves)
-        allow publish "" $announcements
+        allow publish "*" $announcements
         allow publish "c_*" $replies
-        allow subscribe "" $requests Dents ServerStatus
+        allow subscribe "*" $requests Dents ServerStatus
         ;;
     asks)
-        allow publish "" $requests
-        allow subscribe "" $announcements
+        allow publish "*" $requests
+        allow subscribe "*" $announcements
         allow subscribe "c_*" $replies
         ;;
     administers)
-        allow publish "" $requests Dents
-        allow subscribe "" $announcements
+        allow publish "*" $requests Dents
+        allow subscribe "*" $announcements
         allow subscribe "c_*" $replies
         ;;
     observes)
-        allow subscribe "" $announcements
+        allow subscribe "*" $announcements
         ;;
     esac
 }

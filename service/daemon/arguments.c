@@ -9,7 +9,7 @@
 
 #include "respond/settings.h"
 
-enum { KEY_CHECK = 0x100, KEY_STORE, KEY_FORMAT, USAGE = 2 };
+enum { KEY_CHECK = 0x100, KEY_STORE, KEY_FORMAT, KEY_PARTITION, USAGE = 2 };
 
 const char *argp_program_version = "percussd " PERCUSS_VERSION;
 
@@ -18,6 +18,10 @@ static const struct argp_option options[] = {
     {"catalogue", 'C', "FILE", 0, "Bodies and materials; goes before the one in the settings", 0},
     {"domain", 'd', "N", 0,
      "DDS domain, 0 to 230; goes before PERCUSS_DOMAIN, and that before the one in the settings",
+     0},
+    {"partition", KEY_PARTITION, "NAME", 0,
+     "Answer only those who ask in this DDS partition; goes before PERCUSS_PARTITION, and that "
+     "before the one in the settings; empty: none",
      0},
     {"log-format", KEY_FORMAT, "FORMAT", 0,
      "text, json (an object a line) or journal (of systemd); goes before the one in the settings",
@@ -39,6 +43,13 @@ static int parse_domain(struct argp_state *state, const char *name, const char *
     return (int)domain;
 }
 
+static const char *parse_partition(struct argp_state *state, const char *name, const char *text)
+{
+    if (*text && !wire_partition_is_good(text))
+        argp_error(state, "%s: %s: must be " WIRE_PARTITION_RULE ", or empty", name, text);
+    return text;
+}
+
 static int parse_format(struct argp_state *state, const char *text)
 {
     for (enum log_format format = 0; format < LOG_FORMAT_COUNT; format++) {
@@ -55,13 +66,16 @@ static void read_environment(struct argp_state *state, struct arguments *argumen
     const char *domain = getenv("PERCUSS_DOMAIN");
     if (arguments->domain < 0 && domain && *domain)
         arguments->domain = parse_domain(state, "PERCUSS_DOMAIN", domain);
+    const char *partition = getenv("PERCUSS_PARTITION");
+    if (!arguments->partition && partition && *partition)
+        arguments->partition = parse_partition(state, "PERCUSS_PARTITION", partition);
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
     switch (key) {
-    /* files, the domain and the log */
+    /* files, whom it answers, and the log */
     case 'c':
         arguments->config = text;
         return 0;
@@ -70,6 +84,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case 'd':
         arguments->domain = parse_domain(state, "--domain", text);
+        return 0;
+    case KEY_PARTITION:
+        arguments->partition = parse_partition(state, "--partition", text);
         return 0;
     case KEY_FORMAT:
         arguments->log_format = parse_format(state, text);

@@ -10,6 +10,7 @@
 struct arguments {
     const char *config, *catalogue; /* NULL: not given */
     int domain;                     /* -1: not given */
+    const char *partition;          /* NULL: not given; empty: none */
     int log_format;                 /* enum log_format; -1: not given */
     bool check_config;
     const char *check_store; /* file; NULL: not asked for */

@@ -267,8 +267,8 @@ static void note_refused(struct dispatch *dispatch, const char *client)
 static void note_presence(void *context, const uint8_t client[16], enum presence presence)
 {
     struct shared *shared = ((struct dispatch *)context)->shared;
-    char name[WIRE_PARTITION_SIZE];
-    wire_partition_name(client, name);
+    char name[WIRE_REPLIES_SIZE];
+    wire_partition_of_replies(client, NULL, name);
     if (presence == READER_REFUSED) {
         note_refused(context, name);
         return;

@@ -33,6 +33,8 @@ static enum percuss_status gather_settings(const struct arguments *arguments,
         return PERCUSS_BAD_REQUEST;
     if (arguments->domain >= 0)
         settings->domain = (unsigned)arguments->domain;
+    if (arguments->partition)
+        snprintf(settings->partition, sizeof settings->partition, "%s", arguments->partition);
     if (arguments->log_format >= 0)
         settings->log_format = (enum log_format)arguments->log_format;
     if (arguments->catalogue)

@@ -77,8 +77,8 @@ static bool open_endpoint(struct shared *shared, const uint8_t *server, struct f
     const char *security = settings->security[0] ? settings->security : NULL;
     dds_log_begin();
     tell_who_may_ask(security);
-    shared->endpoint =
-        endpoint_create(settings->domain, security, settings->limit_clients, server, fault);
+    shared->endpoint = endpoint_create(settings->domain, settings->partition, security,
+                                       settings->limit_clients, server, fault);
     if (!shared->endpoint)
         return false;
     if (!shared->specimens)
@@ -198,7 +198,8 @@ struct service *service_create(const struct settings *settings, const uint8_t *s
     complain_of_missing(set);
     tidy_bodies(service);
     status_announce(shared);
-    log_line(LEVEL_INFO, "ready: domain %u, %zu bodies, catalogue revision %s", settings->domain,
+    log_line(LEVEL_INFO, "ready: domain %u%s%s, %zu bodies, catalogue revision %s",
+             settings->domain, settings->partition[0] ? ", partition " : "", settings->partition,
              set->count, set->revision);
     return service;
 }

@@ -9,12 +9,12 @@
 
 enum { TAKEN_AT_ONCE = 8 };
 
-bool dents_topic_open(struct dents_topic *topic, dds_entity_t participant, const uint8_t server[16],
-                      struct fault *fault)
+bool dents_topic_open(struct dents_topic *topic, dds_entity_t participant, const char *partition,
+                      const uint8_t server[16], struct fault *fault)
 {
     memcpy(topic->server, server, sizeof topic->server);
     dds_entity_t name = wire_topic_create(participant, &percuss_v1_Dents_desc, WIRE_TOPIC_DENTS);
-    dds_qos_t *announces = wire_qos_announcement(), *hears = wire_qos_exchange(NULL);
+    dds_qos_t *announces = wire_qos_announcement(partition), *hears = wire_qos_exchange(partition);
     dds_qset_ignorelocal(hears, DDS_IGNORELOCAL_PARTICIPANT);
     topic->writer = dds_create_writer(participant, name, announces, NULL);
     topic->reader = dds_create_reader(participant, name, hears, NULL);

@@ -18,8 +18,8 @@ struct dents_topic {
 };
 
 /* Opens it for that server. The participant's end closes it. False with a fault. */
-bool dents_topic_open(struct dents_topic *topic, dds_entity_t participant, const uint8_t server[16],
-                      struct fault *fault);
+bool dents_topic_open(struct dents_topic *topic, dds_entity_t participant, const char *partition,
+                      const uint8_t server[16], struct fault *fault);
 
 /* What is told of a specimen. */
 struct dents_notice {

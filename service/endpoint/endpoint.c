@@ -26,6 +26,7 @@ enum {
 struct endpoint {
     /* never changed once it is made; DDS lets any thread use its entities */
     uint8_t server[16];
+    const char *partition;
     dds_entity_t participant, waitset, stop, nudge;
     dds_entity_t status_writer, body_writer;
     struct dents_topic dents;
@@ -50,7 +51,8 @@ static bool open_intakes(struct endpoint *endpoint, struct fault *fault)
 {
     bool good = true;
     for (int i = 0; good && i < EXCHANGE_COUNT; i++)
-        good = intake_open(&endpoint->intakes[i], i, endpoint->participant, fault);
+        good = intake_open(&endpoint->intakes[i], i, endpoint->participant, endpoint->partition,
+                           fault);
     return good;
 }
 
@@ -60,7 +62,7 @@ static bool create_announcer(struct endpoint *endpoint, const dds_topic_descript
     dds_entity_t topic = wire_topic_create(endpoint->participant, type, name);
     if (!created(topic, name, fault))
         return false;
-    dds_qos_t *qos = wire_qos_announcement();
+    dds_qos_t *qos = wire_qos_announcement(endpoint->partition);
     *writer = dds_create_writer(endpoint->participant, topic, qos, NULL);
     dds_delete_qos(qos);
     return created(*writer, name, fault);
@@ -105,8 +107,8 @@ bool endpoint_check_security(const char *security, struct fault *fault)
     return false;
 }
 
-struct endpoint *endpoint_create(uint32_t domain, const char *security, size_t clients,
-                                 const uint8_t *server, struct fault *fault)
+struct endpoint *endpoint_create(uint32_t domain, const char *partition, const char *security,
+                                 size_t clients, const uint8_t *server, struct fault *fault)
 {
     if (security && !endpoint_check_security(security, fault))
         return NULL;
@@ -117,6 +119,7 @@ struct endpoint *endpoint_create(uint32_t domain, const char *security, size_t c
         return NULL;
     }
     /* the domain */
+    endpoint->partition = partition;
     endpoint->participant = wire_participant_create_secured(domain, security);
     if (endpoint->participant < 0) {
         fault_set(fault, PERCUSS_INTERNAL, "DDS: participant: %s",
@@ -124,7 +127,7 @@ struct endpoint *endpoint_create(uint32_t domain, const char *security, size_t c
         goto failed;
     }
     /* readers, writers, and what wakes the reading thread */
-    endpoint->writers = reply_writers_create(endpoint->participant, clients, fault);
+    endpoint->writers = reply_writers_create(endpoint->participant, partition, clients, fault);
     if (!endpoint->writers || !open_intakes(endpoint, fault) ||
         !create_announcer(endpoint, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS,
                           &endpoint->status_writer, fault) ||
@@ -132,7 +135,7 @@ struct endpoint *endpoint_create(uint32_t domain, const char *security, size_t c
                           fault) ||
         !create_waitset(endpoint, fault))
         goto failed;
-    endpoint->servers = servers_open(endpoint->participant, fault);
+    endpoint->servers = servers_open(endpoint->participant, partition, fault);
     if (!endpoint->servers)
         goto failed;
     return endpoint;
@@ -265,7 +268,8 @@ bool endpoint_announce_bodies(struct endpoint *endpoint, const struct body_set *
 
 bool endpoint_open_dents(struct endpoint *endpoint, struct fault *fault)
 {
-    if (!dents_topic_open(&endpoint->dents, endpoint->participant, endpoint->server, fault))
+    if (!dents_topic_open(&endpoint->dents, endpoint->participant, endpoint->partition,
+                          endpoint->server, fault))
         return false;
     dds_return_t attached =
         dds_waitset_attach(endpoint->waitset, endpoint->dents.reader, SOURCE_DENTS);

@@ -14,12 +14,12 @@
 
 struct endpoint;
 
-/* Joins the domain: when this returns, requests are received. `security`: the folder of its
- * identity (wire_security.h); NULL: without DDS Security. Replies are for at most so many
- * `clients`. `server`: the id to answer under; NULL: it is drawn. NULL with a fault if DDS refuses.
- */
-struct endpoint *endpoint_create(uint32_t domain, const char *security, size_t clients,
-                                 const uint8_t *server, struct fault *fault);
+/* Joins the domain: when this returns, requests are received. `partition`: for those in it alone,
+ * kept; empty: for those in none. `security`: the folder of its identity (wire_security.h); NULL:
+ * without DDS Security. Replies are for at most so many `clients`. `server`: the id to answer
+ * under; NULL: it is drawn. NULL with a fault if DDS refuses. */
+struct endpoint *endpoint_create(uint32_t domain, const char *partition, const char *security,
+                                 size_t clients, const uint8_t *server, struct fault *fault);
 
 /* Whether that folder has what an identity needs, without joining. False with a fault. */
 bool endpoint_check_security(const char *security, struct fault *fault);

@@ -25,7 +25,7 @@ static void drop(void *taken)
 }
 
 bool intake_open(struct intake *intake, enum exchange exchange, dds_entity_t participant,
-                 struct fault *fault)
+                 const char *partition, struct fault *fault)
 {
     const dds_topic_descriptor_t *type = requests[exchange].type;
     *intake = (struct intake){.exchange = exchange,
@@ -36,7 +36,7 @@ bool intake_open(struct intake *intake, enum exchange exchange, dds_entity_t par
         return false;
     }
     dds_entity_t topic = wire_topic_create(participant, type, requests[exchange].topic);
-    dds_qos_t *qos = wire_qos_exchange(NULL);
+    dds_qos_t *qos = wire_qos_exchange(partition);
     intake->reader = topic > 0 ? dds_create_reader(participant, topic, qos, NULL) : topic;
     dds_delete_qos(qos);
     if (intake->reader < 0)

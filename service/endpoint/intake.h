@@ -31,7 +31,7 @@ struct intake_desk {
 /* Makes the reader, a child of the participant. False with a fault; intake_close is due all the
  * same, before the participant's end. */
 bool intake_open(struct intake *intake, enum exchange exchange, dds_entity_t participant,
-                 struct fault *fault);
+                 const char *partition, struct fault *fault);
 void intake_close(struct intake *intake);
 
 /* The waitset is woken by new ones, and says the number of the exchange. */

@@ -11,6 +11,7 @@
 
 struct reply_writers {
     dds_entity_t participant, source;
+    const char *partition; /* of the requests */
     dds_entity_t topics[CHANNEL_COUNT];
     struct destinations *destinations;
     struct owners *owners;
@@ -46,17 +47,17 @@ static bool create_entities(struct reply_writers *writers, struct fault *fault)
 static dds_entity_t create_writer(void *context, const uint8_t client[16], unsigned channel)
 {
     const struct reply_writers *writers = context;
-    char partition[WIRE_PARTITION_SIZE];
-    wire_partition_name(client, partition);
-    dds_qos_t *qos = wire_qos_exchange(partition);
+    char name[WIRE_REPLIES_SIZE];
+    wire_partition_of_replies(client, writers->partition, name);
+    dds_qos_t *qos = wire_qos_exchange(name);
     dds_entity_t writer =
         dds_create_writer(writers->participant, writers->topics[channel], qos, NULL);
     dds_delete_qos(qos);
     return writer > 0 ? writer : 0;
 }
 
-struct reply_writers *reply_writers_create(dds_entity_t participant, size_t clients,
-                                           struct fault *fault)
+struct reply_writers *reply_writers_create(dds_entity_t participant, const char *partition,
+                                           size_t clients, struct fault *fault)
 {
     struct reply_writers *writers = calloc(1, sizeof *writers);
     if (writers)
@@ -69,6 +70,7 @@ struct reply_writers *reply_writers_create(dds_entity_t participant, size_t clie
         return NULL;
     }
     writers->participant = participant;
+    writers->partition = partition;
     if (create_entities(writers, fault))
         return writers;
     reply_writers_free(writers);
@@ -140,7 +142,7 @@ static void follow_one(void *context, const struct subscription *subscription)
 void reply_writers_follow(struct reply_writers *writers, presence_function *presence, void *context)
 {
     struct follow follow = {writers->destinations, writers->owners, presence, context};
-    subscriptions_take(writers->source, follow_one, &follow);
+    subscriptions_take(writers->source, writers->partition, follow_one, &follow);
 }
 
 /* What became of a sample. Who does not take it is stopped or cut off. */

@@ -16,8 +16,8 @@
 struct reply_writers;
 
 /* For at most so many clients. NULL with a fault if DDS refuses. */
-struct reply_writers *reply_writers_create(dds_entity_t participant, size_t clients,
-                                           struct fault *fault);
+struct reply_writers *reply_writers_create(dds_entity_t participant, const char *partition,
+                                           size_t clients, struct fault *fault);
 void reply_writers_free(struct reply_writers *writers);
 
 /* Whose the clients' ids are; of the thread of reply_writers_follow. */

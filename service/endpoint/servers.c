@@ -6,9 +6,9 @@
 /* Always the same room: Cyclone DDS 0.10.2 fills that of the loan of an earlier read. */
 enum { ROOM = 64 };
 
-dds_entity_t servers_open(dds_entity_t participant, struct fault *fault)
+dds_entity_t servers_open(dds_entity_t participant, const char *partition, struct fault *fault)
 {
-    dds_qos_t *qos = wire_qos_announcement();
+    dds_qos_t *qos = wire_qos_announcement(partition);
     dds_qset_ignorelocal(qos, DDS_IGNORELOCAL_PARTICIPANT);
     dds_entity_t reader =
         wire_topic_create(participant, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS);

@@ -9,7 +9,7 @@
 #include "wire.h"
 
 /* A reader of their announcements, which the participant's end closes; 0 with a fault. */
-dds_entity_t servers_open(dds_entity_t participant, struct fault *fault);
+dds_entity_t servers_open(dds_entity_t participant, const char *partition, struct fault *fault);
 
 /* Borrowed during the visit. */
 typedef void server_visitor(void *context, const percuss_v1_ServerStatus *status);

@@ -19,19 +19,20 @@ dds_entity_t subscriptions_open(dds_entity_t participant, struct fault *fault)
     return 0;
 }
 
-/* The client whose partition this is: "c_" and 32 lower-case hexadecimal digits. */
-static bool parse_partition(const char *name, uint8_t client[16])
+/* The client, of those who ask in `partition`, whose replies this partition is for. */
+static bool parse_name(const char *name, const char *partition, uint8_t client[16])
 {
-    if (strlen(name) != WIRE_PARTITION_SIZE - 1 || name[0] != 'c' || name[1] != '_' ||
-        strspn(name + 2, "0123456789abcdef") != 32)
+    char whole[WIRE_REPLIES_SIZE];
+    if (name[0] != 'c' || name[1] != '_' || strspn(name + 2, "0123456789abcdef") != 32)
         return false;
     for (size_t i = 0; i < 16; i++)
         sscanf(name + 2 + 2 * i, "%2hhx", &client[i]);
-    return true;
+    wire_partition_of_replies(client, partition, whole);
+    return strcmp(name, whole) == 0;
 }
 
 /* Looks for a client's partition among those of a reader; the first one counts. */
-static bool find_client(const dds_qos_t *qos, uint8_t client[16])
+static bool find_client(const dds_qos_t *qos, const char *partition, uint8_t client[16])
 {
     uint32_t count = 0;
     char **names = NULL;
@@ -39,14 +40,14 @@ static bool find_client(const dds_qos_t *qos, uint8_t client[16])
     if (!dds_qget_partition(qos, &count, &names))
         return false;
     for (uint32_t i = 0; i < count; i++) {
-        found = found || parse_partition(names[i], client);
+        found = found || parse_name(names[i], partition, client);
         dds_free(names[i]);
     }
     dds_free(names);
     return found;
 }
 
-void subscriptions_take(dds_entity_t reader,
+void subscriptions_take(dds_entity_t reader, const char *partition,
                         void (*visit)(void *context, const struct subscription *subscription),
                         void *context)
 {
@@ -65,7 +66,7 @@ void subscriptions_take(dds_entity_t reader,
             if (infos[i].valid_data)
                 subscription.participant = digest_of_octets(endpoint->participant_key.v);
             subscription.is_client =
-                infos[i].valid_data && find_client(endpoint->qos, subscription.client);
+                infos[i].valid_data && find_client(endpoint->qos, partition, subscription.client);
             visit(context, &subscription);
         }
         dds_return_loan(reader, samples, count);

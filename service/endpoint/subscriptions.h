@@ -24,8 +24,8 @@ struct subscription {
 /* The reader of that topic, to wait on, which the participant's end closes; 0 with a fault. */
 dds_entity_t subscriptions_open(dds_entity_t participant, struct fault *fault);
 
-/* Shows what has changed since the last call. */
-void subscriptions_take(dds_entity_t reader,
+/* Shows what has changed since the last call; clients are those who ask in `partition`. */
+void subscriptions_take(dds_entity_t reader, const char *partition,
                         void (*visit)(void *context, const struct subscription *subscription),
                         void *context);
 

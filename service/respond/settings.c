@@ -13,7 +13,15 @@
 #include "catalogue/reader.h"
 #include "ensemble/spec.h"
 
-enum kind { KIND_WHOLE, KIND_NUMBER, KIND_SWITCH, KIND_PATH, KIND_LEVEL, KIND_FORMAT };
+enum kind {
+    KIND_WHOLE,
+    KIND_NUMBER,
+    KIND_SWITCH,
+    KIND_PATH,
+    KIND_PARTITION,
+    KIND_LEVEL,
+    KIND_FORMAT
+};
 
 /* One key; a dot separates a section from its keys. */
 struct setting {
@@ -28,6 +36,7 @@ struct setting {
 static const struct setting table[] = {
     {"catalogue", KIND_PATH, AT(catalogue), 0, 0},
     {"domain", KIND_WHOLE, AT(domain), 0, SETTINGS_MAX_DOMAIN},
+    {"partition", KIND_PARTITION, AT(partition), 0, 0},
     {"workers", KIND_WHOLE, AT(workers), 1, 256},
     {"queue_capacity", KIND_WHOLE, AT(queue_capacity), 1, 65536},
     {"inline_solves", KIND_SWITCH, AT(inline_solves), 0, 0},
@@ -144,6 +153,17 @@ static enum percuss_status read_path(struct reader *reader, const yaml_node_t *v
     return PERCUSS_OK;
 }
 
+static enum percuss_status read_partition(struct reader *reader, const yaml_node_t *value,
+                                          char *field)
+{
+    const char *name =
+        value->type == YAML_SCALAR_NODE ? (const char *)value->data.scalar.value : "";
+    if (!wire_partition_is_good(name))
+        return reader_refuse_value(reader, value, WIRE_PARTITION_RULE);
+    snprintf(field, WIRE_PARTITION_SIZE, "%s", name);
+    return PERCUSS_OK;
+}
+
 static enum percuss_status read_value(struct reader *reader, const yaml_node_t *value,
                                       const struct setting *setting, struct settings *settings)
 {
@@ -153,6 +173,8 @@ static enum percuss_status read_value(struct reader *reader, const yaml_node_t *
         return read_switch(reader, value, field);
     case KIND_PATH:
         return read_path(reader, value, field);
+    case KIND_PARTITION:
+        return read_partition(reader, value, field);
     case KIND_LEVEL:
         return read_level(reader, value, field);
     case KIND_FORMAT:

@@ -10,6 +10,7 @@
 
 #include "base/fault.h"
 #include "respond/log_choice.h"
+#include "wire_partition.h"
 
 enum { SETTINGS_PATH_SIZE = 4096 };
 
@@ -20,6 +21,7 @@ struct settings {
     double bodies_days;                 /* that one stays there unused */
     char security[SETTINGS_PATH_SIZE];  /* folder of its identity; empty: without DDS Security */
     unsigned domain;
+    char partition[WIRE_PARTITION_SIZE]; /* empty: none */
     unsigned workers;
     unsigned queue_capacity;
     bool inline_solves;

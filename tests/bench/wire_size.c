@@ -54,9 +54,9 @@ bool wire_size_find(uint32_t domain, struct percuss_client *client, const struct
                     struct wire_size *size)
 {
     uint8_t id[16];
-    char partition[WIRE_PARTITION_SIZE];
+    char partition[WIRE_REPLIES_SIZE];
     percuss_client_id(client, id);
-    wire_partition_name(id, partition);
+    wire_partition_of_replies(id, NULL, partition);
     dds_entity_t participant = wire_participant_create(domain);
     dds_entity_t requests =
         create_reader(participant, &percuss_v1_Request_desc, WIRE_TOPIC_REQUEST, NULL);

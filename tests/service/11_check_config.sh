@@ -26,7 +26,7 @@ shows "ok"
 
 say "every setting is understood"
 mkdir "$work/somewhere"
-settings "domain: 7" "workers: 3" "queue_capacity: 10" "inline_solves: false" \
+settings "domain: 7" "partition: gears" "workers: 3" "queue_capacity: 10" "inline_solves: false" \
     "tokens: {count: 10, megabytes: 1, minutes: 0.5}" "replies: {per_client: 10, megabytes: 1}" \
     "session_minutes: 1" "drain_seconds: 0" "log_level: debug" "tables: somewhere" "bodies_days: 2.5" \
     "store: dents.db" "stored_replies: 10" "bodies: reduced" "log_format: json" \
@@ -35,10 +35,11 @@ expect 0 check
 [ "$(ls "$work")" = "$(printf '%s\n' catalogue.yaml err log out percussd.yaml somewhere)" ] || fail "it leaves files"
 
 say "bad settings are refused with file, line and what is allowed"
-refused 2 "wrokers: unknown key: must be one of catalogue, domain, workers" "wrokers: 3"
+refused 2 "wrokers: unknown key: must be one of catalogue, domain, partition, workers" "wrokers: 3"
 refused 2 "workers: 0: must be a whole number, 1 to 256" "workers: 0"
 refused 2 "workers: 2.5: must be a whole number, 1 to 256" "workers: 2.5"
 refused 2 "domain: 231: must be a whole number, 0 to 230" "domain: 231"
+refused 2 "partition: a/b: must be 1 to 63 letters, digits" "partition: a/b"
 refused 3 "inline_solves: maybe: must be true or false" "domain: 1" "inline_solves: maybe"
 refused 2 "log_level: loud: must be error, warning, info or debug" "log_level: loud"
 refused 2 "log_format: xml: must be text, journal or json" "log_format: xml"

@@ -129,6 +129,16 @@ says "no percussd in DDS domain $domain accepts our certificate and permissions"
 expect 0 ask_as asks
 stop_daemon
 
+say "in a partition: the same"
+settings "security: $keys/serves" "partition: gears"
+start_daemon
+expect 0 ask_as asks --partition gears
+grep -v "^  server" "$out" | cmp - "$work/secured" || fail "another answer"
+expect 0 as observes status --partition gears
+expect 3 ask_as asks --timeout 1
+expect 3 query --timeout 1 --partition gears
+stop_daemon
+
 say "who is secured asks nobody who is not, and the answers are the same"
 settings
 start_daemon

@@ -49,8 +49,8 @@ static dds_entity_t checked(dds_entity_t entity)
 
 static void create_entities(struct peer *peer)
 {
-    char partition[WIRE_PARTITION_SIZE];
-    wire_partition_name(peer->client, partition);
+    char partition[WIRE_REPLIES_SIZE];
+    wire_partition_of_replies(peer->client, NULL, partition);
     dds_qos_t *to = wire_qos_exchange(NULL), *from = wire_qos_exchange(partition);
     for (int i = 0; i < PEER_TOPICS; i++) {
         dds_entity_t request = checked(dds_create_topic(peer->participant, topics[i].request_type,

@@ -37,7 +37,7 @@ static struct target create_target(int type, const char *partition, bool announc
     struct target target = {.type = type};
     dds_entity_t topic = wire_topic_create_typed(participant, any_types[type].type,
                                                  any_types[type].topic, &target.sertype);
-    dds_qos_t *qos = announcement ? wire_qos_announcement() : wire_qos_exchange(partition);
+    dds_qos_t *qos = announcement ? wire_qos_announcement(NULL) : wire_qos_exchange(partition);
     target.writer = dds_create_writer(participant, topic, qos, NULL);
     dds_delete_qos(qos);
     REQUIRE(topic > 0 && target.writer > 0, "%s: cannot be written", any_types[type].topic);
@@ -130,15 +130,17 @@ static void attack_daemon(unsigned count)
 
 /* The reply topics of one client. */
 struct victim {
-    char partition[WIRE_PARTITION_SIZE];
+    char partition[WIRE_REPLIES_SIZE];
     uint8_t id[16];
     struct target targets[sizeof to_clients / sizeof *to_clients];
 };
+/* a name of "c_" and 32 digits: that client is in no other partition */
+enum { PLAIN_LENGTH = 34 };
 enum { REPLY_TOPICS = sizeof to_clients / sizeof *to_clients };
 
 static void open_victim(struct victim *victim, const char *partition)
 {
-    memcpy(victim->partition, partition, sizeof victim->partition);
+    snprintf(victim->partition, sizeof victim->partition, "%s", partition);
     for (int i = 0; i < 16; i++) {
         unsigned octet;
         REQUIRE(sscanf(partition + 2 + 2 * i, "%2x", &octet) == 1, "%s", partition);
@@ -159,7 +161,7 @@ static size_t find_victims(dds_entity_t subscriptions, struct victim *victims, s
         char **names = NULL;
         if (info.valid_data && strcmp(reader->topic_name, WIRE_TOPIC_REPLY) == 0)
             dds_qget_partition(reader->qos, &partitions, &names);
-        if (partitions == 1 && strlen(names[0]) == WIRE_PARTITION_SIZE - 1 && count < MOST_CLIENTS)
+        if (partitions == 1 && strlen(names[0]) == PLAIN_LENGTH && count < MOST_CLIENTS)
             open_victim(&victims[count++], names[0]);
         for (uint32_t i = 0; i < partitions; i++)
             dds_free(names[i]);

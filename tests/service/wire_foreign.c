@@ -52,8 +52,8 @@ static dds_entity_t reader(const struct foreign *foreign, const dds_topic_descri
 static dds_entity_t writer(const struct foreign *foreign, const dds_topic_descriptor_t *type,
                            const char *name)
 {
-    char partition[WIRE_PARTITION_SIZE];
-    wire_partition_name(foreign->client, partition);
+    char partition[WIRE_REPLIES_SIZE];
+    wire_partition_of_replies(foreign->client, NULL, partition);
     dds_qos_t *qos = wire_qos_exchange(partition);
     dds_entity_t created =
         checked(dds_create_writer(foreign->participant, topic(foreign, type, name), qos, NULL));
@@ -81,7 +81,7 @@ static void announce(struct foreign *foreign)
 {
     percuss_v1_ServerStatus status = {.uptime = 1e6, .host = "here", .state = "ready"};
     memset(status.server, 0x5e, sizeof status.server);
-    dds_qos_t *qos = wire_qos_announcement();
+    dds_qos_t *qos = wire_qos_announcement(NULL);
     dds_entity_t announcements = checked(dds_create_writer(
         foreign->participant,
         topic(foreign, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS), qos, NULL));

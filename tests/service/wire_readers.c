@@ -20,10 +20,10 @@ int main(int argc, char **argv)
     uint32_t count = (uint32_t)strtoul(argv[2], NULL, 10);
     double start = peer_now();
     for (uint32_t i = 0; i < count; i++) {
-        char partition[WIRE_PARTITION_SIZE];
+        char partition[WIRE_REPLIES_SIZE];
         uint8_t client[16] = {0xff};
         memcpy(client + 8, &i, sizeof i);
-        wire_partition_name(client, partition);
+        wire_partition_of_replies(client, NULL, partition);
         dds_qos_t *qos = wire_qos_exchange(partition);
         REQUIRE(dds_create_reader(participant, topic, qos, NULL) > 0, "reader %u", i);
         dds_delete_qos(qos);

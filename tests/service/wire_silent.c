@@ -33,8 +33,8 @@ static void read_requests(dds_entity_t participant)
 static void write_replies(dds_entity_t participant, bool reliable)
 {
     static const uint8_t somebody[16] = {1};
-    char partition[WIRE_PARTITION_SIZE];
-    wire_partition_name(somebody, partition);
+    char partition[WIRE_REPLIES_SIZE];
+    wire_partition_of_replies(somebody, NULL, partition);
     dds_qos_t *qos = wire_qos_exchange(partition);
     if (!reliable)
         dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
@@ -49,7 +49,7 @@ static void announce(dds_entity_t participant)
     percuss_v1_ServerStatus status = {.process = (uint32_t)getpid(), .host = "here"};
     memset(status.server, 0x5e, sizeof status.server);
     strcpy(status.state, "ready");
-    dds_qos_t *qos = wire_qos_announcement();
+    dds_qos_t *qos = wire_qos_announcement(NULL);
     dds_entity_t topic = checked(dds_create_topic(participant, &percuss_v1_ServerStatus_desc,
                                                   WIRE_TOPIC_SERVER_STATUS, NULL, NULL));
     dds_entity_t writer = checked(dds_create_writer(participant, topic, qos, NULL));

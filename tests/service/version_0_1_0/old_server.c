@@ -41,7 +41,7 @@ static dds_entity_t topic(const struct old_server *server, const dds_topic_descr
 /* The writer of his replies. */
 static dds_entity_t meet(struct old_server *server, const uint8_t id[16])
 {
-    char partition[WIRE_PARTITION_SIZE];
+    char partition[WIRE_REPLIES_SIZE];
     for (size_t i = 0; i < server->count; i++) {
         if (memcmp(server->clients[i].id, id, 16) == 0)
             return server->clients[i].replies;
@@ -49,7 +49,7 @@ static dds_entity_t meet(struct old_server *server, const uint8_t id[16])
     REQUIRE(server->count < CLIENTS, "more clients than the test has");
     struct client *client = &server->clients[server->count++];
     memcpy(client->id, id, sizeof client->id);
-    wire_partition_name(id, partition);
+    wire_partition_of_replies(id, NULL, partition);
     dds_qos_t *inside = dds_create_qos(), *qos = wire_qos_exchange(NULL);
     dds_qset_partition1(inside, partition);
     dds_entity_t publisher = checked(dds_create_publisher(server->participant, inside, NULL));
@@ -65,7 +65,7 @@ static void announce(const struct old_server *server)
     memset(status.server, 0x5e, sizeof status.server);
     strcpy(status.state, "ready");
     strcpy(status.version, "0.1.0");
-    dds_qos_t *qos = wire_qos_announcement();
+    dds_qos_t *qos = wire_qos_announcement(NULL);
     dds_entity_t writer = checked(dds_create_writer(
         server->participant, topic(server, &percuss_v1_ServerStatus_desc, WIRE_TOPIC_SERVER_STATUS),
         qos, NULL));
