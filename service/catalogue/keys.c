@@ -15,13 +15,14 @@ _Static_assert(sizeof(enum support) == sizeof(unsigned), "choices are stored as 
 static enum percuss_status refuse(const struct reader *reader, const yaml_node_t *value,
                                   const struct key *key)
 {
-    return reader_refuse_value(reader, value, key_allowed(key).text);
+    return reader_refuse_quantity(
+        reader, value, key->limit ? key->limit->quantity : QUANTITY_NUMBER, key_allowed(key).text);
 }
 
 static bool read_number(const yaml_node_t *value, const struct key *key, void *field)
 {
     double number;
-    if (!reader_number(value, &number) || !limit_holds(key->limit, number))
+    if (!reader_quantity(value, key->limit->quantity, &number) || !limit_holds(key->limit, number))
         return false;
     memcpy(field, &number, sizeof number);
     return true;

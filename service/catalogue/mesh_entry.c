@@ -26,12 +26,15 @@ struct stated {
     double point[3], normal[3];
 };
 
-static const struct limit limit_coordinate = {-1e9, 1e9, false, false, "a finite number"};
-static const struct limit limit_curvature = {-1e9, 1e9, false, false,
-                                             "a finite curvature in 1/m, > 0 where convex"};
+static const struct limit limit_coordinate = {
+    -1e9, 1e9, false, false, "a finite length in m", QUANTITY_LENGTH};
+static const struct limit limit_direction = {-1e9,           1e9, false, false, "a finite number",
+                                             QUANTITY_NUMBER};
+static const struct limit limit_curvature = {
+    -1e9, 1e9, false, false, "a finite curvature in 1/m, > 0 where convex", QUANTITY_CURVATURE};
 static const struct key site_rows[] = {
     {"point", KEY_NUMBERS, &limit_coordinate, true, KEY_OF(stated, point)},
-    {"normal", KEY_NUMBERS, &limit_coordinate, false, KEY_OF(stated, normal)},
+    {"normal", KEY_NUMBERS, &limit_direction, false, KEY_OF(stated, normal)},
     {"curvatures", KEY_LIST, .required = false},
     {"directions", KEY_LIST, .required = false},
 };
@@ -120,13 +123,13 @@ static enum percuss_status read_file(struct reader *reader, const yaml_node_t *v
 }
 
 /* A list of `count` numbers. */
-static bool read_numbers(const struct reader *reader, const yaml_node_t *list, size_t count,
-                         double *numbers)
+static bool read_numbers(const struct reader *reader, const yaml_node_t *list,
+                         const struct limit *limit, size_t count, double *numbers)
 {
     bool good = list->type == YAML_SEQUENCE_NODE && reader_count(list) == count;
     for (size_t i = 0; good && i < count; i++)
-        good = reader_number(reader_element(reader, list, i), &numbers[i]) &&
-               limit_holds(&limit_curvature, numbers[i]);
+        good = reader_quantity(reader_element(reader, list, i), limit->quantity, &numbers[i]) &&
+               limit_holds(limit, numbers[i]);
     return good;
 }
 
@@ -154,7 +157,7 @@ static enum percuss_status read_curvature(struct reader *reader, const yaml_node
         return directions.value ? reader_refuse(reader, directions.key,
                                                 "directions: must stand beside curvatures")
                                 : PERCUSS_OK;
-    if (!read_numbers(reader, curvatures.value, 2, k))
+    if (!read_numbers(reader, curvatures.value, &limit_curvature, 2, k))
         return reader_refuse(reader, curvatures.value, "curvatures: must be a list of two, each %s",
                              limit_curvature.text);
     if (!site->has_normal)
@@ -173,9 +176,11 @@ static enum percuss_status read_curvature(struct reader *reader, const yaml_node
         bool both = first->type == YAML_SEQUENCE_NODE && reader_count(first) == 2;
         if (both)
             first = reader_element(reader, directions.value, 0);
-        bool good = read_numbers(reader, first, 3, t[0]) && lay_across(site->normal, t[0]);
+        bool good = read_numbers(reader, first, &limit_direction, 3, t[0]) &&
+                    lay_across(site->normal, t[0]);
         if (good && both)
-            good = read_numbers(reader, reader_element(reader, directions.value, 1), 3, t[1]) &&
+            good = read_numbers(reader, reader_element(reader, directions.value, 1),
+                                &limit_direction, 3, t[1]) &&
                    lay_across(site->normal, t[1]) && fabs(dot3(t[0], t[1])) <= ACROSS;
         if (!good)
             return reader_refuse(reader, directions.value,

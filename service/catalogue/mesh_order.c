@@ -58,8 +58,10 @@ static enum percuss_status read_frequency(struct reader *reader, const yaml_node
                                           struct body_order *order)
 {
     double frequency;
-    if (!reader_number(value, &frequency) || !(frequency >= 1e-3 && frequency <= MOST_FREQUENCY))
-        return reader_refuse_value(reader, value, "a frequency in Hz, 0.001 to 1e12");
+    if (!reader_quantity(value, QUANTITY_FREQUENCY, &frequency) ||
+        !(frequency >= 1e-3 && frequency <= MOST_FREQUENCY))
+        return reader_refuse_quantity(reader, value, QUANTITY_FREQUENCY,
+                                      "a frequency in Hz, 0.001 to 1e12");
     return add(reader, order, "--max-frequency=%.17g", frequency);
 }
 

@@ -124,37 +124,35 @@ static size_t digits(const char *text)
     return strspn(text, "0123456789");
 }
 
-/* [+-] digits [. digits] [e [+-] digits], at least one digit before the exponent: no hexadecimal,
- * nan, inf, 1_000 or 1:30, whatever strtod or YAML 1.1 would make of them. */
-static bool is_decimal(const char *text, size_t length)
-{
-    const char *at = text + (*text == '+' || *text == '-');
-    size_t whole = digits(at), fraction = 0;
-    at += whole;
-    if (*at == '.') {
-        fraction = digits(at + 1);
-        at += 1 + fraction;
-    }
-    if (whole + fraction == 0)
-        return false;
-    if (*at == 'e' || *at == 'E') {
-        at += 1 + (at[1] == '+' || at[1] == '-');
-        if (digits(at) == 0)
-            return false;
-        at += digits(at);
-    }
-    return at == text + length;
-}
-
-bool reader_number(const yaml_node_t *node, double *number)
+bool reader_quantity(const yaml_node_t *node, enum quantity quantity, double *number)
 {
     if (!is_plain(node))
         return false;
     const char *text = (const char *)node->data.scalar.value;
-    if (!is_decimal(text, node->data.scalar.length))
-        return false;
-    *number = strtod(text, NULL) + 0.0; /* -0 becomes 0: same answers, same revision */
-    return isfinite(*number);
+    return strlen(text) == node->data.scalar.length &&
+           units_read(text, quantity, number) == UNITS_GOOD;
+}
+
+bool reader_number(const yaml_node_t *node, double *number)
+{
+    return reader_quantity(node, QUANTITY_NUMBER, number);
+}
+
+enum percuss_status reader_refuse_quantity(const struct reader *reader, const yaml_node_t *value,
+                                           enum quantity quantity, const char *allowed)
+{
+    double number;
+    const char *text = is_plain(value) ? (const char *)value->data.scalar.value : "";
+    enum units_problem problem = units_read(text, quantity, &number);
+    /* a unit that a mere number does not bear is told with what is allowed */
+    if (quantity == QUANTITY_NUMBER || (problem != UNITS_UNKNOWN && problem != UNITS_OF_ANOTHER))
+        return reader_refuse_value(reader, value, allowed);
+    const char *unit = units_number_end(text);
+    unit += strspn(unit, " ");
+    return reader_refuse(reader, value, "%s: must be a %s, such as %s; %.20s is no %s",
+                         reader_excerpt(value).text, units_name(quantity), units_example(quantity),
+                         unit,
+                         problem == UNITS_UNKNOWN ? "unit that is known" : units_name(quantity));
 }
 
 bool reader_whole(const yaml_node_t *node, unsigned most, unsigned *number)

@@ -11,6 +11,7 @@
 #include <yaml.h>
 
 #include "base/fault.h"
+#include "base/units.h"
 
 enum { READER_NAME_BYTES = 200 }; /* of a file's name in a message: its end */
 
@@ -61,7 +62,15 @@ struct entry reader_find(const struct reader *reader, const yaml_node_t *mapping
 /* Whether a node is exactly this word. */
 bool reader_is(const yaml_node_t *node, const char *word);
 
-/* A finite decimal number, the whole scalar, not quoted. False if it is none. */
+/* A finite decimal number with a unit of the quantity or in SI units, the whole scalar, not quoted.
+ * False if it is none. */
+bool reader_quantity(const yaml_node_t *node, enum quantity quantity, double *number);
+
+/* What reader_refuse_value says, unless a unit is what is wrong with the number. */
+enum percuss_status reader_refuse_quantity(const struct reader *reader, const yaml_node_t *value,
+                                           enum quantity quantity, const char *allowed);
+
+/* The same of a number that bears none. */
 bool reader_number(const yaml_node_t *node, double *number);
 
 /* A whole number 1 .. most, digits only. */

@@ -14,11 +14,14 @@ static const double LEAST_SHARE = 1e-6;
 
 /* What a quantity may be, beside the limits of the catalogue. A contact slower than a micrometre a
  * second or more than 80 degrees askew is no impact that anyone measures. */
-static const struct limit limit_speed = {1e-6, 1e4, false, false, "1e-6 to 1e4 m/s"};
-static const struct limit limit_direction = {-1.396, 1.396, false, false,
-                                             "an angle of -1.396 to 1.396 rad (80 degrees)"};
-static const struct limit limit_model = {-6.0, 6.0, false, false, "-6 to 6 standard deviations"};
-static const struct limit limit_site = {0.0, 1.0, false, false, "a fraction of the length, 0 to 1"};
+static const struct limit limit_speed = {1e-6,           1e4, false, false, "1e-6 to 1e4 m/s",
+                                         QUANTITY_NUMBER};
+static const struct limit limit_direction = {
+    -1.396, 1.396, false, false, "an angle of -1.396 to 1.396 rad (80 degrees)", QUANTITY_NUMBER};
+static const struct limit limit_model = {
+    -6.0, 6.0, false, false, "-6 to 6 standard deviations", QUANTITY_NUMBER};
+static const struct limit limit_site = {
+    0.0, 1.0, false, false, "a fraction of the length, 0 to 1", QUANTITY_NUMBER};
 
 #define QUANTITY_TEXT(name, text) [INPUT_##name] = (text),
 static const char *const quantity_names[] = {INPUT_QUANTITY_LIST(QUANTITY_TEXT)};

@@ -5,22 +5,33 @@
 
 /* The bounds keep every derived quantity (mass, L^4, frequencies) far from overflow and underflow
  * and catch GPa written for Pa; they lie decades outside any body that is tested for impact. */
-const struct limit limit_length = {1e-9, 1e3, false, false,
-                                   "a finite length > 0 m (1e-9 to 1e3 m)"};
-const struct limit limit_young = {1e3, 1e13, false, false,
-                                  "a finite modulus > 0 Pa (1e3 to 1e13 Pa)"};
-const struct limit limit_poisson = {-1.0, 0.5, true, true, "a number > -1 and < 0.5"};
-const struct limit limit_density = {1e-3, 1e5, false, false,
-                                    "a finite density > 0 kg/m^3 (1e-3 to 1e5 kg/m^3)"};
-const struct limit limit_yield = {1.0, 1e12, false, false,
-                                  "a finite stress > 0 Pa (1 to 1e12 Pa); absent: elastic"};
-const struct limit limit_tangent = {0.0, 1e13, false, false,
-                                    "a finite modulus >= 0 Pa and below young"};
-const struct limit limit_damping = {0.0, 1.0, false, true, "a ratio >= 0 and < 1"};
-const struct limit limit_shear_factor = {1e-3, 2.0, false, false, "a number > 0 (1e-3 to 2)"};
-const struct limit limit_scale = {1e-6, 1e6, false, false, "a number > 0 (1e-6 to 1e6)"};
-const struct limit limit_modes = {1.0, LIMIT_MODES, false, false,
-                                  "a whole number, 1 to 5000; absent: from the tolerance"};
+const struct limit limit_length = {
+    1e-9, 1e3, false, false, "a finite length > 0 m (1e-9 to 1e3 m)", QUANTITY_LENGTH};
+const struct limit limit_young = {
+    1e3, 1e13, false, false, "a finite modulus > 0 Pa (1e3 to 1e13 Pa)", QUANTITY_STRESS};
+const struct limit limit_poisson = {-1.0,           0.5, true, true, "a number > -1 and < 0.5",
+                                    QUANTITY_NUMBER};
+const struct limit limit_density = {
+    1e-3, 1e5, false, false, "a finite density > 0 kg/m^3 (1e-3 to 1e5 kg/m^3)", QUANTITY_DENSITY};
+const struct limit limit_yield = {1.0,
+                                  1e12,
+                                  false,
+                                  false,
+                                  "a finite stress > 0 Pa (1 to 1e12 Pa); absent: elastic",
+                                  QUANTITY_STRESS};
+const struct limit limit_tangent = {
+    0.0, 1e13, false, false, "a finite modulus >= 0 Pa and below young", QUANTITY_STRESS};
+const struct limit limit_damping = {0.0, 1.0, false, true, "a ratio >= 0 and < 1", QUANTITY_NUMBER};
+const struct limit limit_shear_factor = {
+    1e-3, 2.0, false, false, "a number > 0 (1e-3 to 2)", QUANTITY_NUMBER};
+const struct limit limit_scale = {1e-6,           1e6, false, false, "a number > 0 (1e-6 to 1e6)",
+                                  QUANTITY_NUMBER};
+const struct limit limit_modes = {1.0,
+                                  LIMIT_MODES,
+                                  false,
+                                  false,
+                                  "a whole number, 1 to 5000; absent: from the tolerance",
+                                  QUANTITY_NUMBER};
 
 bool limit_holds(const struct limit *limit, double value)
 {

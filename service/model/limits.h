@@ -9,6 +9,7 @@
 #include <stdbool.h>
 
 #include "base/fault.h"
+#include "base/units.h"
 
 enum { LIMIT_MODES = 5000 }; /* fixed number of modes of a body, at most */
 
@@ -16,6 +17,7 @@ struct limit {
     double low, high; /* both finite; allowed themselves unless open */
     bool low_open, high_open;
     const char *text; /* what is allowed, in words that follow "must be" */
+    enum quantity quantity;
 };
 
 extern const struct limit limit_length;       /* m */

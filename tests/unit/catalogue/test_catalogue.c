@@ -156,6 +156,9 @@ static void keeps_its_revision_when_only_the_look_changes(void **state)
         BASE_MATERIAL "contact: {compliance: matched}\nbodies:\n" BASE_A BASE_B,
         "materials: {m: {young: 7.0e10, poisson: .3, density: 2.7e3, tangent: -0}}\n"
         "bodies:\n  'a':\n    radius: 10e-3\n    shape: sphere\n    material: m\n" BASE_B,
+        "materials: {m: {young: 70 GPa, poisson: 0.3, density: 2.7 g/cm^3}}\n" /* with units */
+        "bodies:\n  a: {shape: sphere, material: m, radius: 10 mm}\n"
+        "  b: {shape: beam, material: m, radius: 1cm, length: 1e3 mm}\n",
         "materials: {n: {young: 1e9, poisson: 0.3, density: 1}, " /* one that nobody uses */
         "m: {young: 70e9, poisson: 0.3, density: 2700}}\nbodies:\n" BASE_A BASE_B,
         BASE_MATERIAL

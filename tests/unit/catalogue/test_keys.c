@@ -60,9 +60,9 @@ static void refuses_what_is_no_number(void **state)
 {
     (void)state;
     static const char *const values[] = {
-        "big",  "'0.01'", "0.01 m", "0x1p-3", ".inf", ".nan", "inf",       "nan",   "1_0",
-        "1:30", "1e",     "1e+",    "+",      ".",    "~",    "null",      "",      "1,5",
-        "[1]",  "{}",     "1e999",  "\"1\"",  "true", "--1",  "0.01.0.01", "1e5.0", "e5"};
+        "big", "'0.01'", "'8 mm'", ".inf", ".nan", "inf",   "nan",  "+",   ".",  "~",
+        "m",   "null",   "",       "[1]",  "{}",   "1e999", "true", "--1", "e5", "\"1\"",
+    };
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
         char text[512];
         snprintf(text, sizeof text,
@@ -71,6 +71,37 @@ static void refuses_what_is_no_number(void **state)
         parse_bad(text, 8, "bodies.s.radius: ");
         parse_bad(text, 8, "must be a finite length > 0 m");
     }
+}
+
+static void refuses_what_is_no_unit(void **state)
+{
+    (void)state;
+    static const char *const values[] = {"8 kg", "8 mm^2", "8 furlong", "0x1p-3",
+                                         "1_0",  "1:30",   "0.01.0.01", "1e5.0",
+                                         "1e",   "1e+",    "1,5",       "8 M"};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
+        char text[512], start[80];
+        snprintf(text, sizeof text,
+                 MATERIALS "  s:\n    shape: sphere\n    material: steel\n    radius: %s\n",
+                 values[i]);
+        snprintf(start, sizeof start, "bodies.s.radius: %s: must be a length, such as 8 mm; ",
+                 values[i]);
+        parse_bad(text, 8, start);
+    }
+    static const struct bad bad[] = {
+        {"  s: {shape: sphere, material: steel, radius: 8 kg}", "; kg is no length"},
+        {"  s: {shape: sphere, material: steel, radius: 8furlong}",
+         "; furlong is no unit that is known"},
+        {"  s: {shape: sphere, material: steel, radius: 2 km}",
+         "2 km: must be a finite length > 0 m"},
+        {"  k: {shape: block, material: steel, size: [1 m, 1 s, 1 m]}",
+         "bodies.k.size[1]: 1 s: must be a length, such as 8 mm; s is no length"},
+        {"  r: {shape: rod, material: steel, radius: 1 cm, length: 1, damping: 0.1 m}",
+         "bodies.r.damping: 0.1 m: must be a ratio >= 0 and < 1"},
+        {"  r: {shape: rod, material: steel, radius: 1 cm, length: 1, modes: 5 m}",
+         "bodies.r.modes: 5 m: must be a whole number"},
+    };
+    REFUSE(bad);
 }
 
 static void accepts_decimal_numbers(void **state)
@@ -248,6 +279,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refuses_impossible_sizes),
         cmocka_unit_test(refuses_what_is_no_number),
+        cmocka_unit_test(refuses_what_is_no_unit),
         cmocka_unit_test(accepts_decimal_numbers),
         cmocka_unit_test(refuses_unknown_words),
         cmocka_unit_test(refuses_missing_and_double_keys),
