@@ -26,20 +26,25 @@ struct stated {
     double point[3], normal[3];
 };
 
-static const struct limit limit_coordinate = {
-    -1e9, 1e9, false, false, "a finite length in m", QUANTITY_LENGTH};
-static const struct limit limit_direction = {-1e9,           1e9, false, false, "a finite number",
-                                             QUANTITY_NUMBER};
+static const struct limit limit_coordinate = {-1e9,           1e9, false, false, "a finite number",
+                                              QUANTITY_NUMBER};
 static const struct limit limit_curvature = {
     -1e9, 1e9, false, false, "a finite curvature in 1/m, > 0 where convex", QUANTITY_CURVATURE};
 static const struct key site_rows[] = {
-    {"point", KEY_NUMBERS, &limit_coordinate, true, KEY_OF(stated, point)},
-    {"normal", KEY_NUMBERS, &limit_direction, false, KEY_OF(stated, normal)},
-    {"curvatures", KEY_LIST, .required = false},
-    {"directions", KEY_LIST, .required = false},
+    {"point", KEY_NUMBERS, &limit_coordinate, true, KEY_OF(stated, point),
+     KEY_SAYS(NULL, "where it is, in the mesh's axes and unit of length: numbers without units")},
+    {"normal", KEY_NUMBERS, &limit_coordinate, false, KEY_OF(stated, normal),
+     KEY_SAYS("the surface's", "outward, of any length, in the mesh's axes")},
+    {"curvatures", KEY_LIST, .required = false,
+     .allowed = "a list of two, each a finite curvature in 1/m, > 0 where convex",
+     KEY_SAYS("the surface's", "the principal curvatures; they must stand beside normal")},
+    {"directions", KEY_LIST, .required = false,
+     .allowed = "one direction of three numbers across the normal, or two that are across each "
+                "other too",
+     KEY_SAYS("none", "of the principal curvatures; needed where these differ")},
 };
-static const struct key_table site_keys = {"a site", site_rows,
-                                           sizeof site_rows / sizeof *site_rows, NULL};
+const struct key_table keys_site = {"a site", site_rows, sizeof site_rows / sizeof *site_rows,
+                                    NULL};
 
 static enum percuss_status out_of_memory(const struct reader *reader)
 {
@@ -158,8 +163,8 @@ static enum percuss_status read_curvature(struct reader *reader, const yaml_node
                                                 "directions: must stand beside curvatures")
                                 : PERCUSS_OK;
     if (!read_numbers(reader, curvatures.value, &limit_curvature, 2, k))
-        return reader_refuse(reader, curvatures.value, "curvatures: must be a list of two, each %s",
-                             limit_curvature.text);
+        return reader_refuse(reader, curvatures.value, "curvatures: must be %s",
+                             site_rows[2].allowed);
     if (!site->has_normal)
         return reader_refuse(reader, curvatures.key, "curvatures: must stand beside normal");
     /* any directions where both are alike */
@@ -176,16 +181,15 @@ static enum percuss_status read_curvature(struct reader *reader, const yaml_node
         bool both = first->type == YAML_SEQUENCE_NODE && reader_count(first) == 2;
         if (both)
             first = reader_element(reader, directions.value, 0);
-        bool good = read_numbers(reader, first, &limit_direction, 3, t[0]) &&
+        bool good = read_numbers(reader, first, &limit_coordinate, 3, t[0]) &&
                     lay_across(site->normal, t[0]);
         if (good && both)
             good = read_numbers(reader, reader_element(reader, directions.value, 1),
-                                &limit_direction, 3, t[1]) &&
+                                &limit_coordinate, 3, t[1]) &&
                    lay_across(site->normal, t[1]) && fabs(dot3(t[0], t[1])) <= ACROSS;
         if (!good)
-            return reader_refuse(reader, directions.value,
-                                 "directions: must be one direction of three numbers across the "
-                                 "normal, or two that are across each other too");
+            return reader_refuse(reader, directions.value, "directions: must be %s",
+                                 site_rows[3].allowed);
     }
     cross3(site->normal, t[0], t[1]);
     for (int i = 0; i < 9; i++)
@@ -200,7 +204,7 @@ static enum percuss_status read_site(struct reader *reader, struct entry entry,
     struct stated stated = {.normal = {0.0}};
     memcpy(site->name, entry.key->data.scalar.value, entry.key->data.scalar.length);
     size_t mark = reader_enter(reader, site->name);
-    enum percuss_status status = keys_read(reader, entry, &site_keys, &stated);
+    enum percuss_status status = keys_read(reader, entry, &keys_site, &stated);
     if (status)
         return status;
     memcpy(site->point, stated.point, sizeof site->point);

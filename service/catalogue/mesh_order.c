@@ -12,6 +12,7 @@
 
 #include "base/sha256.h"
 #include "mesh/mesh_digest.h"
+#include "model/key.h"
 
 /* Of what percuss-reduce makes of the same mesh: raise it where that changes. */
 static const char METHOD[] = "percuss reduced body 2";
@@ -45,29 +46,29 @@ add(const struct reader *reader, struct body_order *order, const char *format, .
 }
 
 static enum percuss_status read_unit(struct reader *reader, const yaml_node_t *value,
-                                     struct body_order *order)
+                                     const struct key *key, struct body_order *order)
 {
     static const char *const units[] = {"m", "cm", "mm", "um", "in", "ft"};
     for (size_t i = 0; i < sizeof units / sizeof *units; i++)
         if (reader_is(value, units[i]))
             return add(reader, order, "--unit=%s", units[i]);
-    return reader_refuse_value(reader, value, "m, cm, mm, um, in or ft");
+    return reader_refuse_value(reader, value, key->allowed);
 }
 
 static enum percuss_status read_frequency(struct reader *reader, const yaml_node_t *value,
-                                          struct body_order *order)
+                                          const struct key *key, struct body_order *order)
 {
     double frequency;
     if (!reader_quantity(value, QUANTITY_FREQUENCY, &frequency) ||
         !(frequency >= 1e-3 && frequency <= MOST_FREQUENCY))
-        return reader_refuse_quantity(reader, value, QUANTITY_FREQUENCY,
-                                      "a frequency in Hz, 0.001 to 1e12");
+        return reader_refuse_quantity(reader, value, QUANTITY_FREQUENCY, key->allowed);
     return add(reader, order, "--max-frequency=%.17g", frequency);
 }
 
 static enum percuss_status read_fixed(struct reader *reader, const yaml_node_t *list,
-                                      struct body_order *order)
+                                      const struct key *key, struct body_order *order)
 {
+    (void)key;
     enum percuss_status status = PERCUSS_OK;
     size_t count = reader_count(list);
     if (count > BODY_ORDER_SETS)
@@ -85,7 +86,7 @@ static enum percuss_status read_fixed(struct reader *reader, const yaml_node_t *
 struct option_key {
     const char *name;
     enum percuss_status (*read)(struct reader *reader, const yaml_node_t *value,
-                                struct body_order *order);
+                                const struct key *key, struct body_order *order);
 };
 static const struct option_key option_keys[] = {
     {"unit", read_unit}, {"max_frequency", read_frequency}, {"fixed", read_fixed}};
@@ -156,6 +157,15 @@ static void read_reason(const char *folder, const struct body_order *order)
     }
 }
 
+/* A key of its kind, which there is. */
+static const struct key *find_key(const struct body_kind *kind, const char *name)
+{
+    const struct key *key = kind->keys;
+    while (strcmp(key->name, name) != 0)
+        key++;
+    return key;
+}
+
 static enum percuss_status read_options(struct reader *reader, struct entry entry,
                                         const struct body *body, struct body_order *order)
 {
@@ -168,7 +178,8 @@ static enum percuss_status read_options(struct reader *reader, struct entry entr
         if (!value)
             continue;
         size_t mark = reader_enter(reader, option_keys[i].name);
-        status = option_keys[i].read(reader, value, order);
+        status =
+            option_keys[i].read(reader, value, find_key(body->kind, option_keys[i].name), order);
         if (!status)
             reader_leave(reader, mark);
     }

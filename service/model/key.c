@@ -72,6 +72,10 @@ struct key_text key_allowed(const struct key *key)
     struct key_text allowed = {{0}};
     struct growing growing = {allowed.text, sizeof allowed.text, 0};
     /* as it reads after "must be" */
+    if (key->allowed) {
+        grow(&growing, "", key->allowed);
+        return allowed;
+    }
     switch (key->type) {
     case KEY_NUMBER:
     case KEY_WHOLE:

@@ -39,6 +39,10 @@ struct key {
     const struct key_table *nested;
     double absent;       /* KEY_NUMBER, not required: its value where the key is */
     const char *instead; /* the key that must be there where this one is not; NULL: none */
+    const char
+        *allowed; /* of what the caller reads, in words that follow "must be"; NULL: by type */
+    const char *otherwise; /* what holds where the key is absent; NULL: it is required */
+    const char *meaning;   /* for the reference, docs/catalogue.md */
 };
 
 struct key_table {
@@ -48,8 +52,9 @@ struct key_table {
     const struct key_table *before; /* keys that come before these; NULL: none */
 };
 
-#define KEY_WORDS(array)   .words = array, .word_count = sizeof array / sizeof *array
-#define KEY_OF(of, member) .offset = offsetof(struct of, member)
+#define KEY_SAYS(default, text) .otherwise = default, .meaning = text
+#define KEY_WORDS(array)        .words = array, .word_count = sizeof array / sizeof *array
+#define KEY_OF(of, member)      .offset = offsetof(struct of, member)
 
 /* What a key's value may be, in words that follow "must be". */
 struct key_text {

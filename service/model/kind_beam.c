@@ -25,20 +25,31 @@ static const char *const shear_rules[] = {
     [SHEAR_HUTCHINSON] = "hutchinson",
 };
 static const struct key section[] = {
-    {"width", KEY_NUMBER, &limit_length, true, KEY_OF(body, width)},
-    {"height", KEY_NUMBER, &limit_length, true, KEY_OF(body, height)},
+    {"width", KEY_NUMBER, &limit_length, true, KEY_OF(body, width), KEY_SAYS(NULL, "along y")},
+    {"height", KEY_NUMBER, &limit_length, true, KEY_OF(body, height), KEY_SAYS(NULL, "along z")},
 };
 static const struct key_table keys_section = {"a section", section, 2, NULL};
 static const struct key keys[] = {
-    {"radius", KEY_NUMBER, &limit_length, KEY_OF(body, radius), .instead = "section"},
-    {"section", KEY_SECTION, .nested = &keys_section},
-    {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length)},
-    {"theory", KEY_WORD, KEY_OF(body, theory), KEY_WORDS(theories)},
+    {"radius", KEY_NUMBER, &limit_length, KEY_OF(body, radius), .instead = "section",
+     KEY_SAYS("section stands instead", "of a round section")},
+    {"section", KEY_SECTION, .nested = &keys_section,
+     KEY_SAYS("radius stands instead", "a rectangular section")},
+    {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length),
+     KEY_SAYS(NULL, "along its axis, which is x")},
+    {"theory", KEY_WORD, KEY_OF(body, theory), KEY_WORDS(theories),
+     KEY_SAYS("timoshenko",
+              "theory of its bending: with shear and rotation of the section, or without")},
     {"shear_factor", KEY_SHEAR, &limit_shear_factor, KEY_OF(body, shear_rule),
-     KEY_WORDS(shear_rules)},
-    {"ends", KEY_ENDS, KEY_OF(body, supports), KEY_WORDS(ends)},
-    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping)},
-    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes)},
+     KEY_WORDS(shear_rules),
+     KEY_SAYS("hutchinson",
+              "shear factor of timoshenko's theory: by Cowper's rule, Hutchinson's, or as stated")},
+    {"ends", KEY_ENDS, KEY_OF(body, supports), KEY_WORDS(ends),
+     KEY_SAYS("free",
+              "how its ends at -x and +x are held; a pinned or clamped one holds the twist too")},
+    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping),
+     KEY_SAYS("0", "damping ratio of every mode")},
+    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),
+     KEY_SAYS("as many as the tolerance asks for", "fixed number of modes")},
 };
 
 static bool is_round(const struct body *body)

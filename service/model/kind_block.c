@@ -9,7 +9,8 @@
 #include "model/key.h"
 
 static const struct key keys[] = {
-    {"size", KEY_NUMBERS, &limit_length, true, KEY_OF(body, size)},
+    {"size", KEY_NUMBERS, &limit_length, true, KEY_OF(body, size),
+     KEY_SAYS(NULL, "its edges along x, y and z; it is compact: stiff but for the contact")},
 };
 
 static enum percuss_status complete(struct body *body, struct fault *fault)

@@ -7,8 +7,9 @@
 #include "model/key.h"
 
 static const struct key keys[] = {
-    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius)},
-    {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length)},
+    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius), KEY_SAYS(NULL, "its radius")},
+    {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length),
+     KEY_SAYS(NULL, "along its axis, which is x; it is compact: stiff but for the contact")},
 };
 
 static enum percuss_status complete(struct body *body, struct fault *fault)

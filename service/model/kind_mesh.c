@@ -42,15 +42,26 @@ static const double MUCH_ASKEW = 2.0;
 static const double MUCH_BENT = 0.1;
 
 static const struct key keys[] = {
-    {"file", KEY_TEXT, .required = true},
-    {"damping", KEY_DAMPING, &limit_damping, KEY_OF(body, damping)},
-    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes)},
-    {"rigid", KEY_FLAG, KEY_OF(body, rigid)},
-    {"scale", KEY_NUMBER, &limit_scale, KEY_OF(body, scale), .absent = 0.0},
-    {"sites", KEY_CALLER, .required = false},
-    {"unit", KEY_TEXT, .required = false},
-    {"max_frequency", KEY_TEXT, .required = false},
-    {"fixed", KEY_LIST, .required = false},
+    {"file", KEY_TEXT, .required = true, .allowed = "the path of a file",
+     KEY_SAYS(NULL, "a reduced body (.h5), or a mesh that percussd has reduced; from the "
+                    "catalogue's folder, or "
+                    "from share/percuss of the installation where it is not there")},
+    {"damping", KEY_DAMPING, &limit_damping, KEY_OF(body, damping),
+     KEY_SAYS("0", "damping ratio of every elastic mode")},
+    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),
+     KEY_SAYS("as many as the tolerance asks for",
+              "fixed number of modes, of those that the file has")},
+    {"rigid", KEY_FLAG, KEY_OF(body, rigid), KEY_SAYS("false", "mass, inertia and surface only")},
+    {"scale", KEY_NUMBER, &limit_scale, KEY_OF(body, scale), .absent = 0.0,
+     KEY_SAYS("1", "its size over the file's")},
+    {"sites", KEY_CALLER, .required = false,
+     KEY_SAYS("none", "places on its surface by their names, which requests may name")},
+    {"unit", KEY_TEXT, .required = false, .allowed = "m, cm, mm, um, in or ft",
+     KEY_SAYS("the file is a reduced body", "unit of length of a mesh")},
+    {"max_frequency", KEY_TEXT, .required = false, .allowed = "a frequency in Hz, 0.001 to 1e12",
+     KEY_SAYS("as far as the mesh is good, at most 300 modes", "all modes of a mesh below it")},
+    {"fixed", KEY_LIST, .required = false, .allowed = "a list of names of sets of the mesh",
+     KEY_SAYS("it is free", "what of a mesh is held")},
 };
 
 static const struct mode_family *const families[] = {&mesh_family};

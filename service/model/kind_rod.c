@@ -12,13 +12,20 @@ static const char *const ends[] = {
     [SUPPORT_CLAMPED] = "fixed",
 };
 static const struct key keys[] = {
-    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius)},
-    {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length)},
-    {"tip_radius", KEY_NUMBER, &limit_length, KEY_OF(body, tip_radius), .absent = INFINITY},
-    {"lateral_inertia", KEY_FLAG, KEY_OF(body, lateral_inertia)},
-    {"ends", KEY_ENDS, KEY_OF(body, supports), KEY_WORDS(ends)},
-    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping)},
-    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes)},
+    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius),
+     KEY_SAYS(NULL, "of its round section")},
+    {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length),
+     KEY_SAYS(NULL, "along its axis, which is x")},
+    {"tip_radius", KEY_NUMBER, &limit_length, KEY_OF(body, tip_radius), .absent = INFINITY,
+     KEY_SAYS("flat ends", "of round caps on its ends; at least radius")},
+    {"lateral_inertia", KEY_FLAG, KEY_OF(body, lateral_inertia),
+     KEY_SAYS("false", "Love's correction: the section moves in and out as waves pass")},
+    {"ends", KEY_ENDS, KEY_OF(body, supports), KEY_WORDS(ends),
+     KEY_SAYS("free", "how its ends at -x and +x are held")},
+    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping),
+     KEY_SAYS("0", "damping ratio of every mode")},
+    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),
+     KEY_SAYS("as many as the tolerance asks for", "fixed number of modes")},
 };
 
 static const struct mode_family *const families[] = {

@@ -9,7 +9,7 @@
 #include "model/key.h"
 
 static const struct key keys[] = {
-    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius)},
+    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius), KEY_SAYS(NULL, "its radius")},
 };
 
 static enum percuss_status complete(struct body *body, struct fault *fault)

@@ -29,38 +29,72 @@ struct setting {
     enum kind kind;
     size_t offset;
     double low, high;
+    const char *otherwise; /* where the key is absent; NULL: what settings_default says */
+    const char *meaning;
 };
 
 #define AT(member) offsetof(struct settings, member)
 
 static const struct setting table[] = {
-    {"catalogue", KIND_PATH, AT(catalogue), 0, 0},
-    {"domain", KIND_WHOLE, AT(domain), 0, SETTINGS_MAX_DOMAIN},
-    {"partition", KIND_PARTITION, AT(partition), 0, 0},
-    {"workers", KIND_WHOLE, AT(workers), 1, 256},
-    {"queue_capacity", KIND_WHOLE, AT(queue_capacity), 1, 65536},
-    {"inline_solves", KIND_SWITCH, AT(inline_solves), 0, 0},
-    {"limits.seconds", KIND_NUMBER, AT(limit_seconds), 0.001, 1e9},
-    {"limits.samples", KIND_WHOLE, AT(limit_samples), 1, ENSEMBLE_MAX_SAMPLES},
-    {"limits.clients", KIND_WHOLE, AT(limit_clients), 1, 65536},
-    {"tokens.count", KIND_WHOLE, AT(token_count), 1, 10000000},
-    {"tokens.megabytes", KIND_WHOLE, AT(token_megabytes), 1, 1048576},
-    {"tokens.minutes", KIND_NUMBER, AT(token_minutes), 0.001, 100000},
-    {"replies.per_client", KIND_WHOLE, AT(replies_per_client), 1, 65536},
-    {"replies.megabytes", KIND_WHOLE, AT(reply_megabytes), 1, 1048576},
-    {"store", KIND_PATH, AT(store), 0, 0},
-    {"backup", KIND_PATH, AT(backup), 0, 0},
-    {"stored_replies", KIND_WHOLE, AT(stored_replies), 1, 10000000},
-    {"standby", KIND_PATH, AT(standby), 0, 0},
-    {"session_minutes", KIND_NUMBER, AT(session_minutes), 0.001, 100000},
-    {"drain_seconds", KIND_NUMBER, AT(drain_seconds), 0, 86400},
-    {"tables", KIND_PATH, AT(tables), 0, 0},
-    {"bodies", KIND_PATH, AT(bodies), 0, 0},
-    {"bodies_days", KIND_NUMBER, AT(bodies_days), 0.001, 100000},
-    {"security", KIND_PATH, AT(security), 0, 0},
-    {"metrics", KIND_PATH, AT(metrics), 0, 0},
-    {"log_level", KIND_LEVEL, AT(log_level), 0, 0},
-    {"log_format", KIND_FORMAT, AT(log_format), 0, 0},
+    {"catalogue", KIND_PATH, AT(catalogue), 0, 0, "none: --catalogue must say it",
+     "bodies and materials, percuss-catalogue(5); read again at SIGHUP"},
+    {"domain", KIND_WHOLE, AT(domain), 0, SETTINGS_MAX_DOMAIN, NULL,
+     "DDS domain; the command line and PERCUSS_DOMAIN go before it"},
+    {"partition", KIND_PARTITION, AT(partition), 0, 0,
+     "none: it answers those who ask in no partition",
+     "DDS partition in which it answers, so that daemons with different catalogues share a domain"},
+    {"workers", KIND_WHOLE, AT(workers), 1, 256, "one for every processor",
+     "threads that solve; there are as many again, and one more, of low priority for what takes "
+     "long"},
+    {"queue_capacity", KIND_WHOLE, AT(queue_capacity), 1, 65536, NULL,
+     "requests that may wait in each of the queues, a batch counting as one; what comes on top is "
+     "answered BUSY"},
+    {"inline_solves", KIND_SWITCH, AT(inline_solves), 0, 0, NULL,
+     "whether the reading thread solves a cheap request itself when nothing else waits"},
+    {"limits.seconds", KIND_NUMBER, AT(limit_seconds), 0.001, 1e9, NULL,
+     "seconds of solving that one request may take; then its answer is TIMEOUT, of an ensemble "
+     "what "
+     "there is by then"},
+    {"limits.samples", KIND_WHOLE, AT(limit_samples), 1, ENSEMBLE_MAX_SAMPLES, NULL,
+     "samples of one ensemble"},
+    {"limits.clients", KIND_WHOLE, AT(limit_clients), 1, 65536, NULL,
+     "clients that may be there at once; those of one process take at most half of the places"},
+    {"tokens.count", KIND_WHOLE, AT(token_count), 1, 10000000, NULL,
+     "state tokens that are kept, those used last"},
+    {"tokens.megabytes", KIND_WHOLE, AT(token_megabytes), 1, 1048576, NULL,
+     "megabytes that they may take"},
+    {"tokens.minutes", KIND_NUMBER, AT(token_minutes), 0.001, 100000, NULL,
+     "minutes for which one is kept without use"},
+    {"replies.per_client", KIND_WHOLE, AT(replies_per_client), 1, 65536, NULL,
+     "last replies of each client that are kept, so that a repeated request gets the same one"},
+    {"replies.megabytes", KIND_WHOLE, AT(reply_megabytes), 1, 1048576, NULL,
+     "megabytes that all of them may take"},
+    {"store", KIND_PATH, AT(store), 0, 0, "none: what names a specimen is refused",
+     "SQLite file of the specimens' dents and replies, made if need be"},
+    {"backup", KIND_PATH, AT(backup), 0, 0, "none",
+     "copy of the store, written at SIGUSR1 while it is in use"},
+    {"stored_replies", KIND_WHOLE, AT(stored_replies), 1, 10000000, NULL,
+     "replies to requests of specimens that the store keeps"},
+    {"standby", KIND_PATH, AT(standby), 0, 0, "none: this daemon answers at once",
+     "file whose lock says which of several daemons with these settings answers, and under which "
+     "id"},
+    {"session_minutes", KIND_NUMBER, AT(session_minutes), 0.001, 100000, NULL,
+     "minutes for which a client that has gone is remembered, with its replies"},
+    {"drain_seconds", KIND_NUMBER, AT(drain_seconds), 0, 86400, NULL,
+     "seconds for what is queued after SIGTERM"},
+    {"tables", KIND_PATH, AT(tables), 0, 0, "none: metals yield by the closed form",
+     "folder of contact tables and of their family for all metals, percuss-tables(8)"},
+    {"bodies", KIND_PATH, AT(bodies), 0, 0, "none: the catalogue names reduced bodies only",
+     "folder of bodies that percussd has reduced from the catalogue's meshes"},
+    {"bodies_days", KIND_NUMBER, AT(bodies_days), 0.001, 100000, NULL,
+     "days after which a body there that no catalogue has named is deleted"},
+    {"security", KIND_PATH, AT(security), 0, 0, "none: without DDS Security",
+     "folder of this daemon's identity, made by percuss-keys.sh"},
+    {"metrics", KIND_PATH, AT(metrics), 0, 0, "none",
+     "file of counters in OpenMetrics text, written once a second"},
+    {"log_level", KIND_LEVEL, AT(log_level), 0, 0, NULL, "what is logged: this and what is worse"},
+    {"log_format", KIND_FORMAT, AT(log_format), 0, 0, NULL,
+     "of a line: for people, for systemd's journal, or a JSON object"},
 };
 enum { SETTING_COUNT = sizeof table / sizeof *table };
 
@@ -89,61 +123,88 @@ struct settings settings_default(void)
     };
 }
 
-static enum percuss_status read_number(struct reader *reader, const yaml_node_t *value,
-                                       const struct setting *setting, void *field)
+/* What a value may be, in words that follow "must be". */
+struct allowed {
+    char text[96];
+};
+
+static void allow(struct allowed *allowed, size_t i, size_t count, const char *word)
+{
+    size_t used = strlen(allowed->text);
+    snprintf(allowed->text + used, sizeof allowed->text - used, "%s%s",
+             i == 0          ? ""
+             : i + 1 < count ? ", "
+                             : " or ",
+             word);
+}
+
+static struct allowed allowed_of(const struct setting *setting)
+{
+    struct allowed allowed = {""};
+    switch (setting->kind) {
+    case KIND_SWITCH:
+        return (struct allowed){"true or false"};
+    case KIND_PATH:
+        return (struct allowed){"the path of a file"};
+    case KIND_PARTITION:
+        return (struct allowed){WIRE_PARTITION_RULE};
+    case KIND_LEVEL:
+        for (enum log_level level = 0; level < LEVEL_COUNT; level++)
+            allow(&allowed, level, LEVEL_COUNT, log_level_name(level));
+        return allowed;
+    case KIND_FORMAT:
+        for (enum log_format format = 0; format < LOG_FORMAT_COUNT; format++)
+            allow(&allowed, format, LOG_FORMAT_COUNT, log_format_name(format));
+        return allowed;
+    default:
+        snprintf(allowed.text, sizeof allowed.text, "a %snumber, %.10g to %.10g",
+                 setting->kind == KIND_WHOLE ? "whole " : "", setting->low, setting->high);
+        return allowed;
+    }
+}
+
+static bool read_number(const yaml_node_t *value, const struct setting *setting, void *field)
 {
     double number;
-    char allowed[96];
     bool whole = setting->kind == KIND_WHOLE;
-    snprintf(allowed, sizeof allowed, "a %snumber, %.10g to %.10g", whole ? "whole " : "",
-             setting->low, setting->high);
     if (!reader_number(value, &number) || number < setting->low || number > setting->high ||
         (whole && number != floor(number)))
-        return reader_refuse_value(reader, value, allowed);
+        return false;
     if (whole)
         *(unsigned *)field = (unsigned)number;
     else
         *(double *)field = number;
-    return PERCUSS_OK;
+    return true;
 }
 
-static enum percuss_status read_switch(struct reader *reader, const yaml_node_t *value, bool *field)
+static bool read_switch(const yaml_node_t *value, bool *field)
 {
     *field = reader_is(value, "true");
-    if (*field || reader_is(value, "false"))
-        return PERCUSS_OK;
-    return reader_refuse_value(reader, value, "true or false");
+    return *field || reader_is(value, "false");
 }
 
-static enum percuss_status read_level(struct reader *reader, const yaml_node_t *value,
-                                      enum log_level *field)
+static bool read_level(const yaml_node_t *value, enum log_level *field)
 {
-    for (enum log_level level = 0; level < LEVEL_COUNT; level++) {
-        if (reader_is(value, log_level_name(level))) {
-            *field = level;
-            return PERCUSS_OK;
-        }
-    }
-    return reader_refuse_value(reader, value, "error, warning, info or debug");
+    for (*field = 0; *field < LEVEL_COUNT; (*field)++)
+        if (reader_is(value, log_level_name(*field)))
+            return true;
+    return false;
 }
 
-static enum percuss_status read_format(struct reader *reader, const yaml_node_t *value,
-                                       enum log_format *field)
+static bool read_format(const yaml_node_t *value, enum log_format *field)
 {
-    for (enum log_format format = 0; format < LOG_FORMAT_COUNT; format++) {
-        if (reader_is(value, log_format_name(format))) {
-            *field = format;
-            return PERCUSS_OK;
-        }
-    }
-    return reader_refuse_value(reader, value, "text, journal or json");
+    for (*field = 0; *field < LOG_FORMAT_COUNT; (*field)++)
+        if (reader_is(value, log_format_name(*field)))
+            return true;
+    return false;
 }
 
 /* A path, from the folder of the settings file if it is relative. */
-static enum percuss_status read_path(struct reader *reader, const yaml_node_t *value, char *field)
+static enum percuss_status read_path(struct reader *reader, const yaml_node_t *value,
+                                     const struct setting *setting, char *field)
 {
     if (value->type != YAML_SCALAR_NODE || value->data.scalar.length == 0)
-        return reader_refuse_value(reader, value, "the path of a file");
+        return reader_refuse_value(reader, value, allowed_of(setting).text);
     const char *path = (const char *)value->data.scalar.value;
     const char *slash = strrchr(reader->name, '/');
     int folder = slash && *path != '/' ? (int)(slash + 1 - reader->name) : 0;
@@ -153,35 +214,42 @@ static enum percuss_status read_path(struct reader *reader, const yaml_node_t *v
     return PERCUSS_OK;
 }
 
-static enum percuss_status read_partition(struct reader *reader, const yaml_node_t *value,
-                                          char *field)
+static bool read_partition(const yaml_node_t *value, char *field)
 {
     const char *name =
         value->type == YAML_SCALAR_NODE ? (const char *)value->data.scalar.value : "";
     if (!wire_partition_is_good(name))
-        return reader_refuse_value(reader, value, WIRE_PARTITION_RULE);
+        return false;
     snprintf(field, WIRE_PARTITION_SIZE, "%s", name);
-    return PERCUSS_OK;
+    return true;
 }
 
 static enum percuss_status read_value(struct reader *reader, const yaml_node_t *value,
                                       const struct setting *setting, struct settings *settings)
 {
     void *field = (char *)settings + setting->offset;
+    bool good = false;
     switch (setting->kind) {
     case KIND_SWITCH:
-        return read_switch(reader, value, field);
+        good = read_switch(value, field);
+        break;
     case KIND_PATH:
-        return read_path(reader, value, field);
+        return read_path(reader, value, setting, field);
     case KIND_PARTITION:
-        return read_partition(reader, value, field);
+        good = read_partition(value, field);
+        break;
     case KIND_LEVEL:
-        return read_level(reader, value, field);
+        good = read_level(value, field);
+        break;
     case KIND_FORMAT:
-        return read_format(reader, value, field);
-    default:
-        return read_number(reader, value, setting, field);
+        good = read_format(value, field);
+        break;
+    case KIND_WHOLE:
+    case KIND_NUMBER:
+        good = read_number(value, setting, field);
+        break;
     }
+    return good ? PERCUSS_OK : reader_refuse_value(reader, value, allowed_of(setting).text);
 }
 
 static const struct setting *find(const char *path)
@@ -279,4 +347,34 @@ enum percuss_status settings_load(const char *path, struct settings *settings, s
     enum percuss_status status = read_document(file, path, settings, fault);
     fclose(file);
     return status;
+}
+
+/* A default as it is written. */
+static void write_default(const struct setting *setting, struct settings_row *row)
+{
+    const struct settings settings = settings_default();
+    const void *field = (const char *)&settings + setting->offset;
+    size_t size = sizeof row->otherwise;
+    if (setting->otherwise)
+        snprintf(row->otherwise, size, "%s", setting->otherwise);
+    else if (setting->kind == KIND_WHOLE)
+        snprintf(row->otherwise, size, "%u", *(const unsigned *)field);
+    else if (setting->kind == KIND_NUMBER)
+        snprintf(row->otherwise, size, "%.10g", *(const double *)field);
+    else if (setting->kind == KIND_SWITCH)
+        snprintf(row->otherwise, size, "%s", *(const bool *)field ? "true" : "false");
+    else if (setting->kind == KIND_LEVEL)
+        snprintf(row->otherwise, size, "%s", log_level_name(*(const enum log_level *)field));
+    else if (setting->kind == KIND_FORMAT)
+        snprintf(row->otherwise, size, "%s", log_format_name(*(const enum log_format *)field));
+}
+
+bool settings_describe(size_t number, struct settings_row *row)
+{
+    if (number >= SETTING_COUNT)
+        return false;
+    *row = (struct settings_row){.path = table[number].path, .meaning = table[number].meaning};
+    snprintf(row->allowed, sizeof row->allowed, "%s", allowed_of(&table[number]).text);
+    write_default(&table[number], row);
+    return true;
 }

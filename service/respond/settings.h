@@ -7,6 +7,7 @@
 #define PERCUSS_RESPOND_SETTINGS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "base/fault.h"
 #include "respond/log_choice.h"
@@ -47,6 +48,15 @@ struct settings settings_default(void);
 /* Reads a file over what `settings` holds: PERCUSS_OK, or PERCUSS_BAD_REQUEST with "FILE:LINE: KEY:
  * VALUE: must be ...". A relative path in it starts from the file's folder. */
 enum percuss_status settings_load(const char *path, struct settings *settings, struct fault *fault);
+
+/* A key for the reference, docs/settings.md. */
+struct settings_row {
+    const char *path, *meaning;
+    char allowed[96], otherwise[64];
+};
+
+/* The key number `number`, in the order of the table; false: there are no more. */
+bool settings_describe(size_t number, struct settings_row *row);
 
 /* Range of `domain`, for the command line too. */
 enum { SETTINGS_MAX_DOMAIN = 230 };

@@ -20,7 +20,7 @@ in_tree() {
 say "installing"
 cmake --install "$build" --prefix "$prefix" >"$work/install.log"
 for file in bin/percuss share/man/man1/percuss.1 share/man/man8/percussd.8 share/man/man8/percuss-tables.8 \
-    share/man/man8/percuss-reduce.8 sbin/percuss-reduce \
+    share/man/man5/percuss-catalogue.5 share/man/man5/percussd.yaml.5 share/man/man8/percuss-reduce.8 sbin/percuss-reduce \
     include/percuss/percuss.h include/percuss/vocabulary.h include/percuss/slowscale.h \
     include/percuss/slow_equations.h share/percuss/percuss_wire.idl share/percuss/catalogue.yaml \
     share/percuss/percussd.yaml share/percuss/bodies/half-plate-20.h5 share/percuss/examples/query.c share/percuss/python/pyproject.toml \
