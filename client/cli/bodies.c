@@ -1,12 +1,16 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* percuss bodies: the server's catalogue. */
+/* percuss bodies: the server's catalogue, and what is improbable in it. */
 
 #include <stdio.h>
+#include <string.h>
 
 #include "cli.h"
 #include "json_writer.h"
+#include "percuss/plausible.h"
+
+enum { OPTION_CHECK = OPTION_OWN };
 
 static json_t *numbers(const double *values, size_t count)
 {
@@ -81,17 +85,102 @@ static void print_table(const struct percuss_body_list *list)
     }
 }
 
+/* One remark, as a line or into an array. */
+static void tell(json_t *array, const char *group, const char *name,
+                 const struct plausible_remark *remark)
+{
+    if (array)
+        json_array_append_new(array, json_pack("{ssssssss}", "of", group, "name", name, "key",
+                                               remark->key, "text", remark->text));
+    else
+        printf("%s.%s.%s: %s\n", group, name, remark->key, remark->text);
+}
+
+/* What is possible but improbable of a material, once, and of each body; how much. */
+static size_t check_bodies(const struct percuss_body_list *list, json_t *array)
+{
+    struct plausible_remark remarks[PLAUSIBLE_MOST];
+    size_t total = 0;
+    for (size_t b = 0; b < list->count; b++) {
+        const struct percuss_body *body = &list->bodies[b];
+        const struct plausible_body numbers = {
+            body->shape, body->parameters[PERCUSS_PARAMETER_YOUNG],
+            body->parameters[PERCUSS_PARAMETER_DENSITY], body->parameters[PERCUSS_PARAMETER_YIELD],
+            body->half_extents};
+        size_t first = 0;
+        while (strcmp(list->bodies[first].material, body->material) != 0)
+            first++;
+        size_t count = first == b ? plausible_material(&numbers, remarks) : 0;
+        for (size_t i = 0; i < count; i++)
+            tell(array, "materials", body->material, &remarks[i]);
+        total += count;
+        count = plausible_size(&numbers, remarks);
+        for (size_t i = 0; i < count; i++)
+            tell(array, "bodies", body->id, &remarks[i]);
+        total += count;
+    }
+    return total;
+}
+
+static int print_check(const struct percuss_body_list *list, bool json)
+{
+    json_t *array = json ? json_array() : NULL;
+    size_t total = check_bodies(list, array);
+    if (json)
+        json_print(json_pack("{siso}", "bodies", (int)list->count, "remarks", array));
+    else if (total == 0)
+        printf("%zu bodies: nothing improbable\n", list->count);
+    return total ? EXIT_ANSWERED_WITH_WARNING : EXIT_ANSWERED;
+}
+
+struct bodies_options {
+    struct common *common;
+    bool check;
+};
+
+static const struct argp_option options[] = {
+    {"check", OPTION_CHECK, NULL, 0,
+     "Say instead what is possible but improbable of them: mostly a number in another unit than "
+     "was meant",
+     0},
+    {0}};
+
+static error_t parse(int key, char *text, struct argp_state *state)
+{
+    struct bodies_options *chosen = state->input;
+    (void)text;
+    switch (key) {
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = chosen->common;
+        return 0;
+    case OPTION_CHECK:
+        chosen->check = true;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
+static const struct argp bodies_argp = {.options = options,
+                                        .parser = parse,
+                                        .doc = "Lists the bodies that the server knows.",
+                                        .children = children};
+
 int command_bodies(int argc, char **argv, struct common *common)
 {
     struct percuss_client *client;
     struct percuss_body_list list;
-    parse_only_common(argc, argv, "Lists the bodies that the server knows.", common);
+    struct bodies_options chosen = {common, false};
+    argp_parse(&bodies_argp, argc, argv, 0, NULL, &chosen);
     int code = open_client(common, NULL, &client);
     if (code != EXIT_ANSWERED)
         return code;
     enum percuss_result result = percuss_bodies(client, common_timeout(common), &list);
     if (result != PERCUSS_RESULT_OK)
         code = complain_result(result);
+    else if (chosen.check)
+        code = print_check(&list, common->json);
     else if (common->json)
         print_json(&list);
     else

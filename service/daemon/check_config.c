@@ -11,6 +11,9 @@
 
 #include "catalogue/catalogue.h"
 #include "endpoint/endpoint.h"
+#include "model/body_kind.h"
+#include "model/describe.h"
+#include "percuss/plausible.h"
 #include "store/database_check.h"
 #include "store/schema.h"
 #include "store/table_store.h"
@@ -37,6 +40,38 @@ static void remark_sites(const struct body_set *set)
         }
 }
 
+/* A material in use once, under the first body that is of it. */
+static bool is_first_of_its_material(const struct body_set *set, size_t number)
+{
+    size_t b = 0;
+    while (strcmp(set->bodies[b].material.name, set->bodies[number].material.name) != 0)
+        b++;
+    return b == number;
+}
+
+/* What is possible but improbable. */
+static void remark_numbers(const struct body_set *set)
+{
+    struct plausible_remark remarks[PLAUSIBLE_MOST];
+    for (size_t b = 0; b < set->count; b++) {
+        const struct body *body = &set->bodies[b];
+        struct body_description description = {.text = ""};
+        body->kind->describe(body, &description);
+        const struct plausible_body numbers = {
+            body->kind->name, body_parameter(body, PERCUSS_PARAMETER_YOUNG),
+            body_parameter(body, PERCUSS_PARAMETER_DENSITY),
+            body_parameter(body, PERCUSS_PARAMETER_YIELD), description.half_extents};
+        size_t count = is_first_of_its_material(set, b) ? plausible_material(&numbers, remarks) : 0;
+        for (size_t i = 0; i < count; i++)
+            fprintf(stderr, "percussd: warning: materials.%s.%s: %s\n", body->material.name,
+                    remarks[i].key, remarks[i].text);
+        count = plausible_size(&numbers, remarks);
+        for (size_t i = 0; i < count; i++)
+            fprintf(stderr, "percussd: warning: bodies.%s.%s: %s\n", body->id, remarks[i].key,
+                    remarks[i].text);
+    }
+}
+
 /* With the bodies that are not there, or not yet. */
 static bool check_catalogue(const struct settings *settings)
 {
@@ -48,6 +83,7 @@ static bool check_catalogue(const struct settings *settings)
         return false;
     }
     remark_sites(set);
+    remark_numbers(set);
     bool whole = true;
     for (size_t i = 0; i < set->order_count; i++) {
         const struct body_order *order = &set->orders[i];
@@ -129,6 +165,19 @@ static bool check_standby(const struct settings *settings)
     return false;
 }
 
+/* A file that is written later, without which a daemon starts. */
+static void remark_file(const char *key, const char *path)
+{
+    struct fault fault;
+    if (!path[0] || access(path, W_OK) == 0)
+        return;
+    if (errno != ENOENT)
+        fprintf(stderr, "percussd: warning: %s: %.300s: cannot be written to: %s\n", key, path,
+                strerror(errno));
+    else if (database_folder_check(path, &fault))
+        fprintf(stderr, "percussd: warning: %s: %s\n", key, fault.text);
+}
+
 /* By joining it for a moment, with the identity, which is whole. */
 static bool check_domain(const struct settings *settings)
 {
@@ -150,6 +199,8 @@ bool check_config(const struct settings *settings)
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         good = checks[i](settings) && good;
     good = check_security(settings) && check_domain(settings) && good;
+    remark_file("metrics", settings->metrics);
+    remark_file("backup", settings->backup);
     if (good)
         puts("ok");
     return good;

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "catalogue/keys.h"
-#include "daemon/settings.h"
+#include "respond/settings.h"
 #include "model/body_kind.h"
 
 struct row {

@@ -1,0 +1,116 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What is possible but improbable of a body: mostly a number in another unit than was meant. Of the
+ * numbers that both sides of the wire have, so that a file can be checked before a daemon reads it,
+ * and a daemon's bodies from outside. */
+#ifndef PERCUSS_PLAUSIBLE_H
+#define PERCUSS_PLAUSIBLE_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+struct plausible_body {
+    const char *shape;
+    double young, density, yield; /* NAN: not one for all; infinite yield: stays elastic */
+    const double *half_extents;   /* [3], m; 0: without bounds */
+};
+
+/* The key that is worth a look, and why. */
+struct plausible_remark {
+    const char *key;
+    char text[160];
+};
+enum { PLAUSIBLE_MOST = 8 };
+
+struct plausible_range {
+    const char *key, *unit;
+    double low, high;
+    const char *below, *above; /* what to think of */
+};
+
+/* Solids that are hit: balsa has 100 kg/m^3 and osmium 22,600; soft rubber has 1 MPa and
+ * diamond 1.2 TPa; lead yields at 5 MPa, the hardest steels at 3 GPa. */
+static inline void plausible_number(const struct plausible_range *range, double value,
+                                    struct plausible_remark *remarks, size_t *count)
+{
+    if (!(value < range->low || (value > range->high && isfinite(value))))
+        return;
+    struct plausible_remark *remark = &remarks[(*count)++];
+    remark->key = range->key;
+    snprintf(remark->text, sizeof remark->text, "%.6g %s: %s %.6g %s: %s", value, range->unit,
+             value < range->low ? "below" : "above", value < range->low ? range->low : range->high,
+             range->unit, value < range->low ? range->below : range->above);
+}
+
+/* The number of remarks about its material. */
+static inline size_t plausible_material(const struct plausible_body *body,
+                                        struct plausible_remark remarks[PLAUSIBLE_MOST])
+{
+    static const struct plausible_range density = {"density",
+                                                   "kg/m^3",
+                                                   100.0,
+                                                   25000.0,
+                                                   "is a unit missing, such as g/cm^3?",
+                                                   "no solid is as heavy"};
+    static const struct plausible_range young = {
+        "young", "Pa", 1e6, 1.5e12, "is a unit missing, such as GPa?", "no solid is as stiff"};
+    static const struct plausible_range yield = {
+        "yield", "Pa", 1e5, 2e10, "is a unit missing, such as MPa?", "no solid is as strong"};
+    size_t count = 0;
+    plausible_number(&density, body->density, remarks, &count);
+    plausible_number(&young, body->young, remarks, &count);
+    plausible_number(&yield, body->yield, remarks, &count);
+    return count;
+}
+
+static inline void plausible_say(struct plausible_remark *remark, const char *key,
+                                 const char *format, double value, double bound)
+    __attribute__((format(printf, 3, 0)));
+static inline void plausible_say(struct plausible_remark *remark, const char *key,
+                                 const char *format, double value, double bound)
+{
+    remark->key = key;
+    snprintf(remark->text, sizeof remark->text, format, value, bound);
+}
+
+/* The number of remarks about its size; of a mesh percuss-reduce makes them. A bar that is not even
+ * as long as two thicknesses has no waves of a bar. One of more than a thousand radii is a wire: of
+ * steel and 1 m, held at one end, it would hang down by a fifth of its length. What is thicker than
+ * 2 m, or a bar of more than 100 m, is seldom hit, nor is what is thinner than a hair. */
+static inline size_t plausible_size(const struct plausible_body *body,
+                                    struct plausible_remark remarks[PLAUSIBLE_MOST])
+{
+    const double *half = body->half_extents;
+    bool bar = strcmp(body->shape, "rod") == 0 || strcmp(body->shape, "beam") == 0;
+    double length = 2.0 * half[0], thick = fmax(half[1], half[2]), thin = fmin(half[1], half[2]);
+    double across = bar ? 2.0 * thick : fmax(length, 2.0 * thick);
+    double thinnest = 2.0 * fmin(half[0], thin);
+    size_t count = 0;
+    if (!(length > 0.0) || strcmp(body->shape, "mesh") == 0)
+        return 0;
+    /* as a bar */
+    if (bar && length < 4.0 * thick)
+        plausible_say(&remarks[count++], "length",
+                      "%.6g m: shorter than four radii (of %.6g m): a cylinder or a block is the "
+                      "shape of compact bodies",
+                      length, thick);
+    if (bar && length > 1000.0 * thin)
+        plausible_say(&remarks[count++], "length",
+                      "%.6g m: more than 1000 radii (of %.6g m): thinner than any bar", length,
+                      thin);
+    if (bar && length > 100.0)
+        plausible_say(&remarks[count++], "length", "%.6g m: more than %g m", length, 100.0);
+    /* as anything */
+    if (across > 2.0)
+        plausible_say(&remarks[count++], "size",
+                      "%.6g m: more than %g m: is a unit missing, such as mm?", across, 2.0);
+    if (thinnest < 2e-5)
+        plausible_say(&remarks[count++], "size", "%.6g m: less than a hair has (%g m)", thinnest,
+                      2e-5);
+    return count;
+}
+
+#endif

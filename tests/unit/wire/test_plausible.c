@@ -1,0 +1,87 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Tests idl/percuss/plausible.h. */
+#include "check.h"
+#include "percuss/plausible.h"
+
+static struct plausible_remark remarks[PLAUSIBLE_MOST];
+
+static size_t material(double young, double density, double yield)
+{
+    static const double none[3] = {0.0};
+    return plausible_material(&(struct plausible_body){"sphere", young, density, yield, none},
+                              remarks);
+}
+
+static size_t size(const char *shape, double x, double y, double z)
+{
+    const double half[] = {0.5 * x, 0.5 * y, 0.5 * z};
+    return plausible_size(&(struct plausible_body){shape, NAN, NAN, NAN, half}, remarks);
+}
+
+/* Handbook values of what is hit, from soft to hard and from light to heavy; and the bounds. */
+static void test_materials_that_there_are(void **state)
+{
+    (void)state;
+    assert_int_equal(material(210e9, 7800.0, INFINITY), 0);
+    assert_int_equal(material(70e9, 2700.0, 205e6), 0);
+    assert_int_equal(material(16e9, 11340.0, 5e6), 0);       /* lead */
+    assert_int_equal(material(2e6, 1100.0, INFINITY), 0);    /* soft rubber */
+    assert_int_equal(material(3e9, 120.0, INFINITY), 0);     /* balsa along the grain */
+    assert_int_equal(material(1.2e12, 3515.0, INFINITY), 0); /* diamond */
+    assert_int_equal(material(560e9, 22590.0, INFINITY), 0); /* osmium */
+    assert_int_equal(material(1e6, 100.0, 1e5), 0);
+    assert_int_equal(material(1.5e12, 25000.0, 2e10), 0);
+    /* a mesh of several materials has no numbers of its own */
+    assert_int_equal(material(NAN, NAN, NAN), 0);
+}
+
+static void test_materials_in_another_unit(void **state)
+{
+    (void)state;
+    assert_int_equal(material(210e9, 7.8, INFINITY), 1);
+    assert_string_equal(remarks[0].key, "density");
+    assert_string_equal(remarks[0].text,
+                        "7.8 kg/m^3: below 100 kg/m^3: is a unit missing, such as g/cm^3?");
+    assert_int_equal(material(210e3, 7800.0, INFINITY), 1);
+    assert_string_equal(remarks[0].key, "young");
+    assert_int_equal(material(210.0, 7.8, 205.0), 3);
+    assert_string_equal(remarks[2].key, "yield");
+    assert_int_equal(material(210e12, 7.8e4, 205e9), 3);
+}
+
+static void test_sizes(void **state)
+{
+    (void)state;
+    /* the paper's bodies */
+    assert_int_equal(size("rod", 1.0, 0.02, 0.02), 0);
+    assert_int_equal(size("sphere", 0.03, 0.03, 0.03), 0);
+    assert_int_equal(size("half-space", 0.0, 0.0, 0.0), 0);
+    /* up to the bounds, and beyond; the shorter side of a section is its thickness */
+    assert_int_equal(size("rod", 0.04, 0.02, 0.02), 0);
+    assert_int_equal(size("rod", 0.039, 0.02, 0.02), 1);
+    assert_string_equal(remarks[0].key, "length");
+    assert_int_equal(size("cylinder", 0.01, 0.02, 0.02), 0);
+    assert_int_equal(size("beam", 1.0, 0.3, 0.002), 0);
+    assert_int_equal(size("beam", 1.0, 0.3, 0.0019), 1);
+    assert_int_equal(size("rod", 101.0, 0.5, 0.5), 1);
+    assert_int_equal(size("sphere", 2.0, 2.0, 2.0), 0);
+    assert_int_equal(size("sphere", 16.0, 16.0, 16.0), 1);
+    assert_string_equal(remarks[0].text, "16 m: more than 2 m: is a unit missing, such as mm?");
+    assert_int_equal(size("block", 0.1, 0.1, 1e-5), 1);
+    /* all at once are fewer than there is room for */
+    assert_true(size("beam", 101.0, 60.0, 1e-5) < PLAUSIBLE_MOST);
+    /* percuss-reduce has looked at a mesh */
+    assert_int_equal(size("mesh", 16.0, 16.0, 1e-5), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_materials_that_there_are),
+        cmocka_unit_test(test_materials_in_another_unit),
+        cmocka_unit_test(test_sizes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
