@@ -72,8 +72,9 @@ int complain_memory(void);
 /* Prints the library's error of a call and returns its exit code. */
 int complain_result(enum percuss_result result);
 
-/* That there is no server, for the reason `what`, and how to start one in that domain. */
-void complain_no_server(const char *what, unsigned domain);
+/* That there is no server, for the reason that the library gave last, in which domains there is
+ * one, and how to start one here. */
+void complain_no_server(const struct common *common);
 
 /* The DDS domain that PERCUSS_DOMAIN names, 0 without; what is no domain ends the process. */
 uint32_t environment_domain(void);

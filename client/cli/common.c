@@ -198,7 +198,7 @@ int connect_client(const struct common *common, struct percuss_client *client)
     bool secured = common->security || getenv("PERCUSS_SECURITY");
     if (result != PERCUSS_RESULT_NO_SERVER || common_names_server(common) || secured)
         return complain_result(result);
-    complain_no_server(percuss_error_text(), common->domain);
+    complain_no_server(common);
     return EXIT_NO_SERVER;
 }
 

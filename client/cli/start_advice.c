@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "cli.h"
+#include "domains.h"
 
 /* From the folder of this program; in a build tree, build/bin of the source. */
 static const struct {
@@ -43,17 +44,33 @@ static bool find(const char *from, const char *path, char found[PATH_MAX])
     return true;
 }
 
-void complain_no_server(const char *what, unsigned domain)
+/* Where else servers are: "; one is in domain 7, 9". */
+static void list_domains(const struct common *common, char *text, size_t size)
+{
+    unsigned domains[DOMAINS_MOST];
+    size_t count = domains_with_server(common, domains), length = 0;
+    *text = '\0';
+    for (size_t i = 0; i < count && length < size; i++)
+        length += (size_t)snprintf(text + length, size - length, "%s%u",
+                                   i ? ", " : "; one is in domain ", domains[i]);
+}
+
+void complain_no_server(const struct common *common)
 {
     char folder[PATH_MAX];
     char daemon[PATH_MAX];
     char settings[PATH_MAX];
-    bool known = own_folder(folder);
-    for (size_t i = 0; known && i < sizeof places / sizeof places[0]; i++)
-        if (find(folder, places[i].daemon, daemon) && find(folder, places[i].settings, settings)) {
-            complain("%s; start one with: %s --config %s --domain %u", what, daemon, settings,
-                     domain);
-            return;
-        }
-    complain("%s; start one with: percussd --config FILE --domain %u", what, domain);
+    char what[512];
+    char elsewhere[128];
+    const bool partition = common->partition && common->partition[0];
+    /* before the library has something else to say */
+    snprintf(what, sizeof what, "%s", percuss_error_text());
+    list_domains(common, elsewhere, sizeof elsewhere);
+    bool known = own_folder(folder), found = false;
+    for (size_t i = 0; known && !found && i < sizeof places / sizeof places[0]; i++)
+        found =
+            find(folder, places[i].daemon, daemon) && find(folder, places[i].settings, settings);
+    complain("%s%s; start one with: %s --config %s --domain %u%s%s", what, elsewhere,
+             found ? daemon : "percussd", found ? settings : "FILE", common->domain,
+             partition ? " --partition " : "", partition ? common->partition : "");
 }

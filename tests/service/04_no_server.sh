@@ -12,5 +12,23 @@ expect 3 percuss ping --timeout 1
 say "nor any more"
 start_daemon
 expect 0 query
+
+say "who asks in an empty domain is told in which domains of this host there is one"
+# another one that no other story uses, as tests/service/lib.sh draws them
+empty=20
+until [ "$empty" != "$domain" ] && exec 8>"${PERCUSS_DOMAIN_LOCKS:-${TMPDIR:-/tmp}}/percuss-domain-$empty.lock" &&
+    flock -n 8; do
+    empty=$((empty + 1))
+done
+names_ours() {
+    expect 3 "$bin/percuss" ping --domain "$empty" --timeout 0.5
+    grep -q "no percussd in DDS domain $empty; one is in domain \(.*, \)\{0,1\}$domain[,;]" "$err"
+}
+# sooner or later: on a busy machine half a second may not do
+wait_for 10 names_ours || fail "it is not told"
+says "start one with: "
+exec 8>&-
 stop_daemon
 expect 3 query --timeout 1
+expect 3 "$bin/percuss" ping --domain "$empty" --timeout 0.5
+! grep -q "one is in domain \(.*, \)\{0,1\}$domain[,;]" "$err" || fail "one that has gone is named"
