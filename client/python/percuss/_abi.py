@@ -352,7 +352,7 @@ _Client = c_void_p
 _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("client_config_default", ClientConfig, []),
     ("client_create", c_int, [POINTER(ClientConfig), POINTER(_Client)]),
-    ("client_create_secured", c_int, [POINTER(ClientConfig), c_char_p, POINTER(_Client)]),
+    ("client_create_in", c_int, [POINTER(ClientConfig), c_char_p, c_char_p, POINTER(_Client)]),
     ("client_free", None, [_Client]),
     ("client_connect", c_int, [_Client, c_double]),
     ("client_id", None, [_Client, _Octets]),

@@ -33,15 +33,18 @@ class Client:
         id: bytes | None = None,
         first_sequence: int = 1,
         window: int = 256,
-        server: str = "",
+        server: str | None = None,
         security: str | os.PathLike[str] | None = None,
+        partition: str | None = None,
     ) -> None:
         """domain: 0..230; None: what PERCUSS_DOMAIN in the environment says, or else 0. id: 16 octets,
         not all zero; None: random; a kept one lets a restarted client repeat requests. first_sequence: of
         the first request, > 0; a kept id goes on where it stopped. window: most outstanding requests,
         1..1024. server: hexadecimal digits with which the id of the server to stay with begins (as in
-        Server.server.hex()); empty: any. security: the folder of the identity to ask a secured server with;
-        None: what PERCUSS_SECURITY in the environment says, or else none."""
+        Server.server.hex()), or "least-loaded": the one with least to do; empty: any; None: what
+        PERCUSS_SERVER in the environment says, or else any. security: the folder of the identity to ask a
+        secured server with; None: what PERCUSS_SECURITY says, or else none. partition: percussd's setting;
+        empty: the servers that are in none; None: what PERCUSS_PARTITION says, or else none."""
         self._handle = ctypes.c_void_p()
         if id is not None and (len(id) != 16 or not any(id)):
             raise ValueError(f"id: {id!r}: 16 octets, not all zero, are allowed")
@@ -54,14 +57,22 @@ class Client:
             if not 0 <= number <= most:
                 raise ValueError(f"{name}: {number}: up to {most} is allowed")
         octets = (ctypes.c_uint8 * 16)(*(id or bytes(16)))
-        if len(server) > 32:
+        if server is not None and len(server) > 32:
             raise ValueError(f"server: {server!r}: up to 32 hexadecimal digits are allowed")
-        if domain is None:
-            domain = _library.percuss_client_config_default().domain
-        config = _abi.ClientConfig(domain, octets, first_sequence, window, server.lower().encode())
+        default = _library.percuss_client_config_default()
+        config = _abi.ClientConfig(
+            default.domain if domain is None else domain,
+            octets,
+            first_sequence,
+            window,
+            default.server if server is None else server.lower().encode(),
+        )
         folder = None if security is None else os.fsencode(security)
+        among = None if partition is None else partition.encode()
         check(
-            _library.percuss_client_create_secured(ctypes.byref(config), folder, ctypes.byref(self._handle))
+            _library.percuss_client_create_in(
+                ctypes.byref(config), among, folder, ctypes.byref(self._handle)
+            )
         )
 
     def close(self) -> None:
@@ -235,11 +246,12 @@ def connect(
     id: bytes | None = None,
     first_sequence: int = 1,
     window: int = 256,
-    server: str = "",
+    server: str | None = None,
     security: str | os.PathLike[str] | None = None,
+    partition: str | None = None,
 ) -> Client:
     """A connected client, to be used in a `with` statement; see Client and Client.connect."""
-    client = Client(domain, id, first_sequence, window, server, security)
+    client = Client(domain, id, first_sequence, window, server, security, partition)
     try:
         client.connect(timeout)
     except CallError:

@@ -265,6 +265,29 @@ class Mistakes(Beside):
                 percuss.Client(DOMAIN, server=name)
         self.assertIsNone(percuss.Client(DOMAIN).server)
 
+    def test_server_by_its_load_and_of_the_environment(self) -> None:
+        (server,) = self.client.servers()
+        with percuss.connect(DOMAIN, 10.0, server="least-loaded") as client:
+            self.assertEqual(client.server, server.server)
+        other = "0" if server.server[0] >= 16 else "f"
+        with mock.patch.dict(os.environ, PERCUSS_SERVER=other):
+            with self.assertRaisesRegex(percuss.NoServer, f"id that begins with {other}"):
+                percuss.connect(DOMAIN, 0.5)
+            with percuss.connect(DOMAIN, 10.0, server="") as client:
+                self.assertEqual(client.server, server.server)
+
+    def test_partition(self) -> None:
+        nobody = f"no percussd in partition nuts of DDS domain {DOMAIN}; one is in no partition"
+        with self.assertRaisesRegex(percuss.NoServer, nobody):
+            percuss.connect(DOMAIN, 1.0, partition="nuts")
+        with self.assertRaisesRegex(percuss.InvalidArgument, r"partition: 'n\*': 1 to 63 letters"):
+            percuss.Client(DOMAIN, partition="n*")
+        with mock.patch.dict(os.environ, PERCUSS_PARTITION="nuts"):
+            with self.assertRaisesRegex(percuss.NoServer, nobody):
+                percuss.connect(DOMAIN, 1.0)
+            with percuss.connect(DOMAIN, 10.0, partition="") as client:
+                self.assertEqual(client.server, self.client.server)
+
     def test_domain_of_the_environment(self) -> None:
         # that of this test's daemon
         with percuss.connect(timeout=10.0) as client:
