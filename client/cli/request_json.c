@@ -163,21 +163,30 @@ bool request_json_load(const char *file, struct json_request *request, struct js
     return read;
 }
 
-static json_t *list_schema(const struct json_member *members, int most)
+static json_t *list_schema(const struct json_member *members, int most, const char *what)
 {
-    return json_pack("{sssiso}", "type", "array", "maxItems", most, "items",
-                     json_schema(members, true));
+    return json_pack("{sssisoss}", "type", "array", "maxItems", most, "items",
+                     json_schema(members, true), "description", what);
 }
 
 json_t *request_schema(void)
 {
-    json_t *matrix = json_pack("{sss{s[ss]}}", "type", "array", "items", "type", "number", "array");
-    json_t *client = json_pack("{ssss}", "type", "string", "pattern", "^[0-9a-fA-F]{32}$");
+    json_t *matrix = json_pack("{sss{s[ss]}ss}", "type", "array", "items", "type", "number",
+                               "array", "description",
+                               "1/kg; n rows of n numbers for n contacts, W of the simulator's own "
+                               "bodies; absent: of the catalogue's");
+    json_t *options = json_schema(options_members(), true);
+    json_object_set_new(options, "description", json_string("how it is solved"));
+    json_t *client = json_pack(
+        "{ssssss}", "type", "string", "pattern", "^[0-9a-fA-F]{32}$", "description",
+        "who asks; absent: a new one. With the same sequence the reply is the stored one");
+    json_t *sequence = json_pack("{sssiss}", "type", "integer", "minimum", 1, "description",
+                                 "of the client's requests; absent: the next");
     json_t *properties = json_pack(
-        "{sosososososo}", "bodies", list_schema(body_motion_members(), PERCUSS_MAX_BODIES),
-        "contacts", list_schema(contact_members(), PERCUSS_MAX_CONTACTS), "delassus", matrix,
-        "options", json_schema(options_members(), true), "client", client, "sequence",
-        json_pack("{sssi}", "type", "integer", "minimum", 1));
+        "{sosososososo}", "bodies",
+        list_schema(body_motion_members(), PERCUSS_MAX_BODIES, "that may meet, and how they move"),
+        "contacts", list_schema(contact_members(), PERCUSS_MAX_CONTACTS, "where they meet"),
+        "delassus", matrix, "options", options, "client", client, "sequence", sequence);
     return json_pack("{sssosb}", "type", "object", "properties", properties, "additionalProperties",
                      false);
 }

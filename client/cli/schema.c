@@ -9,6 +9,7 @@
 #include "ensemble_output.h"
 #include "reply_json.h"
 #include "request_json.h"
+#include "schema_outputs.h"
 
 struct kind {
     const char *name;
@@ -16,7 +17,13 @@ struct kind {
 };
 
 static const struct kind kinds[] = {
-    {"request", request_schema}, {"reply", reply_schema}, {"ensemble", ensemble_schema}};
+    {"request", request_schema}, {"reply", reply_schema},     {"ensemble", ensemble_schema},
+    {"sweep", sweep_schema},     {"compare", compare_schema}, {"calibrate", calibrate_schema},
+    {"bodies", bodies_schema},   {"remarks", remarks_schema}, {"dents", dents_schema},
+    {"status", status_schema},   {"ping", ping_schema},
+};
+#define KIND_NAMES                                                                                 \
+    "request, reply, ensemble, sweep, compare, calibrate, bodies, remarks, dents, status, ping"
 
 struct choice {
     struct common *common;
@@ -37,10 +44,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
             if (!choice->kind && !strcmp(kinds[i].name, text))
                 choice->kind = &kinds[i];
         if (!choice->kind || state->arg_num > 0)
-            argp_error(state, "'%s': one of request, reply, ensemble is allowed", text);
+            argp_error(state, "'%s': one of " KIND_NAMES " is allowed", text);
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "one of request, reply, ensemble is needed");
+        argp_error(state, "one of " KIND_NAMES " is needed");
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -50,9 +57,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
 static const struct argp schema_argp = {
     .parser = parse,
-    .args_doc = "request|reply|ensemble",
+    .args_doc = "request|reply|COMMAND|remarks",
     .doc = "Prints the JSON Schema of the requests that 'query --request' reads, of the replies "
-           "that 'query --json' prints, or of the reports of 'ensemble --json'; asks no server.",
+           "that 'query --json' prints, of what another command (ensemble, sweep, compare, "
+           "calibrate, bodies, dents, status, ping) prints with --json, or of the remarks of "
+           "'bodies --check --json'; asks no server.",
     .children = children,
 };
 
