@@ -125,6 +125,8 @@ static size_t check_bodies(const struct percuss_body_list *list, json_t *array)
 static int print_check(const struct percuss_body_list *list, bool json)
 {
     json_t *array = json ? json_array() : NULL;
+    if (json && !array)
+        json_print(NULL); /* ends the program */
     size_t total = check_bodies(list, array);
     if (json)
         json_print(json_pack("{siso}", "bodies", (int)list->count, "remarks", array));

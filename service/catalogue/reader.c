@@ -149,9 +149,9 @@ enum percuss_status reader_refuse_quantity(const struct reader *reader, const ya
         return reader_refuse_value(reader, value, allowed);
     const char *unit = units_number_end(text);
     unit += strspn(unit, " ");
-    return reader_refuse(reader, value, "%s: must be a %s, such as %s; %.20s is no %s",
+    return reader_refuse(reader, value, "%s: must be a %s, such as %s; %s is no %s",
                          reader_excerpt(value).text, units_name(quantity), units_example(quantity),
-                         unit,
+                         scalar_excerpt(unit, strlen(unit)).text,
                          problem == UNITS_UNKNOWN ? "unit that is known" : units_name(quantity));
 }
 
