@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/units.h"
 #include "mesh/mesh_read.h"
 #include "model/limits.h"
 
@@ -27,6 +28,15 @@ enum {
     PROGRESS
 };
 
+/* Wider than those of a catalogue: whether it is a solid's is asked when the mesh's unit is known.
+ */
+static const struct limit limit_stiffness = {
+    1.0, 1e15, false, false, "a modulus, 1 to 1e+15 Pa", QUANTITY_STRESS};
+static const struct limit limit_mass = {
+    1e-3, 1e6, false, false, "a density, 0.001 to 1e+06 kg/m^3", QUANTITY_DENSITY};
+static const struct limit limit_frequency = {
+    1e-3, 1e12, false, false, "a frequency, 0.001 to 1e+12 Hz", QUANTITY_FREQUENCY};
+
 const char *argp_program_version = "percuss-reduce " PERCUSS_VERSION;
 
 static const struct argp_option list[] = {
@@ -35,14 +45,16 @@ static const struct argp_option list[] = {
     {"material", 'm', "NAME", 0, "A material of the catalogue, for all parts", 1},
     {"part", 'p', "PART=NAME", 0, "A material of the catalogue for one part", 1},
     {"catalogue", 'C', "FILE", 0, "Where the materials stand", 1},
-    {"young", YOUNG, "E", 0, "Or by numbers: Young's modulus in Pa,", 1},
+    {"young", YOUNG, "E", 0, "Or by numbers: Young's modulus in Pa, or such as 70GPa,", 1},
     {"poisson", POISSON, "N", 0, "Poisson's ratio,", 1},
-    {"density", DENSITY, "R", 0, "and density in kg/m^3", 1},
+    {"density", DENSITY, "R", 0, "and density in kg/m^3, or such as 2.7g/cm^3", 1},
     {NULL, 0, NULL, 0, "How it is computed:", 2},
     {"unit", 'u', "UNIT", 0, "Of lengths in FILE: m (default), cm, mm, um, in, ft", 2},
     {"size", SIZE, "H", 0, "Of the elements that Gmsh makes of a shape, in the unit", 2},
-    {"max-frequency", 'f', "HZ", 0,
-     "All modes below; default: as far as the mesh is good, at most 300 modes", 2},
+    {"max-frequency", 'f', "F", 0,
+     "All modes below it, in Hz or such as 20kHz; default: as far as the mesh is good, at most 300 "
+     "modes",
+     2},
     {"modes", 'n', "N", 0, "So many modes instead", 2},
     {"fixed", 'x', "SET", 0, "Hold the nodes of a set (as often as needed)", 2},
     {"stiffness", STIFFNESS, "K", 0, "Take it from a file (.mtx, .sti), with", 2},
@@ -66,6 +78,17 @@ static double parse_number(struct argp_state *state, const char *name, const cha
     double number = strtod(text, &end);
     if (end == text || *end || !(number >= least && number <= most))
         argp_error(state, "--%s: %s: must be a number, %g to %g", name, text, least, most);
+    return number;
+}
+
+/* The same in its SI unit, or with one of its own. */
+static double parse_quantity(struct argp_state *state, const char *name, const char *text,
+                             const struct limit *limit)
+{
+    double number;
+    if (units_read(text, limit->quantity, &number) || !limit_holds(limit, number))
+        argp_error(state, "--%s: %s: must be %s, or with a unit, such as %s", name, text,
+                   limit->text, units_example(limit->quantity));
     return number;
 }
 
@@ -113,13 +136,13 @@ static error_t parse_material(int key, char *text, struct argp_state *state)
         return 0;
     /* by numbers */
     case YOUNG:
-        options->young = parse_number(state, "young", text, 1.0, 1e15);
+        options->young = parse_quantity(state, "young", text, &limit_stiffness);
         return 0;
     case POISSON:
         options->poisson = parse_number(state, "poisson", text, -0.99, 0.4999);
         return 0;
     case DENSITY:
-        options->density = parse_number(state, "density", text, 1e-3, 1e6);
+        options->density = parse_quantity(state, "density", text, &limit_mass);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -159,7 +182,7 @@ static error_t parse_method(int key, char *text, struct argp_state *state)
         return 0;
     /* which modes */
     case 'f':
-        options->max_frequency = parse_number(state, "max-frequency", text, 1e-3, 1e12);
+        options->max_frequency = parse_quantity(state, "max-frequency", text, &limit_frequency);
         return 0;
     case 'n':
         options->modes = (size_t)parse_number(state, "modes", text, 1.0, LIMIT_MODES);

@@ -10,7 +10,7 @@ reduce() { # reduce ARGUMENT...: of the block
 }
 
 block 8 3 2 >"$work/block.inp"
-steel="--young 210e9 --poisson 0.3 --density 7800"
+steel="--young 210GPa --poisson 0.3 --density 7.8g/cm^3"
 
 say "mass, modes and flexibility of a block of 40 x 15 x 10 mm"
 expect 0 reduce $steel --modes 12
@@ -129,6 +129,8 @@ says 'C3D8'
 [ ! -e "$work/none.h5" ] || fail "a file of nothing"
 expect 2 reduce --young 210e9
 says 'must be given together'
+expect 2 reduce --young 210mm --poisson 0.3 --density 7800
+says "--young: 210mm: must be a modulus, 1 to 1e+15 Pa, or with a unit, such as 70 GPa"
 expect 2 reduce $steel --modes 5 --max-frequency 100
 expect 1 "$bin/percuss-reduce" "$work/block.inp" --unit mm $steel -o "$work/nowhere/block.h5"
 says "nowhere/block.h5: cannot be written"
