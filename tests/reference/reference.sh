@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Whether the pages about catalogue, settings and requests hold what the tables say that check them; with
-# --write they are made so: what stands between their two marks is replaced.
+# --write they are made so: what stands between their two marks is replaced. And whether the shipped settings
+# show the same defaults.
 # usage: reference.sh SOURCE PRINT_REFERENCE PERCUSS [--write]
 set -eu
 [ $# -ge 3 ] || {
@@ -46,5 +47,7 @@ page client/man/percuss-catalogue.5 "$print" catalogue man
 page docs/settings.md "$print" settings markdown
 page client/man/percussd.yaml.5 "$print" settings man
 page docs/requests.md python3 "$source_dir/tests/reference/members.py" "$percuss"
+python3 "$source_dir/tests/reference/shipped.py" "$source_dir/docs/settings.md" "$source_dir/config/percussd.yaml" ||
+    exit 1
 [ "$failed" -eq 0 ] || echo "the tables have changed: tests/reference/reference.sh ... --write" >&2
 exit "$failed"
