@@ -4,19 +4,20 @@
 /* percuss sweep: the same impact at many speeds. */
 
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 #include "cli.h"
+#include "output_file.h"
 #include "plot.h"
 #include "scene.h"
+#include "sweep_file.h"
 #include "sweep_output.h"
+#include "sweep_run.h"
 
-/* Enough to keep a server's workers busy, few enough for its queue. */
-enum { OUTSTANDING = 16, MOST_POINTS = 1000000 };
-enum { KEY_SPEED = OPTION_OWN, KEY_CSV, KEY_PLOT, KEY_MEASURED };
+enum { MOST_POINTS = 1000000 };
+enum { KEY_SPEED = OPTION_OWN, KEY_CSV, KEY_RESUME, KEY_PLOT, KEY_MEASURED };
 enum { MOST_CURVES = SCENE_CHOICES * SCENE_CHOICES, MOST_MEASURED = 8 };
 
 struct sweep {
@@ -25,7 +26,8 @@ struct sweep {
     double low, high;
     unsigned count; /* 0: no --speed */
     bool csv;
-    const char *plot; /* file; NULL: no picture */
+    const char *resume; /* file that is gone on with; NULL: none */
+    const char *plot;   /* file; NULL: no picture */
     struct sweep_measured measured[MOST_MEASURED];
     size_t measured_count;
 };
@@ -33,6 +35,10 @@ struct sweep {
 static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "LO:HI:N", 0, "N speeds from LO to HI, m/s", 10},
     {"csv", KEY_CSV, NULL, 0, "print comma-separated values", 90},
+    {"resume", KEY_RESUME, "FILE.csv", 0,
+     "go on with a sweep that came to an end before its time: asks for the rows that FILE.csv "
+     "lacks and adds them to it, as comma-separated values; begins it if it is not there",
+     40},
     {"plot", KEY_PLOT, "FILE", 0,
      "draw the restitution against the speed with gnuplot: FILE.png or FILE.svg", 40},
     {"measured", KEY_MEASURED, "FILE.csv", 0,
@@ -60,6 +66,9 @@ static void check(const struct sweep *sweep, struct argp_state *state)
         argp_error(state, "--a ID --b ID --speed LO:HI:N are needed");
     if (sweep->csv && sweep->common->json)
         argp_error(state, "--csv or --json, not both");
+    if (sweep->resume && (sweep->csv || sweep->common->json))
+        argp_error(state,
+                   "--resume writes comma-separated values into its file: no --csv or --json");
     if (sweep->measured_count > 0 && !sweep->plot)
         argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
 }
@@ -93,6 +102,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_CSV:
         sweep->csv = true;
         return 0;
+    case KEY_RESUME:
+        output_file_check("resume", text, state);
+        sweep->resume = text;
+        return 0;
     case KEY_PLOT:
         plot_check(text, state);
         sweep->plot = text;
@@ -114,23 +127,26 @@ static const struct argp_child children[] = {
 static const struct argp sweep_argp = {
     .options = options,
     .parser = parse,
-    .doc = "Asks for the same impact at N speeds and prints a line for each. --b and "
-           "--contact-model may be given several times: a curve for each.\v"
+    .doc = "Asks for the same impact at N speeds and prints a line for each as it comes. --b and "
+           "--contact-model may be given several times: a curve for each. Interrupted, or when "
+           "the server goes, it leaves what was answered.\v"
            "Examples: percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.4:31 --csv\n"
            "percuss sweep --a steel-sphere --b al-rod-1 --b al-rod-2 --contact-model hertz "
            "--contact-model closed-form --speed 0.05:0.5:19 --plot rods.svg",
     .children = children,
 };
 
-/* A curve under way. */
-struct run {
+/* All curves under way. */
+struct work {
     const struct sweep *sweep;
-    struct percuss_client *client;
-    struct scene scene; /* of this curve */
-    struct scene_bodies bodies;
-    struct percuss_reply *replies; /* one a speed */
-    uint64_t *sequences;
-    unsigned sent, answered;
+    struct sweep_points points;
+    double *speeds;
+    struct sweep_curve curves[MOST_CURVES];
+    struct sweep_run runs[MOST_CURVES];
+    struct tally tally;
+    FILE *file;  /* --resume; NULL: standard output */
+    size_t at;   /* the curve that is asked for */
+    bool failed; /* no memory, or the output cannot be written */
 };
 
 static double speed_at(const struct sweep *sweep, unsigned i)
@@ -140,76 +156,43 @@ static double speed_at(const struct sweep *sweep, unsigned i)
     return sweep->low + (sweep->high - sweep->low) * i / (sweep->count - 1);
 }
 
-static int send_point(struct run *run, unsigned i)
+static bool take_warnings(struct work *work, unsigned i, const struct percuss_reply *reply)
 {
-    struct percuss_request request;
-    int code = scene_request(&run->scene, &run->bodies, speed_at(run->sweep, i), &request);
-    if (code != EXIT_ANSWERED)
-        return code;
-    enum percuss_result result = percuss_submit(run->client, &request, &run->sequences[i]);
-    return result == PERCUSS_RESULT_OK ? EXIT_ANSWERED : complain_result(result);
+    const struct sweep_curve *curve = &work->curves[work->at];
+    char place[128], which[96] = "";
+    if (work->points.curve_count > 1)
+        snprintf(which, sizeof which, "of %s, %s, ", curve->b, curve->contact_model);
+    snprintf(place, sizeof place, "%sat %g m/s", which, work->speeds[i]);
+    return tally_take(&work->tally, reply, place);
 }
 
-/* Which point a reply answers: one of the last OUTSTANDING sent, or one sent again since. */
-static unsigned point_of(const struct run *run, uint64_t sequence)
+/* What a point has brought, where it belongs: who ends the program has all of them. */
+static bool put_out(void *context, unsigned i)
 {
-    unsigned i = run->sent;
-    while (i > 0 && run->sequences[i - 1] != sequence)
-        i--;
-    return i - 1;
-}
-
-static void show_progress(const struct run *run)
-{
-    enum { WIDTH = 40 };
-    unsigned count = run->sweep->count, filled = WIDTH * run->answered / count;
-    fprintf(stderr, "\r[%-*.*s] %u/%u", WIDTH, (int)filled,
-            "########################################", run->answered, count);
-    if (run->answered == count)
-        fputc('\n', stderr);
-}
-
-/* Takes one reply; a busy server is asked again. */
-static int take_point(struct run *run)
-{
-    struct percuss_reply reply;
-    enum percuss_result result =
-        percuss_wait(run->client, 0, common_timeout(run->sweep->common), &reply);
-    if (result != PERCUSS_RESULT_OK)
-        return complain_result(result);
-    unsigned i = point_of(run, reply.sequence);
-    if (reply.status == PERCUSS_BUSY) {
-        percuss_reply_free(&reply);
-        usleep(1000);
-        return send_point(run, i);
-    }
-    run->replies[i] = reply;
-    run->answered++;
-    return EXIT_ANSWERED;
-}
-
-static int ask_all(struct run *run)
-{
-    bool show = isatty(STDERR_FILENO);
-    int code = EXIT_ANSWERED;
-    while (code == EXIT_ANSWERED && run->answered < run->sweep->count) {
-        bool more = run->sent < run->sweep->count && run->sent - run->answered < OUTSTANDING;
-        if (more)
-            code = send_point(run, run->sent++);
-        else
-            code = take_point(run);
-        if (show && !more)
-            show_progress(run);
-    }
-    return code;
+    struct work *work = context;
+    struct sweep_curve *curve = &work->curves[work->at];
+    const struct percuss_reply *reply = &work->runs[work->at].replies[i];
+    curve->rows[i] = sweep_row_of(reply, work->speeds[i]);
+    curve->done = i + 1;
+    FILE *file = work->file ? work->file : stdout;
+    if (work->file || work->sweep->csv)
+        sweep_csv_row(&work->points, work->at, i, file);
+    else if (!work->sweep->common->json)
+        sweep_print_row(&work->points, work->at, i);
+    work->failed = fflush(file) != 0 && work->file;
+    if (work->failed)
+        complain("--resume: %s: cannot be written", work->sweep->resume);
+    else if (!take_warnings(work, i, reply))
+        work->failed = complain_memory() != EXIT_ANSWERED;
+    return !work->failed;
 }
 
 /* The worst exit code of the replies; says a refusal and explains an unknown body once. */
-static int judge(const struct run *run)
+static int judge(const struct sweep_run *run)
 {
     int worst = EXIT_ANSWERED;
     const struct percuss_reply *refused = NULL;
-    for (unsigned i = 0; i < run->sweep->count; i++) {
+    for (unsigned i = run->first; i < run->told; i++) {
         int code = status_exit_code(run->replies[i].status);
         if (code > worst) {
             worst = code;
@@ -220,118 +203,135 @@ static int judge(const struct run *run)
         complain("%s: %s", percuss_status_name(refused->status), refused->message);
     struct percuss_request request;
     if (refused && refused->status == PERCUSS_UNKNOWN_BODY &&
-        scene_request(&run->scene, &run->bodies, run->sweep->low, &request) == EXIT_ANSWERED)
+        scene_request(&run->scene, &run->bodies, run->speeds[0], &request) == EXIT_ANSWERED)
         scene_explain_unknown(&request, &run->bodies.list);
     return worst;
 }
 
-/* Asks for all points of a curve; the replies stay the run's. */
-static int run_curve(struct run *run)
+/* Goes on with a file, whose last row must be the answer to the question that is asked here. */
+static int open_file(struct work *work)
 {
-    unsigned count = run->sweep->count;
-    run->replies = calloc(count, sizeof *run->replies);
-    run->sequences = calloc(count, sizeof *run->sequences);
-    if (!run->replies || !run->sequences)
-        return complain_memory();
-    int code = scene_find_bodies(&run->scene, run->sweep->common, run->client, &run->bodies);
-    return code == EXIT_ANSWERED ? ask_all(run) : code;
+    const struct sweep *sweep = work->sweep;
+    int code = sweep_file_open(sweep->resume, &work->points, work->curves, &work->file);
+    size_t k = work->points.curve_count;
+    while (code == EXIT_ANSWERED && k > 0 && work->curves[k - 1].done == 0)
+        k--;
+    if (code != EXIT_ANSWERED || k == 0)
+        return code;
+    struct percuss_reply again;
+    unsigned last = work->curves[--k].done - 1;
+    code = sweep_run_again(&work->runs[k], last, &again);
+    if (code != EXIT_ANSWERED)
+        return code;
+    bool agrees = sweep_file_agrees(sweep->resume, &work->points, k, last, &again);
+    percuss_reply_free(&again);
+    return agrees ? EXIT_ANSWERED : EXIT_USAGE;
 }
 
-static void free_run(struct run *run)
+/* Asks for what there is not yet; the worst of all curves decides about the exit code. */
+static int ask_all(struct work *work)
 {
-    for (unsigned i = 0; run->replies && i < run->sweep->count; i++)
-        percuss_reply_free(&run->replies[i]);
-    free(run->replies);
-    free(run->sequences);
-    percuss_body_list_free(&run->bodies.list);
+    int code = EXIT_ANSWERED, worst = EXIT_ANSWERED;
+    if (work->sweep->csv)
+        sweep_csv_head(&work->points, stdout);
+    for (size_t k = 0; code == EXIT_ANSWERED && k < work->points.curve_count; k++) {
+        work->at = k;
+        work->runs[k].first = work->curves[k].done;
+        code = sweep_run_ask(&work->runs[k]);
+        work->curves[k].replies = work->runs[k].replies;
+        int judged = work->runs[k].replies ? judge(&work->runs[k]) : EXIT_ANSWERED;
+        worst = judged > worst ? judged : worst;
+    }
+    return code > worst ? code : worst;
 }
 
-/* The warnings of all points. False: out of memory. */
-static bool take_warnings(const struct run *runs, size_t count, struct tally *tally)
+/* That not all points are there, and why, unless that was said. */
+static void tell_end(const struct work *work)
 {
-    bool good = true;
-    for (size_t k = 0; k < count; k++)
-        for (unsigned i = 0; good && i < runs[k].sweep->count; i++) {
-            char place[128], curve[96] = "";
-            if (count > 1)
-                snprintf(curve, sizeof curve, "of %s, %s, ", runs[k].scene.b,
-                         percuss_contact_model_name(runs[k].scene.options.contact_model));
-            snprintf(place, sizeof place, "%sat %g m/s", curve, speed_at(runs[k].sweep, i));
-            good = tally_take(tally, &runs[k].replies[i], place);
-        }
-    return good;
+    size_t done = 0, all = (size_t)work->sweep->count * work->points.curve_count;
+    for (size_t k = 0; k < work->points.curve_count; k++)
+        done += work->curves[k].done;
+    if (done < all)
+        complain("%s%zu of %zu points%s", sweep_run_interrupted() ? "interrupted: " : "", done, all,
+                 work->file ? ": the same command goes on" : "");
 }
 
-static int print(const struct sweep *sweep, const struct run *runs, size_t count)
+static int finish(struct work *work, int code)
 {
-    struct tally tally = {.unit = "points"};
-    struct sweep_curve curves[MOST_CURVES];
-    double *speeds = calloc(sweep->count, sizeof *speeds);
-    if (!speeds || !take_warnings(runs, count, &tally))
-        return complain_memory();
-    /* all curves over the same speeds */
-    for (unsigned i = 0; i < sweep->count; i++)
-        speeds[i] = speed_at(sweep, i);
-    for (size_t k = 0; k < count; k++)
-        curves[k] = (struct sweep_curve){
-            runs[k].scene.b, percuss_contact_model_name(runs[k].scene.options.contact_model),
-            runs[k].replies};
-    struct sweep_points points = {
-        sweep->scene.a, sweep->count,          speeds,         count, curves,
-        &tally,         sweep->measured_count, sweep->measured};
-    /* first, or a reader that closes the output early would leave no picture */
-    int code = sweep->plot ? sweep_plot(sweep->plot, &points) : EXIT_ANSWERED;
+    const struct sweep *sweep = work->sweep;
+    tell_end(work);
+    if (sweep->plot && sweep_plot(sweep->plot, &work->points) != EXIT_ANSWERED)
+        code = EXIT_FAILURE;
     if (sweep->common->json)
-        sweep_print_json(&points);
-    else if (sweep->csv)
-        sweep_print_csv(&points);
+        sweep_print_json(&work->points);
     else
-        sweep_print_table(&points);
-    if (!sweep->common->json)
-        tally_complain(&tally);
-    tally_clear(&tally);
-    free(speeds);
+        tally_complain(&work->tally);
     return code;
 }
 
-/* A run for every body and contact model given; returns how many. */
-static size_t list_runs(const struct sweep *sweep, struct percuss_client *client, struct run *runs)
+/* A curve for every body and contact model given. False: out of memory. */
+static bool list_curves(struct work *work, struct percuss_client *client)
 {
+    const struct sweep *sweep = work->sweep;
     const struct scene *scene = &sweep->scene;
     size_t models = scene->model_count ? scene->model_count : 1, count = 0;
+    bool good = true;
     for (size_t b = 0; b < scene->b_count; b++) {
-        for (size_t m = 0; m < models; m++) {
-            struct run *run = &runs[count++];
-            *run = (struct run){.sweep = sweep, .client = client, .scene = *scene};
+        for (size_t m = 0; m < models; m++, count++) {
+            struct sweep_run *run = &work->runs[count];
+            *run = (struct sweep_run){
+                sweep->common,         client,           *scene,         .speeds = work->speeds,
+                .count = sweep->count, .ready = put_out, .context = work};
             run->scene.b = scene->all_b[b];
             if (scene->model_count)
                 run->scene.options.contact_model = scene->models[m];
+            work->curves[count] = (struct sweep_curve){
+                .b = run->scene.b,
+                .contact_model = percuss_contact_model_name(run->scene.options.contact_model),
+                .rows = calloc(sweep->count, sizeof(struct sweep_row))};
+            good = good && work->curves[count].rows;
         }
     }
-    return count;
+    work->points =
+        (struct sweep_points){scene->a,     sweep->count, work->speeds,          count,
+                              work->curves, &work->tally, sweep->measured_count, sweep->measured};
+    return good;
+}
+
+static void release(struct work *work)
+{
+    for (size_t k = 0; k < work->points.curve_count; k++) {
+        sweep_run_release(&work->runs[k]);
+        free(work->curves[k].rows);
+    }
+    if (work->file)
+        fclose(work->file);
+    tally_clear(&work->tally);
+    free(work->speeds);
+    free(work);
 }
 
 static int run_sweep(const struct sweep *sweep, struct percuss_client *client)
 {
-    struct run *runs = calloc(MOST_CURVES, sizeof *runs);
-    if (!runs)
+    struct work *work = calloc(1, sizeof *work);
+    if (!work)
         return complain_memory();
-    /* a curve for each body and contact model */
-    size_t count = list_runs(sweep, client, runs);
-    int code = EXIT_ANSWERED;
-    for (size_t k = 0; code == EXIT_ANSWERED && k < count; k++)
-        code = run_curve(&runs[k]);
+    work->sweep = sweep;
+    work->tally.unit = "points";
+    work->speeds = calloc(sweep->count, sizeof *work->speeds);
+    for (unsigned i = 0; work->speeds && i < sweep->count; i++)
+        work->speeds[i] = speed_at(sweep, i);
+    int code = work->speeds && list_curves(work, client) ? EXIT_ANSWERED : complain_memory();
+    if (code == EXIT_ANSWERED && sweep->resume)
+        code = open_file(work);
     if (code == EXIT_ANSWERED) {
-        code = print(sweep, runs, count);
-        /* the worst of all curves decides about the exit code */
-        for (size_t k = 0; k < count; k++) {
-            int judged = judge(&runs[k]);
-            code = judged > code ? judged : code;
-        }
+        sweep_run_catch_interrupts();
+        /* a reader that closes the output early is no reason to leave out the picture */
+        if (sweep->plot)
+            signal(SIGPIPE, SIG_IGN);
+        code = finish(work, ask_all(work));
     }
-    for (size_t k = 0; k < count; k++)
-        free_run(&runs[k]);
-    free(runs);
+    release(work);
     return code;
 }
 

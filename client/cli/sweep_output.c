@@ -14,23 +14,14 @@
 #include "reply_json.h"
 #include "reply_table.h"
 
-struct row {
-    double speed, restitution, error, impulse;
-    unsigned sub_impacts, significant;
-    double end_time;
-    const char *status;
-};
-
-static struct row row_of(const struct sweep_points *points, const struct sweep_curve *curve,
-                         unsigned i)
+struct sweep_row sweep_row_of(const struct percuss_reply *reply, double speed)
 {
-    const struct percuss_reply *reply = &curve->replies[i];
-    struct row row = {.speed = points->speeds[i],
-                      .restitution = NAN,
-                      .error = NAN,
-                      .impulse = NAN,
-                      .end_time = NAN,
-                      .status = percuss_status_name(reply->status)};
+    struct sweep_row row = {.speed = speed,
+                            .restitution = NAN,
+                            .error = NAN,
+                            .impulse = NAN,
+                            .end_time = NAN,
+                            .status = percuss_status_name(reply->status)};
     /* a refusal has no contacts */
     if (reply->contact_count > 0) {
         const struct percuss_contact_result *contact = &reply->contacts[0];
@@ -44,50 +35,43 @@ static struct row row_of(const struct sweep_points *points, const struct sweep_c
     return row;
 }
 
-static void print_curve(const struct sweep_points *points, const struct sweep_curve *curve)
+void sweep_print_row(const struct sweep_points *points, size_t k, unsigned i)
 {
+    const struct sweep_curve *curve = &points->curves[k];
+    const struct sweep_row *row = &curve->rows[i];
+    if (i == 0 && points->curve_count > 1)
+        printf("%s%s on %s, contact model %s\n", k == 0 ? "" : "\n", points->a, curve->b,
+               curve->contact_model);
+    if (i == 0)
+        printf("%10s %12s %9s %13s %11s %11s %12s  %s\n", "speed m/s", "restitution", "error",
+               "impulse N s", "sub-impacts", "significant", "end time ms", "status");
+    printf("%10.5g %12.6f %9.1e %13.6g %11u %11u %12.4f  %s\n", row->speed, row->restitution,
+           row->error, row->impulse, row->sub_impacts, row->significant, 1e3 * row->end_time,
+           row->status);
+}
+
+void sweep_csv_head(const struct sweep_points *points, FILE *file)
+{
+    fprintf(file, "%sspeed,restitution,error,impulse,sub_impacts,significant,end_time,status\n",
+            points->curve_count > 1 ? "b,contact_model," : "");
+}
+
+void sweep_csv_row(const struct sweep_points *points, size_t k, unsigned i, FILE *file)
+{
+    const struct sweep_curve *curve = &points->curves[k];
+    const struct sweep_row *row = &curve->rows[i];
     if (points->curve_count > 1)
-        printf("%s%s on %s, contact model %s\n", curve == points->curves ? "" : "\n", points->a,
-               curve->b, curve->contact_model);
-    printf("%10s %12s %9s %13s %11s %11s %12s  %s\n", "speed m/s", "restitution", "error",
-           "impulse N s", "sub-impacts", "significant", "end time ms", "status");
-    for (unsigned i = 0; i < points->count; i++) {
-        struct row row = row_of(points, curve, i);
-        printf("%10.5g %12.6f %9.1e %13.6g %11u %11u %12.4f  %s\n", row.speed, row.restitution,
-               row.error, row.impulse, row.sub_impacts, row.significant, 1e3 * row.end_time,
-               row.status);
-    }
+        fprintf(file, "%s,%s,", curve->b, curve->contact_model);
+    fprintf(file, "%.17g,%.17g,%.17g,%.17g,%u,%u,%.17g,%s\n", row->speed, row->restitution,
+            row->error, row->impulse, row->sub_impacts, row->significant, row->end_time,
+            row->status);
 }
 
-void sweep_print_table(const struct sweep_points *points)
-{
-    for (size_t k = 0; k < points->curve_count; k++)
-        print_curve(points, &points->curves[k]);
-}
-
-void sweep_print_csv(const struct sweep_points *points)
-{
-    bool several = points->curve_count > 1;
-    printf("%sspeed,restitution,error,impulse,sub_impacts,significant,end_time,status\n",
-           several ? "b,contact_model," : "");
-    for (size_t k = 0; k < points->curve_count; k++) {
-        const struct sweep_curve *curve = &points->curves[k];
-        for (unsigned i = 0; i < points->count; i++) {
-            struct row row = row_of(points, curve, i);
-            if (several)
-                printf("%s,%s,", curve->b, curve->contact_model);
-            printf("%.17g,%.17g,%.17g,%.17g,%u,%u,%.17g,%s\n", row.speed, row.restitution,
-                   row.error, row.impulse, row.sub_impacts, row.significant, row.end_time,
-                   row.status);
-        }
-    }
-}
-
-static json_t *curve_to_json(const struct sweep_points *points, const struct sweep_curve *curve)
+static json_t *curve_to_json(const struct sweep_curve *curve)
 {
     json_t *array = json_array();
-    for (unsigned i = 0; i < points->count; i++) {
-        struct row row = row_of(points, curve, i);
+    for (unsigned i = 0; i < curve->done; i++) {
+        struct sweep_row row = curve->rows[i];
         json_t *point = json_object();
         json_object_set_new(point, "speed", json_number(row.speed));
         json_object_set_new(point, "restitution", json_number(row.restitution));
@@ -110,7 +94,7 @@ void sweep_print_json(const struct sweep_points *points)
         json_t *curve = json_object();
         json_object_set_new(curve, "b", json_string(points->curves[k].b));
         json_object_set_new(curve, "contact_model", json_string(points->curves[k].contact_model));
-        json_object_set_new(curve, "points", curve_to_json(points, &points->curves[k]));
+        json_object_set_new(curve, "points", curve_to_json(&points->curves[k]));
         json_array_append_new(curves, curve);
     }
     if (points->curve_count == 1) {
@@ -127,8 +111,8 @@ static void write_data(const struct plot *plot, const struct sweep_points *point
 {
     for (size_t k = 0; k < points->curve_count; k++) {
         fprintf(plot->script, "$curve%zu << EOD\n", k);
-        for (unsigned i = 0; i < points->count; i++) {
-            struct row row = row_of(points, &points->curves[k], i);
+        for (unsigned i = 0; i < points->curves[k].done; i++) {
+            struct sweep_row row = points->curves[k].rows[i];
             if (row.sub_impacts > 0)
                 fprintf(plot->script, "%.9g %.9g %.3g %u %u\n", row.speed, row.restitution,
                         isnan(row.error) ? 0.0 : row.error, row.sub_impacts, row.significant);

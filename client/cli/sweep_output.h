@@ -8,14 +8,25 @@
 #define PERCUSS_CLI_SWEEP_OUTPUT_H
 
 #include <percuss/reply.h>
+#include <stdio.h>
 
 #include "impact.h"
 #include "tally.h"
 
+/* NAN where undefined. */
+struct sweep_row {
+    double speed, restitution, error, impulse;
+    unsigned sub_impacts, significant;
+    double end_time;
+    const char *status;
+};
+
 struct sweep_curve {
     const char *b;
-    const char *contact_model;     /* asked for */
-    struct percuss_reply *replies; /* one a speed */
+    const char *contact_model;           /* asked for */
+    struct sweep_row *rows;              /* one a speed */
+    const struct percuss_reply *replies; /* likewise; empty where the row was read from a file */
+    unsigned done;                       /* rows that are there, from the first on */
 };
 
 /* Measured restitutions, laid over the picture. */
@@ -35,12 +46,17 @@ struct sweep_points {
     const struct sweep_measured *measured;
 };
 
-/* On standard output. */
-void sweep_print_table(const struct sweep_points *points);
+struct sweep_row sweep_row_of(const struct percuss_reply *reply, double speed);
 
-/* 17 significant digits, nan where undefined. */
-void sweep_print_csv(const struct sweep_points *points);
+/* Row i of curve k as a line of a table, with a heading before the first. */
+void sweep_print_row(const struct sweep_points *points, size_t k, unsigned i);
 
+/* A line of CSV, and the names above all: 17 significant digits, nan where undefined. Two rows are
+ * the same to the last bit where their lines are. */
+void sweep_csv_head(const struct sweep_points *points, FILE *file);
+void sweep_csv_row(const struct sweep_points *points, size_t k, unsigned i, FILE *file);
+
+/* On standard output, with the points that are there: */
 /* {"points": [{the columns, "reply": the whole reply}], "warnings": [...]}; of several curves
  * {"curves": [{"b", "contact_model", "points"}], "warnings": [...]} */
 void sweep_print_json(const struct sweep_points *points);
