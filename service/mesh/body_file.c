@@ -14,6 +14,7 @@
 
 #include "mesh/aside.h"
 #include "mesh/body_layout.h"
+#include "mesh/silence.h"
 
 static const char FORMAT[] = "percuss body";
 static const unsigned VERSION = 1;
@@ -48,28 +49,6 @@ static enum percuss_status refuse(const struct file *file, const char *format, .
 static enum percuss_status out_of_memory(const struct file *file)
 {
     return fault_set(file->fault, PERCUSS_INTERNAL, "%.200s: out of memory", file->path);
-}
-
-/* What the library writes about errors to standard error is said in faults here. */
-struct silence {
-    H5E_auto2_t function;
-    void *data;
-};
-
-static struct silence silence_begin(void)
-{
-    struct silence kept = {NULL, NULL};
-    /* its end of the process falls over a file whose closing has failed; nothing is left to write
-     */
-    H5dont_atexit();
-    H5Eget_auto2(H5E_DEFAULT, &kept.function, &kept.data);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    return kept;
-}
-
-static void silence_end(const struct silence *kept)
-{
-    H5Eset_auto2(H5E_DEFAULT, kept->function, kept->data);
 }
 
 /* The type of numbers in memory; to be closed by type_close. */
@@ -191,6 +170,8 @@ enum percuss_status body_file_write(const char *path, const struct mesh_body *bo
                                     struct fault *fault)
 {
     char aside[ASIDE_SIZE];
+    /* its end of the process falls over a file whose closing has failed; nothing is left to write */
+    H5dont_atexit();
     struct silence kept = silence_begin();
     struct file file = {path, -1, fault};
     enum percuss_status status = PERCUSS_BAD_REQUEST;
