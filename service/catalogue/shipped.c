@@ -3,27 +3,44 @@
 
 #include "catalogue/shipped.h"
 
+#include <dlfcn.h>
 #include <limits.h>
+#include <link.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-/* from the folder of the program: where it was built, and where it was installed to */
-static const char *const PLACES[] = {"../share/percuss", INSTALLED_DATA};
+/* from the folder of the program: where it was built, and where it was installed to; and where a
+ * library was installed to */
+static const char *const PLACES[] = {"../share/percuss", INSTALLED_DATA, INSTALLED_DATA_OF_LIBRARY};
+
+/* The library that this code is in, or else the program. */
+static bool find_self(char path[PATH_MAX])
+{
+    struct link_map *map = NULL;
+    Dl_info place;
+    bool found = dladdr1((void *)shipped_find, &place, (void **)&map, RTLD_DL_LINKMAP) != 0;
+    /* the program has no name there */
+    if (found && map && map->l_name[0])
+        return realpath(map->l_name, path);
+    ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);
+    if (length > 0)
+        path[length] = '\0';
+    return length > 0;
+}
 
 char *shipped_find(const char *name)
 {
-    char program[PATH_MAX];
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length <= 0)
+    char self[PATH_MAX];
+    if (!find_self(self))
         return NULL;
-    program[length] = '\0';
-    char *slash = strrchr(program, '/');
-    int folder = slash ? (int)(slash + 1 - program) : 0;
+    char *slash = strrchr(self, '/');
+    int folder = slash ? (int)(slash + 1 - self) : 0;
     for (size_t i = 0; i < sizeof PLACES / sizeof *PLACES; i++) {
         char *path;
-        if (asprintf(&path, "%.*s%s/%s", folder, program, PLACES[i], name) < 0)
+        if (asprintf(&path, "%.*s%s/%s", folder, self, PLACES[i], name) < 0)
             return NULL;
         if (access(path, F_OK) == 0)
             return path;

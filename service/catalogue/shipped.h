@@ -1,7 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Files that come with the program, wherever its tree is installed or built. */
+/* Files that come with the program, or with the library that this is part of, wherever its tree is
+ * installed or built. */
 #ifndef PERCUSS_CATALOGUE_SHIPPED_H
 #define PERCUSS_CATALOGUE_SHIPPED_H
 
