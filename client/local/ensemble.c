@@ -1,0 +1,137 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* An ensemble: its samples solved by threads that end with it, and reported. */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "convert.h"
+#include "error.h"
+#include "exchange/encode_ensemble.h"
+#include "instance.h"
+#include "library.h"
+#include "moment.h"
+#include "respond/ensemble_answer.h"
+
+/* Who watches it. */
+struct watcher {
+    percuss_progress_function *function; /* NULL: nobody */
+    void *context;
+    bool cancelled;
+    double *rows; /* of the listed samples; NULL: none */
+    size_t columns;
+    uint64_t listed;
+};
+
+static enum ensemble_wish wish(void *context)
+{
+    const struct watcher *watcher = context;
+    return watcher->cancelled ? ENSEMBLE_CANCELLED : ENSEMBLE_WANTED;
+}
+
+static void tell(void *context, uint64_t done, uint64_t samples,
+                 const struct report_progress *progress)
+{
+    struct watcher *watcher = context;
+    const struct percuss_ensemble_progress told = {
+        .done = done,
+        .samples = samples,
+        .mean = progress ? progress->mean : NAN,
+        .standard_deviation = progress ? progress->deviation : NAN,
+        .half_width = progress ? progress->half_width : NAN,
+    };
+    if (watcher->function && !watcher->function(watcher->context, &told))
+        watcher->cancelled = true;
+}
+
+static bool list(void *context, const struct ensemble *ensemble,
+                 const struct ensemble_sample *samples, uint64_t done)
+{
+    struct watcher *watcher = context;
+    watcher->columns = encode_sample_columns(ensemble);
+    watcher->rows = calloc(done * watcher->columns, sizeof *watcher->rows);
+    if (!watcher->rows)
+        return false;
+    for (uint64_t i = 0; i < done; i++)
+        encode_sample(ensemble, i, &samples[i], watcher->rows + i * watcher->columns);
+    watcher->listed = done;
+    return true;
+}
+
+/* While a table is computed before the first sample: as long as it is not cancelled. */
+static enum percuss_status table_is_wanted(void *context, const struct table_maker *maker,
+                                           double done, struct fault *fault)
+{
+    struct watcher *watcher = context;
+    (void)maker, (void)done;
+    tell(watcher, 0, 0, NULL);
+    return watcher->cancelled ? fault_set(fault, PERCUSS_TIMEOUT, "cancelled") : PERCUSS_OK;
+}
+
+static struct answer *run(struct percuss_client *client, const percuss_v1_EnsembleRequest *wire,
+                          struct watcher *watcher)
+{
+    const struct ensemble_means means = {
+        .snapshot = client->snapshot,
+        .tables = {.goes_on = table_is_wanted, .context = watcher},
+        .limit = client->settings.limit_seconds,
+        .most_samples = client->settings.limit_samples,
+        .workers = client->threads,
+        .wish = wish,
+        .progress = tell,
+        .list = list,
+        .context = watcher,
+    };
+    const struct ensemble_question question = {
+        .request = wire,
+        .envelope = {wire->client, INSTANCE_SERVER, wire->sequence, client->snapshot->set->revision,
+                     PERCUSS_VERSION},
+        .arrival = moment_now(),
+    };
+    return ensemble_answer(&means, &question);
+}
+
+/* As the public struct, with the listed samples if all are there. */
+static enum percuss_result hand_over(const struct answer *answer, struct watcher *watcher,
+                                     struct percuss_ensemble_reply *reply)
+{
+    enum percuss_result result = convert_ensemble_reply(answer->report, reply);
+    if (result != PERCUSS_RESULT_OK || !watcher->rows || watcher->listed != reply->samples)
+        return result;
+    reply->rows = watcher->rows;
+    reply->column_count = watcher->columns;
+    watcher->rows = NULL;
+    return PERCUSS_RESULT_OK;
+}
+
+enum percuss_result local_solve_ensemble(struct percuss_client *client,
+                                         const struct percuss_ensemble_request *request,
+                                         double timeout, percuss_progress_function *progress,
+                                         void *context, struct percuss_ensemble_reply *reply)
+{
+    double deadline;
+    percuss_v1_EnsembleRequest wire;
+    struct watcher watcher = {.function = progress, .context = context};
+    *reply = (struct percuss_ensemble_reply){0};
+    enum percuss_result result = moment_deadline(timeout, &deadline);
+    /* as it would be on the wire */
+    struct ensemble_storage *storage = malloc(sizeof *storage);
+    if (result == PERCUSS_RESULT_OK && !storage)
+        result = error_set(PERCUSS_RESULT_NO_MEMORY, "an ensemble");
+    if (result == PERCUSS_RESULT_OK)
+        result = convert_ensemble_request(request, storage, &wire);
+    if (result == PERCUSS_RESULT_OK) {
+        memcpy(wire.client, client->id, sizeof wire.client);
+        wire.sequence = instance_draw_sequences(client, request->sequence, 1);
+        /* solved, and told as it would be */
+        struct answer *answer = run(client, &wire, &watcher);
+        result = answer ? hand_over(answer, &watcher, reply)
+                        : error_set(PERCUSS_RESULT_NO_MEMORY, "the reply to an ensemble");
+        answer_release(answer);
+    }
+    free(watcher.rows);
+    free(storage);
+    return result;
+}
