@@ -25,6 +25,8 @@ struct common {
     char server[PERCUSS_SERVER_ID_SIZE]; /* what its id begins with, or a choice; empty: any */
     const char *partition;               /* NULL: not given; empty: none */
     const char *security;                /* folder of the identity to use; NULL: not given */
+    bool local;                          /* solve in this process; by these files, or NULL */
+    const char *catalogue, *config;
 };
 
 /* Long options without a letter; each command goes on from OPTION_OWN. */
@@ -35,12 +37,14 @@ enum option_key {
     OPTION_SERVER,
     OPTION_SECURITY,
     OPTION_PARTITION,
+    OPTION_LOCAL,
+    OPTION_CATALOGUE,
+    OPTION_CONFIG,
     OPTION_SCENE,
     OPTION_OWN = 300
 };
 
-/* Parses --domain, --partition, --timeout, --server, --security and --json into the `struct common`
- * that is its input. */
+/* Parses the options that all commands have into the `struct common` that is its input. */
 extern const struct argp common_argp;
 
 /* One command: argv[0] is "percuss <command>"; `common` holds what stood before the command.
@@ -82,7 +86,8 @@ uint32_t environment_domain(void);
 /* The server that PERCUSS_SERVER names; empty without. */
 void environment_server(char server[PERCUSS_SERVER_ID_SIZE]);
 
-/* A client; `id` NULL: random. EXIT_ANSWERED, or complains and leaves *client NULL. */
+/* A client; `id` NULL: random. EXIT_ANSWERED, or complains and leaves *client NULL. With --local it
+ * solves in this process, and all is as if it had found a server. */
 int make_client(const struct common *common, const uint8_t *id, struct percuss_client **client);
 
 /* Connects it; EXIT_ANSWERED, or complains. */

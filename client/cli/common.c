@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "in_process.h"
 #include "others.h"
 
 enum { HIGHEST_DOMAIN = 230 };
@@ -32,6 +33,15 @@ static const struct argp_option common_options[] = {
      "folder of the identity to ask a secured server with (default: PERCUSS_SECURITY, or else "
      "none)",
      90},
+    {"local", OPTION_LOCAL, NULL, 0, "solve in this process: no daemon is needed, none is asked",
+     91},
+    {"catalogue", OPTION_CATALOGUE, "FILE", 0,
+     "with --local: bodies and materials (default: those of the settings)", 91},
+    {"config", OPTION_CONFIG, "FILE", 0,
+     "with --local: settings, as percussd reads them (default: those that are installed, which "
+     "name "
+     "a catalogue and contact tables)",
+     91},
     {"json", OPTION_JSON, NULL, 0, "print one JSON object", 90},
     {0},
 };
@@ -104,6 +114,16 @@ static error_t parse_common(int key, char *text, struct argp_state *state)
         return 0;
     case OPTION_SECURITY:
         common->security = text;
+        return 0;
+    /* or none */
+    case OPTION_LOCAL:
+        common->local = true;
+        return 0;
+    case OPTION_CATALOGUE:
+        common->catalogue = text;
+        return 0;
+    case OPTION_CONFIG:
+        common->config = text;
         return 0;
     /* how it is told */
     case OPTION_JSON:
@@ -182,6 +202,14 @@ int complain_result(enum percuss_result result)
 
 int make_client(const struct common *common, const uint8_t *id, struct percuss_client **client)
 {
+    if (common->local)
+        return in_process_open(common, id, client);
+    if (common->catalogue || common->config) {
+        *client = NULL;
+        complain("--%s: needs --local: a server has its own",
+                 common->catalogue ? "catalogue" : "config");
+        return EXIT_USAGE;
+    }
     struct percuss_client_config config = percuss_client_config_default();
     config.domain = common->domain;
     memcpy(config.server, common->server, sizeof config.server);

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* percuss: asks a percussd from the command line. */
+/* percuss: asks a percussd, or the solver in this process, from the command line. */
 
 #include <math.h>
 #include <stdio.h>
@@ -55,7 +55,7 @@ static const struct argp main_argp = {
     .parser = parse_main,
     .args_doc = "COMMAND [OPTION...]",
     .doc =
-        "Asks a percussd what an impact does.\v"
+        "Asks a percussd what an impact does, or with --local the solver in this process.\v"
         "Commands:\n"
         "  query     one impact: impulse, restitution and the sub-impacts\n"
         "  sweep     the same impact at many speeds\n"
@@ -68,7 +68,7 @@ static const struct argp main_argp = {
         "  schema    the JSON Schema of requests, replies and ensembles\n"
         "  ensemble  many impacts with uncertain inputs: the restitution as a distribution\n\n"
         "percuss COMMAND --help explains a command. Try: "
-        "percuss query --a steel-sphere --b al-beam --speed 0.3\n\n"
+        "percuss query --local --a steel-sphere --b al-beam --speed 0.3\n\n"
         "Where an answer leaves the range of its models, warnings say so on standard error (with "
         "--json in the list warnings); of many impacts each kind once, with its count.\n\n"
         "Exit status: 0 answered, 1 answered with a warning status, 2 usage, 3 no server, "

@@ -26,28 +26,41 @@ static void print_json(const struct percuss_server_list *list)
     json_print(root);
 }
 
-static void print_server(const struct percuss_server *server)
-{
-    char id[33];
-    format_hex(server->server, id);
-    printf("server      %s, percussd %s, %s\n", id, server->version, server->state);
-    printf("process     %u on %s, up %.0f s, %u workers\n", server->process, server->host,
-           server->uptime, server->workers);
-    printf("catalogue   %s, %u bodies, revision %s\n", server->catalogue, server->bodies,
-           server->catalogue_revision);
-    printf("requests    %llu answered, %llu refused, %u of %u places in the queue taken\n",
-           (unsigned long long)server->answered, (unsigned long long)server->refused,
-           server->queue_length, server->queue_capacity);
-    if (server->activity[0])
-        printf("activity    %s, %.0f %%\n", server->activity, 100.0 * server->progress);
-}
-
 /* What was seen at the last look, to tell how fast it goes. */
 struct last_look {
     uint8_t server[16];
     uint64_t answered;
     double uptime;
 };
+
+struct look {
+    struct common *common;
+    double period; /* s; 0: one look is enough */
+    struct last_look last[MOST_RATES];
+};
+
+static void print_server(const struct look *look, const struct percuss_server *server)
+{
+    char id[33];
+    format_hex(server->server, id);
+    /* with --local it is this one */
+    if (look->common->local)
+        printf("server      none: percuss %s solves in this process, with %u threads\n",
+               server->version, server->workers);
+    else
+        printf("server      %s, percussd %s, %s\nprocess     %u on %s, up %.0f s, %u workers\n", id,
+               server->version, server->state, server->process, server->host, server->uptime,
+               server->workers);
+    printf("catalogue   %s, %u bodies, revision %s\n", server->catalogue, server->bodies,
+           server->catalogue_revision);
+    if (look->common->local)
+        return;
+    printf("requests    %llu answered, %llu refused, %u of %u places in the queue taken\n",
+           (unsigned long long)server->answered, (unsigned long long)server->refused,
+           server->queue_length, server->queue_capacity);
+    if (server->activity[0])
+        printf("activity    %s, %.0f %%\n", server->activity, 100.0 * server->progress);
+}
 
 static void print_rate(const struct percuss_server *server, struct last_look *last)
 {
@@ -61,12 +74,6 @@ static void print_rate(const struct percuss_server *server, struct last_look *la
     last->uptime = server->uptime;
 }
 
-struct look {
-    struct common *common;
-    double period; /* s; 0: one look is enough */
-    struct last_look last[MOST_RATES];
-};
-
 static enum percuss_result look(struct percuss_client *client, struct look *look)
 {
     struct percuss_server_list list;
@@ -78,7 +85,7 @@ static enum percuss_result look(struct percuss_client *client, struct look *look
     else if (look->period > 0.0 && isatty(STDOUT_FILENO))
         fputs("\033[H\033[J", stdout); /* from the top of an empty screen */
     for (size_t i = 0; !look->common->json && i < list.count; i++) {
-        print_server(&list.servers[i]);
+        print_server(look, &list.servers[i]);
         if (look->period > 0.0 && i < MOST_RATES)
             print_rate(&list.servers[i], &look->last[i]);
     }
