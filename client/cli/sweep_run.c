@@ -76,16 +76,18 @@ static void show_progress(const struct sweep_run *run, double *shown)
         fputc('\n', stderr);
 }
 
-/* Waits for any reply, as long as nobody interrupts. PENDING: he has. */
+/* Waits for any reply, as long as nobody interrupts. PENDING: he has. In this process waiting is
+ * solving, which must not begin anew at every look. */
 static enum percuss_result await(struct sweep_run *run, struct percuss_reply *reply)
 {
+    const double look = run->common->local ? INFINITY : LOOK;
     double end = now() + common_timeout(run->common);
     for (;;) {
         double left = end - now();
-        enum percuss_result result = percuss_wait(run->client, 0, fmax(fmin(left, LOOK), 0), reply);
+        enum percuss_result result = percuss_wait(run->client, 0, fmax(fmin(left, look), 0), reply);
         if (interrupted && result == PERCUSS_RESULT_TIMEOUT)
             return PERCUSS_RESULT_PENDING;
-        if (result != PERCUSS_RESULT_TIMEOUT || left <= LOOK)
+        if (result != PERCUSS_RESULT_TIMEOUT || left <= look)
             return result;
     }
 }
