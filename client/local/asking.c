@@ -12,6 +12,7 @@
 #include "exchange/encode.h"
 #include "library.h"
 #include "moment.h"
+#include "specimens.h"
 
 void asking_address(struct percuss_client *client, uint64_t sequence, percuss_v1_Request *wire)
 {
@@ -39,7 +40,8 @@ static struct answer *solve_at(struct percuss_client *client, struct desk *desk,
         .still_wanted = desk_is_wanted,
         .context = &desk->patience,
     };
-    return responder_answer(desk->responder, &question);
+    return specimens_concern(client, &question) ? specimens_answer(client, desk, &question)
+                                                : responder_answer(desk->responder, &question);
 }
 
 /* As public structs; the histories first, as on the wire. */

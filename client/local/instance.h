@@ -15,6 +15,7 @@
 #include "respond/settings.h"
 #include "respond/snapshot.h"
 #include "respond/table_cache.h"
+#include "store/specimens.h"
 
 struct desk;
 struct outstanding;
@@ -34,6 +35,10 @@ struct percuss_client {
     struct table_cache tables;
     struct token_store *tokens;
     atomic_ullong answered, refused; /* replies with and without results */
+
+    /* one impact on specimens after the other */
+    pthread_mutex_t specimens_lock;
+    struct specimen_store *specimens; /* NULL: none are kept */
 
     pthread_mutex_t lock; /* guards everything below */
     uint64_t next_sequence;

@@ -36,6 +36,8 @@ void local_free(struct percuss_client *client)
     table_cache_release(&client->tables);
     token_store_free(client->tokens);
     snapshots_close(&client->snapshots);
+    specimen_store_close(client->specimens);
+    pthread_mutex_destroy(&client->specimens_lock);
     pthread_mutex_destroy(&client->lock);
     free(client);
 }
@@ -105,7 +107,11 @@ static enum percuss_result load(struct percuss_client *client, bool installed)
     client->tokens = token_store_create(&tokens);
     if (!client->tokens)
         return error_set(PERCUSS_RESULT_NO_MEMORY, "state tokens");
-    return load_tables(client, installed);
+    /* dents outlive it where the program has said so */
+    if (!installed && settings->store[0])
+        status = specimen_store_open(settings->store, settings->stored_replies, &client->specimens,
+                                     &fault);
+    return status ? refuse(status, &fault) : load_tables(client, installed);
 }
 
 enum percuss_result percuss_local_open(const struct percuss_local_config *config,
@@ -119,6 +125,7 @@ enum percuss_result percuss_local_open(const struct percuss_local_config *config
     if (!made)
         return error_set(PERCUSS_RESULT_NO_MEMORY, "a client");
     pthread_mutex_init(&made->lock, NULL);
+    pthread_mutex_init(&made->specimens_lock, NULL);
     made->operations = &LIBRARY_OPERATIONS;
     memcpy(made->id, chosen.id, sizeof made->id);
     made->next_sequence = chosen.first_sequence;

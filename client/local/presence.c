@@ -59,6 +59,10 @@ static void describe(struct percuss_client *client, struct percuss_server *serve
         .uptime = moment_now() - client->started,
         .progress = NAN,
     };
+    pthread_mutex_lock(&client->specimens_lock);
+    if (client->specimens)
+        server->specimens = (uint32_t)specimen_store_count(client->specimens);
+    pthread_mutex_unlock(&client->specimens_lock);
     memcpy(server->server, INSTANCE_SERVER, sizeof server->server);
     COPY_TEXT(server->version, PERCUSS_VERSION);
     COPY_TEXT(server->catalogue_revision, set->revision);

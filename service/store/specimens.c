@@ -240,12 +240,12 @@ enum percuss_status specimen_store_commit(struct specimen_store *store,
                                           const struct stored_reply *reply, struct fault *fault)
 {
     struct database *database = &store->database;
-    size_t created = 0, kept = store->replies + 1;
+    size_t created = 0, kept = store->replies + (reply ? 1 : 0);
     /* impact and reply in one transaction */
     bool good = database_run(database_statement(database, STATEMENT_BEGIN));
     for (size_t i = 0; good && i < count; i++)
         good = write_change(store, &changes[i], &created);
-    good = good && replies_keep(database, reply);
+    good = good && (!reply || replies_keep(database, reply));
     /* more than one where the limit was lowered */
     for (; good && kept > store->most_replies; kept--)
         good = replies_drop_oldest(database);

@@ -44,8 +44,8 @@ struct specimen_change {
     const struct body_state *after; /* its dents are kept; NULL: none */
 };
 
-/* Makes the changes and the reply durable, in one transaction. After PERCUSS_INTERNAL nothing has
- * changed. */
+/* Makes the changes and the reply (NULL: none is kept) durable, in one transaction. After
+ * PERCUSS_INTERNAL nothing has changed. */
 enum percuss_status specimen_store_commit(struct specimen_store *store,
                                           const struct specimen_change *changes, size_t count,
                                           const struct stored_reply *reply, struct fault *fault);

@@ -84,6 +84,29 @@ for workers in 1 3; do
 done
 cmp "$work/with_1" "$work/with_3" >"$out" || fail "the number of threads shows"
 
+say "specimens keep their dents from one program to the next, in the store that the settings name"
+for how in percuss in_process; do
+    settings "tables: tables" "store: $work/$how.db"
+    [ $how = in_process ] || start_daemon
+    for speed in 0.3 0.2 0.4; do
+        asked $how query $paper al-rod-1 --speed $speed --specimen-b one --json
+        asked $how query $paper al-rod-2 --speed $speed --specimen-a two --specimen-b three --json
+    done >"$work/blows_$how"
+    asked $how dents --json >>"$work/blows_$how"
+    asked $how dents --clear --specimen two >>"$work/blows_$how"
+    asked $how dents >>"$work/blows_$how"
+    asked $how dents --clear --specimen two >>"$work/blows_$how"
+    [ $how = in_process ] || stop_daemon
+done
+diff "$work/blows_percuss" "$work/blows_in_process" >"$out" || fail "the blows differ"
+grep -q '"impacts": 3' "$work/blows_in_process" || fail "not all blows are counted"
+
+say "which no daemon has open at the same time"
+start_daemon
+expect 2 in_process dents
+says "in_process.db"
+stop_daemon
+
 say "a catalogue of one's own, and its mistakes"
 sed 's/^  al-rod: .*/  al-rod: {shape: rod, material: aluminium, radius: 0.02, length: 1.0}/' \
     "$work/catalogue.yaml" >"$work/other.yaml"

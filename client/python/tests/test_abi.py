@@ -21,8 +21,8 @@ from percuss import _abi, vocabulary
 
 SOURCE = Path(os.environ["PERCUSS_SOURCE"])
 HEADERS = SOURCE / "client" / "include" / "percuss"
-# the slow scale is a library of its own, for engines in C
-LIBRARY = [header for header in sorted(HEADERS.glob("*.h")) if not header.name.startswith("slow")]
+# the slow scale and the solver in process are libraries of their own
+LIBRARY = [header for header in sorted(HEADERS.glob("*.h")) if not header.name.startswith(("slow", "local"))]
 VOCABULARY = SOURCE / "idl" / "percuss" / "vocabulary.h"
 
 
