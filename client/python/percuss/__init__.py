@@ -10,6 +10,8 @@
         reply = client.solve(question).raise_for_status()
         print(reply.contacts[0].restitution, reply.contacts[0].sub_impacts["impulse"])
 
+Without a daemon, the solver in this process: `with percuss.Local() as client: ...`, the rest is the same.
+
 SI units throughout. A call that fails raises a CallError; a refusal by the server is an answer whose
 status and message say why. No compiled part: it loads libpercuss, from PERCUSS_LIBRARY if that is set,
 else where the system's loader looks, else from a build folder of the source tree that it lies in.
@@ -29,6 +31,7 @@ from .errors import (
     UnknownSequence,
     WindowFull,
 )
+from .local import Local
 from .reply import (
     SUB_IMPACT,
     BodyEnergy,
@@ -89,6 +92,7 @@ __all__ = [
     "ErrorEstimate",
     "Incompatible",
     "InvalidArgument",
+    "Local",
     "Method",
     "Model",
     "NoServer",

@@ -25,6 +25,16 @@ class ClientConfig(ctypes.Structure):
     ]
 
 
+class LocalConfig(ctypes.Structure):
+    _fields_ = [
+        ("settings", c_char_p),
+        ("catalogue", c_char_p),
+        ("id", _Octets),
+        ("first_sequence", c_uint64),
+        ("threads", c_uint),
+    ]
+
+
 class Override(ctypes.Structure):
     _fields_ = [("parameter", c_uint), ("value", c_double)]
 
@@ -317,6 +327,7 @@ class Pair(ctypes.Structure):
 # the C struct behind each class
 STRUCTS: dict[str, type[ctypes.Structure]] = {
     "percuss_client_config": ClientConfig,
+    "percuss_local_config": LocalConfig,
     "percuss_body_motion": BodyMotion,
     "percuss_contact": Contact,
     "percuss_options": Options,
@@ -375,6 +386,11 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("server_list_free", None, [POINTER(ServerList)]),
     ("contact_pair", c_int, [POINTER(Pair), POINTER(Request)]),
     ("result_text", c_char_p, [c_int]),
+    ("error_text", c_char_p, []),
+)
+# of libpercuss-local, see local.py
+LOCAL_FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
+    ("local_open", c_int, [POINTER(LocalConfig), POINTER(_Client)]),
     ("error_text", c_char_p, []),
 )
 for _name, _result, _arguments in _FUNCTIONS:

@@ -9,20 +9,20 @@ from pathlib import Path
 VERSION = "0.1.0"
 
 # the interface's number in the library's name; the layouts in _abi.py are those of this one
-_NAME = "libpercuss.so.0"
+_NUMBER = "so.0"
 
 
-def _candidates() -> list[str]:
-    """PERCUSS_LIBRARY alone if it is set; else that of the tree this file is in, or the system's."""
+def _candidates(name: str) -> list[str]:
+    """That beside PERCUSS_LIBRARY alone if it is set; else that of the tree this file is in, or the system's."""
     chosen = os.environ.get("PERCUSS_LIBRARY")
     if chosen:
-        return [chosen]
+        return [chosen if name == f"libpercuss.{_NUMBER}" else str(Path(chosen).resolve().parent / name)]
     above = Path(__file__).resolve().parents
     # this file is share/percuss/python/percuss/_library.py in an installed tree, and
     # client/python/percuss/_library.py in a source tree
-    installed = [path for tree in above[4:5] for path in (*tree.glob(f"lib*/{_NAME}"), *tree.glob(f"lib/*/{_NAME}"))]
-    built = [path for tree in above[3:4] for path in tree.glob(f"build*/client/{_NAME}")]
-    return [*sorted(map(str, installed)), _NAME, *sorted(map(str, built))]
+    installed = [path for tree in above[4:5] for path in (*tree.glob(f"lib*/{name}"), *tree.glob(f"lib/*/{name}"))]
+    built = [path for tree in above[3:4] for path in tree.glob(f"build*/client/{name}")]
+    return [*sorted(map(str, installed)), name, *sorted(map(str, built))]
 
 
 def _check_version(library: ctypes.CDLL) -> None:
@@ -33,10 +33,11 @@ def _check_version(library: ctypes.CDLL) -> None:
         raise ImportError(f"this package is for libpercuss {VERSION}; {library._name} is {version.decode()}")
 
 
-def load() -> ctypes.CDLL:
-    """The library; ImportError says where it was looked for."""
+def load(part: str = "") -> ctypes.CDLL:
+    """libpercuss, or libpercuss-PART; ImportError says where it was looked for."""
     failures = []
-    for candidate in _candidates():
+    name = f"libpercuss{'-' if part else ''}{part}.{_NUMBER}"
+    for candidate in _candidates(name):
         try:
             library = ctypes.CDLL(candidate)
         except OSError as error:
@@ -45,6 +46,6 @@ def load() -> ctypes.CDLL:
         _check_version(library)
         return library
     raise ImportError(
-        f"{_NAME} was not found: install percuss, or set PERCUSS_LIBRARY to the library's path"
+        f"{name} was not found: install percuss, or set PERCUSS_LIBRARY to the library's path"
         + "".join(failures)
     )

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exceptions: a call that failed, and a request that the server refused."""
 
+import ctypes
+
 from . import _abi
 from .vocabulary import Result, Status
 
@@ -65,13 +67,13 @@ _CLASSES: dict[Result, type[CallError]] = {
 }
 
 
-def check(code: int) -> None:
-    """Raises the exception of a result other than OK. In the thread of the call, right after it."""
+def check(code: int, library: ctypes.CDLL = _abi.library) -> None:
+    """Raises the exception of a result other than OK of that library. In the thread of the call, right after it."""
     result = Result(code)
     if result == Result.OK:
         return
     what: bytes = _abi.library.percuss_result_text(code)
-    why: bytes = _abi.library.percuss_error_text()
+    why: bytes = library.percuss_error_text()
     message = f"{what.decode()}: {why.decode(errors='replace')}"
     if result == Result.NO_MEMORY:
         raise MemoryError(message)

@@ -1,0 +1,102 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""percuss.Local beside the daemon that the environment names: the same answers, without it."""
+
+import dataclasses
+import os
+import tempfile
+import threading
+import unittest
+from pathlib import Path
+from typing import Any
+
+import percuss
+
+CATALOGUE = Path(os.environ["PERCUSS_SOURCE"]) / "config" / "catalogue.yaml"
+# the tests' daemon has no contact tables: nor has who answers like it
+SETTINGS = Path(tempfile.mkdtemp()) / "percussd.yaml"
+SETTINGS.write_text(f"catalogue: {CATALOGUE}\n")
+# what differs from one asking to the next, and from one who answers to another
+VOLATILE = ("client", "server", "sequence", "timing")
+
+
+def plain(value: Any) -> Any:
+    if dataclasses.is_dataclass(value):
+        return {f.name: plain(getattr(value, f.name)) for f in dataclasses.fields(value) if f.name not in VOLATILE}
+    if hasattr(value, "tobytes"):
+        return value.tobytes()
+    if isinstance(value, (tuple, list)):
+        return [plain(one) for one in value]
+    return repr(value)
+
+
+def questions(bodies: dict[str, percuss.Body]) -> list[percuss.Request]:
+    asked = []
+    for body in ("al-rod", "al-rod-1", "al-beam", "steel-wall"):
+        for speed in (0.1, 0.3, 3.0):
+            asked.append(percuss.contact_pair(bodies["steel-sphere"], bodies[body], speed=speed))
+            asked[-1].options.tolerance = 1e-5
+    asked.append(percuss.contact_pair(bodies["steel-sphere"], bodies["al-rod"], speed=1.0))
+    asked[-1].options.tolerance = 7.0  # which nobody allows
+    return asked
+
+
+class Local(unittest.TestCase):
+    def test_same_answers(self) -> None:
+        with percuss.connect(int(os.environ["PERCUSS_DOMAIN"]), timeout=10.0) as client, percuss.Local(
+            settings=SETTINGS
+        ) as local:
+            bodies = local.bodies()
+            self.assertEqual(plain(list(bodies.values())), plain(list(client.bodies().values())))
+            asked = questions(bodies)
+            for one in asked:
+                self.assertEqual(plain(local.solve(one)), plain(client.solve(one)))
+            self.assertEqual(plain(local.solve_batch(asked)), plain(client.solve_batch(asked)))
+
+    def test_later(self) -> None:
+        """Submitted questions are answered by whoever waits; states go on by their tokens."""
+        with percuss.Local(CATALOGUE, id=b"\7" * 16) as local:
+            self.assertEqual(local.id, b"\7" * 16)
+            bodies = local.bodies()
+            first = percuss.contact_pair(bodies["steel-sphere"], bodies["al-beam"], speed=0.3)
+            sequence = local.submit(first)
+            reply = local.wait(sequence).raise_for_status()
+            first.bodies[1].state = reply.states_after[1].state
+            first.bodies[1].elapsed = 1e-3
+            again = local.solve(first).raise_for_status()
+            self.assertNotEqual(reply.contacts[0].impulse, again.contacts[0].impulse)
+            self.assertEqual(local.servers()[0].server, local.server)
+
+    def test_threads(self) -> None:
+        """Several threads ask one client, and others theirs."""
+        expected: list[float] = []
+        with percuss.Local(CATALOGUE) as shared:
+            bodies = shared.bodies()
+            asked = questions(bodies)[:-1]
+            expected = [shared.solve(one).contacts[0].impulse for one in asked]
+            found: dict[int, list[float]] = {}
+
+            def ask(number: int) -> None:
+                own = percuss.Local(CATALOGUE) if number % 2 else shared
+                found[number] = [own.solve(one).contacts[0].impulse for one in asked]
+                if own is not shared:
+                    own.close()
+
+            threads = [threading.Thread(target=ask, args=(number,)) for number in range(4)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+        self.assertEqual(found, {number: expected for number in range(4)})
+
+    def test_refusals(self) -> None:
+        with self.assertRaisesRegex(percuss.InvalidArgument, "none.yaml"):
+            percuss.Local("/none.yaml")
+        with self.assertRaisesRegex(ValueError, "id"):
+            percuss.Local(CATALOGUE, id=b"short")
+        with self.assertRaisesRegex(percuss.InvalidArgument, "first_sequence"):
+            percuss.Local(CATALOGUE, first_sequence=0)
+
+
+if __name__ == "__main__":
+    unittest.main()
