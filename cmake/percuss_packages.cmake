@@ -37,7 +37,7 @@ set(CPACK_SET_DESTDIR ON) # for what is in /etc
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/percuss_pack.cmake)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL daemon tools library development python documents)
+set(CPACK_COMPONENTS_ALL daemon tools library local development python documents)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
@@ -84,17 +84,23 @@ percuss_package(tools percuss-tools science
   TEXT "percuss asks a percussd about impacts, percuss-reduce makes bodies from
 meshes, and percuss-tables computes contact tables ahead of time."
   DEPENDS "libpercuss0 ${alike}"
-  RECOMMENDS "percuss-daemon ${alike}" "gnuplot-nox | gnuplot")
+  RECOMMENDS "percuss-daemon ${alike}" "libpercuss-local0 ${alike}" "gnuplot-nox | gnuplot")
 percuss_package(library libpercuss0 libs
   SUMMARY "asking what an impact does, from C"
   TEXT "libpercuss asks a percussd over DDS, which it hides, and
 libpercuss-slowscale applies the answers in a multibody engine."
   CONTROL ${packaging}/library/triggers)
+percuss_package(local libpercuss-local0 libs
+  SUMMARY "what an impact does, computed in a program's own process"
+  TEXT "libpercuss-local answers as percussd does, without one: the solver is in the
+library. Its default catalogue and contact tables are those of percuss-daemon."
+  RECOMMENDS "percuss-daemon ${alike}"
+  CONTROL ${packaging}/library/triggers)
 percuss_package(development libpercuss-dev libdevel
   SUMMARY "asking what an impact does, from C: headers"
-  TEXT "Headers, pkg-config and CMake files of libpercuss and
+  TEXT "Headers, pkg-config and CMake files of libpercuss, libpercuss-local and
 libpercuss-slowscale, the IDL of what percussd reads and writes, and examples."
-  DEPENDS "libpercuss0 ${alike}")
+  DEPENDS "libpercuss0 ${alike}" "libpercuss-local0 ${alike}")
 percuss_package(python python3-percuss python ANY_MACHINE
   SUMMARY "asking what an impact does, from Python"
   TEXT "A package around libpercuss: requests and replies as dataclasses, arrays

@@ -87,6 +87,8 @@ apt install gcc libc6-dev pkg-config
     cc query.c $(pkg-config --cflags --libs percuss) && ./a.out "$PERCUSS_DOMAIN") >"$said" 2>&1 || fail "the example in C"
 grep -q '^e = ' "$said" || fail "the example prints no e"
 end
+percuss query --local --a steel-sphere --b al-beam --speed 0.2 >"$said" 2>&1 || fail "percuss query --local"
+grep -q '^  restitution  0\.' "$said" || fail "no answer in process"
 man=$(find /usr/share/man -name 'percuss*.gz' | wc -l)
 [ "$man" -eq 4 ] || fail "$man manual pages"
 
@@ -107,7 +109,7 @@ grep -q '^rig-beam' "$said" || fail "the specimen is gone"
 end
 
 echo "- removed: settings and specimens stay; purged: only the specimens"
-apt remove percuss-daemon percuss-tools libpercuss0 libpercuss-dev python3-percuss percuss-doc
+apt remove percuss-daemon percuss-tools libpercuss0 libpercuss-local0 libpercuss-dev python3-percuss percuss-doc
 [ -z "$(find /usr -path '*percuss*' ! -path "$PWD*" ! -name '*.pyc' -type f)" ] || {
     find /usr -path '*percuss*' >"$said"
     fail "files are left"

@@ -70,6 +70,7 @@ cp -r "$source_dir/config/tables" "$work/tables"
 settings "tables: tables"
 start_daemon
 all percuss >"$work/by_daemon"
+expect 0 "$build/tests/bench/in_process" "$domain" 20
 stop_daemon
 all in_process >"$work/by_itself"
 diff "$work/by_daemon" "$work/by_itself" >"$out" || fail "the answers differ"

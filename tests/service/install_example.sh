@@ -48,7 +48,7 @@ fi
 
 say "nothing but percuss_ leaves the libraries, and their headers do not need those of DDS"
 libraries=$prefix/lib
-for library in libpercuss libpercuss-slowscale; do
+for library in libpercuss libpercuss-local libpercuss-slowscale; do
     if nm -D --defined-only "$libraries/$library.so" | awk '{print $3}' | grep -v '^percuss_' ||
         nm -D --defined-only "$libraries/$library.so" | grep ' percuss_v1_'; then
         fail "$library exports symbols of its inside"
@@ -57,6 +57,7 @@ done
 if ldd "$libraries/libpercuss-slowscale.so" | grep -E 'dds|lapack|blas|sundials'; then
     fail "libpercuss-slowscale needs more than the C library"
 fi
+! ldd "$libraries/libpercuss-local.so" | grep dds || fail "libpercuss-local needs DDS"
 ! grep -rl 'dds/' "$prefix/include/percuss" || fail "a public header includes DDS"
 
 say "README: a program, compiled and run"
@@ -65,6 +66,17 @@ in_tree README.md 'cc query.c'
 grep '^e = ' "$out" >"$work/by-pkg-config"
 cmake -S "$prefix/share/percuss/examples" -B "$work/by-cmake" -DCMAKE_PREFIX_PATH="$prefix" >"$work/log.cmake"
 cmake --build "$work/by-cmake" >>"$work/log.cmake"
+
+say "in process: the installed catalogue, from the command line and a program"
+cp "$prefix/share/percuss/examples/local.c" .
+PKG_CONFIG_PATH=$libraries/pkgconfig sh -euc "cc local.c \$(pkg-config --cflags --libs percuss-local) -o local"
+expect 0 ./local
+grep '^0.1 m/s: e = 0.72' "$out" || fail "no e in process"
+cp "$out" "$work/by-itself"
+expect 0 "$work/by-cmake/local"
+cmp "$out" "$work/by-itself" || fail "by-cmake/local"
+expect 0 "$prefix/bin/percuss" query --local --a steel-sphere --b al-rod --speed 0.1
+shows "restitution  0.72"
 
 say "integrating: an engine, compiled; the MuJoCo example, run"
 cp "$source_dir/tests/service/slow_client.c" engine.c
