@@ -1,0 +1,213 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* What an impact does, for a simulator that has the bodies: it says when they touch and how, and
+ * gets the impulse, by which it changes their velocities. */
+#include <math.h>
+#include <string.h>
+
+#include "fmu.h"
+
+struct pose {
+    double position[3], orientation[4], velocity[3], angular_velocity[3];
+};
+
+struct impact_law {
+    struct shared shared;
+    bool by_poses;
+    double gap, gap_rate, gap_acceleration, inverse_effective_mass;
+    struct pose a, b;
+    double point[3], normal[3];
+    double touch;
+    /* not a variable: until the bodies have separated there is no other impact */
+    int32_t waits;
+};
+
+#define LAW(role, type, member, unit, start, meaning)                                              \
+    VARIABLE_##role, VARIABLE_##type, unit, offsetof(struct impact_law, member), start, NULL,      \
+        meaning
+#define LAW_INPUT(name, member, unit, start, meaning)                                              \
+    {                                                                                              \
+        name, LAW(INPUT, FLOAT64, member, unit, start, meaning)                                    \
+    }
+#define LAW_VECTOR(name, member, unit, meaning)                                                    \
+    LAW_INPUT(name "[1]", member[0], unit, 0.0, meaning " (by_poses)"),                            \
+        LAW_INPUT(name "[2]", member[1], unit, 0.0, meaning " (by_poses)"),                        \
+        LAW_INPUT(name "[3]", member[2], unit, 0.0, meaning " (by_poses)")
+#define LAW_POSE(body)                                                                             \
+    LAW_VECTOR(#body ".position", body.position, "m", "centre of mass, world"),                    \
+        LAW_INPUT(#body ".orientation[1]", body.orientation[0], NULL, 1.0,                         \
+                  "unit quaternion (w, x, y, z), world = R(q) body (by_poses)"),                   \
+        LAW_INPUT(#body ".orientation[2]", body.orientation[1], NULL, 0.0, "x (by_poses)"),        \
+        LAW_INPUT(#body ".orientation[3]", body.orientation[2], NULL, 0.0, "y (by_poses)"),        \
+        LAW_INPUT(#body ".orientation[4]", body.orientation[3], NULL, 0.0, "z (by_poses)"),        \
+        LAW_VECTOR(#body ".velocity", body.velocity, "m/s", "of the centre of mass, world"),       \
+        LAW_VECTOR(#body ".angular_velocity", body.angular_velocity, "rad/s", "world")
+
+static const struct variable VARIABLES[] = {
+    SHARED_VARIABLES("al-beam"),
+    {"by_poses", LAW(PARAMETER, BOOLEAN, by_poses, NULL, 0.0,
+                     "bodies are where the inputs a, b, point and normal say, not at their sites")},
+    LAW_INPUT("gap", gap, "m", 1.0,
+              "distance of the surfaces; an impact begins where it falls to 0"),
+    LAW_INPUT("gap_rate", gap_rate, "m/s", 0.0, "its rate; negative: the bodies come together"),
+    LAW_INPUT("gap_acceleration", gap_acceleration, "m/s2", 0.0, "negative presses"),
+    LAW_INPUT("inverse_effective_mass", inverse_effective_mass, "1/kg", 0.0,
+              "of the contact, as the simulator has it; 0: that of the catalogue's bodies"),
+    LAW_POSE(a),
+    LAW_POSE(b),
+    LAW_VECTOR("point", point, "m", "of the contact, world"),
+    LAW_VECTOR("normal", normal, NULL, "of the contact, unit, from B to A, world"),
+    {"touch", LAW(INDICATOR, FLOAT64, touch, "m", 0.0, "the gap")},
+};
+
+/* m; so far from zero an importer's root of the indicator may be */
+static const double TOUCH = 1e-9;
+
+static void refresh(void *numbers)
+{
+    struct impact_law *law = numbers;
+    law->touch = law->gap;
+}
+
+/* Of the point of the contact, as one of the body. */
+static void point_velocity(const struct pose *pose, const double point[3], double velocity[3])
+{
+    const double *w = pose->angular_velocity;
+    double r[3];
+    for (int i = 0; i < 3; i++)
+        r[i] = point[i] - pose->position[i];
+    for (int i = 0; i < 3; i++)
+        velocity[i] =
+            pose->velocity[i] + w[(i + 1) % 3] * r[(i + 2) % 3] - w[(i + 2) % 3] * r[(i + 1) % 3];
+}
+
+/* Of the poses, or the input. */
+static double current_gap_rate(const struct impact_law *law)
+{
+    if (!law->by_poses)
+        return law->gap_rate;
+    double of_a[3], of_b[3], rate = 0.0;
+    point_velocity(&law->a, law->point, of_a);
+    point_velocity(&law->b, law->point, of_b);
+    for (int i = 0; i < 3; i++)
+        rate += law->normal[i] * (of_a[i] - of_b[i]);
+    return rate;
+}
+
+static bool add_body(struct percuss_request *request, const char *id, const struct pose *pose)
+{
+    struct percuss_body_motion *body = percuss_request_add_body(request, id);
+    if (!body)
+        return false;
+    memcpy(body->position, pose->position, sizeof body->position);
+    memcpy(body->orientation, pose->orientation, sizeof body->orientation);
+    memcpy(body->velocity, pose->velocity, sizeof body->velocity);
+    memcpy(body->angular_velocity, pose->angular_velocity, sizeof body->angular_velocity);
+    return true;
+}
+
+static fmi3Status request_by_poses(struct fmu *fmu, struct percuss_request *request)
+{
+    const struct impact_law *law = (const struct impact_law *)fmu->numbers;
+    percuss_request_init(request);
+    if (!add_body(request, law->shared.body_a, &law->a) ||
+        !add_body(request, law->shared.body_b, &law->b))
+        return fmu_error(fmu, "body_a, body_b: an id has up to %d bytes", PERCUSS_ID_SIZE - 1);
+    struct percuss_contact *contact = percuss_request_add_contact(request, 0, 1);
+    memcpy(contact->point, law->point, sizeof contact->point);
+    memcpy(contact->normal, law->normal, sizeof contact->normal);
+    request->options.tolerance = law->shared.tolerance;
+    return fmi3OK;
+}
+
+static bool touches(const struct impact_law *law)
+{
+    return !law->waits && law->gap <= TOUCH && current_gap_rate(law) < 0.0;
+}
+
+/* Once the bodies have separated, another impact may begin. */
+static void completed(void *numbers)
+{
+    struct impact_law *law = numbers;
+    if (law->gap > TOUCH || current_gap_rate(law) >= 0.0)
+        law->waits = 0;
+}
+
+/* Answers an impact that has begun. */
+static fmi3Status answer(struct fmu *fmu)
+{
+    struct impact_law *law = (struct impact_law *)fmu->numbers;
+    double gap_rate = current_gap_rate(law);
+    completed(law);
+    if (!touches(law))
+        return fmi3OK;
+
+    /* the bodies as the importer has them */
+    struct percuss_request request;
+    fmi3Status status =
+        law->by_poses ? request_by_poses(fmu, &request) : fmu_pair(fmu, -gap_rate, &request);
+    if (status != fmi3OK)
+        return status;
+    request.contacts[0].gap_acceleration = law->gap_acceleration;
+    if (law->inverse_effective_mass < 0.0)
+        return fmu_error(fmu, "inverse_effective_mass: %g: a number > 0 is needed, or 0",
+                         law->inverse_effective_mass);
+    if (law->inverse_effective_mass != 0.0)
+        request.delassus = &law->inverse_effective_mass;
+
+    /* the outputs keep the last impact that was answered */
+    struct impact impact;
+    status = fmu_ask(fmu, &request, gap_rate, &impact);
+    if (status != fmi3OK)
+        return status;
+    law->shared.last = impact;
+    law->shared.impacts++;
+    law->waits = 1;
+    return fmi3OK;
+}
+
+/* What cannot be answered is said before anything moves. */
+static fmi3Status initialize(struct fmu *fmu)
+{
+    const struct impact_law *law = (const struct impact_law *)fmu->numbers;
+    struct percuss_request request;
+    if (!law->by_poses)
+        return fmu_pair(fmu, 1.0, &request);
+    const struct percuss_body *bodies[2];
+    char message[SOURCE_MESSAGE_SIZE];
+    return source_find(fmu->source, &law->shared, bodies, message) ? fmi3OK
+                                                                   : fmu_error(fmu, "%s", message);
+}
+
+static fmi3Status update(struct fmu *fmu, bool *states_changed)
+{
+    *states_changed = false;
+    return answer(fmu);
+}
+
+/* Inputs are constant in a step: an impact that has begun is answered in it, or in event mode. */
+static fmi3Status step(struct fmu *fmu, double end, struct model_step *outcome)
+{
+    struct impact_law *law = (struct impact_law *)fmu->numbers;
+    completed(law);
+    outcome->event = fmu->event_mode_used && touches(law);
+    fmi3Status status = fmu->event_mode_used ? fmi3OK : answer(fmu);
+    if (status == fmi3OK)
+        law->shared.time = outcome->time = end;
+    return status;
+}
+
+const struct model MODEL = {
+    .identifier = "percuss_impact_law",
+    .meaning = "What an impact of two bodies does",
+    .token = "percuss impact law " PERCUSS_VERSION,
+    .variables = VARIABLES,
+    .variable_count = sizeof VARIABLES / sizeof *VARIABLES,
+    .size = sizeof(struct impact_law),
+    .initialize = initialize,
+    .refresh = refresh,
+    .update = update,
+    .completed = completed,
+    .step = step,
+};

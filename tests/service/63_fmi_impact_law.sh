@@ -1,0 +1,20 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+# The FMU of an impact: by gap and rate, by poses, by the simulator's own mass, in process and by a daemon.
+. "$(dirname "$0")/lib.sh"
+
+venv=$build/fmi-venv
+[ -e "$venv/wanted" ] || {
+    echo "skipped: no virtual environment; see the test service/fmi_environment" >&2
+    exit 77
+}
+export TMPDIR="$work" PYTHONPATH="$here" PYTHONDONTWRITEBYTECODE=1
+fmu=$build/client/fmi/percuss_impact_law.fmu
+start_daemon
+expect 0 "$venv/bin/fmpy" validate "$fmu"
+shows "No problems found."
+expect 0 "$venv/bin/python" "$here/fmi_impact_law.py" "$fmu" "$bin/percuss" \
+    "$build/client/libpercuss.so.0" "$domain"
+shows "e = 0.1737"
+stop_daemon
