@@ -164,10 +164,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
-static const struct argp bodies_argp = {.options = options,
-                                        .parser = parse,
-                                        .doc = "Lists the bodies that the server knows.",
-                                        .children = children};
+const struct argp bodies_argp = {.options = options,
+                                 .parser = parse,
+                                 .doc = "Lists the bodies that the server knows.",
+                                 .children = children};
 
 int command_bodies(int argc, char **argv, struct common *common)
 {

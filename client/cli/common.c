@@ -43,6 +43,9 @@ static const struct argp_option common_options[] = {
      "a catalogue and contact tables)",
      91},
     {"json", OPTION_JSON, NULL, 0, "print one JSON object", 90},
+    /* what many programs call -? and -V */
+    {NULL, 'h', NULL, OPTION_HIDDEN, NULL, 90},
+    {NULL, 'v', NULL, OPTION_HIDDEN, NULL, 90},
     {0},
 };
 
@@ -129,6 +132,13 @@ static error_t parse_common(int key, char *text, struct argp_state *state)
     case OPTION_JSON:
         common->json = true;
         return 0;
+    /* what ends the program */
+    case 'h':
+        argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
+        return 0;
+    case 'v':
+        puts(argp_program_version);
+        exit(EXIT_ANSWERED);
     default:
         return ARGP_ERR_UNKNOWN;
     }

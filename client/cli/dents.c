@@ -50,7 +50,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
-static const struct argp dents_argp = {
+const struct argp dents_argp = {
     .options = options,
     .parser = parse,
     .doc = "Lists the specimens that the server keeps with their dents, or forgets one.\v"

@@ -267,7 +267,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 
 static const struct argp_child children[] = {
     {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
-static const struct argp ensemble_argp = {
+const struct argp ensemble_argp = {
     .options = options,
     .parser = parse,
     .doc = "Asks for many impacts with uncertain inputs and prints what their restitution is as a "

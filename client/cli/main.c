@@ -9,18 +9,9 @@
 #include <string.h>
 
 #include "cli.h"
+#include "commands.h"
 
 const char *argp_program_version = "percuss " PERCUSS_VERSION;
-
-static const struct {
-    const char *name;
-    command_function *function;
-} commands[] = {
-    {"query", command_query},     {"sweep", command_sweep},         {"ensemble", command_ensemble},
-    {"bodies", command_bodies},   {"status", command_status},       {"ping", command_ping},
-    {"compare", command_compare}, {"calibrate", command_calibrate}, {"dents", command_dents},
-    {"schema", command_schema},
-};
 
 struct invocation {
     struct common common;
@@ -50,39 +41,51 @@ static error_t parse_main(int key, char *text, struct argp_state *state)
     }
 }
 
+/* The commands stand before what else the help says at its end. */
+static char *add_commands(int key, const char *text, void *input)
+{
+    (void)input;
+    char *whole = key == ARGP_KEY_HELP_POST_DOC && text ? commands_list(text) : NULL;
+    return whole ? whole : (char *)text;
+}
+
 static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
 static const struct argp main_argp = {
     .parser = parse_main,
-    .args_doc = "COMMAND [OPTION...]",
-    .doc =
-        "Asks a percussd what an impact does, or with --local the solver in this process.\v"
-        "Commands:\n"
-        "  query     one impact: impulse, restitution and the sub-impacts\n"
-        "  sweep     the same impact at many speeds\n"
-        "  bodies    the bodies that the server knows\n"
-        "  status    what the server is doing\n"
-        "  dents     the specimens that the server keeps, with their dents\n"
-        "  ping      round-trip time to the server\n"
-        "  compare   measured impacts beside their simulated twins\n"
-        "  calibrate parameters of the bodies from measured impacts\n"
-        "  schema    the JSON Schema of requests, replies and ensembles\n"
-        "  ensemble  many impacts with uncertain inputs: the restitution as a distribution\n\n"
-        "percuss COMMAND --help explains a command. Try: "
-        "percuss query --local --a steel-sphere --b al-beam --speed 0.3\n\n"
-        "Where an answer leaves the range of its models, warnings say so on standard error (with "
-        "--json in the list warnings); of many impacts each kind once, with its count.\n\n"
-        "Exit status: 0 answered, 1 answered with a warning status, 2 usage, 3 no server, "
-        "4 timeout, 5 rejected.",
+    .args_doc = "COMMAND [OPTION...]\nhelp [COMMAND]",
+    .doc = "Asks a percussd what an impact does, or with --local the solver in this process.\v"
+           "percuss help COMMAND explains a command. Try: "
+           "percuss query --local --a steel-sphere --b al-beam --speed 0.3\n\n"
+           "Where an answer leaves the range of its models, warnings say so on standard error "
+           "(with --json in the list warnings); of many impacts each kind once, with its count.\n\n"
+           "Exit status: 0 answered, 1 answered with a warning status, 2 usage, 3 no server, "
+           "4 timeout, 5 rejected.",
     .children = children,
+    .help_filter = add_commands,
 };
 
 static int run(const char *name, int argc, char **argv, struct common *common)
 {
-    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
-        if (!strcmp(commands[i].name, name))
-            return commands[i].function(argc, argv, common);
+    const struct command *command = commands_find(name);
+    if (command)
+        return command->function(argc, argv, common);
     complain("'%s' is not a command; percuss --help lists them", name);
     return EXIT_USAGE;
+}
+
+/* percuss help, percuss help COMMAND: what --help says there. */
+static int help(int argc, char **argv, struct common *common)
+{
+    char title[64], option[] = "--help";
+    const char *name = argc > 1 ? argv[1] : "help";
+    bool whole = !strcmp(name, "help") || name[0] == '-';
+    snprintf(title, sizeof title, whole ? "percuss" : "percuss %s", name);
+    char *words[] = {title, option, NULL};
+    if (!whole)
+        return run(name, 2, words, common);
+    struct invocation invocation = {.common = *common};
+    argp_parse(&main_argp, 2, words, 0, NULL, &invocation);
+    return EXIT_ANSWERED;
 }
 
 int main(int argc, char **argv)
@@ -96,7 +99,10 @@ int main(int argc, char **argv)
     char *name = argv[invocation.command], title[64];
     snprintf(title, sizeof title, "percuss %s", name);
     argv[invocation.command] = title;
-    int code = run(name, argc - invocation.command, argv + invocation.command, &invocation.common);
+    argc -= invocation.command;
+    argv += invocation.command;
+    int code = strcmp(name, "help") ? run(name, argc, argv, &invocation.common)
+                                    : help(argc, argv, &invocation.common);
     if (fflush(stdout) != 0 || ferror(stdout)) {
         complain("writing the output failed");
         return EXIT_FAILURE;

@@ -39,7 +39,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
-static const struct argp ping_argp = {
+const struct argp ping_argp = {
     .options = options,
     .parser = parse,
     .doc = "Measures the round-trip time to the server.",

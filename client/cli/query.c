@@ -147,7 +147,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 
 static const struct argp_child children[] = {
     {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
-static const struct argp query_argp = {
+const struct argp query_argp = {
     .options = options,
     .parser = parse,
     .doc =

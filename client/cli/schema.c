@@ -55,7 +55,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
-static const struct argp schema_argp = {
+const struct argp schema_argp = {
     .parser = parse,
     .args_doc = "request|reply|COMMAND|remarks",
     .doc = "Prints the JSON Schema of the requests that 'query --request' reads, of the replies "

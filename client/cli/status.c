@@ -112,20 +112,21 @@ static error_t parse(int key, char *text, struct argp_state *state)
     }
 }
 
+static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
+static const struct argp_option options[] = {
+    {"watch", KEY_WATCH, "SECONDS", OPTION_ARG_OPTIONAL,
+     "look again every so many seconds (default 1), until it is interrupted", 10},
+    {0},
+};
+const struct argp status_argp = {
+    .options = options,
+    .parser = parse,
+    .doc = "Shows what the servers are doing.",
+    .children = children,
+};
+
 int command_status(int argc, char **argv, struct common *common)
 {
-    static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
-    static const struct argp_option options[] = {
-        {"watch", KEY_WATCH, "SECONDS", OPTION_ARG_OPTIONAL,
-         "look again every so many seconds (default 1), until it is interrupted", 10},
-        {0},
-    };
-    static const struct argp status_argp = {
-        .options = options,
-        .parser = parse,
-        .doc = "Shows what the servers are doing.",
-        .children = children,
-    };
     struct percuss_client *client;
     struct look looks = {.common = common};
     argp_parse(&status_argp, argc, argv, 0, NULL, &looks);
