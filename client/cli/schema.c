@@ -57,10 +57,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
 const struct argp schema_argp = {
     .parser = parse,
-    .args_doc = "request|reply|COMMAND|remarks",
+    .args_doc = "request|reply|ensemble|sweep|compare|calibrate|bodies|remarks|dents|status|ping",
     .doc = "Prints the JSON Schema of the requests that 'query --request' reads, of the replies "
-           "that 'query --json' prints, of what another command (ensemble, sweep, compare, "
-           "calibrate, bodies, dents, status, ping) prints with --json, or of the remarks of "
+           "that 'query --json' prints, of what another command prints with "
+           "--json, or of the remarks of "
            "'bodies --check --json'; asks no server.",
     .children = children,
 };
