@@ -27,3 +27,25 @@ foreach(document ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/SECURITY.
 endforeach()
 install(DIRECTORY docs/figures DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documents)
+
+# the site of all pages, in build/site: ninja site
+find_program(SPHINX_BUILD sphinx-build)
+if(SPHINX_BUILD AND NOT DEFINED PERCUSS_HAVE_MYST)
+  # in the Python that Sphinx has, which need not be the first one here
+  file(WRITE ${PROJECT_BINARY_DIR}/site.probe/index.md "# a page\n")
+  execute_process(COMMAND ${SPHINX_BUILD} -q -C -D extensions=myst_parser -b dummy ${PROJECT_BINARY_DIR}/site.probe
+                  ${PROJECT_BINARY_DIR}/site.probe/out RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
+  if(NOT failed)
+    set(PERCUSS_HAVE_MYST ON CACHE INTERNAL "sphinx-build reads Markdown")
+  endif()
+endif()
+if(SPHINX_BUILD AND PERCUSS_HAVE_MYST)
+  add_custom_target(site VERBATIM COMMAND ${SPHINX_BUILD} -q -W --keep-going -n -b html
+    -c ${PROJECT_SOURCE_DIR}/deploy/site -d ${PROJECT_BINARY_DIR}/site.trees ${PROJECT_SOURCE_DIR}
+    ${PROJECT_BINARY_DIR}/site)
+  if(BUILD_TESTING)
+    add_test(NAME site COMMAND sh ${PROJECT_SOURCE_DIR}/tests/site/site.sh ${PROJECT_SOURCE_DIR})
+  endif()
+else()
+  message(STATUS "without sphinx-build and MyST: no target site")
+endif()
