@@ -1,0 +1,19 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* A service as rmw_cyclonedds has it: user data pair the two topics of a service and of a client,
+ * and what is asked and answered begins with 16 octets by which the client knows its own. */
+#ifndef PERCUSS_ROS2_SERVICE_H
+#define PERCUSS_ROS2_SERVICE_H
+
+#include <dds/dds.h>
+#include <stdbool.h>
+
+/* "serviceid=<this participant's guid>;" for the reader of requests and the writer of replies. */
+void service_name(dds_entity_t participant, dds_qos_t *qos);
+
+/* Waits up to 0.1 s until the replies' reader of the client whose request writer is `client` is
+ * matched: a reply that is written before is lost. At once where the client does not say which. */
+void service_await(dds_entity_t requests, dds_entity_t replies, dds_instance_handle_t client);
+
+#endif
