@@ -16,7 +16,7 @@ python3-prometheus-client libudunits2-dev python3-jsonschema zsh fish
 python3-sphinx python3-myst-parser"
 mpi="libslepc-real-dev mpi-default-dev mpi-default-bin"
 package="dpkg-dev file"
-ci="clang libclang-rt-14-dev mmdebstrap lintian"
+ci="clang libclang-rt-14-dev mmdebstrap lintian g++ libfastrtps-dev fastddsgen"
 
 case ${1:-build} in
 build) packages=$build ;;
