@@ -124,6 +124,21 @@ static void move_gaps(const struct percuss_slow *slow, const struct episode *epi
     }
 }
 
+/* Changes the velocities as the engine wants to be told: of the pair, or of each body. */
+static bool change_velocities(const struct percuss_slow_engine *engine,
+                              const struct percuss_slow_contact *contact, double impulse)
+{
+    if (engine->apply)
+        return engine->apply(engine->context, contact, impulse);
+    double on_a[3], on_b[3];
+    for (int i = 0; i < 3; i++) {
+        on_a[i] = impulse * contact->normal[i];
+        on_b[i] = -on_a[i];
+    }
+    return engine->push(engine->context, contact->a, on_a, contact->point) &&
+           engine->push(engine->context, contact->b, on_b, contact->point);
+}
+
 /* Applies `impulse` as if it had been at the entry's time. */
 static enum percuss_result apply(const struct percuss_slow *slow, const struct episode *episode,
                                  const struct entry *entry, double impulse, double now)
@@ -135,8 +150,9 @@ static enum percuss_result apply(const struct percuss_slow *slow, const struct e
     struct percuss_slow_contact place = pair ? pair->contact : *contact;
     double late = now - entry->time;
     bool moves = slow->config.move && !(fabs(late) <= SLOW_INSTANT);
-    if (!engine->apply(engine->context, &place, impulse))
-        return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's apply failed");
+    if (!change_velocities(engine, &place, impulse))
+        return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's %s failed",
+                         engine->apply ? "apply" : "push");
     if (moves && !slow->config.move(engine->context, &place, impulse * late))
         return slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, "the engine's move failed");
     if (moves)

@@ -31,8 +31,10 @@ static enum percuss_result check(const struct percuss_slow_config *config)
             strlen(config->bodies[i].id) >= PERCUSS_ID_SIZE)
             return slow_fail(bad, "bodies[%zu].id: must be a name of 1 to %d bytes", i,
                              PERCUSS_ID_SIZE - 1);
-    if (!config->engine.probe || !config->engine.apply || !config->engine.now)
-        return slow_fail(bad, "engine: probe, apply and now must all be given");
+    if (!config->engine.probe || !config->engine.now)
+        return slow_fail(bad, "engine: probe and now must both be given");
+    if (!config->engine.apply == !config->engine.push)
+        return slow_fail(bad, "engine: one of apply and push must be given");
     if (config->service.solve && !config->service.release)
         return slow_fail(bad, "service.release: must be given with service.solve");
     if (!(config->restitution >= 0.0 && config->restitution <= 1.0))

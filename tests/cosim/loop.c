@@ -193,7 +193,7 @@ void loop_start_moving(struct loop *loop, enum percuss_slow_application applicat
         bodies[i] = (struct percuss_slow_body){loop->ids[i], false};
     config.body_count = loop->body_count;
     config.bodies = bodies;
-    config.engine = (struct percuss_slow_engine){loop, loop_probe, loop_apply, loop_now};
+    config.engine = (struct percuss_slow_engine){loop, loop_probe, loop_apply, loop_now, NULL};
     config.service = (struct percuss_slow_service){loop, loop_solve, loop_release, NULL};
     config.options.tolerance = tolerance;
     config.application = application;

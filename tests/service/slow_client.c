@@ -197,7 +197,7 @@ int main(int argc, char **argv)
     struct percuss_slow_config config = percuss_slow_config_default();
     config.body_count = BODIES;
     config.bodies = (struct percuss_slow_body[]){{"steel-sphere", false}, {"al-beam", false}};
-    config.engine = (struct percuss_slow_engine){&engine, probe, apply, now};
+    config.engine = (struct percuss_slow_engine){&engine, probe, apply, now, NULL};
     config.service = percuss_slow_link_service(&engine.link);
     config.options.tolerance = 1e-5;
     config.restitution = 0.45;

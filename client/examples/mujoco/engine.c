@@ -152,7 +152,7 @@ static double now(void *context)
 
 void engine_configure(struct engine *engine, struct percuss_slow_config *config)
 {
-    config->engine = (struct percuss_slow_engine){engine, probe, apply, now};
+    config->engine = (struct percuss_slow_engine){engine, probe, apply, now, NULL};
     config->move = move;
 }
 

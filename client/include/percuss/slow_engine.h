@@ -26,6 +26,9 @@ struct percuss_slow_engine {
     /* changes the velocities by M^-1 w impulse: + along the normal on a, - on b */
     bool (*apply)(void *context, const struct percuss_slow_contact *contact, double impulse);
     double (*now)(void *context); /* s, of the simulation */
+    /* Instead of `apply`, where bodies have coordinates of their own: an impulse on one body, N s,
+     * at a point, m, both in the world. Called for a and then, with the opposite impulse, for b. */
+    bool (*push)(void *context, uint32_t body, const double impulse[3], const double point[3]);
 };
 
 /* Who is asked: `solve` as percuss_solve, `release` as percuss_reply_free. solve NULL: nobody,

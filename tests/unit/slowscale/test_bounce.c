@@ -123,7 +123,7 @@ static struct drop *drop_create(const struct manner *manner, double gap, double 
     struct percuss_slow_config config = percuss_slow_config_default();
     config.body_count = THINGS;
     config.bodies = names;
-    config.engine = (struct percuss_slow_engine){drop, drop_probe, drop_apply, drop_now};
+    config.engine = (struct percuss_slow_engine){drop, drop_probe, drop_apply, drop_now, NULL};
     config.restitution = manner->restitution;
     if (rest_speed > 0.0)
         config.rest_speed = rest_speed;

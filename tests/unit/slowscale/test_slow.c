@@ -36,6 +36,33 @@ static void asks_once_while_bodies_overlap(void **state)
     toy_free(toy);
 }
 
+/* Off the line of centres, so that the spheres turn as well: a millimetre of 10. */
+static void a_pair_and_its_bodies_are_pushed_alike(void **state)
+{
+    (void)state;
+    struct percuss_body_motion after[2][2];
+    for (int way = 0; way < 2; way++) {
+        struct percuss_slow_config wishes = toy_wishes();
+        wishes.engine.push = way ? toy_push : NULL;
+        struct toy *toy = toy_create(2, &wishes);
+        toy->bodies[1].position[1] = 1e-3;
+        toy->answers = 1;
+        toy->answer[0] = two_hits;
+        toy_step(toy, 0.0);
+        toy_run(toy, 0.1, 1e-3);
+        memcpy(after[way], toy->bodies, sizeof after[way]);
+        toy_free(toy);
+    }
+    for (int body = 0; body < 2; body++)
+        for (int k = 0; k < 3; k++) {
+            near(after[1][body].velocity[k], after[0][body].velocity[k], 1e-15);
+            near(after[1][body].angular_velocity[k], after[0][body].angular_velocity[k], 1e-13);
+        }
+    near(after[1][0].velocity[0], 0.06, 1e-15);
+    /* -1 mm below the second's centre, -(-1 mm) x 0.014 N s / 4e-6 kg m^2 */
+    near(after[1][1].angular_velocity[2], 3.5, 1e-13);
+}
+
 static void total_and_list_end_with_the_same_velocities(void **state)
 {
     (void)state;
@@ -228,7 +255,10 @@ static void bad_settings_are_named(void **state)
     config.bodies = &(struct percuss_slow_body){"sphere", false};
     assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_INVALID_ARGUMENT);
     assert_non_null(strstr(percuss_slow_error_text(), "engine"));
-    config.engine = (struct percuss_slow_engine){NULL, toy_probe, toy_apply, toy_now};
+    config.engine = (struct percuss_slow_engine){NULL, toy_probe, toy_apply, toy_now, toy_push};
+    assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_INVALID_ARGUMENT);
+    assert_non_null(strstr(percuss_slow_error_text(), "one of apply and push"));
+    config.engine = (struct percuss_slow_engine){NULL, toy_probe, toy_apply, toy_now, NULL};
     config.restitution = 1.5;
     assert_int_equal(percuss_slow_create(&config, &slow), PERCUSS_RESULT_INVALID_ARGUMENT);
     assert_non_null(strstr(percuss_slow_error_text(), "restitution: 1.5"));
@@ -248,6 +278,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(asks_once_while_bodies_overlap),
+        cmocka_unit_test(a_pair_and_its_bodies_are_pushed_alike),
         cmocka_unit_test(total_and_list_end_with_the_same_velocities),
         cmocka_unit_test(a_pair_that_goes_on_approaching_is_asked_about_again),
         cmocka_unit_test(the_order_of_a_pair_does_not_matter),

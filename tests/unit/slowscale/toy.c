@@ -88,6 +88,22 @@ bool toy_apply(void *context, const struct percuss_slow_contact *contact, double
     return true;
 }
 
+/* Free spheres by the textbook: m dv = P, I dw = r x P, with the moments of a sphere. */
+bool toy_push(void *context, uint32_t body, const double impulse[3], const double point[3])
+{
+    struct toy *toy = context;
+    struct percuss_body_motion *motion = &toy->bodies[body];
+    const struct percuss_slow_inertia *inertia = &toy->inertias[body];
+    for (int k = 0; k < 3; k++) {
+        int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+        motion->velocity[k] += impulse[k] / inertia->mass;
+        motion->angular_velocity[k] += ((point[k1] - motion->position[k1]) * impulse[k2] -
+                                        (point[k2] - motion->position[k2]) * impulse[k1]) /
+                                       inertia->moments[k];
+    }
+    return true;
+}
+
 bool toy_shift(void *context, const struct percuss_slow_contact *contact, double moment)
 {
     struct toy *toy = context;
@@ -187,7 +203,9 @@ struct toy *toy_create(size_t count, const struct percuss_slow_config *wishes)
     struct percuss_slow_config config = *wishes;
     config.body_count = count;
     config.bodies = wishes->bodies ? wishes->bodies : names;
-    config.engine = (struct percuss_slow_engine){toy, toy_probe, toy_apply, toy_now};
+    bool (*push)(void *, uint32_t, const double *, const double *) = wishes->engine.push;
+    config.engine =
+        (struct percuss_slow_engine){toy, toy_probe, push ? NULL : toy_apply, toy_now, push};
     config.report = toy_report;
     config.report_context = toy;
     if (config.service.solve)

@@ -64,11 +64,12 @@ struct toy {
 size_t toy_contacts(struct toy *toy, struct percuss_slow_contact *contacts);
 bool toy_probe(void *context, struct percuss_slow_view *view);
 bool toy_apply(void *context, const struct percuss_slow_contact *contact, double impulse);
+bool toy_push(void *context, uint32_t body, const double impulse[3], const double point[3]);
 bool toy_shift(void *context, const struct percuss_slow_contact *contact, double moment);
 double toy_now(void *context);
 
 /* Spheres of 0.1 kg and 10 mm in a row, each just touching the next; the first comes with 0.2 m/s.
- */
+ * They are pushed one by one where wishes->engine.push says so, else told of the pair. */
 struct toy *toy_create(size_t count, const struct percuss_slow_config *wishes);
 
 /* Default settings with the service's answers. */
