@@ -6,7 +6,7 @@
 # commands FILE TEXT: the lines of the first block of shell commands that has the text in it
 commands() {
     awk -v text="$2" '
-        /^```sh$/ { inside = 1; block = ""; next }
+        /^```sh( run)?$/ { inside = 1; block = ""; next }
         /^```$/ && inside { inside = 0; if (index(block, text)) { printf "%s", block; found = 1; exit } }
         inside { block = block $0 "\n" }
         END { exit !found }' "$1"
@@ -18,6 +18,19 @@ transcript() {
         /^\$ / { inside = index($0, text) > 0; next }
         /^```/ { inside = 0 }
         inside { print; found = 1 }
+        END { exit !found }' "$1"
+}
+
+# runnable FILE: a script of what the document marks as to be run, in its order: blocks of commands that begin
+# with "```sh run", the commands "$ ..." of those with "```console run", and files that they read, "```json file NAME"
+runnable() {
+    awk '
+        /^```sh run$/ { inside = "commands"; found = 1; next }
+        /^```console run$/ { inside = "shown"; more = 0; found = 1; next }
+        /^```[a-z]+ file [^ ]+$/ { inside = "file"; print "cat >" $3 " <<\"END OF THE FILE\""; next }
+        /^```/ { if (inside == "file") print "END OF THE FILE"; inside = ""; next }
+        inside == "shown" { if (/^\$ /) { more = 1; sub(/^\$ /, "") } if (!more) next; more = /\\$/ }
+        inside { print }
         END { exit !found }' "$1"
 }
 

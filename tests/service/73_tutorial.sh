@@ -8,8 +8,8 @@ page=$source_dir/docs/tutorial.md
 mkdir "$work/bench"
 cd "$work/bench"
 
-# all blocks of commands as one script; the daemon is waited for where it is started
-awk '/^```sh$/ { inside = 1; next } /^```$/ { inside = 0 } inside' "$page" | in_domain "$domain" |
+# the daemon is waited for where it is started
+runnable "$page" | in_domain "$domain" |
     sed -e "s|^build/bin/|$bin/|" -e '/&$/s|$|\nsleep 1|' >"$work/script"
 [ "$(grep -c "^$bin/percuss" "$work/script")" -ge 10 ] || fail "not all commands are found"
 
