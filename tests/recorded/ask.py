@@ -1,10 +1,11 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
-"""Asks saved scenes of the percussd in a domain and prints every reply to the last bit, one JSON object a line.
+"""Asks saved scenes of the percussd in a domain, or in this process, and prints every reply to the last bit, one JSON object a line.
 
 usage: ask.py catalogue FOLDER: prints one catalogue of the bodies of all scenes
        ask.py DOMAIN FOLDER: asks every blow of every scene (later ones strike the bodies as they were
        left), then the first blows once more in batches, and some refusals
+       ask.py SETTINGS FOLDER: the same in this process, with that file of settings
 """
 
 import dataclasses
@@ -155,7 +156,8 @@ def main() -> None:
         return
     import percuss
 
-    with percuss.connect(int(sys.argv[1])) as client:
+    whom = sys.argv[1]
+    with percuss.connect(int(whom)) if whom.isdigit() else percuss.Local(settings=whom) as client:
         first = ask_scenes(percuss, client, folder)
         for begin in range(0, len(first), 24):
             replies = client.solve_batch(first[begin : begin + 24], timeout=300.0)

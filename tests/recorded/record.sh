@@ -7,7 +7,8 @@
 # the simulator's own masses, refusals, ensembles, sweeps, traces, specimens, tables. Two builds that
 # should behave alike give the same file on one machine; compare.sh does both.
 # usage: record.sh SCENES FILE      SCENES: a folder by save_scenes
-# environment: PERCUSS_BUILD, PERCUSS_SOURCE: the build and its sources; PERCUSS_PYTHON: a Python with numpy
+# environment: PERCUSS_BUILD, PERCUSS_SOURCE: the build and its sources; PERCUSS_PYTHON: a Python with numpy;
+#   PERCUSS_IN_PROCESS=1: no daemon is asked, but the solver in each asking process
 ask_py=$(cd "$(dirname "$0")" && pwd)/ask.py
 . "$(dirname "$0")/../service/lib.sh"
 scenes=$(cd "$1" && pwd)
@@ -29,6 +30,15 @@ kept() {
 }
 
 paper="--a steel-sphere --b"
+whom=$domain
+if [ "${PERCUSS_IN_PROCESS:-}" ]; then
+    whom=$work/percussd.yaml
+    percuss() {
+        command=$1
+        shift
+        "$bin/percuss" "$command" --local --config "$whom" "$@"
+    }
+fi
 
 single_questions() {
     kept bodies --json
@@ -109,13 +119,13 @@ catalogue_of_all() {
 catalogue_of_all
 cp -r "$source_dir/config/tables" "$work/tables"
 settings "tables: tables" "store: $work/specimens.db"
-start_daemon
+[ "${PERCUSS_IN_PROCESS:-}" ] || start_daemon
 {
-    python "$domain" "$scenes" || fail "ask.py"
+    python "$whom" "$scenes" || fail "ask.py"
     single_questions
     blows_on_specimens
     time_histories
     many_impacts
 } >"$record"
-stop_daemon
+[ "${PERCUSS_IN_PROCESS:-}" ] || stop_daemon
 echo "$(grep -c '^{"asked"\|^== percuss' "$record") questions, $(wc -c <"$record") bytes in $record"
