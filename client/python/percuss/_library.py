@@ -33,8 +33,8 @@ def _check_version(library: ctypes.CDLL) -> None:
         raise ImportError(f"this package is for libpercuss {VERSION}; {library._name} is {version.decode()}")
 
 
-def load(part: str = "") -> ctypes.CDLL:
-    """libpercuss, or libpercuss-PART; ImportError says where it was looked for."""
+def load(part: str = "", version: bool = True) -> ctypes.CDLL:
+    """libpercuss, or libpercuss-PART; ImportError says where it was looked for. version: whether it can tell its own."""
     failures = []
     name = f"libpercuss{'-' if part else ''}{part}.{_NUMBER}"
     for candidate in _candidates(name):
@@ -43,7 +43,8 @@ def load(part: str = "") -> ctypes.CDLL:
         except OSError as error:
             failures.append(f"\n  {error}")
             continue
-        _check_version(library)
+        if version:
+            _check_version(library)
         return library
     raise ImportError(
         f"{name} was not found: install percuss, or set PERCUSS_LIBRARY to the library's path"

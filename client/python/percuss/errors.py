@@ -67,13 +67,13 @@ _CLASSES: dict[Result, type[CallError]] = {
 }
 
 
-def check(code: int, library: ctypes.CDLL = _abi.library) -> None:
+def check(code: int, library: ctypes.CDLL = _abi.library, text: str = "percuss_error_text") -> None:
     """Raises the exception of a result other than OK of that library. In the thread of the call, right after it."""
     result = Result(code)
     if result == Result.OK:
         return
     what: bytes = _abi.library.percuss_result_text(code)
-    why: bytes = library.percuss_error_text()
+    why: bytes = getattr(library, text)()
     message = f"{what.decode()}: {why.decode(errors='replace')}"
     if result == Result.NO_MEMORY:
         raise MemoryError(message)

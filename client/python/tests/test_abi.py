@@ -17,12 +17,14 @@ from pathlib import Path
 import numpy as np
 
 import percuss
-from percuss import _abi, vocabulary
+from percuss import _abi, _slow_abi, vocabulary
+from percuss.slowscale import Application
 
 SOURCE = Path(os.environ["PERCUSS_SOURCE"])
 HEADERS = SOURCE / "client" / "include" / "percuss"
 # the slow scale is a library of its own
 LIBRARY = [header for header in sorted(HEADERS.glob("*.h")) if not header.name.startswith("slow")]
+SLOW = sorted(HEADERS.glob("slow*.h"))
 VOCABULARY = SOURCE / "idl" / "percuss" / "vocabulary.h"
 
 
@@ -30,16 +32,18 @@ def field_names(declarations: str) -> list[str]:
     """The names in `double a[3], *b; struct { ... } c;`, in order."""
     # a nested struct counts as one field
     flat = re.sub(r"struct\s*{[^}]*}", "struct", declarations)
+    # a pointer to a function is called what stands in its first parentheses
+    flat = re.sub(r"\w[^;]*?\(\*(\w+)\)\([^;]*\)", r"\1", flat)
     fields = []
     for declaration in filter(None, map(str.strip, flat.split(";"))):
         fields += [re.findall(r"\w+", re.sub(r"\[.*?\]", "", one))[-1] for one in declaration.split(",")]
     return fields
 
 
-def public_structs() -> dict[str, list[str]]:
+def public_structs(headers: list[Path] = LIBRARY) -> dict[str, list[str]]:
     """Every struct that the headers define, with its fields; ensembles are not offered to Python yet."""
     structs = {}
-    for header in LIBRARY:
+    for header in headers:
         if header.name.startswith("ensemble"):
             continue
         code = re.sub(r"/\*.*?\*/", "", header.read_text(), flags=re.DOTALL)
@@ -50,7 +54,8 @@ def public_structs() -> dict[str, list[str]]:
 
 def compiled_layouts(structs: dict[str, list[str]]) -> dict[tuple[str, ...], list[int]]:
     """(struct,): [size]; (struct, field): [offset, size], as the compiler has them."""
-    lines = ["#include <percuss/local.h>", "#include <stdio.h>", "int main(void) {"]
+    headers = ("percuss/local.h", "percuss/slowscale.h", "percuss/slow_link.h", "stdio.h")
+    lines = [*(f"#include <{header}>" for header in headers), "int main(void) {"]
     for struct, fields in structs.items():
         lines.append(f'printf("{struct} : %zu\\n", sizeof(struct {struct}));')
         lines += [
@@ -70,9 +75,9 @@ def compiled_layouts(structs: dict[str, list[str]]) -> dict[tuple[str, ...], lis
     return {tuple(names.split()): [int(number) for number in numbers.split()] for names, numbers in pairs}
 
 
-def our_layouts() -> dict[tuple[str, ...], list[int]]:
+def our_layouts(structs: dict[str, type[Structure]] = _abi.STRUCTS) -> dict[tuple[str, ...], list[int]]:
     layouts: dict[tuple[str, ...], list[int]] = {}
-    for struct, ours in _abi.STRUCTS.items():
+    for struct, ours in structs.items():
         layouts[(struct,)] = [_size(ours)]
         for field in ours._fields_:
             descriptor = getattr(ours, field[0])
@@ -92,6 +97,25 @@ class Abi(unittest.TestCase):
         )
         self.assertEqual(our_layouts(), compiled_layouts(structs))
 
+    def test_slow_layouts(self) -> None:
+        structs = public_structs(SLOW)
+        ours = {name: [field[0] for field in struct._fields_] for name, struct in _slow_abi.STRUCTS.items()}
+        self.assertEqual(structs, ours)
+        self.assertEqual(our_layouts(_slow_abi.STRUCTS), compiled_layouts(structs))
+
+    def test_slow_choices(self) -> None:
+        code = (HEADERS / "slowscale.h").read_text()
+        lists = re.search(r"enum percuss_slow_application {(.*?)}", code, flags=re.DOTALL)
+        assert lists
+        names = re.findall(r"PERCUSS_SLOW_(\w+)", lists[1])
+        self.assertEqual([(one.name, one.value) for one in Application], list(zip(names, range(9))))
+
+    def test_slow_functions(self) -> None:
+        code = "".join(header.read_text() for header in SLOW)
+        functions = set(re.findall(r"PERCUSS_API[^;(]*?\bpercuss_slow_(\w+)\(", code))
+        declared = {name for name, _, _ in (*_slow_abi.FUNCTIONS, *_slow_abi.LINK_FUNCTIONS)}
+        self.assertEqual(declared | {"restitution", "gap_rate_after"}, functions)
+
     def test_sub_impact_dtype(self) -> None:
         fields = percuss.SUB_IMPACT.fields
         assert fields is not None
@@ -106,7 +130,7 @@ class Abi(unittest.TestCase):
         """Same names and numbers as in the lists of the C headers."""
         code = VOCABULARY.read_text() + (HEADERS / "result.h").read_text()
         for choices in vocabulary.Choice.__subclasses__():
-            if choices is percuss.Support:
+            if choices in (percuss.Support, Application):
                 continue
             upper = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", choices.__name__).upper()
             match = re.search(rf"PERCUSS_{upper}_LIST\(X\)(.*?)\n\n", code, flags=re.DOTALL)
