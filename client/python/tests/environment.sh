@@ -8,7 +8,7 @@ set -eu
 package=$1/client/python
 venv=$2
 log=$venv.log
-extras="mujoco,dds,test"
+extras="mujoco,dds,plot,test"
 export PIP_DISABLE_PIP_VERSION_CHECK=1
 
 skip() {
@@ -28,7 +28,7 @@ try() {
 }
 
 # a changed list of dependencies or another Python starts anew
-wanted=$( (python3 --version && cat "$package/pyproject.toml") | cksum)
+wanted=$( (python3 --version && echo "$extras" && cat "$package/pyproject.toml") | cksum)
 if [ "$(cat "$venv/wanted" 2>/dev/null)" != "$wanted" ]; then
     rm -rf "$venv"
     command -v python3 >/dev/null || skip "no python3"

@@ -13,6 +13,8 @@ import percuss, percuss._abi
 assert percuss.__file__.startswith('$package'), percuss.__file__
 assert percuss._abi.library._name.startswith('$PWD/prefix/lib'), percuss._abi.library._name"
 PYTHONPATH=$package python "$package/examples/speed_sweep.py" .
+# so do the other libraries, and they the installed catalogue
+PYTHONPATH=$package python "$package/examples/two_spheres.py"
 pip install --no-index --no-deps --no-build-isolation --target "$PWD/target" "$package" >>log 2>&1 || {
     cat log >&2
     exit 1
