@@ -7,7 +7,7 @@ from ctypes import CFUNCTYPE, POINTER, c_bool, c_char_p, c_double, c_int
 from ctypes import c_size_t, c_uint, c_uint32, c_uint64, c_void_p
 from typing import Any
 
-from ._abi import BodyMotion, Options, Reply, Request, SubImpact
+from ._abi import BodyMotion, Options, Reply, Request
 from ._abi import library as _percuss
 from ._library import load
 
@@ -37,14 +37,6 @@ class View(ctypes.Structure):
         ("gap_rate", POINTER(c_double)),
         ("delassus", POINTER(c_double)),
         ("bodies", POINTER(BodyMotion)),
-    ]
-
-
-class Outcome(ctypes.Structure):
-    _fields_ = [
-        ("compression", POINTER(c_double)),
-        ("impulse", POINTER(c_double)),
-        ("gap_rate_after", POINTER(c_double)),
     ]
 
 
@@ -120,7 +112,6 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "percuss_slow_contact": Contact,
     "percuss_slow_inertia": Inertia,
     "percuss_slow_view": View,
-    "percuss_slow_outcome": Outcome,
     "percuss_slow_engine": Engine,
     "percuss_slow_service": Service,
     "percuss_slow_report": Report,
@@ -136,9 +127,6 @@ _Doubles = POINTER(c_double)
 _Bodies, _Inertias = POINTER(BodyMotion), POINTER(Inertia)
 
 FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
-    ("compression", c_bool, [c_size_t, _Doubles, _Doubles, _Doubles]),
-    ("poisson", c_bool, [c_size_t, _Doubles, _Doubles, _Doubles, POINTER(Outcome)]),
-    ("force_centre", c_double, [POINTER(SubImpact)]),
     ("gap_rates", None, [_Bodies, c_size_t, POINTER(Contact), _Doubles]),
     ("free_delassus", None, [_Bodies, _Inertias, c_size_t, POINTER(Contact), _Doubles]),
     ("free_apply", None, [_Bodies, _Inertias, POINTER(Contact), c_double]),
