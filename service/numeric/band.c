@@ -5,11 +5,16 @@
 
 #include <lapacke.h>
 
+#include "numeric/turn.h"
+
 static bool factor_from(struct band *band, size_t first)
 {
-    return LAPACKE_dpbtrf_work(LAPACK_COL_MAJOR, 'L', (lapack_int)(band->n - first),
-                               (lapack_int)band->width, band_entry(band, first, first),
-                               (lapack_int)(band->width + 1)) == 0;
+    turn_begin();
+    lapack_int result = LAPACKE_dpbtrf_work(LAPACK_COL_MAJOR, 'L', (lapack_int)(band->n - first),
+                                            (lapack_int)band->width, band_entry(band, first, first),
+                                            (lapack_int)(band->width + 1));
+    turn_end();
+    return result == 0;
 }
 
 bool band_factor(struct band *band)

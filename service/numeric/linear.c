@@ -7,12 +7,17 @@
 #include <math.h>
 #include <string.h>
 
+#include "numeric/turn.h"
+
 bool linear_symmetric_eigen(size_t n, double *a, double *eigenvalues)
 {
     /* a symmetric matrix is its own transpose: column-major avoids LAPACKE's copies, and column i
      * of the result is row i of ours */
     lapack_int order = (lapack_int)n;
-    return LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'U', order, a, order, eigenvalues) == 0;
+    turn_begin();
+    lapack_int result = LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'U', order, a, order, eigenvalues);
+    turn_end();
+    return result == 0;
 }
 
 double linear_pseudo_inverse(size_t n, const double *a, double relative, double *inverse,
