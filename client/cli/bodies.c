@@ -7,10 +7,11 @@
 #include <string.h>
 
 #include "cli.h"
+#include "csv.h"
 #include "json_writer.h"
 #include "percuss/plausible.h"
 
-enum { OPTION_CHECK = OPTION_OWN };
+enum { OPTION_CHECK = OPTION_OWN, OPTION_CSV };
 
 static json_t *numbers(const double *values, size_t count)
 {
@@ -71,6 +72,34 @@ static void print_json(const struct percuss_body_list *list)
         json_array_append_new(array, object);
     }
     json_print(root);
+}
+
+static void print_csv(const struct percuss_body_list *list, bool units)
+{
+    /* the others under the names that inputs have */
+    csv_head(stdout, "id,shape,material,mass,half_extent_x,half_extent_y,half_extent_z,tip_radius",
+             units);
+    for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; p++) {
+        putchar(',');
+        csv_head(stdout, percuss_parameter_name(p), units);
+    }
+    puts(",description");
+    for (size_t i = 0; i < list->count; i++) {
+        const struct percuss_body *body = &list->bodies[i];
+        const char *names[] = {body->id, body->shape, body->material};
+        const double *half = body->half_extents;
+        for (size_t k = 0; k < 3; k++) {
+            csv_text(stdout, names[k]);
+            putchar(',');
+        }
+        printf("%.17g,%.17g,%.17g,%.17g,%.17g", body->mass, half[0], half[1], half[2],
+               body->tip_radius);
+        for (unsigned p = 0; p < PERCUSS_PARAMETER_COUNT; p++)
+            printf(",%.17g", p == PERCUSS_PARAMETER_RADIUS ? body->radius : body->parameters[p]);
+        putchar(',');
+        csv_text(stdout, body->description);
+        putchar('\n');
+    }
 }
 
 static void print_table(const struct percuss_body_list *list)
@@ -137,7 +166,7 @@ static int print_check(const struct percuss_body_list *list, bool json)
 
 struct bodies_options {
     struct common *common;
-    bool check;
+    bool check, csv;
 };
 
 static const struct argp_option options[] = {
@@ -145,6 +174,7 @@ static const struct argp_option options[] = {
      "Say instead what is possible but improbable of them: mostly a number in another unit than "
      "was meant",
      0},
+    {"csv", OPTION_CSV, NULL, 0, "print comma-separated values, a line for each body", 90},
     {0}};
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -157,6 +187,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case OPTION_CHECK:
         chosen->check = true;
+        return 0;
+    case OPTION_CSV:
+        chosen->csv = true;
+        return 0;
+    case ARGP_KEY_END:
+        if (chosen->csv && (chosen->check || chosen->common->json))
+            argp_error(state, "--csv or %s, not both", chosen->check ? "--check" : "--json");
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -173,7 +210,7 @@ int command_bodies(int argc, char **argv, struct common *common)
 {
     struct percuss_client *client;
     struct percuss_body_list list;
-    struct bodies_options chosen = {common, false};
+    struct bodies_options chosen = {.common = common};
     argp_parse(&bodies_argp, argc, argv, 0, NULL, &chosen);
     int code = open_client(common, NULL, &client);
     if (code != EXIT_ANSWERED)
@@ -185,6 +222,8 @@ int command_bodies(int argc, char **argv, struct common *common)
         code = print_check(&list, common->json);
     else if (common->json)
         print_json(&list);
+    else if (chosen.csv)
+        print_csv(&list, common->units);
     else
         print_table(&list);
     percuss_body_list_free(&list);

@@ -22,6 +22,7 @@ struct common {
     uint32_t domain;
     double timeout; /* s for the answer; NAN: not given */
     bool json;
+    bool units;                          /* in the head of comma-separated values */
     char server[PERCUSS_SERVER_ID_SIZE]; /* what its id begins with, or a choice; empty: any */
     const char *partition;               /* NULL: not given; empty: none */
     const char *security;                /* folder of the identity to use; NULL: not given */
@@ -34,6 +35,7 @@ enum option_key {
     OPTION_DOMAIN = 256,
     OPTION_TIMEOUT,
     OPTION_JSON,
+    OPTION_UNITS,
     OPTION_SERVER,
     OPTION_SECURITY,
     OPTION_PARTITION,

@@ -43,6 +43,8 @@ static const struct argp_option common_options[] = {
      "a catalogue and contact tables)",
      91},
     {"json", OPTION_JSON, NULL, 0, "print one JSON object", 90},
+    {"units", OPTION_UNITS, NULL, 0,
+     "say units in the first line of comma-separated values: speed [m/s]", 90},
     /* what many programs call -? and -V */
     {NULL, 'h', NULL, OPTION_HIDDEN, NULL, 90},
     {NULL, 'v', NULL, OPTION_HIDDEN, NULL, 90},
@@ -131,6 +133,9 @@ static error_t parse_common(int key, char *text, struct argp_state *state)
     /* how it is told */
     case OPTION_JSON:
         common->json = true;
+        return 0;
+    case OPTION_UNITS:
+        common->units = true;
         return 0;
     /* what ends the program */
     case 'h':

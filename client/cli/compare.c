@@ -141,7 +141,7 @@ static int report(const struct compare *compare, const struct comparison *compar
     if (compare->common->json)
         compare_print_json(comparison);
     else if (compare->csv)
-        compare_print_csv(comparison);
+        compare_print_csv(comparison, compare->common->units);
     else
         compare_print_table(comparison);
     if (!compare->common->json)

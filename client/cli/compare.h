@@ -21,7 +21,7 @@ struct comparison {
 };
 
 void compare_print_table(const struct comparison *comparison);
-void compare_print_csv(const struct comparison *comparison);
+void compare_print_csv(const struct comparison *comparison, bool units);
 void compare_print_json(const struct comparison *comparison);
 
 /* The restitution and the number of sub-impacts against the speed, and both empirical

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "compare.h"
+#include "csv.h"
 #include "json_writer.h"
 #include "plot.h"
 
@@ -58,11 +59,15 @@ static void print_csv_of(const struct measured_impact *impact)
            impact->second_start);
 }
 
-void compare_print_csv(const struct comparison *comparison)
+void compare_print_csv(const struct comparison *comparison, bool units)
 {
-    puts("speed,at,restitution,impulse,sub_impacts,first_impulse,first_duration,second_start,"
-         "simulated_restitution,simulated_impulse,simulated_sub_impacts,simulated_first_impulse,"
-         "simulated_first_duration,simulated_second_start,residual");
+    csv_head(
+        stdout,
+        "speed,at,restitution,impulse,sub_impacts,first_impulse,first_duration,second_start,"
+        "simulated_restitution,simulated_impulse,simulated_sub_impacts,simulated_first_impulse,"
+        "simulated_first_duration,simulated_second_start,residual",
+        units);
+    putchar('\n');
     for (size_t i = 0; i < comparison->set->count; i++) {
         const struct measured_impact *measured = &comparison->set->impacts[i];
         const struct measured_impact *twin = &comparison->twins[i].impact;

@@ -319,7 +319,7 @@ static int ask(struct ensemble *ensemble, struct percuss_client *client,
     /* files first, then the answer */
     int code = status_exit_code(reply.status);
     if (ensemble->csv && reply.statistic_count > 0 &&
-        !ensemble_write_csv(ensemble->csv, request, &reply))
+        !ensemble_write_csv(ensemble->csv, request, &reply, ensemble->common->units))
         code = EXIT_FAILURE;
     if (ensemble->plot && reply.statistic_count > 0 &&
         ensemble_plot(ensemble->plot, request, &reply) != EXIT_ANSWERED)

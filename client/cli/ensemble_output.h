@@ -20,7 +20,7 @@ json_t *ensemble_schema(void);
 /* Writes the listed samples, one a line. False: the file could not be written, or there are none;
  * complains. */
 bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request *request,
-                        const struct percuss_ensemble_reply *reply);
+                        const struct percuss_ensemble_reply *reply, bool units);
 
 /* Draws what the reply says, the restitution over the speed from its listed samples. Exit code;
  * complains. */

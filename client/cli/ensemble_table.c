@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "csv.h"
 #include "ensemble_output.h"
 #include "others.h"
 
@@ -223,17 +224,22 @@ void ensemble_print_table(const struct percuss_ensemble_request *request,
         fprintf(stderr, "percuss: warning: %s\n", reply->warnings[i]);
 }
 
-static void write_head(FILE *stream, const struct percuss_ensemble_request *request)
+static void write_head(FILE *stream, const struct percuss_ensemble_request *request, bool units)
 {
     for (size_t i = 0; i < request->input_count; i++) {
         const struct percuss_input *input = &request->inputs[i];
-        fprintf(stream, "%s%s%s,", input->name, input->body[0] ? "@" : "", input->body);
+        char name[sizeof input->name + sizeof input->body + 2];
+        snprintf(name, sizeof name, "%s%s%s", input->name, input->body[0] ? "@" : "", input->body);
+        csv_head(stream, name, units);
+        putc(',', stream);
     }
-    fputs("restitution,impulse,end_time,peak_force,sub_impacts,significant,status\n", stream);
+    csv_head(stream, "restitution,impulse,end_time,peak_force,sub_impacts,significant,status",
+             units);
+    putc('\n', stream);
 }
 
 bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request *request,
-                        const struct percuss_ensemble_reply *reply)
+                        const struct percuss_ensemble_reply *reply, bool units)
 {
     size_t columns = reply->column_count;
     if (!reply->rows || columns != request->input_count + 7) {
@@ -245,7 +251,7 @@ bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request 
         complain("%s: %s", file, strerror(errno));
         return false;
     }
-    write_head(stream, request);
+    write_head(stream, request, units);
     for (uint64_t i = 0; i < reply->samples; i++) {
         /* inputs and results; two counts, and a status by its name */
         const double *row = reply->rows + i * columns;

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "csv.h"
 #include "plot.h"
 
 static size_t largest_contact(const struct percuss_reply *reply)
@@ -115,16 +116,18 @@ int plot_impact(const char *file, const struct impact_picture *picture)
     return plot_end(&plot);
 }
 
-int write_trace_csv(const char *file, const struct percuss_trace *trace)
+int write_trace_csv(const char *file, const struct percuss_trace *trace, bool units)
 {
     FILE *out = strcmp(file, "-") ? fopen(file, "w") : stdout;
     if (!out) {
         complain("--trace: %s: %s", file, strerror(errno));
         return EXIT_FAILURE;
     }
-    fputs("contact,time,force,indentation,gap,gap_rate,displacement_a,velocity_a,displacement_b,"
-          "velocity_b\n",
-          out);
+    csv_head(out,
+             "contact,time,force,indentation,gap,gap_rate,displacement_a,velocity_a,displacement_b,"
+             "velocity_b",
+             units);
+    putc('\n', out);
     for (size_t c = 0; c < trace->contact_count; c++) {
         const struct percuss_contact_trace *t = &trace->contacts[c];
         for (size_t i = 0; i < t->count; i++)

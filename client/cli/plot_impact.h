@@ -23,6 +23,6 @@ int plot_impact(const char *file, const struct impact_picture *picture);
 
 /* All contacts: contact, time, force, indentation, gap, gap_rate, displacement_a, velocity_a,
  * displacement_b, velocity_b; "-" is standard output. Exit code; complains. */
-int write_trace_csv(const char *file, const struct percuss_trace *trace);
+int write_trace_csv(const char *file, const struct percuss_trace *trace, bool units);
 
 #endif

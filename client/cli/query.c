@@ -12,6 +12,7 @@
 #include "output_file.h"
 #include "plot.h"
 #include "plot_impact.h"
+#include "reply_csv.h"
 #include "reply_json.h"
 #include "reply_table.h"
 #include "request_json.h"
@@ -26,7 +27,8 @@ enum {
     KEY_SPECIMEN_B,
     KEY_TRACE,
     KEY_PLOT,
-    KEY_MEASURED
+    KEY_MEASURED,
+    KEY_CSV
 };
 
 struct query {
@@ -35,6 +37,7 @@ struct query {
     double speed;       /* NAN: not given */
     double speed_sigma; /* its standard deviation; 0: not given */
     const char *file;
+    bool csv;
     const char *trace, *plot;       /* files; NULL: not wanted */
     struct history_motion measured; /* laid over the picture; count 0: nothing */
     const char *specimens[2];       /* of A, B; NULL: not given */
@@ -56,6 +59,9 @@ static const struct argp_option options[] = {
      "lay a measured history over the picture: columns time, velocity_a or displacement_a, and "
      "those of b",
      40},
+    {"csv", KEY_CSV, NULL, 0,
+     "print comma-separated values: a line for each sub-impact, with its contact's restitution",
+     90},
     {0},
 };
 
@@ -70,6 +76,9 @@ static void check(const struct query *query, struct argp_state *state)
     scene_check_single(scene, state);
     if (query->measured.count > 0 && !query->plot)
         argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
+    if (query->csv && (query->common->json || query->speed_sigma > 0.0))
+        argp_error(state, "--csv or %s, not both",
+                   query->common->json ? "--json" : "--speed-sigma");
     if (!query->file && !(scene->a && scene->b && !isnan(query->speed)))
         argp_error(state, "--a ID --b ID --speed V or --request FILE is needed");
 }
@@ -129,6 +138,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
             output_file_check("trace", text, state);
         query->trace = text;
         return 0;
+    case KEY_CSV:
+        query->csv = true;
+        return 0;
     case KEY_PLOT:
         plot_check(text, state);
         query->plot = text;
@@ -179,7 +191,10 @@ static void print_answer(const struct query *query, const struct percuss_request
         json_print(root);
         return;
     }
-    reply_table_print(request, reply);
+    if (query->csv)
+        reply_csv_print(request, reply, query->common->units);
+    else
+        reply_table_print(request, reply);
     if (spread)
         spread_print(query->speed_sigma, spread);
 }
@@ -210,7 +225,7 @@ static int ask(const struct query *query, const struct percuss_request *request,
     /* files of the histories */
     int written = EXIT_ANSWERED;
     if (query->trace && trace.contact_count > 0)
-        written = write_trace_csv(query->trace, &trace);
+        written = write_trace_csv(query->trace, &trace, query->common->units);
     const struct impact_picture picture = {request, &reply, &trace,
                                            query->measured.count > 0 ? &query->measured : NULL};
     if (query->plot && trace.contact_count > 0 && written == EXIT_ANSWERED)

@@ -116,10 +116,16 @@ static void print_model(const struct percuss_model *model)
                model->omitted_error);
 }
 
-void reply_table_print(const struct percuss_request *request, const struct percuss_reply *reply)
+void reply_table_tell(const struct percuss_reply *reply)
 {
     if (reply->status != PERCUSS_OK)
         complain("%s: %s", percuss_status_name(reply->status), reply->message);
+    for (size_t i = 0; i < reply->warning_count; i++)
+        complain("warning: %s", reply->warnings[i]);
+}
+
+void reply_table_print(const struct percuss_request *request, const struct percuss_reply *reply)
+{
     for (size_t i = 0; i < reply->contact_count; i++) {
         print_title(request, i);
         print_contact(reply, &reply->contacts[i]);
@@ -131,6 +137,5 @@ void reply_table_print(const struct percuss_request *request, const struct percu
     }
     if (reply->time_shift != 0.0 && !isnan(reply->time_shift))
         printf("  time shift   %.4g us\n", 1e6 * reply->time_shift);
-    for (size_t i = 0; i < reply->warning_count; i++)
-        complain("warning: %s", reply->warnings[i]);
+    reply_table_tell(reply);
 }

@@ -10,6 +10,9 @@
 /* Prints the answer to stdout; message and warnings to stderr. `request` is what was asked. */
 void reply_table_print(const struct percuss_request *request, const struct percuss_reply *reply);
 
+/* Prints what a status that is not OK means, and the warnings, to stderr. */
+void reply_table_tell(const struct percuss_reply *reply);
+
 /* Estimated error of the restitution: time steps and modes together; NAN: unknown. */
 double reply_restitution_error(const struct percuss_reply *reply);
 

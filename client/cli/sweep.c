@@ -292,9 +292,15 @@ static bool list_curves(struct work *work, struct percuss_client *client)
             good = good && work->curves[count].rows;
         }
     }
-    work->points =
-        (struct sweep_points){scene->a,     sweep->count, work->speeds,          count,
-                              work->curves, &work->tally, sweep->measured_count, sweep->measured};
+    work->points = (struct sweep_points){scene->a,
+                                         sweep->count,
+                                         work->speeds,
+                                         count,
+                                         work->curves,
+                                         &work->tally,
+                                         sweep->measured_count,
+                                         sweep->measured,
+                                         sweep->common->units};
     return good;
 }
 

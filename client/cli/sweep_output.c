@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "csv.h"
 #include "plot.h"
 #include "reply_json.h"
 #include "reply_table.h"
@@ -52,8 +53,11 @@ void sweep_print_row(const struct sweep_points *points, size_t k, unsigned i)
 
 void sweep_csv_head(const struct sweep_points *points, FILE *file)
 {
-    fprintf(file, "%sspeed,restitution,error,impulse,sub_impacts,significant,end_time,status\n",
-            points->curve_count > 1 ? "b,contact_model," : "");
+    if (points->curve_count > 1)
+        fputs("b,contact_model,", file);
+    csv_head(file, "speed,restitution,error,impulse,sub_impacts,significant,end_time,status",
+             points->units);
+    putc('\n', file);
 }
 
 void sweep_csv_row(const struct sweep_points *points, size_t k, unsigned i, FILE *file)

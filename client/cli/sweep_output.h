@@ -44,6 +44,7 @@ struct sweep_points {
     const struct tally *warnings; /* of all points */
     size_t measured_count;
     const struct sweep_measured *measured;
+    bool units; /* in the head of CSV */
 };
 
 struct sweep_row sweep_row_of(const struct percuss_reply *reply, double speed);

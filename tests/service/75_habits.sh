@@ -35,3 +35,70 @@ for arguments in -v -V "query -v"; do
     expect 0 "$bin/percuss" $arguments
     cmp -s "$out" "$work/version" || fail "$arguments"
 done
+
+start_daemon
+say "comma-separated values say what JSON says, to the last bit"
+cat >"$work/same.py" <<'END'
+import csv, json, math, sys
+
+def same(text, value):  # JSON has no infinity and no nan
+    number = float(text)
+    return value is None and not math.isfinite(number) or number == value
+
+kind, table, reply = sys.argv[1], list(csv.DictReader(open(sys.argv[2], newline=""))), json.load(open(sys.argv[3]))
+if kind == "query":
+    contact = reply["contacts"][0]
+    assert len(table) == contact["sub_impact_count"] > 1, table
+    for row, sub in zip(table, contact["sub_impacts"]):
+        assert (row["a"], row["b"], row["status"]) == ("steel-sphere", "al-beam", "OK"), row
+        for name in "restitution", "impulse", "end_time":
+            assert same(row[name], contact[name]), name
+        for name in "start", "end", "peak_force", "max_indentation":
+            assert same(row[name], sub[name]), name
+        assert same(row["sub_impulse"], sub["impulse"])
+        assert row["negligible"] == str(int(sub["negligible"]))
+else:
+    assert [row["id"] for row in table] == [body["id"] for body in reply["bodies"]]
+    for row, body in zip(table, reply["bodies"]):
+        for name in "shape", "material", "description":
+            assert row[name] == body[name], name
+        for name in "mass", "tip_radius", "radius", "young", "poisson", "density", "yield", "tangent", "damping":
+            assert same(row[name], body[name]), (body["id"], name)
+        assert same(row["half_extent_z"], body["half_extents"][2])
+END
+for kind in query bodies; do
+    set -- "$kind"
+    [ "$kind" = bodies ] || set -- query --a steel-sphere --b al-beam --speed 0.2
+    percuss "$@" --csv >"$work/$kind.csv"
+    percuss "$@" --json >"$work/$kind.json"
+    expect 0 python3 "$work/same.py" "$kind" "$work/$kind.csv" "$work/$kind.json"
+    expect 2 percuss "$@" --csv --json
+done
+# a contact of two that never closes has its line, too
+cat >"$work/two.json" <<'END'
+{"bodies": [{"id": "al-beam"}, {"id": "steel-sphere", "position": [0, 0, 0.025], "velocity": [0, 0, -0.3]},
+            {"id": "steel-sphere", "position": [0.4, 0, 0.025], "velocity": [0, 0, 3]}],
+ "contacts": [{"a": 1, "b": 0, "point": [0, 0, 0.010], "normal": [0, 0, 1]},
+              {"a": 2, "b": 0, "point": [0.4, 0, 0.010], "normal": [0, 0, 1]}]}
+END
+expect 0 percuss query --request "$work/two.json" --csv
+[ "$(sed -n 's/^1,.*,OK,//p' "$out")" = "0,nan,nan,nan,nan,nan,0" ] || fail "the line of the second contact"
+
+say "units in their first line where they are wanted, and nothing else of them is changed"
+pair="--a steel-sphere --b al-beam"
+for arguments in "query $pair --speed 0.2 --csv" "bodies --csv" "sweep $pair --b al-rod --speed 0.1:0.2:2 --csv" \
+    "ensemble $pair --speed 0.2 --input young@al-beam=uniform:69e9:71e9 --samples 20 --csv FILE" \
+    "query $pair --speed 0.2 --trace FILE" \
+    "compare $source_dir/client/examples/measured/beam.csv $pair --csv"; do
+    for units in "" --units; do
+        file=$work/with$units
+        # words
+        # shellcheck disable=SC2086
+        percuss $(echo "$arguments" | sed "s|FILE|$file|") $units >"$out" 2>"$err"
+        [ "${arguments%FILE}" != "$arguments" ] || mv "$out" "$file"
+    done
+    head -n 1 "$work/with--units" | grep -q ' \[[A-Za-z/^3 ]*\]' || fail "no units: $arguments"
+    sed '1s/ \[[^]]*\]//g' "$work/with--units" | cmp - "$work/with" || fail "more than units: $arguments"
+done
+grep -q 'second_start \[s\],simulated_restitution,simulated_impulse \[N s\]' "$work/with--units" ||
+    fail "units of the twins"
