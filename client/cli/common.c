@@ -202,7 +202,8 @@ int complain_result(enum percuss_result result)
 {
     if (result == PERCUSS_RESULT_OK)
         return EXIT_ANSWERED;
-    complain("%s", percuss_error_text());
+    complain("%s%s", percuss_error_text(),
+             result == PERCUSS_RESULT_TIMEOUT ? "; --timeout S waits longer" : "");
     switch (result) {
     case PERCUSS_RESULT_TIMEOUT:
         return EXIT_TIMEOUT;

@@ -86,7 +86,8 @@ static void offer_options(const struct line *line, const struct argp *argp)
         offer_options(line, child->argp);
 }
 
-/* The catalogue of the server that the line names; nothing where none answers at once. */
+/* The catalogue of the server that the line names, or of this process; nothing where none answers
+ * at once. */
 static void offer_bodies(const struct line *line)
 {
     struct percuss_client *client;
@@ -148,6 +149,10 @@ static void take_value(struct line *line, char *value)
         line->common->partition = value;
     else if (!strcmp(line->option->name, "security"))
         line->common->security = value;
+    else if (!strcmp(line->option->name, "catalogue"))
+        line->common->catalogue = value;
+    else if (!strcmp(line->option->name, "config"))
+        line->common->config = value;
     else if (!strcmp(line->option->name, "domain") && *value && !*end)
         line->common->domain = (uint32_t)number;
     line->option = NULL;
@@ -161,6 +166,8 @@ static void take_word(struct line *line, char *word)
         char *value = strchr(word, '=');
         line->option =
             find_option(argp, word + 2, value ? (size_t)(value - word) - 2 : strlen(word) - 2);
+        if (line->option && line->option->key == OPTION_LOCAL)
+            line->common->local = true;
         if (line->option && !line->option->arg)
             line->option = NULL;
         if (value && line->option)

@@ -66,7 +66,8 @@ enum percuss_result bodies_list(struct percuss_client *client, double timeout,
            PERCUSS_RESULT_PENDING) {
         if (moment_now() >= deadline)
             return error_set(PERCUSS_RESULT_TIMEOUT,
-                             "the server has not announced all its %u bodies", server.bodies);
+                             "%s has not announced all its %u bodies within %g s",
+                             client->server_name, server.bodies, timeout);
         dds_sleepfor(ANNOUNCEMENTS_INTERVAL);
     }
     return result;

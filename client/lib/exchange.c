@@ -44,10 +44,11 @@ enum percuss_result exchange_await(struct percuss_client *client, const struct p
 {
     if (pending->orphaned)
         return refuse_orphan(client, pending);
+    const double start = moment_now();
     enum percuss_result result = receive_until(client, pending_is_ready, pending, deadline);
     if (result == PERCUSS_RESULT_TIMEOUT)
-        error_set(result, "request %llu is not answered yet by %s",
-                  (unsigned long long)pending->sequence, client->server_name);
+        error_set(result, "request %llu is not answered by %s after %.1f s",
+                  (unsigned long long)pending->sequence, client->server_name, moment_now() - start);
     return result;
 }
 

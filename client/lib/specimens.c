@@ -75,7 +75,8 @@ enum percuss_result specimens_list(struct percuss_client *client, double timeout
             return result;
         if (moment_now() >= deadline)
             return error_set(PERCUSS_RESULT_TIMEOUT,
-                             "the server has not announced all its %u specimens", server.specimens);
+                             "%s has not announced all its %u specimens within %g s",
+                             client->server_name, server.specimens, timeout);
         result = PERCUSS_RESULT_OK;
         dds_sleepfor(ANNOUNCEMENTS_INTERVAL);
     }

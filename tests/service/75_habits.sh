@@ -102,3 +102,9 @@ for arguments in "query $pair --speed 0.2 --csv" "bodies --csv" "sweep $pair --b
 done
 grep -q 'second_start \[s\],simulated_restitution,simulated_impulse \[N s\]' "$work/with--units" ||
     fail "units of the twins"
+
+say "a time-out says what was waited for, of whom and how long, and what to do"
+# this takes a minute
+expect 4 percuss query --a steel-sphere --b al-rod-1 --speed 0.3 --contact-model complete-fe --timeout 0.7
+grep -q "request [0-9]* is not answered by percussd [0-9a-f]* (process $daemon on .*) after 0\.7 s; --timeout S" "$err" ||
+    fail "it does not say what was waited for"

@@ -122,6 +122,8 @@ stop_daemon
 begin=$(date +%s)
 in_bash percuss query --a steel-s
 offers_not steel
+in_bash percuss query --local --catalogue "$work/catalogue.yaml" --a steel-s
+offers steel-sphere
 [ ! -s "$err" ] || fail "it writes between what is typed"
 # s: half a second to wait, and the shells' own beginning on a busy machine
 [ $(($(date +%s) - begin)) -le 5 ] || fail "it takes too long"
