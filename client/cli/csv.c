@@ -5,6 +5,8 @@
 
 #include <string.h>
 
+#include "fold.h"
+
 /* What columns are in; counts, shares, names and the like are in nothing. */
 static const struct {
     const char *name, *unit;
@@ -58,6 +60,8 @@ static const char *unit_of(const char *name, size_t length)
 
 void csv_head(FILE *file, const char *names, bool units)
 {
+    if (file == stdout)
+        fold_end();
     for (const char *name = names; *name;) {
         size_t length = strcspn(name, ",");
         const char *unit = units ? unit_of(name, length) : NULL;

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "cli.h"
+#include "fold.h"
 
 json_t *json_number(double number)
 {
@@ -167,6 +168,7 @@ void json_print(json_t *value)
         fprintf(stderr, "percuss: out of memory\n");
         exit(EXIT_ANSWERED_WITH_WARNING);
     }
+    fold_end();
     puts(text);
     free(text);
     json_decref(value);

@@ -11,6 +11,7 @@
 #include "cli.h"
 #include "commands.h"
 #include "complete.h"
+#include "fold.h"
 
 const char *argp_program_version = "percuss " PERCUSS_VERSION;
 
@@ -105,8 +106,10 @@ int main(int argc, char **argv)
     argv[invocation.command] = title;
     argc -= invocation.command;
     argv += invocation.command;
+    fold_begin();
     int code = strcmp(name, "help") ? run(name, argc, argv, &invocation.common)
                                     : help(argc, argv, &invocation.common);
+    fold_end();
     if (fflush(stdout) != 0 || ferror(stdout)) {
         complain("writing the output failed");
         return EXIT_FAILURE;

@@ -108,3 +108,30 @@ say "a time-out says what was waited for, of whom and how long, and what to do"
 expect 4 percuss query --a steel-sphere --b al-rod-1 --speed 0.3 --contact-model complete-fe --timeout 0.7
 grep -q "request [0-9]* is not answered by percussd [0-9a-f]* (process $daemon on .*) after 0\.7 s; --timeout S" "$err" ||
     fail "it does not say what was waited for"
+
+say "on a terminal lines go on below, between words; nothing is lost, no number is broken"
+# on_terminal WIDTH ARGUMENT...: what it shows, without the ends of lines that terminals have
+on_terminal() {
+    width=$1
+    shift
+    script -qec "stty cols $width; $bin/percuss $* --domain $domain 2>/dev/null" /dev/null </dev/null | tr -d '\r' >"$out"
+}
+for width in 50 80; do
+    for arguments in bodies "query $pair --speed 0.3" "sweep $pair --speed 0.1:0.4:3"; do
+        # shellcheck disable=SC2086
+        percuss $arguments >"$work/whole"
+        on_terminal "$width" "$arguments"
+        [ "$(awk '{ if (length($0) > n) n = length($0) } END { print n }' "$work/whole")" -gt "$width" ] ||
+            [ "$width" -gt 50 ] || fail "nothing is to be folded: $arguments"
+        ! awk -v w="$width" 'length($0) > w { found = 1 } END { exit !found }' "$out" || fail "too wide: $arguments"
+        # word for word
+        for file in "$work/whole" "$out"; do
+            tr -s ' \n' '\n\n' <"$file" >"$file.words"
+        done
+        cmp "$work/whole.words" "$out.words" || fail "not the same words: $arguments"
+    done
+done
+on_terminal 50 bodies --json
+percuss bodies --json | cmp - "$out" || fail "JSON is folded"
+on_terminal 50 bodies --csv
+percuss bodies --csv | cmp - "$out" || fail "CSV is folded"

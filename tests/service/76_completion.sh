@@ -5,7 +5,7 @@
 . "$(dirname "$0")/lib.sh"
 for shell in bash zsh fish; do
     command -v "$shell" >/dev/null || {
-        echo "$shell is not installed (sh deploy/dependencies.sh ci)"
+        echo "$shell is not installed (sh deploy/dependencies.sh test)"
         exit 77
     }
 done
