@@ -126,7 +126,7 @@ only 'time\.h|sys/|unistd|pthread' 'service/exchange|service/respond|service/end
 # clients do not look into the service, but for the one that is a service to itself; the slow scale is built
 # with its complementarity solver
 found=$(grep -nE '^ *# *include *"(base|numeric|model|fe|contact|impact|solve|ensemble|store|catalogue|exchange|respond|endpoint|daemon)/' client/*/*.[ch] |
-    grep -v -e '^client/slowscale/.*"numeric/lcp\.h"' -e '^client/local/.*"\(catalogue\|exchange\|respond\|store\)/')
+    grep -v -e '^client/slowscale/.*"numeric/lcp\.h"' -e '^client/local/.*"\(catalogue\|ensemble\|exchange\|respond\|store\)/')
 [ -z "$found" ] || complain "client looks into the service: $found"
 
 # which therefore needs nothing of the rest, and the slow scale no DDS

@@ -14,6 +14,7 @@
 #include "library.h"
 #include "moment.h"
 #include "respond/ensemble_answer.h"
+#include "sharing.h"
 
 /* Who watches it. */
 struct watcher {
@@ -23,6 +24,7 @@ struct watcher {
     double *rows; /* of the listed samples; NULL: none */
     size_t columns;
     uint64_t listed;
+    percuss_share_function *share; /* NULL: threads here solve the samples */
 };
 
 static enum ensemble_wish wish(void *context)
@@ -70,6 +72,13 @@ static enum percuss_status table_is_wanted(void *context, const struct table_mak
     return watcher->cancelled ? fault_set(fault, PERCUSS_TIMEOUT, "cancelled") : PERCUSS_OK;
 }
 
+/* By whoever the caller knows. */
+static void share(void *context, struct ensemble_run *run, const struct ensemble_range *range)
+{
+    struct watcher *watcher = context;
+    sharing_ask(watcher->share, watcher->context, run, range);
+}
+
 static struct answer *run(struct percuss_client *client, const percuss_v1_EnsembleRequest *wire,
                           struct watcher *watcher)
 {
@@ -82,6 +91,7 @@ static struct answer *run(struct percuss_client *client, const percuss_v1_Ensemb
         .wish = wish,
         .progress = tell,
         .list = list,
+        .share = watcher->share ? share : NULL,
         .context = watcher,
     };
     const struct ensemble_question question = {
@@ -106,32 +116,57 @@ static enum percuss_result hand_over(const struct answer *answer, struct watcher
     return PERCUSS_RESULT_OK;
 }
 
+static enum percuss_result ask(struct percuss_client *client,
+                               const struct percuss_ensemble_request *request,
+                               struct watcher *watcher, struct percuss_ensemble_reply *reply)
+{
+    percuss_v1_EnsembleRequest wire;
+    *reply = (struct percuss_ensemble_reply){0};
+    /* as it would be on the wire */
+    struct ensemble_storage *storage = malloc(sizeof *storage);
+    enum percuss_result result = storage ? convert_ensemble_request(request, storage, &wire)
+                                         : error_set(PERCUSS_RESULT_NO_MEMORY, "an ensemble");
+    if (result == PERCUSS_RESULT_OK) {
+        memcpy(wire.client, client->id, sizeof wire.client);
+        wire.sequence = instance_draw_sequences(client, request->sequence, 1);
+        /* solved, and told as it would be */
+        struct answer *answer = run(client, &wire, watcher);
+        result = answer ? hand_over(answer, watcher, reply)
+                        : error_set(PERCUSS_RESULT_NO_MEMORY, "the reply to an ensemble");
+        answer_release(answer);
+    }
+    free(watcher->rows);
+    free(storage);
+    return result;
+}
+
 enum percuss_result local_solve_ensemble(struct percuss_client *client,
                                          const struct percuss_ensemble_request *request,
                                          double timeout, percuss_progress_function *progress,
                                          void *context, struct percuss_ensemble_reply *reply)
 {
     double deadline;
-    percuss_v1_EnsembleRequest wire;
     struct watcher watcher = {.function = progress, .context = context};
-    *reply = (struct percuss_ensemble_reply){0};
     enum percuss_result result = moment_deadline(timeout, &deadline);
-    /* as it would be on the wire */
-    struct ensemble_storage *storage = malloc(sizeof *storage);
-    if (result == PERCUSS_RESULT_OK && !storage)
-        result = error_set(PERCUSS_RESULT_NO_MEMORY, "an ensemble");
     if (result == PERCUSS_RESULT_OK)
-        result = convert_ensemble_request(request, storage, &wire);
-    if (result == PERCUSS_RESULT_OK) {
-        memcpy(wire.client, client->id, sizeof wire.client);
-        wire.sequence = instance_draw_sequences(client, request->sequence, 1);
-        /* solved, and told as it would be */
-        struct answer *answer = run(client, &wire, &watcher);
-        result = answer ? hand_over(answer, &watcher, reply)
-                        : error_set(PERCUSS_RESULT_NO_MEMORY, "the reply to an ensemble");
-        answer_release(answer);
-    }
-    free(watcher.rows);
-    free(storage);
+        return ask(client, request, &watcher, reply);
+    *reply = (struct percuss_ensemble_reply){0};
     return result;
+}
+
+enum percuss_result percuss_solve_ensemble_shared(struct percuss_client *client,
+                                                  const struct percuss_ensemble_request *request,
+                                                  percuss_share_function *sharer,
+                                                  percuss_progress_function *progress,
+                                                  void *context,
+                                                  struct percuss_ensemble_reply *reply)
+{
+    struct watcher watcher = {.function = progress, .context = context, .share = sharer};
+    enum percuss_result result = sharing_check(client);
+    if (result == PERCUSS_RESULT_OK && sharer)
+        return ask(client, request, &watcher, reply);
+    *reply = (struct percuss_ensemble_reply){0};
+    return result == PERCUSS_RESULT_OK
+               ? error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "share: NULL: a function is needed")
+               : result;
 }

@@ -8,16 +8,19 @@
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "ensemble/create.h"
 #include "ensemble/report_make.h"
 #include "exchange/clock.h"
-#include "exchange/decode_ensemble.h"
 #include "exchange/encode.h"
 #include "exchange/encode_ensemble.h"
+#include "respond/ensemble_prepare.h"
 #include "respond/parallel.h"
 
 enum { MOST_WORKERS = 64 };
+
+/* Between two looks at those who wait, where others solve the samples, s. */
+static const double TELLING = 0.1;
 
 /* Of the thread that runs it, but for what the workers are given. */
 struct ensemble_run {
@@ -26,9 +29,7 @@ struct ensemble_run {
     const percuss_v1_EnsembleRequest *request;
     double deadline; /* monotonic, s; INFINITY: none */
     double limit;    /* likewise: till when it is given time */
-    struct decoded_ensemble *decoded;
-    struct ensemble ensemble;
-    struct table_maker maker; /* of tables that are asked for */
+    struct ensemble_prepared prepared;
     unsigned worker_count;
     struct ensemble_worker *workers[MOST_WORKERS]; /* each of one thread */
     struct ensemble_sample *samples;               /* each of the thread that solves it */
@@ -37,11 +38,14 @@ struct ensemble_run {
     atomic_uint moves; /* signs of life of the workers */
     unsigned seen;     /* of them */
     bool in_extras;
-    bool gone;               /* its client */
-    double noticed;          /* monotonic, s: when those who wait heard last */
-    atomic_bool stopped;     /* the workers are to give up */
-    enum percuss_status cut; /* what cut it short, for a reply without samples; OK: nothing */
-    char message[160];       /* of that */
+    bool gone;                   /* its client */
+    double noticed;              /* monotonic, s: when those who wait heard last */
+    atomic_bool stopped;         /* the workers are to give up */
+    struct ensemble_range asked; /* of others, as the next two */
+    bool *taken;                 /* which of its items are there */
+    uint64_t prefix;             /* all before this one are */
+    enum percuss_status cut;     /* what cut it short, for a reply without samples; OK: nothing */
+    char message[160];           /* of that */
 };
 
 static void beat(const struct ensemble_run *run)
@@ -65,8 +69,9 @@ static void tell(struct ensemble_run *run, uint64_t done, uint64_t samples,
 
 static void tell_progress(struct ensemble_run *run, uint64_t done)
 {
-    struct report_progress progress = report_progress(&run->ensemble, run->samples, done, false);
-    tell(run, done, run->ensemble.count, &progress);
+    struct report_progress progress =
+        report_progress(&run->prepared.ensemble, run->samples, done, false);
+    tell(run, done, run->prepared.ensemble.count, &progress);
 }
 
 /* Notes why there will be no more samples. */
@@ -162,34 +167,16 @@ static bool work_on_extra(void *context, unsigned thread, uint64_t item)
 /* From the wire to an ensemble that is ready to run. */
 static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault)
 {
-    const struct ensemble_means *means = run->means;
-    /* until when, and what of */
+    /* until when */
     double seconds = run->request->scene.options.deadline;
     run->deadline = seconds > 0.0 ? run->question->arrival + seconds : INFINITY;
-    run->limit = clock_now() + means->limit;
-    if (run->request->samples > means->most_samples)
-        return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "samples: %llu: must be at most %u, as the server's limits.samples says",
-                         (unsigned long long)run->request->samples, means->most_samples);
-    run->decoded = calloc(1, sizeof *run->decoded);
-    if (!run->decoded)
-        return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    enum percuss_status status = decode_ensemble(run->request, run->decoded, fault);
-    if (status)
-        return status;
-    /* as for a single request: tables that are insisted on are computed when the impact as it is
-     * stated is tried; no input changes a material, so that the workers only look them up */
-    table_maker_init(&run->maker, &means->tables, means->limit);
-    run->decoded->spec.catalogue = means->snapshot->set;
-    run->decoded->spec.tables =
-        table_maker_begin(&run->maker, means->snapshot->tables, &run->request->scene,
-                          run->question->envelope.client, run->question->arrival);
+    run->limit = clock_now() + run->means->limit;
+    /* what of, while somebody wants it */
     const struct watch watch = {choice_goes_on, run};
-    status = is_wanted(run) ? ensemble_create(&run->ensemble, &run->decoded->spec, &watch, fault)
-                            : PERCUSS_TIMEOUT;
+    enum percuss_status status =
+        is_wanted(run) ? ensemble_prepare(&run->prepared, run->means, run->question, &watch, fault)
+                       : PERCUSS_TIMEOUT;
     /* why it was given up */
-    if (run->maker.status)
-        return fault_set(fault, run->maker.status, "%s", run->maker.fault.text);
     if (run->cut)
         return fault_set(fault, PERCUSS_TIMEOUT, "%s before the first sample", run->message);
     if (status == PERCUSS_TIMEOUT && run->gone)
@@ -197,41 +184,94 @@ static enum percuss_status prepare(struct ensemble_run *run, struct fault *fault
     return status;
 }
 
-/* One worker a thread, and room for the samples. */
+/* One worker a thread, unless others solve the samples, and room for those. */
 static enum percuss_status create_workers(struct ensemble_run *run, struct fault *fault)
 {
     const struct watch watch = {sample_goes_on, run};
-    unsigned wanted = run->means->workers;
+    unsigned wanted = run->means->share ? 0 : run->means->workers;
     wanted = wanted < MOST_WORKERS ? wanted : MOST_WORKERS;
-    /* computing a table is for a single thread */
-    table_maker_only_finds(&run->maker);
-    run->samples = calloc(run->ensemble.count, sizeof *run->samples);
+    run->samples = calloc(run->prepared.ensemble.count, sizeof *run->samples);
     if (!run->samples)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     for (; run->worker_count < wanted; run->worker_count++) {
         struct ensemble_worker **worker = &run->workers[run->worker_count];
-        if (ensemble_worker_create(worker, &run->ensemble, &watch, fault))
+        if (ensemble_worker_create(worker, &run->prepared.ensemble, &watch, fault))
             return PERCUSS_INTERNAL;
     }
     return PERCUSS_OK;
+}
+
+bool ensemble_asks_for(const struct ensemble_run *run, const struct ensemble_range *range)
+{
+    const struct ensemble_range *asked = &run->asked;
+    return range->extras == asked->extras && range->done == asked->done &&
+           range->first >= asked->first && range->first <= range->end && range->end <= asked->end;
+}
+
+bool ensemble_take(struct ensemble_run *run, const struct ensemble_range *range, const void *items)
+{
+    const struct ensemble_range *asked = &run->asked;
+    uint64_t count = range->end - range->first;
+    if (range->extras)
+        memcpy(run->extras + range->first, items, count * sizeof *run->extras);
+    else
+        memcpy(run->samples + range->first, items, count * sizeof *run->samples);
+    memset(run->taken + (range->first - asked->first), 1, count);
+    /* from the first on */
+    while (run->prefix < asked->end && run->taken[run->prefix - asked->first])
+        run->prefix++;
+    return clock_now() < run->noticed + TELLING || samples_go_on(run, run->prefix);
+}
+
+struct digest ensemble_run_digest(const struct ensemble_run *run)
+{
+    return ensemble_prepared_digest(&run->prepared, run->question);
+}
+
+/* Has others solve a range; returns how far all of it is there. */
+static uint64_t share_out(struct ensemble_run *run, const struct ensemble_range *range)
+{
+    run->asked = *range;
+    run->prefix = range->first;
+    run->taken = calloc(range->end - range->first, 1);
+    if (!run->taken) {
+        cut_short(run, PERCUSS_INTERNAL, "out of memory");
+        return range->first;
+    }
+    run->means->share(run->means->context, run, range);
+    free(run->taken);
+    run->taken = NULL;
+    return run->prefix;
+}
+
+/* Items of a range, by others or by threads here; returns how far all are solved. */
+static uint64_t solve_range(struct ensemble_run *run, const struct ensemble_range *range)
+{
+    if (run->means->share)
+        return share_out(run, range);
+    const struct parallel_loop loop = {
+        run->worker_count, range->first,
+        range->end,        range->extras ? work_on_extra : work_on_sample,
+        samples_go_on,     run,
+        run->means->nice};
+    return parallel_run(&loop);
 }
 
 /* Solves samples until there are all, or enough, or nobody wants more. */
 static void solve_samples(struct ensemble_run *run)
 {
     bool wanted = is_wanted(run);
-    while (wanted && run->done < run->ensemble.count) {
-        uint64_t next = ensemble_next_check(&run->ensemble, run->done);
-        struct parallel_loop loop = {run->worker_count, run->done,     next,
-                                     work_on_sample,    samples_go_on, run,
-                                     run->means->nice};
-        run->done = parallel_run(&loop);
+    while (wanted && run->done < run->prepared.ensemble.count) {
+        uint64_t next = ensemble_next_check(&run->prepared.ensemble, run->done);
+        const struct ensemble_range range = {.first = run->done, .end = next};
+        run->done = solve_range(run, &range);
         wanted = run->done == next && is_wanted(run);
-        if (wanted && next < run->ensemble.count &&
-            report_progress(&run->ensemble, run->samples, next, true).enough)
+        if (wanted && next < run->prepared.ensemble.count &&
+            report_progress(&run->prepared.ensemble, run->samples, next, true).enough)
             break;
-        if (run->done < next && !atomic_load(&run->stopped))
-            cut_short(run, PERCUSS_INTERNAL, "no thread could be started");
+        if (run->done < next && !run->cut && !atomic_load(&run->stopped))
+            cut_short(run, PERCUSS_INTERNAL,
+                      run->means->share ? "samples were lost" : "no thread could be started");
     }
     tell_progress(run, run->done);
 }
@@ -240,16 +280,15 @@ static void solve_samples(struct ensemble_run *run)
  * of memory. */
 static bool solve_extras(struct ensemble_run *run)
 {
-    uint64_t count = run->cut ? 0 : ensemble_extras(&run->ensemble, run->done);
+    uint64_t count = run->cut ? 0 : ensemble_extras(&run->prepared.ensemble, run->done);
     if (count == 0)
         return true;
     run->extras = calloc(count, sizeof *run->extras);
     if (!run->extras)
         return false;
     run->in_extras = true;
-    struct parallel_loop loop = {run->worker_count, 0,   count,           work_on_extra,
-                                 samples_go_on,     run, run->means->nice};
-    if (parallel_run(&loop) < count) {
+    const struct ensemble_range range = {.extras = true, .done = run->done, .end = count};
+    if (solve_range(run, &range) < count) {
         free(run->extras);
         run->extras = NULL;
     }
@@ -262,17 +301,17 @@ static struct answer *report_samples(struct ensemble_run *run, const struct enve
     const struct watch watch = {words_go_on, run};
     const struct report_material material = {run->done, run->samples, run->extras};
     struct ensemble_report results;
-    bool good = report_create(&results, &run->ensemble, &material, &watch);
+    bool good = report_create(&results, &run->prepared.ensemble, &material, &watch);
     /* that too may have been cut short */
     bool cut = run->cut != PERCUSS_OK;
     char message[256] = "";
     if (cut)
         snprintf(message, sizeof message, "%s: %llu of %llu samples were solved", run->message,
-                 (unsigned long long)run->done, (unsigned long long)run->ensemble.count);
+                 (unsigned long long)run->done, (unsigned long long)run->prepared.ensemble.count);
     struct ensemble_ending ending = {cut ? PERCUSS_TRUNCATED : PERCUSS_OK, message};
     struct answer *answer = NULL;
     if (good)
-        answer = encode_ensemble(envelope, &run->ensemble, &results, &ending);
+        answer = encode_ensemble(envelope, &run->prepared.ensemble, &results, &ending);
     if (answer)
         answer->passing = cut; /* asked again there may be more */
     report_release(&results);
@@ -307,7 +346,8 @@ static struct answer *carry_out(struct ensemble_run *run)
         answer =
             run->done ? report_samples(run, envelope) : refuse(envelope, run->cut, run->message);
     if (good && run->done && run->request->list_samples && !run->gone)
-        good = run->means->list(run->means->context, &run->ensemble, run->samples, run->done);
+        good =
+            run->means->list(run->means->context, &run->prepared.ensemble, run->samples, run->done);
     if (good && !run->gone)
         return answer;
     /* who has come back meanwhile hears of his leaving; nobody else does */
@@ -320,10 +360,9 @@ static void release(struct ensemble_run *run)
 {
     for (unsigned i = 0; i < run->worker_count; i++)
         ensemble_worker_free(run->workers[i]);
-    ensemble_release(&run->ensemble);
+    ensemble_prepared_release(&run->prepared);
     free(run->extras);
     free(run->samples);
-    free(run->decoded);
     free(run);
 }
 
