@@ -17,7 +17,12 @@ enum exit_code {
     EXIT_REJECTED
 };
 
-/* Options of every command. */
+/* As percuss_solve_ensemble. */
+typedef enum percuss_result solve_ensemble_function(
+    struct percuss_client *client, const struct percuss_ensemble_request *request, double timeout,
+    percuss_progress_function *progress, void *context, struct percuss_ensemble_reply *reply);
+
+/* Options of every command, and who solves ensembles. */
 struct common {
     uint32_t domain;
     double timeout; /* s for the answer; NAN: not given */
@@ -28,6 +33,7 @@ struct common {
     const char *security;                /* folder of the identity to use; NULL: not given */
     bool local;                          /* solve in this process; by these files, or NULL */
     const char *catalogue, *config;
+    solve_ensemble_function *solve_ensemble; /* NULL: percuss_solve_ensemble */
 };
 
 /* Long options without a letter; each command goes on from OPTION_OWN. */

@@ -310,8 +310,10 @@ static int ask(struct ensemble *ensemble, struct percuss_client *client,
     /* a second interrupt ends the program */
     sigaction(SIGINT, &(struct sigaction){.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND},
               NULL);
-    enum percuss_result result = percuss_solve_ensemble(
-        client, request, common_timeout(ensemble->common), show_progress, ensemble, &reply);
+    solve_ensemble_function *solve = ensemble->common->solve_ensemble;
+    solve = solve ? solve : percuss_solve_ensemble;
+    enum percuss_result result =
+        solve(client, request, common_timeout(ensemble->common), show_progress, ensemble, &reply);
     if (ensemble->progress)
         fputc('\n', stderr);
     if (result != PERCUSS_RESULT_OK)
