@@ -19,6 +19,7 @@ else where the system's loader looks, else from a build folder of the source tre
 
 from ._library import VERSION as __version__
 from .client import Client, connect
+from .ensembles import Correlation, Distribution, Ensemble, EnsembleReply, Input, Progress, Sampling, ensemble
 from .errors import (
     AnswerTimeout,
     CallError,
@@ -84,13 +85,18 @@ __all__ = [
     "Contact",
     "ContactModel",
     "ContactResult",
+    "Correlation",
     "DelassusSource",
     "Dent",
     "Dents",
+    "Distribution",
     "EndReason",
     "Energy",
+    "Ensemble",
+    "EnsembleReply",
     "ErrorEstimate",
     "Incompatible",
+    "Input",
     "InvalidArgument",
     "Local",
     "Method",
@@ -99,10 +105,12 @@ __all__ = [
     "Options",
     "Parameter",
     "PercussError",
+    "Progress",
     "Refused",
     "Reply",
     "Request",
     "Result",
+    "Sampling",
     "Server",
     "Site",
     "Specimen",
@@ -115,5 +123,6 @@ __all__ = [
     "__version__",
     "connect",
     "contact_pair",
+    "ensemble",
     "force_centres",
 ]

@@ -52,6 +52,8 @@ class Local(Client):
         for name, number, most in (("first_sequence", first_sequence, 2**64 - 1), ("threads", threads, 2**32 - 1)):
             if not 0 <= number <= most:
                 raise ValueError(f"{name}: {number}: up to {most} is allowed")
+        self.settings_file = None if settings is None else os.fsdecode(settings)
+        self.catalogue_file = None if catalogue is None else os.fsdecode(catalogue)
         library = _load()
         config = _abi.LocalConfig(
             None if settings is None else os.fsencode(settings),

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import percuss
-from percuss import _abi, _slow_abi, vocabulary
+from percuss import _abi, _ensemble_abi, _slow_abi, vocabulary
 from percuss.slowscale import Application
 
 SOURCE = Path(os.environ["PERCUSS_SOURCE"])
@@ -41,11 +41,9 @@ def field_names(declarations: str) -> list[str]:
 
 
 def public_structs(headers: list[Path] = LIBRARY) -> dict[str, list[str]]:
-    """Every struct that the headers define, with its fields; ensembles are not offered to Python yet."""
+    """Every struct that the headers define, with its fields."""
     structs = {}
     for header in headers:
-        if header.name.startswith("ensemble"):
-            continue
         code = re.sub(r"/\*.*?\*/", "", header.read_text(), flags=re.DOTALL)
         for name, body in re.findall(r"^struct (\w+) { *\n(.*?)^};", code, flags=re.DOTALL | re.MULTILINE):
             structs[name] = field_names(body)
@@ -54,7 +52,7 @@ def public_structs(headers: list[Path] = LIBRARY) -> dict[str, list[str]]:
 
 def compiled_layouts(structs: dict[str, list[str]]) -> dict[tuple[str, ...], list[int]]:
     """(struct,): [size]; (struct, field): [offset, size], as the compiler has them."""
-    headers = ("percuss/local.h", "percuss/slowscale.h", "percuss/slow_link.h", "stdio.h")
+    headers = ("percuss/local.h", "percuss/ensemble_share.h", "percuss/slowscale.h", "percuss/slow_link.h", "stdio.h")
     lines = [*(f"#include <{header}>" for header in headers), "int main(void) {"]
     for struct, fields in structs.items():
         lines.append(f'printf("{struct} : %zu\\n", sizeof(struct {struct}));')
@@ -92,10 +90,9 @@ def _size(struct: type[Structure]) -> int:
 class Abi(unittest.TestCase):
     def test_layouts(self) -> None:
         structs = public_structs()
-        self.assertEqual(
-            structs, {name: [field[0] for field in ours._fields_] for name, ours in _abi.STRUCTS.items()}
-        )
-        self.assertEqual(our_layouts(), compiled_layouts(structs))
+        all_ours = {**_abi.STRUCTS, **_ensemble_abi.STRUCTS}
+        self.assertEqual(structs, {name: [field[0] for field in ours._fields_] for name, ours in all_ours.items()})
+        self.assertEqual(our_layouts(all_ours), compiled_layouts(structs))
 
     def test_slow_layouts(self) -> None:
         structs = public_structs(SLOW)
@@ -130,12 +127,12 @@ class Abi(unittest.TestCase):
 
     def test_choices(self) -> None:
         """Same names and numbers as in the lists of the C headers."""
-        code = VOCABULARY.read_text() + (HEADERS / "result.h").read_text()
+        code = "".join(path.read_text() for path in (VOCABULARY, HEADERS / "result.h", HEADERS / "ensemble_request.h"))
         for choices in vocabulary.Choice.__subclasses__():
             if choices in (percuss.Support, Application):
                 continue
             upper = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", choices.__name__).upper()
-            match = re.search(rf"PERCUSS_{upper}_LIST\(X\)(.*?)\n\n", code, flags=re.DOTALL)
+            match = re.search(rf"PERCUSS_{upper}_LIST\(X\)(.*?)\n[\n#]", code, flags=re.DOTALL)
             assert match, upper
             members = re.findall(r"X\((\w+),", match[1])
             self.assertEqual([(choice.name, choice.value) for choice in choices], list(zip(members, range(99))))
@@ -156,9 +153,14 @@ class Abi(unittest.TestCase):
             *("request_init", "request_add_body", "request_add_contact", "body_find"),
             "client_create_secured",
             *("solve_traced", "trace_free"),
-            *("ensemble_request_init", "solve_ensemble", "ensemble_reply_free"),
+            "ensemble_request_init",
         }
-        declared = {name for name, _, _ in (*_abi._FUNCTIONS, *_abi.LOCAL_FUNCTIONS)}
+        declared = {name for name, _, _ in (
+            *_abi._FUNCTIONS,
+            *_abi.LOCAL_FUNCTIONS,
+            *_ensemble_abi.FUNCTIONS,
+            *_ensemble_abi.SHARE_FUNCTIONS,
+        )}
         self.assertEqual(declared | unused | {"version"}, functions)
 
     def test_force_centres(self) -> None:
