@@ -40,6 +40,14 @@ same $paper --samples 512 --sampling sobol --input radius@steel-sphere=normal:0.
 say "and stopped early at the same sample"
 same $paper --samples 20000 --half-width 0.02
 
+say "a sweep is an ensemble whose speeds are a list"
+{
+    echo speed
+    seq 0.1 0.01 0.4
+} >"$work/speeds.csv"
+same --a steel-sphere --b al-beam --speed "list:$work/speeds.csv" --config "$work/percussd.yaml"
+[ "$(wc -l <"$work/spread.csv")" -eq 32 ] || fail "it has not a row for each speed"
+
 say "what a daemon says of it"
 start_daemon
 expect 0 percuss ensemble --a steel-sphere --b al-beam --speed uniform:0.1:0.4 --samples 700 --json
