@@ -20,6 +20,7 @@ struct part_head {
     struct digest ensemble;
     uint64_t first, count, done;
     uint64_t extras; /* 0 or 1 */
+    struct digest seal;
 };
 
 static const char KIND[8] = {'p', 'e', 'r', 'c', 'u', 's', 's', 1};
@@ -125,6 +126,17 @@ void percuss_ensemble_worker_free(struct percuss_ensemble_worker *worker)
     free(worker);
 }
 
+/* Of all octets of a part: samples that were damaged on their way look like any others. */
+static struct digest seal_part(const struct part_head *head, const void *items, size_t size)
+{
+    struct hasher hasher = {0};
+    struct part_head unsealed = *head;
+    unsealed.seal = (struct digest){0};
+    hash_bytes(&hasher, &unsealed, sizeof unsealed);
+    hash_bytes(&hasher, items, size);
+    return hash_digest(&hasher);
+}
+
 enum percuss_result percuss_ensemble_worker_solve(struct percuss_ensemble_worker *worker,
                                                   const struct percuss_ensemble_range *range,
                                                   void *part)
@@ -144,8 +156,11 @@ enum percuss_result percuss_ensemble_worker_solve(struct percuss_ensemble_worker
                                          range->first + range->count};
     memcpy(head.kind, KIND, sizeof head.kind);
     /* bytes between members are written, too */
-    memset(part, 0, percuss_ensemble_part_size(range));
-    ensemble_part_solve(worker->part, &asked, (char *)part + sizeof head);
+    size_t size = percuss_ensemble_part_size(range);
+    char *solved = (char *)part + sizeof head;
+    memset(part, 0, size);
+    ensemble_part_solve(worker->part, &asked, solved);
+    head.seal = seal_part(&head, solved, size - sizeof head);
     memcpy(part, &head, sizeof head);
     return PERCUSS_RESULT_OK;
 }
@@ -169,6 +184,10 @@ enum percuss_result percuss_ensemble_take(struct percuss_ensemble_sharing *shari
     size_t item = item_size(head.extras);
     if (head.count > size / item || size != sizeof head + head.count * item)
         return refuse("of another length than it says");
+    const char *octets = (const char *)part + sizeof head;
+    struct digest seal = seal_part(&head, octets, head.count * item);
+    if (memcmp(&head.seal, &seal, sizeof seal) != 0)
+        return refuse("damaged on its way");
     const struct ensemble_range range = {head.extras, head.done, head.first,
                                          head.first + head.count};
     if (!ensemble_asks_for(sharing->run, &range))
@@ -177,7 +196,7 @@ enum percuss_result percuss_ensemble_take(struct percuss_ensemble_sharing *shari
     void *items = malloc(head.count * item + 1);
     if (!items)
         return error_set(PERCUSS_RESULT_NO_MEMORY, "a part");
-    memcpy(items, (const char *)part + sizeof head, head.count * item);
+    memcpy(items, octets, head.count * item);
     bool wanted = ensemble_take(sharing->run, &range, items);
     free(items);
     return wanted ? PERCUSS_RESULT_OK : PERCUSS_RESULT_PENDING;

@@ -58,7 +58,7 @@ typedef void percuss_share_function(void *context, struct percuss_ensemble_shari
 
 /* Takes a piece, of `size` octets. OK; PENDING: taken, but no more are wanted, since progress was
  * told to cancel; INVALID_ARGUMENT: no part of this ensemble (another request, catalogue or
- * version), of another size, or not of the range that is asked for. */
+ * version), damaged on its way, or not of the range that is asked for. */
 PERCUSS_API enum percuss_result percuss_ensemble_take(struct percuss_ensemble_sharing *sharing,
                                                       const void *part, size_t size);
 

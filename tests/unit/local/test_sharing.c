@@ -65,6 +65,14 @@ static void hand_over(struct plan *plan, struct percuss_ensemble_sharing *sharin
     /* octets come from a network: at any address */
     assert_int_equal(percuss_ensemble_worker_solve(plan->worker, range, part), PERCUSS_RESULT_OK);
     memmove(part + 1, part, size);
+    /* where a single bit has changed on its way, it is another one */
+    for (size_t at = 1; at <= size; at += size - 1) {
+        part[at] ^= 1;
+        assert_int_equal(percuss_ensemble_take(sharing, part + 1, size),
+                         PERCUSS_RESULT_INVALID_ARGUMENT);
+        part[at] ^= 1;
+    }
+    assert_non_null(strstr(percuss_error_text(), "damaged"));
     for (int i = 0; i < (plan->doubled ? 2 : 1); i++)
         assert_int_equal(percuss_ensemble_take(sharing, part + 1, size), PERCUSS_RESULT_OK);
     free(part);
