@@ -279,7 +279,8 @@ def ensemble(
     executor: whoever solves the samples: a dask.distributed.Client, a concurrent.futures.ProcessPoolExecutor or the
     like. `client` is a Local then, and each worker opens one of its own by the same files, which it must see under
     the same names. The reply is the same to the last bit whoever solves them; samples that are lost with a worker
-    are solved again."""
+    are solved again, where the executor goes on without him. It waits for workers as long as it takes: `timeout`
+    is not looked at."""
     asked, kept = _fill(question)
     answer = _ensemble_abi.Reply()
     watch = _Watching(progress)
@@ -506,8 +507,14 @@ class _Worker:
         )
 
     def close(self) -> None:
-        self.library.percuss_ensemble_worker_free(self.handle)
+        handle, self.handle = self.handle, ctypes.c_void_p()
+        self.library.percuss_ensemble_worker_free(handle)
         self.client.close()
+
+    def __del__(self) -> None:
+        # its thread has ended; nothing was created where the ensemble was refused
+        if getattr(self, "handle", None):
+            self.close()
 
 
 _mine = threading.local()

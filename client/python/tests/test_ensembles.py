@@ -12,8 +12,10 @@ import threading
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 import percuss
+from percuss import ensembles
 
 CATALOGUE = Path(os.environ["PERCUSS_SOURCE"]) / "config" / "catalogue.yaml"
 SETTINGS = Path(tempfile.mkdtemp()) / "percussd.yaml"
@@ -107,6 +109,35 @@ class Ensembles(unittest.TestCase):
         with percuss.connect(int(os.environ["PERCUSS_DOMAIN"]), timeout=10.0) as daemon:
             with self.assertRaisesRegex(percuss.InvalidArgument, "must be a Local"):
                 percuss.ensemble(question, daemon, executor=threads)
+
+    def test_a_thread_that_ends(self) -> None:
+        """What it has prepared is freed with it, a few MB each."""
+        closed: list[int] = []
+        close = ensembles._Worker.close
+
+        def count(worker: ensembles._Worker) -> None:
+            closed.append(1)
+            close(worker)
+
+        with mock.patch.object(ensembles._Worker, "close", count):
+            with concurrent.futures.ThreadPoolExecutor(1) as threads:
+                percuss.ensemble(self.question(), self.local, executor=threads)
+                self.assertEqual(closed, [])
+            self.assertEqual(closed, [1])
+
+    def test_damaged_on_its_way(self) -> None:
+        """Octets of samples that are not what was solved."""
+
+        class Careless:
+            def submit(self, solve: Any, *arguments: Any) -> Any:
+                part = bytearray(solve(*arguments))
+                part[-20] ^= 4
+                future: concurrent.futures.Future[bytes] = concurrent.futures.Future()
+                future.set_result(bytes(part))
+                return future
+
+        with self.assertRaisesRegex(percuss.InvalidArgument, "damaged on its way"):
+            percuss.ensemble(self.question(), self.local, executor=Careless())
 
 
 class Dask(unittest.TestCase):
