@@ -12,6 +12,9 @@
  * asked before there is an answer that could be lost. What is in the file stays there. */
 void output_file_check(const char *option, const char *file, struct argp_state *state);
 
+/* From now on no file is tried: another process of the same command line has done so, and writes. */
+void output_file_trust(void);
+
 /* Writes it all. Exit code; complains in the option's name. */
 int output_file_write(const char *option, const char *file, const void *bytes, size_t size);
 

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "output_file.h"
 #include "team.h"
 
 static bool begun; /* the others have been told */
@@ -51,8 +52,9 @@ int main(int argc, char **argv)
         }
         return code;
     }
-    /* does not come back where there is work */
+    /* does not come back where there is work; nor does it write */
     if (team_waits()) {
+        output_file_trust();
         command_ensemble(argc, argv, &common);
         MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
     }
