@@ -13,10 +13,10 @@ liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom1
 libmumps-seq-dev libhdf5-dev libssl-dev"
 test="libcmocka-dev python3-venv libmujoco-dev valgrind openssl iproute2 mount gmsh calculix-ccx
 python3-prometheus-client libudunits2-dev python3-jsonschema zsh fish
-python3-sphinx python3-myst-parser"
+python3-sphinx python3-myst-parser g++ libfastrtps-dev fastddsgen"
 mpi="libslepc-real-dev mpi-default-dev mpi-default-bin"
 package="dpkg-dev file"
-ci="clang libclang-rt-14-dev mmdebstrap lintian g++ libfastrtps-dev fastddsgen"
+ci="clang libclang-rt-14-dev mmdebstrap lintian"
 
 case ${1:-build} in
 build) packages=$build ;;
