@@ -90,7 +90,7 @@ end
 percuss query --local --a steel-sphere --b al-beam --speed 0.2 >"$said" 2>&1 || fail "percuss query --local"
 grep -q '^  restitution  0\.' "$said" || fail "no answer in process"
 man=$(find /usr/share/man -name 'percuss*.gz' | wc -l)
-[ "$man" -eq 4 ] || fail "$man manual pages"
+[ "$man" -eq 7 ] || fail "$man manual pages"
 
 echo "- upgraded: edited settings and the specimens' dents stay, a disabled unit stays disabled"
 echo 'queue_capacity: 77' >>/etc/percuss/percussd.yaml
