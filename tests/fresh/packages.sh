@@ -103,7 +103,8 @@ grep -q '^# changed in this release$' /etc/percuss/catalogue.yaml || fail "unedi
 [ ! -e "$wanted" ] || fail "the unit is enabled again"
 serve
 percuss status >"$said" 2>&1 || fail "percuss status"
-grep -q 'of 231 places' "$said" || fail "the settings are not in force"
+# 77 in each of five lanes
+grep -q 'of 385 places' "$said" || fail "the settings are not in force"
 percuss dents >"$said" 2>&1 || fail "percuss dents"
 grep -q '^rig-beam' "$said" || fail "the specimen is gone"
 end
