@@ -10,7 +10,10 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
+
+#include "wire_validity.h"
 
 /* Files of an identity, and the properties that name them (DDS Security 1.1, 9.3.1 and 9.4.1). */
 static const struct {
@@ -80,6 +83,22 @@ static bool key_fits(const char *folder)
     return good;
 }
 
+/* Nobody believes what has ended, or has not begun. */
+static bool dates_fit(const char *folder, char *problem, size_t size)
+{
+    struct wire_validity validity;
+    char words[128];
+    const char *none = wire_validity_read(folder, &validity);
+    if (none) {
+        snprintf(problem, size, "security: %s/%s: must be a certificate (PEM)", folder, none);
+        return false;
+    }
+    if (wire_validity_holds(&validity, time(NULL), words, sizeof words))
+        return true;
+    snprintf(problem, size, "security: %s/%s", folder, words);
+    return false;
+}
+
 bool wire_security_check(const char *folder, char *problem, size_t size)
 {
     char path[PATH_MAX];
@@ -94,10 +113,11 @@ bool wire_security_check(const char *folder, char *problem, size_t size)
             return false;
         }
     }
-    if (key_fits(folder))
-        return true;
-    snprintf(problem, size, "security: %s: key.pem must be the key of cert.pem", folder);
-    return false;
+    if (!key_fits(folder)) {
+        snprintf(problem, size, "security: %s: key.pem must be the key of cert.pem", folder);
+        return false;
+    }
+    return dates_fit(folder, problem, size);
 }
 
 void wire_security_set(const char *folder, dds_qos_t *qos)

@@ -9,9 +9,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Whether the folder has every file that an identity needs, readable, and a private key that nobody
- * but its owner can read and that is the certificate's. False: `problem` says which file is wrong
- * and what it must be. What else stands in the files DDS checks when a participant is made. */
+/* Whether the folder has every file that an identity needs, readable, a private key that nobody but
+ * its owner can read and that is the certificate's, and certificates and permissions that hold today
+ * (wire_validity.h). False: `problem` says which file is wrong and what it must be, or when it ended.
+ * What else stands in the files DDS checks when a participant is made. */
 bool wire_security_check(const char *folder, char *problem, size_t size);
 
 /* Properties of a participant that uses the folder, which wire_security_check has found good. */

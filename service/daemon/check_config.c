@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "catalogue/catalogue.h"
@@ -18,6 +19,7 @@
 #include "store/schema.h"
 #include "store/table_store.h"
 #include "wire.h"
+#include "wire_validity.h"
 
 static void say(const struct fault *fault)
 {
@@ -150,6 +152,16 @@ static bool check_security(const struct settings *settings)
     return false;
 }
 
+/* An identity that is good, but not for long. */
+static void remark_identity(const char *folder)
+{
+    struct wire_validity validity;
+    char words[128];
+    if (*folder && !wire_validity_read(folder, &validity) &&
+        wire_validity_ends_soon(&validity, time(NULL), words, sizeof words))
+        fprintf(stderr, "percussd: warning: security: %s/%s\n", folder, words);
+}
+
 /* The file whose lock is waited for: one to write to, or one that can be made. */
 static bool check_standby(const struct settings *settings)
 {
@@ -199,6 +211,7 @@ bool check_config(const struct settings *settings)
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         good = checks[i](settings) && good;
     good = check_security(settings) && check_domain(settings) && good;
+    remark_identity(settings->security);
     remark_file("metrics", settings->metrics);
     remark_file("backup", settings->backup);
     if (good)

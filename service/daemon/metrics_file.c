@@ -52,6 +52,9 @@ static void print_state(struct shared *shared, FILE *file)
                 shared->settings->workers);
     print_gauge(file, "percuss_draining", "1: it is about to end.", atomic_load(&shared->draining));
     print_gauge(file, "percuss_uptime_seconds", "Since its start.", clock_now() - shared->started);
+    print_gauge(file, "percuss_identity_end_seconds",
+                "When the identity ends, since 1970; 0: not secured.",
+                (double)shared->identity_end);
     fprintf(file,
             "# HELP percuss_undelivered Replies that their clients did not take.\n"
             "# TYPE percuss_undelivered counter\n"

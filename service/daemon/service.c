@@ -6,12 +6,14 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "daemon/backup_job.h"
 #include "daemon/body_cache.h"
 #include "daemon/dds_log.h"
 #include "daemon/dispatch.h"
+#include "daemon/identity.h"
 #include "daemon/log.h"
 #include "daemon/means.h"
 #include "daemon/memory.h"
@@ -45,6 +47,7 @@ struct service {
     struct pool *pool;
     struct neighbours neighbours;
     struct reducer reducer;
+    struct identity identity;
     double tidied;               /* the folder of bodies; monotonic, s */
     bool metrics_fail;           /* which the log has said */
     unsigned long long reported; /* of the undelivered replies: those that are in the log */
@@ -71,8 +74,9 @@ static void tell_who_may_ask(const char *security)
 }
 
 /* Specimens are announced before anybody can hit them. */
-static bool open_endpoint(struct shared *shared, const uint8_t *server, struct fault *fault)
+static bool open_endpoint(struct service *service, const uint8_t *server, struct fault *fault)
 {
+    struct shared *shared = &service->shared;
     const struct settings *settings = shared->settings;
     const char *security = settings->security[0] ? settings->security : NULL;
     dds_log_begin();
@@ -81,6 +85,9 @@ static bool open_endpoint(struct shared *shared, const uint8_t *server, struct f
                                        settings->limit_clients, server, fault);
     if (!shared->endpoint)
         return false;
+    identity_read(&service->identity, security);
+    shared->identity_end = service->identity.validity.end;
+    identity_look(&service->identity, clock_now(), time(NULL));
     if (!shared->specimens)
         return true;
     if (!endpoint_open_dents(shared->endpoint, fault))
@@ -187,7 +194,7 @@ struct service *service_create(const struct settings *settings, const uint8_t *s
     struct shared *shared = &service->shared;
     reducer_begin(&service->reducer, settings->bodies);
     if (!shared_create(shared, settings, fault) || !open_specimens(shared, fault) ||
-        !open_endpoint(shared, server, fault) || !start_workers(service, fault) ||
+        !open_endpoint(service, server, fault) || !start_workers(service, fault) ||
         !start_reader(service, fault)) {
         service_free(service);
         return NULL;
@@ -314,6 +321,7 @@ void service_tick(struct service *service)
     unsigned long long strange = endpoint_strange(shared->endpoint);
     if (strange)
         log_line(LEVEL_WARNING, "%llu requests bore the id of another client: ignored", strange);
+    identity_look(&service->identity, now, time(NULL));
     status_announce(shared);
     write_metrics(service);
     neighbours_look(&service->neighbours, shared->endpoint,

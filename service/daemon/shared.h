@@ -8,6 +8,7 @@
 
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <time.h>
 
 #include "daemon/activity.h"
 #include "daemon/ensembles.h"
@@ -31,7 +32,8 @@ enum lane { LANE_SHORT, LANE_LONG, LANE_TABLES, LANE_ENSEMBLES, LANE_SPECIMENS, 
 struct shared {
     /* never changed while the threads run */
     const struct settings *settings;
-    double started; /* monotonic, s */
+    double started;      /* monotonic, s */
+    time_t identity_end; /* of a secured daemon's certificates and permissions; 0: not secured */
 
     /* for any thread: each has a lock of its own */
     struct snapshots snapshots;

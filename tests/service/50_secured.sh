@@ -79,6 +79,68 @@ say "a client neither"
 expect 2 as nobody ping
 says "identity_ca.pem: No such file"
 
+# certify NAME FIRST LAST: the identity anew, with a certificate from the one date to the other
+certify() {
+    mkdir -p "$work/ca"
+    : >"$work/ca/index"
+    printf '%s\n' '[ca]' 'default_ca = one' '[one]' "database = $work/ca/index" "new_certs_dir = $work/ca" \
+        'rand_serial = yes' 'default_md = sha256' 'policy = any' 'unique_subject = no' '[any]' 'O = supplied' \
+        'OU = supplied' 'CN = supplied' >"$work/ca/openssl.cnf"
+    subject=$(openssl x509 -in "$keys/$1/cert.pem" -noout -subject -nameopt compat | sed 's/^subject=//')
+    openssl req -new -key "$keys/$1/key.pem" -subj "$subject" -out "$work/ca/request"
+    openssl ca -batch -notext -config "$work/ca/openssl.cnf" -in "$work/ca/request" -startdate "$2" \
+        -enddate "$3" -cert "$keys/authority/identity_ca.pem" -keyfile "$keys/authority/identity_ca.key" \
+        -out "$keys/$1/cert.pem" 2>"$err" || fail "no certificate"
+}
+
+say "nor whose certificate or permissions have ended, or not begun"
+cp -r "$keys/serves" "$keys/late"
+cp -r "$keys/asks" "$keys/late-client"
+for folder in late late-client; do
+    certify $folder 20200101000000Z 20240229120000Z
+done
+days=$((($(date +%s) - $(date -d 2024-02-29T12:00:00Z +%s)) / 86400))
+settings "security: $keys/late"
+for action in "--domain $domain" --check-config; do
+    expect 1 "$bin/percussd" --config "$work/percussd.yaml" $action
+    grep -q "security: $keys/late/cert.pem: ended [0-9]* days ago, on 2024-02-29" "$err" || fail "it is not told"
+    said=$(sed -n 's/.*ended \([0-9]*\) days ago.*/\1/p' "$err")
+    [ $((said - days)) -le 1 ] && [ "$said" -ge "$days" ] || fail "$said days, not $days"
+done
+expect 2 as late-client ping
+says "security: $keys/late-client/cert.pem: ended "
+certify late 22000101000000Z 22010101000000Z
+expect 1 "$bin/percussd" --config "$work/percussd.yaml" --check-config
+says "/cert.pem: begins in "
+cp "$keys/serves/cert.pem" "$keys/late"
+sed 's|<not_after>.*</not_after>|<not_after>2024-02-29T12:00:00</not_after>|' \
+    "$keys/serves/permissions.p7s" >"$keys/late/permissions.p7s"
+expect 1 "$bin/percussd" --config "$work/percussd.yaml" --check-config
+says "/permissions.p7s: ended "
+cp "$keys/serves/permissions.p7s" "$keys/late"
+echo none >"$keys/late/identity_ca.pem"
+expect 1 "$bin/percussd" --config "$work/percussd.yaml" --check-config
+says "/identity_ca.pem: must be a certificate"
+
+say "what ends within 30 days is told, and serves"
+PERCUSS_KEY_DAYS=20
+export PERCUSS_KEY_DAYS
+expect 0 make_keys add "$keys" short-lived serves
+unset PERCUSS_KEY_DAYS
+settings "security: $keys/short-lived" "metrics: $work/percuss.prom"
+expect 0 "$bin/percussd" --config "$work/percussd.yaml" --check-config
+grep -q "warning: security: $keys/short-lived/[a-z_.7]*: ends in [0-9]* days, on 20" "$err" || fail "not told"
+start_daemon
+logged "warning security: $keys/short-lived/.*: ends in [0-9]* days" || fail "the log does not say so"
+expect 0 as asks ping
+wait_for 10 test -s "$work/percuss.prom" || fail "no metrics"
+left=$(($(sed -n 's/^percuss_identity_end_seconds //p' "$work/percuss.prom") - $(date +%s)))
+[ $left -gt $((19 * 86400)) ] && [ $left -le $((20 * 86400)) ] || fail "$left s are left"
+stop_daemon
+settings "security: $keys/serves"
+expect 0 "$bin/percussd" --config "$work/percussd.yaml" --check-config
+grep -q "ends in" "$err" && fail "it warns of what holds for years"
+
 say "roles"
 settings "security: $keys/serves" "store: $work/store.db"
 start_daemon

@@ -1,0 +1,31 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "daemon/identity.h"
+
+#include "daemon/log.h"
+
+static const double LOOK_SECONDS = 86400.0;
+
+void identity_read(struct identity *identity, const char *folder)
+{
+    *identity = (struct identity){.looked = -LOOK_SECONDS};
+    if (folder && !wire_validity_read(folder, &identity->validity))
+        identity->folder = folder;
+}
+
+void identity_look(struct identity *identity, double now, time_t then)
+{
+    char words[128];
+    bool ended = then > identity->validity.end;
+    if (!identity->folder || (ended == identity->ended && now - identity->looked < LOOK_SECONDS))
+        return;
+    identity->looked = now;
+    identity->ended = ended;
+    if (!wire_validity_holds(&identity->validity, then, words, sizeof words))
+        log_line(LEVEL_ERROR, "security: %s/%s: clients that come now do not believe it",
+                 identity->folder, words);
+    else if (wire_validity_ends_soon(&identity->validity, then, words, sizeof words))
+        log_line(LEVEL_WARNING, "security: %s/%s: make the folder anew before, and restart",
+                 identity->folder, words);
+}
