@@ -63,6 +63,23 @@ expect 5 spread 2 --a steel-sphere --b nobody --speed uniform:0.1:0.4 --config "
 expect 2 spread 2 $paper --samples nonsense
 [ "$(grep -c "'nonsense'" "$err")" -eq 1 ] || fail "it is said more than once"
 
+expect 2 spread 2 --a steel-sphere --b al-beam --speed uniform:0.1:0.4 --catalogue "$work/none.yaml"
+[ "$(grep -c "none.yaml: cannot be read" "$err")" -eq 1 ] || fail "it is not said once"
+
+# uneven OPTIONS: a second process with these; its command line is not the first one's
+uneven() {
+    first="--a steel-sphere --b al-beam --samples 300"
+    mpirun --oversubscribe -n 1 "$bin/percuss-ensemble" $first --catalogue "$work/catalogue.yaml" \
+        --speed uniform:0.1:0.4 : -n 1 "$bin/percuss-ensemble" $first "$@"
+}
+
+say "a process that has been given something else ends all, and says why"
+sed 's/^  al-beam:/  a-beam:/' "$work/catalogue.yaml" >"$work/other.yaml"
+expect 1 uneven --catalogue "$work/other.yaml" --speed uniform:0.1:0.4
+says "process 1: bodies[1].id: 'al-beam': not in the catalogue"
+expect 5 uneven --catalogue "$work/catalogue.yaml" --speed uniform:0.1:0.3
+says "a process has solved something else: part: of another request"
+
 say "an interrupt leaves what was found"
 mpirun --oversubscribe -n 2 "$bin/percuss-ensemble" $paper --samples 2000000 >"$out" 2>"$err" 9>&- &
 others=$!
