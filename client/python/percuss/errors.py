@@ -3,13 +3,25 @@
 """Exceptions: a call that failed, and a request that the server refused."""
 
 import ctypes
+from typing import Any
 
 from . import _abi
 from .vocabulary import Result, Status
 
 
 class PercussError(Exception):
-    """Whatever this package raises of its own."""
+    """Whatever this package raises of its own. It goes from process to process as it is (pickle)."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # not by calling the class, which takes more than the text that is kept
+        return _again, (type(self), self.args, self.__dict__)
+
+
+def _again(kind: type[PercussError], args: tuple[Any, ...], members: dict[str, Any]) -> PercussError:
+    error = kind.__new__(kind, *args)
+    error.args = args
+    error.__dict__.update(members)
+    return error
 
 
 class CallError(PercussError):
