@@ -22,7 +22,8 @@ def _candidates(name: str) -> list[str]:
     # client/python/percuss/_library.py in a source tree
     installed = [path for tree in above[4:5] for path in (*tree.glob(f"lib*/{name}"), *tree.glob(f"lib/*/{name}"))]
     built = [path for tree in above[3:4] for path in tree.glob(f"build*/client/{name}")]
-    return [*sorted(map(str, installed)), name, *sorted(map(str, built))]
+    # by folders: build comes before build-address, whose sanitizers no Python bears
+    return [*map(str, sorted(installed)), name, *map(str, sorted(built))]
 
 
 def _check_version(library: ctypes.CDLL) -> None:

@@ -8,6 +8,7 @@ import math
 import os
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
 from pathlib import Path
@@ -17,6 +18,7 @@ from unittest import mock
 import numpy as np
 
 import percuss
+from percuss import _library
 
 DOMAIN = int(os.environ["PERCUSS_DOMAIN"])
 PROGRAM = Path(os.environ["PERCUSS_BUILD"]) / "bin" / "percuss"
@@ -313,6 +315,19 @@ class Mistakes(Beside):
         environment = {**os.environ, "PYTHONPATH": os.environ["PERCUSS_SOURCE"] + "/client/python"}
         del environment["PERCUSS_LIBRARY"]
         subprocess.run(command, env=environment, check=True)
+
+    def test_build_comes_before_others(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            for build in ("build-address", "build", "build-thread"):
+                library = Path(folder, build, "client", "libx.so.0")
+                library.parent.mkdir(parents=True)
+                library.touch()
+            here = Path(folder, "client", "python", "percuss", "_library.py")
+            with mock.patch.dict(os.environ), mock.patch.object(_library, "__file__", str(here)):
+                del os.environ["PERCUSS_LIBRARY"]
+                found = _library._candidates("libx.so.0")
+        builds = [Path(one).parts[-3] for one in found[1:]]
+        self.assertEqual((found[0], builds), ("libx.so.0", ["build", "build-address", "build-thread"]))
 
 
 if __name__ == "__main__":
