@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "quantity.h"
 #include "twins.h"
 
 enum { KEY_FIT = OPTION_OWN, KEY_NOISE };
@@ -30,8 +31,10 @@ struct calibrate {
 
 static const struct argp_option options[] = {
     {"fit", KEY_FIT, "PARAMETER:ID[=START]", 0,
-     "what to calibrate: young, poisson, density, yield, tangent, damping or radius of a body; may "
-     "be given several times. START: the catalogue's value unless given",
+     "what to calibrate: young, poisson, density, yield, tangent, damping, radius or scale of a "
+     "body; may "
+     "be given several times. START, in SI units or with its own: the catalogue's value unless "
+     "given",
      30},
     {"noise", KEY_NOISE, "R", 0,
      "relative standard deviation of the measured numbers to start with (default 0.01)", 30},
@@ -48,9 +51,21 @@ static unsigned parse_parameter(const char *name, size_t length, const char *tex
     }
     argp_error(state,
                "--fit: '%s': PARAMETER:ID[=START] is needed with young, poisson, density, yield, "
-               "tangent, damping or radius",
+               "tangent, damping, radius or scale",
                text);
     return 0;
+}
+
+/* A number of that parameter: "70 GPa" of young. */
+static double parse_start(const char *text, const char *start, unsigned parameter,
+                          struct argp_state *state)
+{
+    struct quantity_fault fault;
+    double number;
+    enum quantity quantity = quantity_of(percuss_parameter_name(parameter));
+    if (!quantity_read(start, strlen(start), quantity, &number, &fault))
+        argp_error(state, "--fit: '%s': START: %s", text, fault.text);
+    return number;
 }
 
 static void parse_fit(const char *text, struct calibrate *calibrate, struct argp_state *state)
@@ -69,7 +84,7 @@ static void parse_fit(const char *text, struct calibrate *calibrate, struct argp
         argp_error(state, "--fit: '%s': the id of a body is needed behind the colon", text);
     snprintf(parameter->body, sizeof parameter->body, "%.*s", (int)id, colon + 1);
     if (equals)
-        parameter->start = parse_number("fit", equals + 1, state);
+        parameter->start = parse_start(text, equals + 1, parameter->parameter, state);
     for (size_t i = 0; i + 1 < calibrate->count; i++)
         if (calibrate->parameters[i].parameter == parameter->parameter &&
             !strcmp(calibrate->parameters[i].body, parameter->body))

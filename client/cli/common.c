@@ -12,6 +12,7 @@
 #include "cli.h"
 #include "in_process.h"
 #include "others.h"
+#include "quantity.h"
 
 enum { HIGHEST_DOMAIN = 230 };
 static const double DEFAULT_TIMEOUT = 30.0; /* s */
@@ -23,7 +24,8 @@ static const struct argp_option common_options[] = {
     {"partition", OPTION_PARTITION, "NAME", 0,
      "DDS partition of the server, see percussd (default: PERCUSS_PARTITION, or else none)", 90},
     {"timeout", OPTION_TIMEOUT, "S", 0,
-     "seconds to wait for the server and then for the answer (default 3 and 30)", 90},
+     "seconds, or with a unit, to wait for the server and then for the answer (default 3 and 30)",
+     90},
     {"server", OPTION_SERVER, "ID", 0,
      "the server to ask: how its id begins, as percuss status shows it, or least-loaded: the one "
      "with least to do (default: PERCUSS_SERVER, or else the one up longest of those found within "
@@ -110,9 +112,7 @@ static error_t parse_common(int key, char *text, struct argp_state *state)
         common->partition = text;
         return 0;
     case OPTION_TIMEOUT:
-        common->timeout = parse_number("timeout", text, state);
-        if (common->timeout < 0.0)
-            argp_error(state, "--timeout: '%s': seconds >= 0 are needed", text);
+        common->timeout = parse_quantity("timeout", text, QUANTITY_TIME, state);
         return 0;
     case OPTION_SERVER:
         parse_server(text, common->server, state);

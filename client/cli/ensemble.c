@@ -16,6 +16,7 @@
 #include "json_writer.h"
 #include "output_file.h"
 #include "plot.h"
+#include "quantity.h"
 #include "scene.h"
 
 enum {
@@ -45,10 +46,11 @@ struct ensemble {
 };
 
 static const struct argp_option options[] = {
-    {"speed", KEY_SPEED, "DIST", 0, "speed of A towards B, m/s: a distribution", 10},
+    {"speed", KEY_SPEED, "DIST", 0, "speed of A towards B, m/s or with units: a distribution", 10},
     {"input", KEY_INPUT, "NAME[@ID]=DIST", 0,
      "another uncertain number: direction; site, young, poisson, density, radius, yield, damping, "
-     "scale of a body (again for more)",
+     "scale of a body, in SI units or with their own: young@al-beam=normal:70GPa:1GPa (again for "
+     "more)",
      11},
     {"model-error", KEY_MODEL_ERROR, NULL, 0,
      "what the models themselves may be wrong by is uncertain too: the inputs model-force, "
@@ -70,8 +72,8 @@ static const struct argp_option options[] = {
      "draw restitution over speed, histogram, distribution and sensitivities with gnuplot: "
      "FILE.png or FILE.svg",
      15},
-    {"deadline", KEY_DEADLINE, "S", 0, "seconds after which the server answers with what it has",
-     15},
+    {"deadline", KEY_DEADLINE, "S", 0,
+     "seconds, or with a unit, after which the server answers with what it has", 15},
     {"progress", KEY_PROGRESS, NULL, 0, "show progress even if stderr is no terminal", 15},
     {0},
 };
@@ -146,14 +148,6 @@ static enum percuss_sampling parse_sampling(const char *text, struct argp_state 
     return i;
 }
 
-static double parse_width(const char *option, const char *text, struct argp_state *state)
-{
-    double width = parse_number(option, text, state);
-    if (!(width > 0.0))
-        argp_error(state, "--%s: '%s': a number > 0 is needed", option, text);
-    return width;
-}
-
 static uint64_t parse_seed(const char *text, struct argp_state *state)
 {
     char *end;
@@ -216,13 +210,15 @@ static error_t parse_samples(int key, char *text, struct argp_state *state)
         return 0;
     /* fewer where these suffice */
     case KEY_HALF_WIDTH:
-        request->half_width = parse_width("half-width", text, state);
+        request->half_width = parse_positive_quantity("half-width", text, QUANTITY_NUMBER, state);
         return 0;
     case KEY_QUANTILE_HALF_WIDTH:
-        request->quantile_half_width = parse_width("quantile-half-width", text, state);
+        request->quantile_half_width =
+            parse_positive_quantity("quantile-half-width", text, QUANTITY_NUMBER, state);
         return 0;
     case KEY_DEADLINE:
-        ensemble->scene.options.deadline = parse_width("deadline", text, state);
+        ensemble->scene.options.deadline =
+            parse_positive_quantity("deadline", text, QUANTITY_TIME, state);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;

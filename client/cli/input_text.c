@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "quantity.h"
+
 enum { MOST_NUMBERS = 4, LINE_SIZE = 65536 };
 
 __attribute__((format(printf, 2, 3))) static bool refuse(struct input_fault *fault,
@@ -20,23 +22,6 @@ __attribute__((format(printf, 2, 3))) static bool refuse(struct input_fault *fau
     vsnprintf(fault->text, sizeof fault->text, format, arguments);
     va_end(arguments);
     return false;
-}
-
-/* Numbers separated by colons; -1: something else. */
-static int read_numbers(const char *text, double numbers[MOST_NUMBERS])
-{
-    int count = 0;
-    for (;;) {
-        char *end;
-        if (count == MOST_NUMBERS)
-            return -1;
-        numbers[count++] = strtod(text, &end);
-        if (end == text || (*end && *end != ':') || !isfinite(numbers[count - 1]))
-            return -1;
-        if (!*end)
-            return count;
-        text = end + 1;
-    }
 }
 
 /* What follows "NAME:" if the text begins so, else NULL. */
@@ -57,6 +42,21 @@ static bool read_list(const char *text, struct percuss_input *input, struct inpu
     return input->values != NULL;
 }
 
+/* A number by itself does not vary. */
+static bool read_constant(const char *text, struct percuss_input *input, struct input_fault *fault)
+{
+    struct quantity_fault wrong;
+    const char *number = text + strspn(text, " \t");
+    if (units_number_end(number) == number || strchr(text, ':'))
+        return refuse(fault,
+                      "'%s' is no distribution: a number, uniform:, normal:, log-normal: or list: "
+                      "is needed, for example uniform:0.1:0.4",
+                      text);
+    input->distribution = PERCUSS_DISTRIBUTION_CONSTANT;
+    return quantity_read(text, strlen(text), quantity_of(input->name), &input->first, &wrong) ||
+           refuse(fault, "'%s': %s", text, wrong.text);
+}
+
 bool input_text_distribution(const char *text, struct percuss_input *input,
                              struct input_fault *fault)
 {
@@ -73,6 +73,8 @@ bool input_text_distribution(const char *text, struct percuss_input *input,
          "log-normal:MEAN:DEVIATION or log-normal:MEAN:DEVIATION:LOWEST:HIGHEST"},
     };
     double numbers[MOST_NUMBERS];
+    struct quantity_fault wrong = {""};
+    enum quantity quantity = quantity_of(input->name);
     input->lower = input->upper = NAN;
     /* values from a file */
     const char *rest = after(text, "list");
@@ -83,7 +85,9 @@ bool input_text_distribution(const char *text, struct percuss_input *input,
         rest = after(text, kinds[i].name);
         if (!rest)
             continue;
-        int count = read_numbers(rest, numbers);
+        int count = quantity_read_list(rest, quantity, numbers, MOST_NUMBERS, &wrong);
+        if (count < 0)
+            return refuse(fault, "'%s' is not %s: %s", text, kinds[i].form, wrong.text);
         if (count != kinds[i].least && count != kinds[i].most)
             return refuse(fault, "'%s' is not %s", text, kinds[i].form);
         input->distribution = kinds[i].distribution;
@@ -93,15 +97,7 @@ bool input_text_distribution(const char *text, struct percuss_input *input,
         input->upper = count == MOST_NUMBERS ? numbers[3] : NAN;
         return true;
     }
-    /* a number by itself does not vary */
-    if (read_numbers(text, numbers) != 1)
-        return refuse(fault,
-                      "'%s' is no distribution: a number, uniform:, normal:, log-normal: or list: "
-                      "is needed, for example uniform:0.1:0.4",
-                      text);
-    input->distribution = PERCUSS_DISTRIBUTION_CONSTANT;
-    input->first = numbers[0];
-    return true;
+    return read_constant(text, input, fault);
 }
 
 bool input_text_read(const char *text, struct percuss_input *input, struct input_fault *fault)

@@ -12,6 +12,7 @@
 #include "output_file.h"
 #include "plot.h"
 #include "plot_impact.h"
+#include "quantity.h"
 #include "reply_csv.h"
 #include "reply_json.h"
 #include "reply_table.h"
@@ -44,7 +45,7 @@ struct query {
 };
 
 static const struct argp_option options[] = {
-    {"speed", KEY_SPEED, "V", 0, "speed of A towards B, m/s", 10},
+    {"speed", KEY_SPEED, "V", 0, "speed of A towards B, m/s or with a unit: 0.3, 300mm/s", 10},
     {"speed-sigma", KEY_SPEED_SIGMA, "S", 0,
      "standard deviation of the speed: also tells how the restitution spreads", 10},
     {"specimen-a", KEY_SPECIMEN_A, "NAME", 0,
@@ -113,14 +114,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     /* the impact */
     case KEY_SPEED:
-        query->speed = parse_number("speed", text, state);
-        if (!(query->speed > 0.0))
-            argp_error(state, "--speed: '%s': a number of m/s > 0 is needed", text);
+        query->speed = parse_positive_quantity("speed", text, QUANTITY_SPEED, state);
         return 0;
     case KEY_SPEED_SIGMA:
-        query->speed_sigma = parse_number("speed-sigma", text, state);
-        if (!(query->speed_sigma > 0.0))
-            argp_error(state, "--speed-sigma: '%s': a number of m/s > 0 is needed", text);
+        query->speed_sigma = parse_positive_quantity("speed-sigma", text, QUANTITY_SPEED, state);
         return 0;
     case KEY_SPECIMEN_A:
     case KEY_SPECIMEN_B:

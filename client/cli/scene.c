@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "quantity.h"
 #include "similar.h"
 
 enum scene_key {
@@ -28,7 +29,8 @@ static const struct argp_option scene_options[] = {
     {"at-a", KEY_AT_A, "NAME", 0, "place of the impact on the moving body: a site's name", 10},
     {"at-b", KEY_AT_B, "NAME", 0, "the same on the body at rest (default: its first site)", 10},
     {"tolerance", KEY_TOLERANCE, "T", 0, "wanted accuracy of the restitution (default 1e-3)", 20},
-    {"horizon", KEY_HORIZON, "T", 0, "s; give up watching the bodies after this time", 20},
+    {"horizon", KEY_HORIZON, "T", 0,
+     "s, or with a unit: give up watching the bodies after this time", 20},
     {"contact-model", KEY_CONTACT_MODEL, "M", 0,
      "auto, hertz, closed-form, table, concurrent-fe or complete-fe", 20},
     {"method", KEY_METHOD, "M", 0, "modal or cvode", 20},
@@ -49,14 +51,6 @@ static unsigned parse_choice(const char *option, const char *text, unsigned coun
     }
     argp_error(state, "--%s: '%s' is not one of: %s", option, text, allowed);
     return 0;
-}
-
-static double parse_positive(const char *option, const char *text, struct argp_state *state)
-{
-    double number = parse_number(option, text, state);
-    if (!(number > 0.0))
-        argp_error(state, "--%s: '%s': a number > 0 is needed", option, text);
-    return number;
 }
 
 static void parse_site(const char *text, struct scene *scene, struct argp_state *state)
@@ -114,10 +108,10 @@ static error_t parse_scene(int key, char *text, struct argp_state *state)
         break;
     /* how it is solved */
     case KEY_TOLERANCE:
-        options->tolerance = parse_positive("tolerance", text, state);
+        options->tolerance = parse_positive_quantity("tolerance", text, QUANTITY_NUMBER, state);
         break;
     case KEY_HORIZON:
-        options->horizon = parse_positive("horizon", text, state);
+        options->horizon = parse_positive_quantity("horizon", text, QUANTITY_TIME, state);
         break;
     case KEY_CONTACT_MODEL:
         parse_contact_model(text, scene, state);

@@ -11,6 +11,7 @@
 
 #include "cli.h"
 #include "json_writer.h"
+#include "quantity.h"
 
 enum { KEY_WATCH = OPTION_OWN, MOST_RATES = 16 };
 static const double SHORTEST_PERIOD = 0.1, LONGEST_PERIOD = 86400.0; /* s */
@@ -103,9 +104,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[0] = look->common;
         return 0;
     case KEY_WATCH:
-        look->period = text ? parse_number("watch", text, state) : 1.0;
+        look->period = text ? parse_quantity("watch", text, QUANTITY_TIME, state) : 1.0;
         if (!(look->period >= SHORTEST_PERIOD && look->period <= LONGEST_PERIOD))
-            argp_error(state, "--watch: %s: 0.1 to 86400 s are allowed", text);
+            argp_error(state, "--watch: '%s': 0.1 to 86400 s are allowed", text);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -115,7 +116,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
 static const struct argp_option options[] = {
     {"watch", KEY_WATCH, "SECONDS", OPTION_ARG_OPTIONAL,
-     "look again every so many seconds (default 1), until it is interrupted", 10},
+     "look again every so many seconds (default 1), or as often as a time with a unit says, until "
+     "it is interrupted",
+     10},
     {0},
 };
 const struct argp status_argp = {

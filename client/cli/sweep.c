@@ -7,10 +7,12 @@
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli.h"
 #include "output_file.h"
 #include "plot.h"
+#include "quantity.h"
 #include "scene.h"
 #include "sweep_file.h"
 #include "sweep_output.h"
@@ -33,7 +35,8 @@ struct sweep {
 };
 
 static const struct argp_option options[] = {
-    {"speed", KEY_SPEED, "LO:HI:N", 0, "N speeds from LO to HI, m/s", 10},
+    {"speed", KEY_SPEED, "LO:HI:N", 0,
+     "N speeds from LO to HI, m/s or with units: 0.1:0.4:31, 100mm/s:400mm/s:31", 10},
     {"csv", KEY_CSV, NULL, 0, "print comma-separated values", 90},
     {"resume", KEY_RESUME, "FILE.csv", 0,
      "go on with a sweep that came to an end before its time: asks for the rows that FILE.csv "
@@ -50,14 +53,25 @@ static const struct argp_option options[] = {
 
 static void parse_speeds(const char *text, struct sweep *sweep, struct argp_state *state)
 {
-    int end = 0;
-    bool read = sscanf(text, "%lf:%lf:%u%n", &sweep->low, &sweep->high, &sweep->count, &end) == 3;
-    if (!read || text[end])
-        argp_error(state, "--speed: '%s' is not LO:HI:N, for example 0.1:0.4:31", text);
-    if (!(sweep->low > 0.0) || !(sweep->high >= sweep->low) || !isfinite(sweep->high))
-        argp_error(state, "--speed: '%s': 0 < LO <= HI is needed", text);
-    if (sweep->count < 1 || sweep->count > MOST_POINTS)
+    struct quantity_fault fault;
+    const char *high = strchr(text, ':'), *count = high ? strchr(high + 1, ':') : NULL;
+    if (!count || strspn(count + 1, "0123456789") != strlen(count + 1))
+        argp_error(state,
+                   "--speed: '%s' is not LO:HI:N, for example 0.1:0.4:31 or "
+                   "\"100 mm/s:400 mm/s:31\"",
+                   text);
+    /* two speeds, each with a unit or without */
+    if (!quantity_read(text, (size_t)(high - text), QUANTITY_SPEED, &sweep->low, &fault) ||
+        !quantity_read(high + 1, (size_t)(count - high - 1), QUANTITY_SPEED, &sweep->high, &fault))
+        argp_error(state, "--speed: '%s': LO:HI:N: %s", text, fault.text);
+    if (!(sweep->low > 0.0) || !(sweep->high >= sweep->low))
+        argp_error(state, "--speed: '%s': 0 < LO <= HI is needed, here %g to %g m/s", text,
+                   sweep->low, sweep->high);
+    /* and how many of them */
+    unsigned long points = strtoul(count + 1, NULL, 10);
+    if (points < 1 || points > MOST_POINTS)
         argp_error(state, "--speed: '%s': N of 1..%d is needed", text, MOST_POINTS);
+    sweep->count = (unsigned)points;
 }
 
 static void check(const struct sweep *sweep, struct argp_state *state)

@@ -11,6 +11,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/units.h"
 #include "bridge.h"
 #include "say.h"
 
@@ -32,7 +33,8 @@ static const struct argp_option options[] = {
      "more)",
      0},
     {"server", OPTION_SERVER, "ID", 0, "the percussd to ask: how its id begins", 0},
-    {"timeout", OPTION_TIMEOUT, "S", 0, "seconds to wait for an answer (default 60)", 0},
+    {"timeout", OPTION_TIMEOUT, "S", 0,
+     "seconds, or with a unit, to wait for an answer (default 60)", 0},
     {"threads", OPTION_THREADS, "N", 0, "questions that wait for an answer at once (default 8)", 0},
     {0},
 };
@@ -62,10 +64,10 @@ static const char *parse_namespace(char *text, struct argp_state *state)
 
 static double parse_timeout(const char *text, struct argp_state *state)
 {
-    char *end;
-    double seconds = strtod(text, &end);
-    if (end == text || *end || !(seconds > 0.0))
-        argp_error(state, "--timeout: '%s' is not a number of seconds > 0", text);
+    double seconds;
+    if (units_read(text, QUANTITY_TIME, &seconds) || !(seconds > 0.0))
+        argp_error(state, "--timeout: '%s': a time > 0 is needed, in s or with a unit, such as %s",
+                   text, units_example(QUANTITY_TIME));
     return seconds;
 }
 

@@ -39,6 +39,8 @@ static const struct named UNITS[] = {
     {"Hz", true, {1, 1, 0, 0, 0, -1}},
     {"bar", true, {1, 1, 5, 1, -1, -2}},
     {"t", false, {1, 1, 3, 1, 0, 0}},
+    {"min", false, {60, 1, 0, 0, 0, 1}},
+    {"h", false, {3600, 1, 0, 0, 0, 1}},
     {"in", false, {254, 1, -4, 0, 1, 0}},
     {"ft", false, {3048, 1, -4, 0, 1, 0}},
     {"lb", false, {45359237, 1, -8, 1, 0, 0}},
@@ -63,6 +65,8 @@ static const struct {
     [QUANTITY_DENSITY] = {"density", "kg/m^3", "2.7 g/cm^3", 1, -3, 0},
     [QUANTITY_CURVATURE] = {"curvature", "1/m", "5 1/m", 0, -1, 0},
     [QUANTITY_FREQUENCY] = {"frequency", "Hz", "20 kHz", 0, 0, -1},
+    [QUANTITY_SPEED] = {"speed", "m/s", "300 mm/s", 0, 1, -1},
+    [QUANTITY_TIME] = {"time", "s", "20 ms", 0, 0, 1},
 };
 
 const char *units_name(enum quantity quantity)

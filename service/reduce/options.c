@@ -37,6 +37,9 @@ static const struct limit limit_mass = {
 static const struct limit limit_frequency = {
     1e-3, 1e12, false, false, "a frequency, 0.001 to 1e+12 Hz", QUANTITY_FREQUENCY};
 
+static const struct limit limit_period = {
+    0.1, 86400.0, false, false, "a time, 0.1 to 86400 s", QUANTITY_TIME};
+
 const char *argp_program_version = "percuss-reduce " PERCUSS_VERSION;
 
 static const struct argp_option list[] = {
@@ -65,7 +68,8 @@ static const struct argp_option list[] = {
     {"vtk", VTK, "FILE.vtu", 0, "Also write mesh and modes for ParaView", 3},
     {"json", JSON, NULL, 0, "The report as one JSON object", 3},
     {"progress", PROGRESS, "S", 0,
-     "A line of progress for each stage and every S seconds; default 30 s without stages, if "
+     "A line of progress for each stage and every S seconds, or such as 2min; default 30 s without "
+     "stages, if "
      "standard error is no terminal",
      3},
     {0},
@@ -234,7 +238,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         options->json = true;
         return 0;
     case PROGRESS:
-        options->progress = parse_number(state, "progress", text, 0.1, 86400.0);
+        options->progress = parse_quantity(state, "progress", text, &limit_period);
         return 0;
     case ARGP_KEY_ARG:
         if (options->file)

@@ -6,6 +6,7 @@
 #include <argp.h>
 #include <stdlib.h>
 
+#include "base/units.h"
 #include "store/table_key.h"
 
 enum { USAGE = 2, LEAST_RESOLUTION = 6, MOST_RESOLUTION = 60 };
@@ -18,7 +19,8 @@ static const struct argp_option list[] = {
     {"folder", 'f', "DIR", 0, "Where the tables go; `tables` in percussd's settings", 0},
     {"a", 'a', "ID", 0, "Only for the materials of this body ...", 0},
     {"b", 'b', "ID", 0, "... and this one", 0},
-    {"speed", 's', "V", 0, "Deep enough for compact bodies that meet at V m/s; default 1", 0},
+    {"speed", 's', "V", 0,
+     "Deep enough for compact bodies that meet at V, m/s or such as 300mm/s; default 1", 0},
     {"resolution", 'r', "N", 0, "Elements along the mesh's core, 6 to 60; default 12", 0},
     {"family", 'F', NULL, 0, "The family for all metals instead, DIR/family.json: 18 minutes", 0},
     {0},
@@ -32,6 +34,16 @@ static double parse_number(struct argp_state *state, const char *name, const cha
     if (end == text || *end || !(number >= least && number <= most))
         argp_error(state, "--%s: %s: must be a number, %g to %g", name, text, least, most);
     return number;
+}
+
+static double parse_speed(struct argp_state *state, const char *text)
+{
+    double speed;
+    if (units_read(text, QUANTITY_SPEED, &speed) || !(speed >= 1e-3 && speed <= 1e3))
+        argp_error(state,
+                   "--speed: %s: must be a speed, 0.001 to 1000 m/s, or with a unit, such as %s",
+                   text, units_example(QUANTITY_SPEED));
+    return speed;
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -57,7 +69,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     /* how far and how finely */
     case 's':
-        options->speed = parse_number(state, "speed", text, 1e-3, 1e3);
+        options->speed = parse_speed(state, text);
         return 0;
     case 'r':
         options->resolution =

@@ -60,6 +60,11 @@ static void test_values_are_those_of_si_to_the_bit(void **state)
     bits("20 kHz", QUANTITY_FREQUENCY, 20e3);
     bits("20 1/ms", QUANTITY_FREQUENCY, 20e3);
     bits("0.005 1/mm", QUANTITY_CURVATURE, 5.0);
+    bits("300 mm/s", QUANTITY_SPEED, 0.3);
+    bits("9mm/s", QUANTITY_SPEED, 0.009);
+    bits("36 km/h", QUANTITY_SPEED, 10.0);
+    bits("20ms", QUANTITY_TIME, 0.02);
+    bits("1.5 min", QUANTITY_TIME, 90.0);
     bits("0.3", QUANTITY_NUMBER, 0.3);
     bits("70e9", QUANTITY_STRESS, 70e9);
 }
@@ -109,6 +114,9 @@ static void test_what_is_refused(void **state)
     bad("8 kg", QUANTITY_LENGTH, UNITS_OF_ANOTHER);
     bad("8 mm^2", QUANTITY_LENGTH, UNITS_OF_ANOTHER);
     bad("8 mm", QUANTITY_STRESS, UNITS_OF_ANOTHER);
+    bad("8 mm", QUANTITY_SPEED, UNITS_OF_ANOTHER);
+    bad("8 Hz", QUANTITY_TIME, UNITS_OF_ANOTHER);
+    bad("8 kh", QUANTITY_TIME, UNITS_UNKNOWN);
     bad("8 N", QUANTITY_STRESS, UNITS_OF_ANOTHER);
     bad("8 g", QUANTITY_DENSITY, UNITS_OF_ANOTHER);
     bad("0.3 m", QUANTITY_NUMBER, UNITS_OF_ANOTHER);

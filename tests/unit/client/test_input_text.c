@@ -11,7 +11,7 @@
 static void distributions(void **state)
 {
     (void)state;
-    struct percuss_input input;
+    struct percuss_input input = {.name = "speed"};
     struct input_fault fault;
     assert_true(input_text_distribution("0.3", &input, &fault));
     assert_int_equal(input.distribution, PERCUSS_DISTRIBUTION_CONSTANT);
@@ -20,8 +20,10 @@ static void distributions(void **state)
     assert_int_equal(input.distribution, PERCUSS_DISTRIBUTION_UNIFORM);
     assert_true(input.first == 0.1 && input.second == 0.4);
     assert_true(input_text_middle(&input) == 0.25);
+    strcpy(input.name, "young");
     assert_true(input_text_distribution("normal:70e9:1e9", &input, &fault));
     assert_true(input.second == 1e9 && isnan(input.upper));
+    strcpy(input.name, "site");
     assert_true(input_text_distribution("log-normal:2:1:0.5:9", &input, &fault));
     assert_int_equal(input.distribution, PERCUSS_DISTRIBUTION_LOG_NORMAL);
     assert_true(input.lower == 0.5 && input.upper == 9.0);
@@ -34,11 +36,36 @@ static void wrong_distributions(void **state)
         "",          "uniform", "uniform:1",        "normal:1:2:3", "uniform:1:2x", "normal:nan:1",
         "gamma:1:2", "0.3:0.4", "uniform:1:2:3:4:5"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        struct percuss_input input;
+        struct percuss_input input = {.name = "speed"};
         struct input_fault fault = {""};
         assert_false(input_text_distribution(wrong[i], &input, &fault));
         assert_true(strlen(fault.text) > 10);
     }
+}
+
+/* In units of what the name says, to the bit what SI units give. */
+static void units(void **state)
+{
+    (void)state;
+    struct percuss_input input;
+    struct input_fault fault;
+    assert_true(
+        input_text_read("young@al-beam=normal:70 GPa:0.7GPa:68e9:72 kN/mm^2", &input, &fault));
+    assert_true(input.first == 70e9 && input.second == 0.7e9);
+    assert_true(input.lower == 68e9 && input.upper == 72e9);
+    assert_true(input_text_read("radius@steel-sphere=9mm", &input, &fault));
+    assert_true(input.distribution == PERCUSS_DISTRIBUTION_CONSTANT && input.first == 0.009);
+    assert_true(
+        input_text_read("density@steel-sphere=uniform:7.7 g/cm^3:7.8 g/cm^3", &input, &fault));
+    assert_true(input.first == 7700.0 && input.second == 7800.0);
+    /* of another quantity, or of none */
+    assert_false(input_text_read("young@al-beam=70 mm", &input, &fault));
+    assert_non_null(strstr(fault.text, "a stress is needed, in Pa or with a unit, such as 70 GPa"));
+    assert_non_null(strstr(fault.text, "mm is no stress"));
+    assert_false(input_text_read("radius@steel-sphere=uniform:8 mm:9 mn", &input, &fault));
+    assert_non_null(strstr(fault.text, "mn is no unit that is known"));
+    assert_false(input_text_read("poisson@al-beam=0.3 m/m", &input, &fault));
+    assert_non_null(strstr(fault.text, "without a unit"));
 }
 
 static void names(void **state)
@@ -112,8 +139,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distributions), cmocka_unit_test(wrong_distributions),
-        cmocka_unit_test(names),         cmocka_unit_test(columns),
-        cmocka_unit_test(wrong_columns),
+        cmocka_unit_test(units),         cmocka_unit_test(names),
+        cmocka_unit_test(columns),       cmocka_unit_test(wrong_columns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
