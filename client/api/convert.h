@@ -43,8 +43,8 @@ enum percuss_result convert_ensemble_request(const struct percuss_ensemble_reque
 enum percuss_result convert_ensemble_reply(const percuss_v1_EnsembleReply *wire,
                                            struct percuss_ensemble_reply *reply);
 
-/* Copies of what servers announce. False: no memory. */
-void convert_announced_server(const percuss_v1_ServerStatus *from, struct percuss_server *to);
+/* Copies of what servers announce. False: no memory, for the tasks, which are the caller's. */
+bool convert_announced_server(const percuss_v1_ServerStatus *from, struct percuss_server *to);
 void convert_announced_body(const percuss_v1_Body *wire, struct percuss_body *body);
 bool convert_announced_specimen(const percuss_v1_Dents *wire, struct percuss_specimen *specimen);
 

@@ -7,9 +7,27 @@
 #include "convert.h"
 #include "percuss/fields.h"
 
-void convert_announced_server(const percuss_v1_ServerStatus *from, struct percuss_server *to)
+#define SAME_KIND(name, text)                                                                      \
+    _Static_assert((unsigned)PERCUSS_TASK_##name == percuss_v1_TASK_##name, text);
+PERCUSS_TASK_KIND_LIST(SAME_KIND)
+
+static void convert_task(const percuss_v1_Task *from, struct percuss_task *to)
 {
-    PERCUSS_SERVER_FIELDS(PERCUSS_COPY)
+    PERCUSS_TASK_FIELDS(PERCUSS_COPY)
+}
+
+bool convert_announced_server(const percuss_v1_ServerStatus *from, struct percuss_server *to)
+{
+    size_t count = from->tasks._length;
+    PERCUSS_SERVER_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
+    to->task_count = 0;
+    to->tasks = NULL;
+    if (count == 0)
+        return true;
+    to->tasks = calloc(count, sizeof *to->tasks);
+    for (size_t i = 0; to->tasks && i < count; i++)
+        convert_task(&from->tasks._buffer[i], &to->tasks[to->task_count++]);
+    return to->tasks;
 }
 
 void convert_announced_body(const percuss_v1_Body *wire, struct percuss_body *body)

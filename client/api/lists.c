@@ -27,6 +27,8 @@ void percuss_server_list_free(struct percuss_server_list *list)
 {
     if (!list)
         return;
+    for (size_t i = 0; i < list->count; i++)
+        free(list->servers[i].tasks);
     free(list->servers);
     *list = (struct percuss_server_list){0};
 }

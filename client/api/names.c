@@ -3,6 +3,7 @@
 
 #include <percuss/ensemble.h>
 #include <percuss/result.h>
+#include <percuss/task.h>
 #include <stddef.h>
 
 #define NAME_TEXT(name, text) text,
@@ -82,4 +83,10 @@ const char *percuss_sampling_name(unsigned sampling)
 {
     static const char *const names[] = {PERCUSS_SAMPLING_LIST(NAME_TEXT)};
     return name_of(names, COUNT(names), sampling);
+}
+
+const char *percuss_task_kind_name(unsigned kind)
+{
+    static const char *const names[] = {PERCUSS_TASK_KIND_LIST(NAME_TEXT)};
+    return name_of(names, COUNT(names), kind);
 }

@@ -8,6 +8,7 @@
 #include "json_schema.h"
 #include "reply_json.h"
 
+JSON_TABLE(task, PERCUSS_TASK_FIELDS)
 JSON_TABLE(server, PERCUSS_SERVER_FIELDS)
 JSON_TABLE(dent, PERCUSS_DENT_FIELDS)
 

@@ -16,6 +16,7 @@
 enum { KEY_WATCH = OPTION_OWN, MOST_RATES = 16 };
 static const double SHORTEST_PERIOD = 0.1, LONGEST_PERIOD = 86400.0; /* s */
 
+JSON_TABLE(task, PERCUSS_TASK_FIELDS)
 JSON_TABLE(server, PERCUSS_SERVER_FIELDS)
 
 static void print_json(const struct percuss_server_list *list)
@@ -40,6 +41,33 @@ struct look {
     struct last_look last[MOST_RATES];
 };
 
+static void print_task(const struct percuss_task *task)
+{
+    char client[33];
+    format_hex(task->client, client);
+    printf("            %s  %-8s  ", task->running ? "running" : "waiting",
+           percuss_task_kind_name(task->kind));
+    /* who waits for it, if anybody does */
+    if (task->kind == PERCUSS_TASK_MESH)
+        printf("%-20s", "");
+    else
+        printf("%8llu of %.8s ", (unsigned long long)task->sequence, client);
+    printf("%8.1f s", task->age);
+    if (!isnan(task->done))
+        printf("  %3.0f %%", 100.0 * task->done);
+    putchar('\n');
+}
+
+static void print_tasks(const struct percuss_server *server)
+{
+    if (server->all_tasks > 0)
+        printf("tasks       %u: number, client, age, share done\n", server->all_tasks);
+    for (size_t i = 0; i < server->task_count; i++)
+        print_task(&server->tasks[i]);
+    if (server->all_tasks > server->task_count)
+        printf("            and %zu more\n", server->all_tasks - server->task_count);
+}
+
 static void print_server(const struct look *look, const struct percuss_server *server)
 {
     char id[33];
@@ -61,6 +89,7 @@ static void print_server(const struct look *look, const struct percuss_server *s
            server->queue_length, server->queue_capacity);
     if (server->activity[0])
         printf("activity    %s, %.0f %%\n", server->activity, 100.0 * server->progress);
+    print_tasks(server);
 }
 
 static void print_rate(const struct percuss_server *server, struct last_look *last)

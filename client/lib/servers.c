@@ -33,20 +33,23 @@ static int compare_sightings(const void *left, const void *right)
     return memcmp(a->server.server, b->server.server, sizeof a->server.server);
 }
 
-/* The valid ones among the samples; their number. */
-static size_t list_sightings(const struct announcements *all, struct sighting *sightings)
+/* The valid ones among the samples; their number. False: no memory for all of them. */
+static bool list_sightings(const struct announcements *all, struct sighting *sightings,
+                           size_t *listed)
 {
     size_t count = 0;
+    bool good = true;
     for (int i = 0; i < all->count; i++) {
         if (!all->infos[i].valid_data)
             continue;
         struct sighting *sighting = &sightings[count++];
-        convert_announced_server(all->samples[i], &sighting->server);
+        good = convert_announced_server(all->samples[i], &sighting->server) && good;
         sighting->draining = strcmp(sighting->server.state, "ready") != 0;
         sighting->started = 1e-9 * (double)all->infos[i].source_timestamp - sighting->server.uptime;
     }
     qsort(sightings, count, sizeof *sightings, compare_sightings);
-    return count;
+    *listed = count;
+    return good;
 }
 
 void servers_describe(const uint8_t id[16], const struct percuss_server *server,
@@ -80,14 +83,13 @@ enum percuss_result servers_look(struct percuss_client *client, struct percuss_s
     /* all that are announced, in the order in which they are preferred */
     struct sighting *sightings = calloc((size_t)all.count + 1, sizeof *sightings);
     list->servers = calloc((size_t)all.count + 1, sizeof *list->servers);
-    if (sightings && list->servers) {
-        list->count = list_sightings(&all, sightings);
-        for (size_t i = 0; i < list->count; i++)
-            list->servers[i] = sightings[i].server;
-    }
+    bool good = sightings && list->servers;
+    if (good)
+        good = list_sightings(&all, sightings, &list->count);
+    for (size_t i = 0; i < list->count; i++)
+        list->servers[i] = sightings[i].server;
     announcements_release(&all);
     /* out of memory is said, and nothing kept */
-    bool good = sightings && list->servers;
     free(sightings);
     if (good) {
         note_name(client, list);
@@ -176,6 +178,9 @@ enum percuss_result announcements_connected(struct percuss_client *client, doubl
     const struct percuss_server *ours = servers_find(&servers, id);
     if (ours)
         *server = *ours;
+    /* its tasks go with the list */
+    server->tasks = NULL;
+    server->task_count = 0;
     percuss_server_list_free(&servers);
     return ours ? PERCUSS_RESULT_OK : failure_lost(name);
 }

@@ -5,7 +5,7 @@
 #ifndef PERCUSS_FIELDS_SERVER_H
 #define PERCUSS_FIELDS_SERVER_H
 
-#define PERCUSS_SERVER_FIELDS(F, ...)                                                              \
+#define PERCUSS_SERVER_FIELDS(F, L)                                                                \
     F(OCTETS, server, "its id")                                                                    \
     F(TEXT, version, "of the program")                                                             \
     F(TEXT, catalogue_revision, "hash of the catalogue")                                           \
@@ -22,7 +22,19 @@
     F(COUNT, specimens, "that it keeps")                                                           \
     F(VALUE, uptime, "s")                                                                          \
     F(TEXT, activity, "what a long computation is doing")                                          \
-    F(VALUE, progress, "0..1; undefined: nothing is running")
+    F(VALUE, progress, "0..1; undefined: nothing is running")                                      \
+    L(LIST, tasks, task_count, task,                                                               \
+      "what it does and what waits, 16 at most: those that run before those that wait, the "       \
+      "oldest first")                                                                              \
+    F(COUNT, all_tasks, "how many there are, listed or not")
+
+#define PERCUSS_TASK_FIELDS(F, ...)                                                                \
+    F(OCTETS, client, "who waits for it; zeros: nobody")                                           \
+    F(LONG_COUNT, sequence, "its number, of that client")                                          \
+    F(CHOICE, kind, task_kind, PERCUSS_TASK_COUNT, "")                                             \
+    F(FLAG, running, "false: it waits for its turn")                                               \
+    F(VALUE, age, "s; since it was asked for")                                                     \
+    F(VALUE, done, "share of it, 0..1; undefined: not known")
 
 #define PERCUSS_DENT_FIELDS(F, ...)                                                                \
     F(VECTOR, point, INFINITY, "m; body frame")                                                    \

@@ -7,12 +7,14 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "exchange/clock.h"
+
 /* The lock is held. */
 static void forget(struct activity *activity)
 {
     activity->owner = NULL;
     activity->text[0] = '\0';
-    activity->progress = NAN;
+    activity->progress = activity->begun = NAN;
 }
 
 void activity_create(struct activity *activity)
@@ -33,6 +35,8 @@ void activity_set(struct activity *activity, const void *owner, double progress,
     va_start(arguments, format);
     pthread_mutex_lock(&activity->lock);
     if (!activity->owner || activity->owner == owner) {
+        if (!activity->owner)
+            activity->begun = clock_now();
         activity->owner = owner;
         vsnprintf(activity->text, sizeof activity->text, format, arguments);
         activity->progress = progress;
@@ -55,4 +59,12 @@ void activity_read(struct activity *activity, char *text, size_t size, double *p
     snprintf(text, size, "%s", activity->text);
     *progress = activity->progress;
     pthread_mutex_unlock(&activity->lock);
+}
+
+double activity_begun(struct activity *activity)
+{
+    pthread_mutex_lock(&activity->lock);
+    double begun = activity->begun;
+    pthread_mutex_unlock(&activity->lock);
+    return begun;
 }

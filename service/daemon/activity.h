@@ -12,6 +12,7 @@ struct activity {
     const void *owner;    /* whose it is; NULL: nobody's */
     char text[128];       /* empty: nothing */
     double progress;      /* 0 .. 1; NAN: nothing */
+    double begun;         /* monotonic, s; NAN: nothing */
 };
 
 void activity_create(struct activity *activity);
@@ -27,5 +28,8 @@ void activity_clear(struct activity *activity, const void *owner);
 
 /* Copies it; the text is cut to fit. */
 void activity_read(struct activity *activity, char *text, size_t size, double *progress);
+
+/* When what runs began, monotonic, s; NAN: nothing does. */
+double activity_begun(struct activity *activity);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "daemon/client_job.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "daemon/delivery.h"
@@ -16,6 +17,8 @@ void client_job_begin(struct client_job *job, struct shared *shared,
     job->arrival = arrival;
     job->snapshot = snapshots_hold(&shared->snapshots);
     atomic_init(&job->abandoned, false);
+    atomic_init(&job->running, 0);
+    atomic_init(&job->done, 0.0);
 }
 
 void client_job_end(struct client_job *job)
@@ -42,4 +45,26 @@ void client_job_deliver(struct client_job *job, struct answer *answer)
         reply_store_forget(job->shared->replies, &job->name);
     else
         deliver(job->shared, &job->name, answer);
+}
+
+/* Of several items those that are settled count; of one, what its solve has said. */
+static double share_done(const struct client_job *job)
+{
+    size_t items = job->job.items;
+    if (items > 1)
+        return (double)(items - atomic_load(&job->job.left)) / (double)items;
+    double done = atomic_load(&job->done);
+    return done > 0.0 ? fmin(done, 1.0) : NAN;
+}
+
+void client_job_describe(const struct client_job *job, uint32_t kind, struct task *task)
+{
+    *task = (struct task){
+        .sequence = job->name.sequence,
+        .kind = kind,
+        .running = atomic_load(&job->running) > 0,
+        .arrival = job->arrival,
+        .done = share_done(job),
+    };
+    memcpy(task->client, job->client, sizeof task->client);
 }

@@ -9,8 +9,9 @@
 
 #include "daemon/job.h"
 #include "daemon/shared.h"
+#include "daemon/task.h"
 
-/* All but `abandoned` stays as it was begun. */
+/* All but the last three members stays as it was begun. */
 struct client_job {
     struct job job;
     struct shared *shared;
@@ -20,6 +21,8 @@ struct client_job {
     double arrival;            /* monotonic, s */
     struct snapshot *snapshot; /* it is answered from, held */
     atomic_bool abandoned;     /* its client was found gone */
+    atomic_uint running;       /* items that are being done */
+    _Atomic double done;       /* share of the item at hand; 0: nobody knows */
 };
 
 /* Begins a job on the present snapshot; `name` is copied. */
@@ -36,5 +39,8 @@ bool client_job_is_gone(struct client_job *job);
 /* Delivers its reply (NULL: there was no memory for one), which stays the caller's; a client that
  * has gone gets none, one that has come back is told. */
 void client_job_deliver(struct client_job *job, struct answer *answer);
+
+/* What it is about, as a task of that kind. */
+void client_job_describe(const struct client_job *job, uint32_t kind, struct task *task);
 
 #endif

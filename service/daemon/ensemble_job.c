@@ -59,7 +59,12 @@ static void release(struct job *job)
     free(ensemble);
 }
 
-static const struct job_kind ensemble_kind = {run, refuse, report, cancel, release};
+static void describe(const struct job *job, struct task *task)
+{
+    client_job_describe((const struct client_job *)job, percuss_v1_TASK_ENSEMBLE, task);
+}
+
+static const struct job_kind ensemble_kind = {run, refuse, report, cancel, release, describe};
 
 struct client_job *ensemble_job_create(struct shared *shared, const struct request_name *name,
                                        const percuss_v1_EnsembleRequest *request, double arrival)

@@ -31,6 +31,7 @@ static void publish(void *context, uint64_t done, uint64_t samples,
 {
     struct ensemble_run *run = context;
     struct shared *shared = run->job->shared;
+    atomic_store(&run->job->done, (double)done / (double)samples);
     ensemble_publish_progress(shared, run->entry, done, samples, progress);
     if (progress)
         activity_set(&shared->activity, run, (double)done / (double)samples,
@@ -87,7 +88,9 @@ struct answer *ensemble_run(struct client_job *job, struct ensemble_entry *entry
     };
     const struct ensemble_question question = {request, client_job_envelope(job), job->arrival};
     atomic_store(&entry->running, true);
+    atomic_fetch_add(&job->running, 1);
     struct answer *answer = ensemble_answer(&means, &question);
+    atomic_fetch_sub(&job->running, 1);
     activity_clear(&job->shared->activity, &run);
     return answer;
 }

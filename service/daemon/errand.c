@@ -51,7 +51,8 @@ static void release(struct job *job)
     free(errand);
 }
 
-static const struct job_kind errand_kind = {run, refuse, report, cancel, release};
+/* Its parent is told of. */
+static const struct job_kind errand_kind = {run, refuse, report, cancel, release, NULL};
 
 enum job_end errand_send(struct job *job, size_t item, struct queue *queue)
 {

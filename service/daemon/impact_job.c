@@ -72,6 +72,7 @@ static struct question question_of(struct attempt *attempt, size_t item)
         .in_batch = base->name.exchange == EXCHANGE_BATCH,
         .still_wanted = is_wanted,
         .context = attempt,
+        .done = &base->done,
     };
     question.envelope.sequence = impact->requests[item].sequence;
     return question;
@@ -83,7 +84,9 @@ static bool run_impact(struct job *job, size_t item, struct responder *responder
     struct attempt attempt = {impact, responder->lane == LANE_SHORT ? clock_now() : INFINITY,
                               false};
     struct question question = question_of(&attempt, item);
+    atomic_fetch_add(&impact->base.running, 1);
     struct answer *answer = responder_answer(responder, &question);
+    atomic_fetch_sub(&impact->base.running, 1);
     /* what was given up on the way says nothing */
     if (attempt.makes_way)
         answer_release(answer);
@@ -109,7 +112,9 @@ static bool run_on_specimens(struct job *job, size_t item, struct responder *res
     struct attempt attempt = {impact, INFINITY, false};
     struct question question = question_of(&attempt, item);
     size_t before = specimen_lane_count(shared->specimens);
+    atomic_fetch_add(&impact->base.running, 1);
     impact->answers[item] = specimen_lane_answer(shared->specimens, responder, &question);
+    atomic_fetch_sub(&impact->base.running, 1);
     /* who has seen the reply finds its specimen announced */
     if (specimen_lane_count(shared->specimens) != before)
         status_announce(shared);
@@ -162,12 +167,22 @@ static void release(struct job *job)
     free(impact);
 }
 
-static const struct job_kind impact_kind = {run_impact, refuse_impact, report_impact, cancel,
-                                            release};
-static const struct job_kind batch_kind = {run_impact, refuse_impact, report_batch, cancel,
-                                           release};
+/* One that waits for tables is told from others by its lane. */
+static void describe(const struct job *job, struct task *task)
+{
+    const struct client_job *base = (const struct client_job *)job;
+    uint32_t kind = base->lane == LANE_TABLES               ? percuss_v1_TASK_TABLES
+                    : base->name.exchange == EXCHANGE_BATCH ? percuss_v1_TASK_BATCH
+                                                            : percuss_v1_TASK_REQUEST;
+    client_job_describe(base, kind, task);
+}
+
+static const struct job_kind impact_kind = {run_impact, refuse_impact, report_impact,
+                                            cancel,     release,       describe};
+static const struct job_kind batch_kind = {run_impact, refuse_impact, report_batch,
+                                           cancel,     release,       describe};
 static const struct job_kind specimen_kind = {run_on_specimens, refuse_impact, report_impact,
-                                              cancel, release};
+                                              cancel,           release,       describe};
 
 bool impact_job_is_durable(const struct shared *shared, const percuss_v1_Request *request)
 {

@@ -15,6 +15,7 @@
 struct job;
 struct queue;
 struct responder;
+struct task;
 
 /* What jobs of a kind do. */
 struct job_kind {
@@ -31,6 +32,9 @@ struct job_kind {
     void (*cancel)(struct job *job);
     /* Frees the job, whether it has run or not. */
     void (*release)(struct job *job);
+    /* What it is about. Any thread, as long as the job is in a queue or being done. NULL: nobody
+     * wants to know. */
+    void (*describe)(const struct job *job, struct task *task);
 };
 
 /* The first member of every job. */

@@ -302,6 +302,18 @@ bool queue_drain(struct queue *queue, double seconds)
     return drained;
 }
 
+void queue_visit(struct queue *queue, void (*visit)(void *context, const struct job *job),
+                 void *context)
+{
+    const struct job *job;
+    pthread_mutex_lock(&queue->lock);
+    LIST_FOREACH(job, &queue->live, live)
+    {
+        visit(context, job);
+    }
+    pthread_mutex_unlock(&queue->lock);
+}
+
 size_t queue_length(struct queue *queue)
 {
     pthread_mutex_lock(&queue->lock);

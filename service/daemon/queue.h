@@ -57,6 +57,10 @@ void queue_cancel(struct queue *queue);
 /* Waits until nothing is queued or being answered, at most `seconds`. False: something is. */
 bool queue_drain(struct queue *queue, double seconds);
 
+/* Shows each job that waits or is being done, under the queue's lock. */
+void queue_visit(struct queue *queue, void (*visit)(void *context, const struct job *job),
+                 void *context);
+
 /* Number of jobs that wait. */
 size_t queue_length(struct queue *queue);
 

@@ -5,10 +5,12 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "daemon/queue.h"
 #include "daemon/specimen_lane.h"
+#include "daemon/tasks.h"
 #include "exchange/clock.h"
 #include "exchange/text.h"
 
@@ -36,8 +38,32 @@ void status_describe(struct shared *shared, char *text, size_t size)
     snapshots_release(&shared->snapshots, snapshot);
 }
 
+/* The tasks as they are told. */
+static void list_tasks(struct shared *shared, percuss_v1_Task list[TASKS_LISTED],
+                       percuss_v1_ServerStatus *status)
+{
+    struct tasks tasks;
+    double now = clock_now();
+    tasks_look(shared, &tasks);
+    for (size_t i = 0; i < tasks.count; i++) {
+        const struct task *task = &tasks.list[i];
+        list[i] = (percuss_v1_Task){
+            .sequence = task->sequence,
+            .kind = task->kind,
+            .running = task->running,
+            .age = fmax(0.0, now - task->arrival),
+            .done = task->done,
+        };
+        memcpy(list[i].client, task->client, sizeof list[i].client);
+    }
+    status->tasks._buffer = list;
+    status->tasks._length = status->tasks._maximum = (uint32_t)tasks.count;
+    status->all_tasks = tasks.all;
+}
+
 void status_announce(struct shared *shared)
 {
+    percuss_v1_Task tasks[TASKS_LISTED];
     struct snapshot *snapshot = snapshots_hold(&shared->snapshots);
     /* its numbers */
     percuss_v1_ServerStatus status = {
@@ -62,5 +88,6 @@ void status_announce(struct shared *shared)
     COPY_TEXT(status.catalogue, shared->settings->catalogue);
     snapshots_release(&shared->snapshots, snapshot);
     gethostname(status.host, sizeof status.host - 1);
+    list_tasks(shared, tasks, &status);
     endpoint_announce_status(shared->endpoint, &status);
 }

@@ -106,7 +106,8 @@ static bool still_wanted(struct inquiry *inquiry, const char *when)
 static bool goes_on(void *context, double done)
 {
     struct inquiry *inquiry = context;
-    (void)done;
+    if (done > 0.0 && inquiry->question->done)
+        atomic_store(inquiry->question->done, done);
     if (inquiry->means->beat)
         inquiry->means->beat();
     return still_wanted(inquiry, "within the solve");
@@ -211,6 +212,7 @@ static struct answer *compute(struct responder *responder, const struct question
         table_maker_begin(&responder->maker, question->snapshot->tables, question->request,
                           envelope->client, question->arrival),
         {goes_on, &inquiry}};
+    responder->maker.done = question->done;
     solve(responder->workspace, &means, &responder->request, result);
     /* why there is no result */
     if (responder->maker.status)

@@ -50,6 +50,8 @@ struct question {
     enum percuss_status (*still_wanted)(void *context, struct fault *fault);
     void *context;                             /* of that */
     const struct body_state *const *specimens; /* by body; NULL: specimens are refused */
+    _Atomic double *done; /* is told now and then which share is done, where that is known; NULL:
+                             nobody looks */
 };
 
 /* The reply, whatever it says; it differs with the thread, the load and the time in its timing

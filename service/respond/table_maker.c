@@ -21,6 +21,8 @@ static bool go_on(void *context, double done)
 {
     struct table_maker *maker = context;
     double deadline = maker->request->options.deadline;
+    if (maker->done)
+        atomic_store(maker->done, done);
     maker->status = maker->wait.goes_on(maker->wait.context, maker, done, &maker->fault);
     if (maker->status)
         return false;

@@ -32,6 +32,7 @@ struct table_maker {
     const uint8_t *client;      /* who asks */
     enum percuss_status status; /* why a table could not be had */
     struct fault fault;
+    _Atomic double *done; /* is told which share of a table is computed; NULL: nobody looks */
 };
 
 void table_maker_init(struct table_maker *maker, const struct table_wait *wait, double limit);

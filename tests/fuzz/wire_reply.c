@@ -64,12 +64,19 @@ static void take_body(const percuss_v1_Body *wire)
     percuss_contact_pair(&pair, &request);
 }
 
-static void take_announcement(int type, const void *sample)
+static void take_server(const percuss_v1_ServerStatus *wire)
 {
     struct percuss_server server;
+    FUZZ_REQUIRE(convert_announced_server(wire, &server) && server.task_count <= PERCUSS_MAX_TASKS,
+                 "%zu tasks", server.task_count);
+    free(server.tasks);
+}
+
+static void take_announcement(int type, const void *sample)
+{
     struct percuss_specimen specimen;
     if (type == 9)
-        convert_announced_server(sample, &server);
+        take_server(sample);
     else if (type == 10)
         take_body(sample);
     else if (convert_announced_specimen(sample, &specimen))

@@ -6,6 +6,7 @@
 #define PERCUSS_SERVER_H
 
 #include <percuss/request.h>
+#include <percuss/task.h>
 
 enum percuss_support { PERCUSS_SUPPORT_FREE, PERCUSS_SUPPORT_PINNED, PERCUSS_SUPPORT_CLAMPED };
 
@@ -53,10 +54,13 @@ struct percuss_server {
     uint32_t workers, bodies;
     uint32_t queue_length, queue_capacity;
     uint64_t answered, refused;
-    double uptime;      /* s */
-    char activity[256]; /* what a long computation is doing */
-    double progress;    /* 0..1; NAN: nothing is running */
-    uint32_t specimens; /* that it keeps */
+    double uptime;              /* s */
+    char activity[256];         /* what a long computation is doing */
+    double progress;            /* 0..1; NAN: nothing is running */
+    uint32_t specimens;         /* that it keeps */
+    size_t task_count;          /* listed, up to PERCUSS_MAX_TASKS */
+    struct percuss_task *tasks; /* those that run before those that wait, the oldest first */
+    uint32_t all_tasks;         /* how many there are; what is answered at once is in none */
 };
 
 struct percuss_server_list {

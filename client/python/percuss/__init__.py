@@ -48,7 +48,7 @@ from .reply import (
     force_centres,
 )
 from .request import BodyMotion, Contact, Options, Request
-from .server import Body, Dent, Server, Site, Specimen, contact_pair
+from .server import Body, Dent, Server, Site, Specimen, Task, contact_pair
 from .vocabulary import (
     MAX_BATCH,
     MAX_BODIES,
@@ -64,6 +64,7 @@ from .vocabulary import (
     Result,
     Status,
     Support,
+    TaskKind,
 )
 
 __all__ = [
@@ -116,6 +117,8 @@ __all__ = [
     "Specimen",
     "Status",
     "Support",
+    "Task",
+    "TaskKind",
     "Timing",
     "TransportError",
     "UnknownSequence",

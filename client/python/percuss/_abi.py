@@ -261,6 +261,17 @@ class BodyList(ctypes.Structure):
     _fields_ = [("count", c_size_t), ("bodies", POINTER(Body))]
 
 
+class Task(ctypes.Structure):
+    _fields_ = [
+        ("client", _Octets),
+        ("sequence", c_uint64),
+        ("kind", c_uint),
+        ("running", c_bool),
+        ("age", c_double),
+        ("done", c_double),
+    ]
+
+
 class Server(ctypes.Structure):
     _fields_ = [
         ("server", _Octets),
@@ -280,6 +291,9 @@ class Server(ctypes.Structure):
         ("activity", c_char * 256),
         ("progress", c_double),
         ("specimens", c_uint32),
+        ("task_count", c_size_t),
+        ("tasks", POINTER(Task)),
+        ("all_tasks", c_uint32),
     ]
 
 
@@ -346,6 +360,7 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "percuss_body": Body,
     "percuss_site": Site,
     "percuss_body_list": BodyList,
+    "percuss_task": Task,
     "percuss_server": Server,
     "percuss_server_list": ServerList,
     "percuss_pair": Pair,

@@ -12,7 +12,7 @@ from . import _abi
 from ._convert import read
 from .errors import check
 from .request import FloatArray, Request, read_scene
-from .vocabulary import Parameter, Support
+from .vocabulary import Parameter, Support, TaskKind
 
 
 @dataclass(frozen=True)
@@ -57,6 +57,23 @@ class Body:
 
 
 @dataclass(frozen=True)
+class Task:
+    """Something that a server is doing, or has still to do."""
+
+    client: bytes
+    """16 octets: who waits for it; zeros: nobody."""
+    sequence: int
+    """Its number, of that client."""
+    kind: TaskKind
+    running: bool
+    """False: it waits for its turn."""
+    age: float
+    """s, since it was asked for."""
+    done: float
+    """Share of it, 0..1; nan: not known."""
+
+
+@dataclass(frozen=True)
 class Server:
     """A server of the domain."""
 
@@ -84,6 +101,10 @@ class Server:
     """0..1; nan: nothing is running."""
     specimens: int
     """That it keeps."""
+    tasks: tuple[Task, ...]
+    """What it does and what waits, 16 at most: those that run before those that wait, the oldest first."""
+    all_tasks: int
+    """How many there are, listed or not."""
 
 
 @dataclass(frozen=True)

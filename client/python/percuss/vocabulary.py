@@ -115,6 +115,18 @@ class Support(Choice):
     CLAMPED = 2
 
 
+class TaskKind(Choice):
+    """What a server has to do."""
+
+    REQUEST = 0
+    BATCH = 1
+    ENSEMBLE = 2
+    TABLES = 3
+    """A request for which contact tables are computed first."""
+    MESH = 4
+    """A mesh that is reduced."""
+
+
 class Result(Choice):
     """How a call of the library ended."""
 

@@ -127,7 +127,7 @@ class Abi(unittest.TestCase):
 
     def test_choices(self) -> None:
         """Same names and numbers as in the lists of the C headers."""
-        code = "".join(path.read_text() for path in (VOCABULARY, HEADERS / "result.h", HEADERS / "ensemble_request.h"))
+        code = "".join(path.read_text() for path in (VOCABULARY, *(HEADERS / f"{one}.h" for one in ("result", "ensemble_request", "task"))))
         for choices in vocabulary.Choice.__subclasses__():
             if choices in (percuss.Support, Application):
                 continue

@@ -4,6 +4,7 @@
 /* Tests daemon/activity.c: what is read is what was set last, cut to fit. */
 #include "check.h"
 #include "daemon/activity.h"
+#include "exchange/clock.h"
 
 static void says_what_runs(void **state)
 {
@@ -15,10 +16,15 @@ static void says_what_runs(void **state)
     activity_read(&activity, text, sizeof text, &progress);
     assert_string_equal(text, "");
     assert_true(isnan(progress));
+    assert_true(isnan(activity_begun(&activity)));
     activity_set(&activity, text, 0.25, "%d of %d samples", 1, 4);
     activity_read(&activity, text, sizeof text, &progress);
     assert_string_equal(text, "1 of 4 samp");
     assert_true(progress == 0.25);
+    /* what goes on has begun once */
+    double begun = activity_begun(&activity);
+    activity_set(&activity, text, 0.25, "%d of %d samples", 1, 4);
+    assert_true(activity_begun(&activity) == begun && begun <= clock_now());
     /* another one is heard when this one has ended */
     activity_set(&activity, &progress, 0.5, "another");
     activity_clear(&activity, &progress);
@@ -28,6 +34,7 @@ static void says_what_runs(void **state)
     activity_read(&activity, text, sizeof text, &progress);
     assert_string_equal(text, "");
     assert_true(isnan(progress));
+    assert_true(isnan(activity_begun(&activity)));
     activity_release(&activity);
 }
 

@@ -89,6 +89,7 @@ static void announcements(void **state)
 {
     (void)state;
     expect("ServerStatus", LIST(PERCUSS_SERVER_FIELDS));
+    expect("Task", LIST(PERCUSS_TASK_FIELDS));
     expect("Dent", LIST(PERCUSS_DENT_FIELDS));
 }
 
