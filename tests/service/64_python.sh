@@ -48,8 +48,13 @@ expect 0 "$bin/percuss" query --local --catalogue config/catalogue.yaml --a stee
 sed -n 2p answers >second
 grep -q "\"restitution\": $(cut -c 1-12 second)" "$out" || fail "another answer than percuss query --local"
 
-say "an engine of twenty lines: impacts, one question each"
+say "the history of the force"
 snippet 3
+expect 0 python snippet.py
+prints "^205\.1.* OK$"
+
+say "an engine of twenty lines: impacts, one question each"
+snippet 4
 expect 0 python snippet.py
 prints "s: 0\.31[34] m/s, e = 0\.70"
 awk '/ e = / { n++ } /^Counts/ { exit index($0, "impacts=" n ", requests=" n ",") == 0 }' "$out" || fail "counts"

@@ -49,6 +49,7 @@ from .reply import (
 )
 from .request import BodyMotion, Contact, Options, Request
 from .server import Body, Dent, Server, Site, Specimen, Task, contact_pair
+from .traces import ContactTrace, Trace, trace
 from .vocabulary import (
     MAX_BATCH,
     MAX_BODIES,
@@ -59,6 +60,7 @@ from .vocabulary import (
     DelassusSource,
     Dents,
     EndReason,
+    Id,
     Method,
     Parameter,
     Result,
@@ -86,6 +88,7 @@ __all__ = [
     "Contact",
     "ContactModel",
     "ContactResult",
+    "ContactTrace",
     "Correlation",
     "DelassusSource",
     "Dent",
@@ -96,6 +99,7 @@ __all__ = [
     "Ensemble",
     "EnsembleReply",
     "ErrorEstimate",
+    "Id",
     "Incompatible",
     "Input",
     "InvalidArgument",
@@ -120,6 +124,7 @@ __all__ = [
     "Task",
     "TaskKind",
     "Timing",
+    "Trace",
     "TransportError",
     "UnknownSequence",
     "WindowFull",
@@ -128,4 +133,5 @@ __all__ = [
     "contact_pair",
     "ensemble",
     "force_centres",
+    "trace",
 ]

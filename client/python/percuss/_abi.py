@@ -7,8 +7,9 @@ from ctypes import POINTER, c_bool, c_char, c_char_p, c_double, c_int, c_size_t
 from ctypes import c_uint, c_uint8, c_uint32, c_uint64, c_void_p
 from typing import Any
 
+from . import _server_abi
 from ._library import load
-from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS, MAX_SITES, Parameter
+from .vocabulary import ID_SIZE, MAX_BODIES, MAX_CONTACTS, Parameter
 
 _Id = c_char * ID_SIZE
 _Octets = c_uint8 * 16
@@ -215,29 +216,6 @@ class Reply(ctypes.Structure):
     ]
 
 
-class Site(ctypes.Structure):
-    _fields_ = [("name", _Id), ("point", _Vector), ("normal", _Vector)]
-
-
-class Body(ctypes.Structure):
-    _fields_ = [
-        ("id", _Id),
-        ("shape", c_char * 32),
-        ("material", _Id),
-        ("mass", c_double),
-        ("description", c_char * 256),
-        ("half_extents", _Vector),
-        ("radius", c_double),
-        ("tip_radius", c_double),
-        ("supports", c_uint * 2),
-        ("parameters", c_double * len(Parameter)),
-        ("inertia", _Vector),
-        ("products", _Vector),
-        ("site_count", c_size_t),
-        ("sites", Site * MAX_SITES),
-    ]
-
-
 class ContactTrace(ctypes.Structure):
     _fields_ = [
         ("count", c_size_t),
@@ -255,87 +233,6 @@ class ContactTrace(ctypes.Structure):
 
 class Trace(ctypes.Structure):
     _fields_ = [("contact_count", c_size_t), ("contacts", POINTER(ContactTrace))]
-
-
-class BodyList(ctypes.Structure):
-    _fields_ = [("count", c_size_t), ("bodies", POINTER(Body))]
-
-
-class Task(ctypes.Structure):
-    _fields_ = [
-        ("client", _Octets),
-        ("sequence", c_uint64),
-        ("kind", c_uint),
-        ("running", c_bool),
-        ("age", c_double),
-        ("done", c_double),
-    ]
-
-
-class Server(ctypes.Structure):
-    _fields_ = [
-        ("server", _Octets),
-        ("version", c_char * 32),
-        ("catalogue_revision", c_char * 64),
-        ("catalogue", c_char * 256),
-        ("host", c_char * 64),
-        ("process", c_uint32),
-        ("state", c_char * 32),
-        ("workers", c_uint32),
-        ("bodies", c_uint32),
-        ("queue_length", c_uint32),
-        ("queue_capacity", c_uint32),
-        ("answered", c_uint64),
-        ("refused", c_uint64),
-        ("uptime", c_double),
-        ("activity", c_char * 256),
-        ("progress", c_double),
-        ("specimens", c_uint32),
-        ("task_count", c_size_t),
-        ("tasks", POINTER(Task)),
-        ("all_tasks", c_uint32),
-    ]
-
-
-class Dent(ctypes.Structure):
-    _fields_ = [
-        ("point", c_double * 3),
-        ("size", c_double),
-        ("max_indentation", c_double),
-        ("max_force", c_double),
-        ("residual_indentation", c_double),
-        ("contact_radius", c_double),
-    ]
-
-
-class Specimen(ctypes.Structure):
-    _fields_ = [
-        ("name", _Id),
-        ("body", _Id),
-        ("impacts", c_uint64),
-        ("dent_count", c_size_t),
-        ("dents", POINTER(Dent)),
-    ]
-
-
-class SpecimenList(ctypes.Structure):
-    _fields_ = [("count", c_size_t), ("specimens", POINTER(Specimen))]
-
-
-class ServerList(ctypes.Structure):
-    _fields_ = [("count", c_size_t), ("servers", POINTER(Server))]
-
-
-class Pair(ctypes.Structure):
-    _fields_ = [
-        ("a", POINTER(Body)),
-        ("b", POINTER(Body)),
-        ("speed", c_double),
-        ("at_a", c_double),
-        ("at_b", c_double),
-        ("site_a", c_char_p),
-        ("site_b", c_char_p),
-    ]
 
 
 # the C struct behind each class
@@ -357,19 +254,10 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
     "percuss_model": Model,
     "percuss_timing": Timing,
     "percuss_reply": Reply,
-    "percuss_body": Body,
-    "percuss_site": Site,
-    "percuss_body_list": BodyList,
-    "percuss_task": Task,
-    "percuss_server": Server,
-    "percuss_server_list": ServerList,
-    "percuss_pair": Pair,
     "percuss_override": Override,
     "percuss_contact_trace": ContactTrace,
     "percuss_trace": Trace,
-    "percuss_dent": Dent,
-    "percuss_specimen": Specimen,
-    "percuss_specimen_list": SpecimenList,
+    **_server_abi.STRUCTS,
 }
 
 library = load()
@@ -385,21 +273,23 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("client_server", c_bool, [_Client, _Octets]),
     ("client_observes", c_bool, [_Client]),
     ("solve", c_int, [_Client, POINTER(Request), c_double, POINTER(Reply)]),
+    ("solve_traced", c_int, [_Client, POINTER(Request), c_double, POINTER(Reply), POINTER(Trace)]),
+    ("trace_free", None, [POINTER(Trace)]),
     ("submit", c_int, [_Client, POINTER(Request), POINTER(c_uint64)]),
     ("wait", c_int, [_Client, c_uint64, c_double, POINTER(Reply)]),
     ("poll", c_int, [_Client, c_uint64, POINTER(Reply)]),
     ("cancel", c_int, [_Client, c_uint64]),
     ("solve_batch", c_int, [_Client, POINTER(Request), c_size_t, c_double, POINTER(Reply)]),
     ("ping", c_int, [_Client, c_double, POINTER(c_double)]),
-    ("servers", c_int, [_Client, c_double, POINTER(ServerList)]),
-    ("bodies", c_int, [_Client, c_double, POINTER(BodyList)]),
-    ("specimens", c_int, [_Client, c_double, POINTER(SpecimenList)]),
+    ("servers", c_int, [_Client, c_double, POINTER(_server_abi.ServerList)]),
+    ("bodies", c_int, [_Client, c_double, POINTER(_server_abi.BodyList)]),
+    ("specimens", c_int, [_Client, c_double, POINTER(_server_abi.SpecimenList)]),
     ("clear_specimen", c_int, [_Client, c_char_p, c_double]),
-    ("specimen_list_free", None, [POINTER(SpecimenList)]),
+    ("specimen_list_free", None, [POINTER(_server_abi.SpecimenList)]),
     ("reply_free", None, [POINTER(Reply)]),
-    ("body_list_free", None, [POINTER(BodyList)]),
-    ("server_list_free", None, [POINTER(ServerList)]),
-    ("contact_pair", c_int, [POINTER(Pair), POINTER(Request)]),
+    ("body_list_free", None, [POINTER(_server_abi.BodyList)]),
+    ("server_list_free", None, [POINTER(_server_abi.ServerList)]),
+    ("contact_pair", c_int, [POINTER(_server_abi.Pair), POINTER(Request)]),
     ("result_text", c_char_p, [c_int]),
     ("error_text", c_char_p, []),
 )

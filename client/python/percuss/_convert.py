@@ -9,7 +9,7 @@ from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from .vocabulary import ID_SIZE, Choice
+from .vocabulary import ID_SIZE, Choice, Id
 
 _Class = TypeVar("_Class")
 _hints: Any = cache(get_type_hints)
@@ -27,9 +27,17 @@ def _counters(struct: Any) -> dict[str, str]:
     return dict(zip(names[1:], names))
 
 
+def array(pointer: Any, count: int) -> Any:
+    """A copy of the numbers there; counts are signed, so that they may be subtracted."""
+    if not count or not pointer:
+        return np.zeros(0)
+    numbers = np.ctypeslib.as_array(pointer, (count,))
+    return numbers.astype(np.int64 if numbers.dtype.kind == "u" else numbers.dtype)
+
+
 def _value(value: Any, hint: Any) -> Any:
     if isinstance(value, ctypes.Array):
-        return bytes(value) if hint is bytes else np.array(value)
+        return Id(bytes(value)) if hint is Id else np.array(value)
     if isinstance(value, ctypes.Structure):
         return read(value, hint)
     if isinstance(value, bytes):

@@ -7,13 +7,13 @@ import os
 from collections.abc import Sequence
 from types import TracebackType
 
-from . import _abi, request, server
+from . import _abi, _server_abi, request, server
 from ._convert import read
 from .errors import CallError, check
 from .reply import Reply
 from .request import Request
 from .server import Body, Server, Specimen
-from .vocabulary import Result
+from .vocabulary import Id, Result
 
 _library = _abi.library
 
@@ -30,24 +30,25 @@ class Client:
     def __init__(
         self,
         domain: int | None = None,
-        id: bytes | None = None,
+        id: bytes | str | None = None,
         first_sequence: int = 1,
         window: int = 256,
-        server: str | None = None,
+        server: str | bytes | None = None,
         security: str | os.PathLike[str] | None = None,
         partition: str | None = None,
     ) -> None:
         """domain: 0..230; None: what PERCUSS_DOMAIN in the environment says, or else 0. id: 16 octets,
-        not all zero; None: random; a kept one lets a restarted client repeat requests. first_sequence: of
+        or their hexadecimal digits, not all zero; None: random; a kept one lets a restarted client repeat requests. first_sequence: of
         the first request, > 0; a kept id goes on where it stopped. window: most outstanding requests,
-        1..1024. server: hexadecimal digits with which the id of the server to stay with begins (as in
-        Server.server.hex()), or "least-loaded": the one with least to do; empty: any; None: what
+        1..1024. server: the id of the server to stay with (Server.server), or hexadecimal digits with which
+        it begins, or "least-loaded": the one with least to do; empty: any; None: what
         PERCUSS_SERVER in the environment says, or else any. security: the folder of the identity to ask a
         secured server with; None: what PERCUSS_SECURITY says, or else none. partition: percussd's setting;
         empty: the servers that are in none; None: what PERCUSS_PARTITION says, or else none."""
         self._handle = ctypes.c_void_p()
-        if id is not None and (len(id) != 16 or not any(id)):
-            raise ValueError(f"id: {id!r}: 16 octets, not all zero, are allowed")
+        given = bytes(16) if id is None else Id(id)
+        if id is not None and not any(given):
+            raise ValueError(f"id: {id!r}: not all of its 16 octets may be zero")
         for name, number, most in (
             ("domain", domain or 0, 230),
             ("first_sequence", first_sequence, 2**64 - 1),
@@ -56,7 +57,9 @@ class Client:
             # ctypes would cut off high bits; the library checks the rest
             if not 0 <= number <= most:
                 raise ValueError(f"{name}: {number}: up to {most} is allowed")
-        octets = (ctypes.c_uint8 * 16)(*(id or bytes(16)))
+        octets = (ctypes.c_uint8 * 16)(*given)
+        if isinstance(server, bytes):
+            server = Id(server).hex()
         if server is not None and len(server) > 32:
             raise ValueError(f"server: {server!r}: up to 32 hexadecimal digits are allowed")
         default = _library.percuss_client_config_default()
@@ -103,17 +106,17 @@ class Client:
         return self._handle
 
     @property
-    def id(self) -> bytes:
+    def id(self) -> Id:
         """The client's 16 octets: those configured or drawn."""
         octets = (ctypes.c_uint8 * 16)()
         _library.percuss_client_id(self._open, octets)
-        return bytes(octets)
+        return Id(bytes(octets))
 
     @property
-    def server(self) -> bytes | None:
+    def server(self) -> Id | None:
         """The id of the server that the client stays with; None before the first one."""
         octets = (ctypes.c_uint8 * 16)()
-        return bytes(octets) if _library.percuss_client_server(self._open, octets) else None
+        return Id(bytes(octets)) if _library.percuss_client_server(self._open, octets) else None
 
     @property
     def observes(self) -> bool:
@@ -199,7 +202,7 @@ class Client:
     def servers(self, timeout: float = 3.0) -> list[Server]:
         """The servers of the domain, longest up first; need not be connected. Waits until the connected server, or else
         any, has announced itself."""
-        found = _abi.ServerList()
+        found = _server_abi.ServerList()
         check(_library.percuss_servers(self._open, timeout, ctypes.byref(found)))
         try:
             return [read(one, Server) for one in found.servers[: found.count]]
@@ -208,7 +211,7 @@ class Client:
 
     def bodies(self, timeout: float = 3.0) -> dict[str, Body]:
         """The catalogue of the connected server by id, sorted."""
-        found = _abi.BodyList()
+        found = _server_abi.BodyList()
         check(_library.percuss_bodies(self._open, timeout, ctypes.byref(found)))
         try:
             bodies = [server.read_body(one) for one in found.bodies[: found.count]]
@@ -218,7 +221,7 @@ class Client:
 
     def specimens(self, timeout: float = 3.0) -> dict[str, Specimen]:
         """The specimens that the connected server keeps, by name, sorted."""
-        found = _abi.SpecimenList()
+        found = _server_abi.SpecimenList()
         check(_library.percuss_specimens(self._open, timeout, ctypes.byref(found)))
         try:
             specimens = [read(one, Specimen) for one in found.specimens[: found.count]]
@@ -243,10 +246,10 @@ def _take(answer: _abi.Reply) -> Reply:
 def connect(
     domain: int | None = None,
     timeout: float = 3.0,
-    id: bytes | None = None,
+    id: bytes | str | None = None,
     first_sequence: int = 1,
     window: int = 256,
-    server: str | None = None,
+    server: str | bytes | None = None,
     security: str | os.PathLike[str] | None = None,
     partition: str | None = None,
 ) -> Client:

@@ -361,13 +361,9 @@ def _fill_input(one: Input, target: _ensemble_abi.Input, path: str) -> Any:
     return values
 
 
-def _array(pointer: Any, count: int) -> Any:
-    return np.array(pointer[:count]) if count else np.zeros(0)
-
-
 def _statistic(one: _ensemble_abi.Statistic) -> Statistic:
     lists = {
-        name: _array(getattr(one, name), count)
+        name: _convert.array(getattr(one, name), count)
         for names, count in (
             (("probabilities", "quantiles", "quantiles_low", "quantiles_high"), one.quantile_count),
             (("bin_edges",), one.bin_count + 1 if one.bin_count else 0),
@@ -382,13 +378,13 @@ def _statistic(one: _ensemble_abi.Statistic) -> Statistic:
 def _read(answer: _ensemble_abi.Reply) -> EnsembleReply:
     statistics = [_statistic(one) for one in answer.statistics[: answer.statistic_count]]
     columns = answer.column_count
-    rows = _array(answer.rows, answer.samples * columns).reshape(-1, columns) if answer.rows else None
+    rows = _convert.array(answer.rows, answer.samples * columns).reshape(-1, columns) if answer.rows else None
     return _convert.read(
         answer,
         EnsembleReply,
         statistics={one.quantity: one for one in statistics},
-        sub_impact_counts=_array(answer.sub_impact_counts, answer.count_length),
-        significant_counts=_array(answer.significant_counts, answer.count_length),
+        sub_impact_counts=_convert.array(answer.sub_impact_counts, answer.count_length),
+        significant_counts=_convert.array(answer.significant_counts, answer.count_length),
         warnings=tuple(_convert.text(one) for one in answer.warnings[: answer.warning_count]),
         rows=rows,
     )

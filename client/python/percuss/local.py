@@ -9,6 +9,7 @@ from . import _abi
 from ._library import load
 from .client import Client
 from .errors import check
+from .vocabulary import Id
 
 _library: ctypes.CDLL | None = None
 
@@ -37,18 +38,17 @@ class Local(Client):
         self,
         catalogue: str | os.PathLike[str] | None = None,
         settings: str | os.PathLike[str] | None = None,
-        id: bytes | None = None,
+        id: bytes | str | None = None,
         first_sequence: int = 1,
         threads: int = 0,
     ) -> None:
         """catalogue: file; None: that of the settings, or else the one that is installed. settings: file as
         percussd reads it, of which count: catalogue, tables, bodies, store, workers, tokens, limits; None: none.
-        id: 16 octets; None: zeros. first_sequence: of the first request, > 0. threads: of an ensemble; 0: as
+        id: 16 octets, or their hexadecimal digits; None: zeros. first_sequence: of the first request, > 0. threads: of an ensemble; 0: as
         the settings say, or as many as there are processors. InvalidArgument, with file, line and what is
         allowed, for files that do not do."""
         self._handle = ctypes.c_void_p()
-        if id is not None and len(id) != 16:
-            raise ValueError(f"id: {id!r}: 16 octets are allowed")
+        given = bytes(16) if id is None else Id(id)
         for name, number, most in (("first_sequence", first_sequence, 2**64 - 1), ("threads", threads, 2**32 - 1)):
             if not 0 <= number <= most:
                 raise ValueError(f"{name}: {number}: up to {most} is allowed")
@@ -58,7 +58,7 @@ class Local(Client):
         config = _abi.LocalConfig(
             None if settings is None else os.fsencode(settings),
             None if catalogue is None else os.fsencode(catalogue),
-            (ctypes.c_uint8 * 16)(*(id or bytes(16))),
+            (ctypes.c_uint8 * 16)(*given),
             first_sequence,
             threads,
         )

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from . import _abi
 from .errors import Refused
 from .request import FloatArray
-from .vocabulary import Compliance, ContactModel, DelassusSource, EndReason, Method, Status
+from .vocabulary import Compliance, ContactModel, DelassusSource, EndReason, Id, Method, Status
 
 SUB_IMPACT: "np.dtype[np.void]" = np.dtype(cast(Any, _abi.SubImpact))
 """A sub-impact: an interval in which the bodies are pressed together.
@@ -163,11 +163,9 @@ class Timing:
 class Reply:
     """The server's answer. A refusal is an answer too: see status and message."""
 
-    client: bytes
-    """16 octets."""
+    client: Id
     sequence: int
-    server: bytes
-    """16 octets."""
+    server: Id
     catalogue_revision: str
     version: str
     status: Status

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from . import _abi
+from . import _abi, _server_abi
 from ._convert import read
 from .errors import check
 from .request import FloatArray, Request, read_scene
-from .vocabulary import Parameter, Support, TaskKind
+from .vocabulary import Id, Parameter, Support, TaskKind
 
 
 @dataclass(frozen=True)
@@ -60,8 +60,8 @@ class Body:
 class Task:
     """Something that a server is doing, or has still to do."""
 
-    client: bytes
-    """16 octets: who waits for it; zeros: nobody."""
+    client: Id
+    """Who waits for it; zeros: nobody."""
     sequence: int
     """Its number, of that client."""
     kind: TaskKind
@@ -77,8 +77,7 @@ class Task:
 class Server:
     """A server of the domain."""
 
-    server: bytes
-    """16 octets."""
+    server: Id
     version: str
     catalogue_revision: str
     catalogue: str
@@ -141,8 +140,8 @@ def read_body(source: Any) -> Body:
     return read(source, Body, supports=(Support(first), Support(second)), parameters=parameters, sites=sites)
 
 
-def _write_body(body: Body) -> _abi.Body:
-    return _abi.Body(
+def _write_body(body: Body) -> _server_abi.Body:
+    return _server_abi.Body(
         body.id.encode(),
         body.shape.encode(),
         body.material.encode(),
@@ -178,7 +177,7 @@ def contact_pair(
     one of its site. InvalidArgument for a shape that cannot be placed, or a number out of range.
     """
     first, second = _write_body(a), _write_body(b)
-    pair = _abi.Pair(ctypes.pointer(first), ctypes.pointer(second), speed, at_a, at_b)
+    pair = _server_abi.Pair(ctypes.pointer(first), ctypes.pointer(second), speed, at_a, at_b)
     pair.site_a, pair.site_b = (None if name is None else name.encode() for name in (site_a, site_b))
     request = _abi.Request()
     check(_abi.library.percuss_contact_pair(ctypes.byref(pair), ctypes.byref(request)))

@@ -2,14 +2,57 @@
 # SPDX-License-Identifier: Apache-2.0
 """The numbered choices of the wire. Numbers are those of the IDL and of <percuss/vocabulary.h>."""
 
+import re
 from enum import IntEnum
 from typing import TypeVar
 
 _Choice = TypeVar("_Choice", bound="Choice")
+_NUMBER_FORMATS = ("b", "c", "d", "e", "E", "f", "F", "g", "G", "n", "o", "x", "X", "%")
+
+
+class Id(bytes):
+    """The 16 octets of a client or a server, shown as their 32 hexadecimal digits, which it may be made of, too."""
+
+    def __new__(cls, value: bytes | str) -> "Id":
+        digits = value if isinstance(value, str) else value.hex()
+        if not re.fullmatch("[0-9a-fA-F]{32}", digits):
+            raise ValueError(f"id: {value!r}: 16 octets, or 32 hexadecimal digits, are allowed")
+        return super().__new__(cls, bytes.fromhex(digits))
+
+    def __str__(self) -> str:
+        return self.hex()
+
+    def __repr__(self) -> str:
+        return f"Id({self.hex()!r})"
+
+    def __format__(self, spec: str) -> str:
+        return format(self.hex(), spec)
 
 
 class Choice(IntEnum):
-    """A number with a name; one that a newer server sends gets the name UNKNOWN_<number>."""
+    """A number with a name, which is also what it is shown as; one that a newer server sends gets the name
+    UNKNOWN_<number>."""
+
+    @classmethod
+    def of(cls: type[_Choice], name: str | _Choice) -> _Choice:
+        """The choice of a name as Python, JSON or the command line have it: CLOSED_FORM, closed-form."""
+        if not isinstance(name, str):
+            return cls(name)
+        named = cls.__members__.get(name.upper().replace("-", "_"))
+        if named is None:
+            allowed = ", ".join(member.name for member in cls)
+            raise ValueError(f"{cls.__name__}: {name!r}: one of {allowed} is allowed")
+        return named
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}.{self.name}"
+
+    def __str__(self) -> str:
+        return self.name
+
+    def __format__(self, spec: str) -> str:
+        """The name, but for a format that is one of numbers."""
+        return format(int(self) if spec[-1:] in _NUMBER_FORMATS else self.name, spec)
 
     @classmethod
     def _missing_(cls: type[_Choice], value: object) -> "_Choice | None":

@@ -152,7 +152,6 @@ class Abi(unittest.TestCase):
             *(name for name in functions if name.endswith(("_name", "_default"))),
             *("request_init", "request_add_body", "request_add_contact", "body_find"),
             "client_create_secured",
-            *("solve_traced", "trace_free"),
             "ensemble_request_init",
         }
         declared = {name for name, _, _ in (

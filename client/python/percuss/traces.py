@@ -1,0 +1,77 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""Time histories of an impact.
+
+    traced = percuss.trace(question, client)               # a Client or a Local
+    contact = traced.contacts[0]
+    print(contact.time[contact.force.argmax()], contact.force.max())
+
+SI units.
+"""
+
+import ctypes
+from dataclasses import dataclass, fields
+from typing import Any
+
+from . import _abi, _convert, request
+from .client import Client
+from .errors import check
+from .reply import Reply
+from .request import FloatArray, Request
+
+_library = _abi.library
+
+
+@dataclass(frozen=True)
+class ContactTrace:
+    """One contact, arrays of one length: dense while the bodies touch, enough where they do not."""
+
+    time: FloatArray
+    """s from the stated instant, ascending."""
+    force: FloatArray
+    """N."""
+    indentation: FloatArray
+    """m; 0 while open."""
+    gap: FloatArray
+    """Of the rigid bodies, m."""
+    gap_rate: FloatArray
+    """Of the rigid bodies, m/s."""
+    displacement_a: FloatArray
+    """m, of body a at the contact along the normal, since the stated instant; with vibration, without the local
+    indentation. nan where the request brought its own delassus, as the three that follow."""
+    velocity_a: FloatArray
+    """m/s."""
+    displacement_b: FloatArray
+    velocity_b: FloatArray
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A reply with its time histories."""
+
+    reply: Reply
+    contacts: tuple[ContactTrace, ...]
+    """In the order of the request; empty when it was refused."""
+
+
+def _read(source: Any) -> ContactTrace:
+    arrays = {field.name: _convert.array(getattr(source, field.name), source.count) for field in fields(ContactTrace)}
+    return ContactTrace(**arrays)
+
+
+def trace(question: Request, client: Client, timeout: float = 10.0) -> Trace:
+    """As client.solve, with the time histories of the answer. A refusal has none: see Trace.reply.status."""
+    asked, answer, histories = _abi.Request(), _abi.Reply(), _abi.Trace()
+    kept = request.fill(question, asked)
+    check(
+        _library.percuss_solve_traced(
+            client._open, ctypes.byref(asked), timeout, ctypes.byref(answer), ctypes.byref(histories)
+        )
+    )
+    del kept
+    try:
+        contacts = tuple(_read(one) for one in histories.contacts[: histories.contact_count])
+        return Trace(_convert.read(answer, Reply), contacts)
+    finally:
+        _library.percuss_trace_free(ctypes.byref(histories))
+        _library.percuss_reply_free(ctypes.byref(answer))
