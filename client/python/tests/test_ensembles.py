@@ -15,7 +15,7 @@ from typing import Any
 from unittest import mock
 
 import percuss
-from percuss import ensembles
+from percuss import ensemble_share
 
 CATALOGUE = Path(os.environ["PERCUSS_SOURCE"]) / "config" / "catalogue.yaml"
 SETTINGS = Path(tempfile.mkdtemp()) / "percussd.yaml"
@@ -113,13 +113,13 @@ class Ensembles(unittest.TestCase):
     def test_a_thread_that_ends(self) -> None:
         """What it has prepared is freed with it, a few MB each."""
         closed: list[int] = []
-        close = ensembles._Worker.close
+        close = ensemble_share._Worker.close
 
-        def count(worker: ensembles._Worker) -> None:
+        def count(worker: ensemble_share._Worker) -> None:
             closed.append(1)
             close(worker)
 
-        with mock.patch.object(ensembles._Worker, "close", count):
+        with mock.patch.object(ensemble_share._Worker, "close", count):
             with concurrent.futures.ThreadPoolExecutor(1) as threads:
                 percuss.ensemble(self.question(), self.local, executor=threads)
                 self.assertEqual(closed, [])

@@ -1,0 +1,183 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""What an ensemble says."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from . import _convert, _ensemble_abi
+from .request import FloatArray
+from .reply import Timing
+from .vocabulary import Status
+
+
+@dataclass(frozen=True)
+class Statistic:
+    """One quantity of the impacts, with 95 % intervals."""
+
+    quantity: str
+    count: int
+    mean: float
+    mean_low: float
+    mean_high: float
+    standard_deviation: float
+    standard_deviation_low: float
+    standard_deviation_high: float
+    skewness: float
+    lowest: float
+    highest: float
+    probabilities: FloatArray
+    quantiles: FloatArray
+    quantiles_low: FloatArray
+    quantiles_high: FloatArray
+    bin_edges: FloatArray
+    bin_counts: Any
+    curve_values: FloatArray
+    """The distribution function."""
+    curve_shares: FloatArray
+
+
+@dataclass(frozen=True)
+class InputPart:
+    """The restitution along one part of the range of an input."""
+
+    low: float
+    high: float
+    count: int
+    mean: float
+    standard_deviation: float
+    local: float
+    chaotic: bool
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """What one input does to the restitution."""
+
+    input: str
+    body: str
+    first_order: float
+    first_order_low: float
+    first_order_high: float
+    noise: float
+    total: float
+    total_low: float
+    total_high: float
+    mean: float
+    standard_deviation: float
+    lowest: float
+    highest: float
+    resolution: float
+    parts: tuple[InputPart, ...]
+
+
+@dataclass(frozen=True)
+class SigmaInterval:
+    """Mean and so many deviations on either side, and what they enclose."""
+
+    sigmas: float
+    low: float
+    high: float
+    covered: float
+    unphysical: float
+    quantile_low: float
+    quantile_high: float
+
+
+@dataclass(frozen=True)
+class BetaFit:
+    """alpha nan: none fits."""
+
+    low: float
+    high: float
+    alpha: float
+    beta: float
+    distance: float
+    p_value: float
+
+
+@dataclass(frozen=True)
+class EnsembleCheck:
+    """Some samples solved again by the full accuracy search: ensemble - search."""
+
+    count: int
+    within: float
+    largest: float
+    mean_shift: float
+    mean_shift_half_width: float
+    standard_deviation_shift: float
+    quantile_shift: float
+    within_low: float
+    within_high: float
+    unmet: int
+
+
+@dataclass(frozen=True)
+class EnsembleReply:
+    """What an ensemble says."""
+
+    status: Status
+    message: str
+    complete: bool
+    """False: cancelled, or a deadline cut it short."""
+    samples: int
+    requested: int
+    refused: int
+    truncated: int
+    catalogue_revision: str
+    version: str
+    statistics: dict[str, Statistic]
+    """By quantity: restitution, impulse, end_time, peak_force."""
+    sub_impact_counts: Any
+    """[k]: samples with k sub-impacts."""
+    significant_counts: Any
+    possible_low: float
+    possible_high: float
+    """Of the restitution."""
+    intervals: tuple[SigmaInterval, ...]
+    beta: BetaFit
+    sensitivities: tuple[Sensitivity, ...]
+    check: EnsembleCheck
+    cut: float
+    """Hz: modes up to this frequency take part in all samples."""
+    step_accuracy: float
+    pilots: int
+    agreeing: int
+    warnings: tuple[str, ...]
+    timing: Timing
+    rows: FloatArray | None = field(repr=False)
+    """A row a sample: inputs, restitution, impulse, end_time, peak_force, sub_impacts, significant, status."""
+
+    @property
+    def restitution(self) -> Statistic:
+        """That of the restitution."""
+        return self.statistics["restitution"]
+
+
+def _statistic(one: _ensemble_abi.Statistic) -> Statistic:
+    lists = {
+        name: _convert.array(getattr(one, name), count)
+        for names, count in (
+            (("probabilities", "quantiles", "quantiles_low", "quantiles_high"), one.quantile_count),
+            (("bin_edges",), one.bin_count + 1 if one.bin_count else 0),
+            (("bin_counts",), one.bin_count),
+            (("curve_values", "curve_shares"), one.curve_count),
+        )
+        for name in names
+    }
+    return _convert.read(one, Statistic, **lists)
+
+
+def read(answer: _ensemble_abi.Reply) -> EnsembleReply:
+    statistics = [_statistic(one) for one in answer.statistics[: answer.statistic_count]]
+    columns = answer.column_count
+    rows = _convert.array(answer.rows, answer.samples * columns).reshape(-1, columns) if answer.rows else None
+    return _convert.read(
+        answer,
+        EnsembleReply,
+        statistics={one.quantity: one for one in statistics},
+        sub_impact_counts=_convert.array(answer.sub_impact_counts, answer.count_length),
+        significant_counts=_convert.array(answer.significant_counts, answer.count_length),
+        warnings=tuple(_convert.text(one) for one in answer.warnings[: answer.warning_count]),
+        rows=rows,
+    )
