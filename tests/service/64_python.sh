@@ -53,8 +53,15 @@ snippet 3
 expect 0 python snippet.py
 prints "^205\.1.* OK$"
 
-say "an engine of twenty lines: impacts, one question each"
+say "two curves and their table"
 snippet 4
+expect 0 python snippet.py
+prints "^al-rod 0\.6.* 1$"
+prints "^al-beam .* [23]$"
+prints "^al-rod  *0\.6"
+
+say "an engine of twenty lines: impacts, one question each"
+snippet 5
 expect 0 python snippet.py
 prints "s: 0\.31[34] m/s, e = 0\.70"
 awk '/ e = / { n++ } /^Counts/ { exit index($0, "impacts=" n ", requests=" n ",") == 0 }' "$out" || fail "counts"

@@ -46,9 +46,11 @@ from .reply import (
     Reply,
     Timing,
     force_centres,
+    to_dataframe,
 )
 from .request import BodyMotion, Contact, Options, Request
 from .server import Body, Dent, Server, Site, Specimen, Task, contact_pair
+from .sweeps import Curve, Sweep, sweep
 from .traces import ContactTrace, Trace, trace
 from .vocabulary import (
     MAX_BATCH,
@@ -90,6 +92,7 @@ __all__ = [
     "ContactResult",
     "ContactTrace",
     "Correlation",
+    "Curve",
     "DelassusSource",
     "Dent",
     "Dents",
@@ -121,6 +124,7 @@ __all__ = [
     "Specimen",
     "Status",
     "Support",
+    "Sweep",
     "Task",
     "TaskKind",
     "Timing",
@@ -133,5 +137,7 @@ __all__ = [
     "contact_pair",
     "ensemble",
     "force_centres",
+    "sweep",
+    "to_dataframe",
     "trace",
 ]

@@ -5,10 +5,16 @@
 from dataclasses import dataclass, field
 from typing import Any
 
-from . import _convert, _ensemble_abi
+import numpy as np
+
+from . import _convert, _ensemble_abi, _tables
+from .ensemble_request import Ensemble
 from .request import FloatArray
 from .reply import Timing
 from .vocabulary import Status
+
+
+_RESULTS = ("restitution", "impulse", "end_time", "peak_force", "sub_impacts", "significant", "status")
 
 
 @dataclass(frozen=True)
@@ -147,11 +153,39 @@ class EnsembleReply:
     timing: Timing
     rows: FloatArray | None = field(repr=False)
     """A row a sample: inputs, restitution, impulse, end_time, peak_force, sub_impacts, significant, status."""
+    columns: tuple[str, ...] = field(repr=False)
+    """Of the rows; an input of a body is called young@al-beam."""
 
     @property
     def restitution(self) -> Statistic:
         """That of the restitution."""
         return self.statistics["restitution"]
+
+    def to_dataframe(self) -> Any:
+        """A row a sample: the inputs, restitution, impulse, end_time, peak_force, sub_impacts, significant, status."""
+        if self.rows is None:
+            raise ValueError("list_samples: False: with True in the question the samples are handed over")
+        columns: dict[str, Any] = dict(zip(self.columns, self.rows.T))
+        for name in ("sub_impacts", "significant"):
+            columns[name] = columns[name].astype(np.int64)
+        columns["status"] = [Status(int(number)).name for number in columns["status"]]
+        return _tables.frame(columns)
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (name, one.mean, one.mean_low, one.mean_high, one.standard_deviation, one.lowest, one.highest)
+            for name, one in self.statistics.items()
+        ]
+        said = f"{self.status}: {self.message}" if self.message else f"{self.status}, {self.samples} samples"
+        heads = ["quantity", "mean", "95 % from", "to", "standard deviation", "lowest", "highest"]
+        text = _tables.html(said, heads, rows)
+        if self.sensitivities:
+            text += _tables.html(
+                "shares of the restitution's variance",
+                ["input", "alone", "with others"],
+                [(_name(one.input, one.body), one.first_order, one.total) for one in self.sensitivities],
+            )
+        return text
 
 
 def _statistic(one: _ensemble_abi.Statistic) -> Statistic:
@@ -168,7 +202,11 @@ def _statistic(one: _ensemble_abi.Statistic) -> Statistic:
     return _convert.read(one, Statistic, **lists)
 
 
-def read(answer: _ensemble_abi.Reply) -> EnsembleReply:
+def _name(name: str, body: str) -> str:
+    return f"{name}@{body}" if body else name
+
+
+def read(answer: _ensemble_abi.Reply, question: Ensemble) -> EnsembleReply:
     statistics = [_statistic(one) for one in answer.statistics[: answer.statistic_count]]
     columns = answer.column_count
     rows = _convert.array(answer.rows, answer.samples * columns).reshape(-1, columns) if answer.rows else None
@@ -180,4 +218,5 @@ def read(answer: _ensemble_abi.Reply) -> EnsembleReply:
         significant_counts=_convert.array(answer.significant_counts, answer.count_length),
         warnings=tuple(_convert.text(one) for one in answer.warnings[: answer.warning_count]),
         rows=rows,
+        columns=(*(_name(one.name, one.body) for one in question.inputs), *_RESULTS),
     )

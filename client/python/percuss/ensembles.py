@@ -77,6 +77,6 @@ def ensemble(
         solve_shared(question, asked, client, executor, watch, answer)
     del kept
     try:
-        return ensemble_reply.read(answer)
+        return ensemble_reply.read(answer, question)
     finally:
         _abi.library.percuss_ensemble_reply_free(ctypes.byref(answer))

@@ -5,13 +5,14 @@
 SI units; undefined numbers are nan.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _abi
+from . import _abi, _tables
 from .errors import Refused
 from .request import FloatArray
 from .vocabulary import Compliance, ContactModel, DelassusSource, EndReason, Id, Method, Status
@@ -57,6 +58,11 @@ class ContactResult:
     """Exact, however many are listed."""
     sub_impacts: NDArray[np.void]
     """Those listed (at most 256; 16 in a batch), of dtype SUB_IMPACT: sub_impacts["impulse"] is an array."""
+
+    @property
+    def significant(self) -> int:
+        """How many of those listed are not negligible."""
+        return int(np.count_nonzero(~self.sub_impacts["negligible"]))
 
 
 @dataclass(frozen=True)
@@ -122,6 +128,11 @@ class ErrorEstimate:
     """All three."""
     total_met: bool
     """The tolerance, by that total."""
+
+    @property
+    def restitution(self) -> float:
+        """Of the restitution, by time steps and modes: what the tolerance is asked of."""
+        return abs(self.restitution_time) + abs(self.restitution_modes)
 
 
 @dataclass(frozen=True)
@@ -195,3 +206,46 @@ class Reply:
         if self.status not in (Status.OK, Status.TRUNCATED):
             raise Refused(self.status, self.message)
         return self
+
+    def to_dataframe(self) -> Any:
+        """A row a sub-impact that is listed: contact, and the members of SUB_IMPACT."""
+        names = SUB_IMPACT.names or ()
+        parts = [
+            {"contact": np.full(len(one.sub_impacts), i), **{name: one.sub_impacts[name] for name in names}}
+            for i, one in enumerate(self.contacts)
+        ]
+        return _tables.stack(parts, ("contact", *names))
+
+    def _repr_html_(self) -> str:
+        said = f"{self.status}: {self.message}" if self.message else f"{self.status}, {self.end_reason}"
+        contacts = [
+            (i, one.restitution, self.error.restitution, one.impulse, one.sub_impact_count, 1e3 * one.end_time)
+            for i, one in enumerate(self.contacts)
+        ]
+        subs = [
+            (i, 1e3 * sub["start"], 1e6 * (sub["end"] - sub["start"]), sub["impulse"], sub["peak_force"])
+            for i, one in enumerate(self.contacts)
+            for sub in one.sub_impacts[~one.sub_impacts["negligible"]]
+        ]
+        heads = ["contact", "restitution", "error", "impulse/(N s)", "sub-impacts", "end/ms"]
+        text = _tables.html(said, heads, contacts)
+        if subs:
+            heads = ["contact", "start/ms", "length/us", "impulse/(N s)", "peak/N"]
+            text += _tables.html("sub-impacts that are not negligible", heads, [(i, *map(float, r)) for i, *r in subs])
+        return text
+
+
+def to_dataframe(replies: Sequence[Reply]) -> Any:
+    """Many replies, as of a batch: a row a contact with reply and contact (indices), restitution, error, impulse,
+    impulse_compression, sub_impacts, significant, end_time and status; a refusal has one row without numbers."""
+    rows = []
+    for i, reply in enumerate(replies):
+        status = reply.status.name
+        if not reply.contacts:
+            rows.append((i, 0, *[np.nan] * 4, 0, 0, np.nan, status))
+        for k, one in enumerate(reply.contacts):
+            numbers = (one.restitution, reply.error.restitution, one.impulse, one.impulse_compression)
+            rows.append((i, k, *numbers, one.sub_impact_count, one.significant, one.end_time, status))
+    names = ["reply", "contact", "restitution", "error", "impulse", "impulse_compression"]
+    names += ["sub_impacts", "significant", "end_time", "status"]
+    return _tables.frame({name: [row[i] for row in rows] for i, name in enumerate(names)})

@@ -13,7 +13,9 @@ import ctypes
 from dataclasses import dataclass, fields
 from typing import Any
 
-from . import _abi, _convert, request
+import numpy as np
+
+from . import _abi, _convert, _tables, request
 from .client import Client
 from .errors import check
 from .reply import Reply
@@ -52,6 +54,23 @@ class Trace:
     reply: Reply
     contacts: tuple[ContactTrace, ...]
     """In the order of the request; empty when it was refused."""
+
+    def to_dataframe(self) -> Any:
+        """A row an instant of a contact: contact, and the members of ContactTrace."""
+        names = [field.name for field in fields(ContactTrace)]
+        parts = [
+            {"contact": np.full(len(one.time), i), **{name: getattr(one, name) for name in names}}
+            for i, one in enumerate(self.contacts)
+        ]
+        return _tables.stack(parts, ("contact", *names))
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (i, len(one.time), 1e3 * float(one.time[-1]), float(one.force.max()), 1e6 * float(one.indentation.max()))
+            for i, one in enumerate(self.contacts)
+        ]
+        heads = ["contact", "instants", "until/ms", "largest force/N", "largest indentation/um"]
+        return self.reply._repr_html_() + _tables.html("histories", heads, rows)
 
 
 def _read(source: Any) -> ContactTrace:

@@ -44,6 +44,11 @@ class Choice(IntEnum):
             raise ValueError(f"{cls.__name__}: {name!r}: one of {allowed} is allowed")
         return named
 
+    @property
+    def text(self) -> str:
+        """The name as JSON and the command line have it where it is an option: closed-form."""
+        return self.name.lower().replace("_", "-")
+
     def __repr__(self) -> str:
         return f"{type(self).__name__}.{self.name}"
 
