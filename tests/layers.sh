@@ -49,7 +49,7 @@ for folder in service/*/; do
         checked=$((checked + 1))
         for include in $(sed -n 's/^ *# *include *"\([^"]*\)".*/\1/p' "$file"); do
             case $include in
-            percuss/vocabulary.h | percuss/fields.h | percuss/plausible.h) continue ;;
+            percuss/vocabulary.h | percuss/fields.h | percuss/plausible.h | percuss/habits.h) continue ;;
             percuss_wire.h | wire_partition.h)
                 case $layer in exchange | respond | endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
                 continue

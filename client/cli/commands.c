@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "similar.h"
+
 const struct command COMMANDS[] = {
     {"query", command_query, &query_argp, "one impact: impulse, restitution and the sub-impacts"},
     {"sweep", command_sweep, &sweep_argp, "the same impact at many speeds"},
@@ -28,6 +30,23 @@ const struct command *commands_find(const char *name)
         if (!strcmp(command->name, name))
             return command;
     return NULL;
+}
+
+const struct command *commands_similar(const char *name)
+{
+    const struct command *nearest = NULL;
+    size_t length = strlen(name);
+    unsigned best = (unsigned)(length + 1) / 2;
+    for (const struct command *command = COMMANDS; command->name; command++) {
+        /* who breaks off early has made no mistake so far */
+        bool begun = !strncmp(command->name, name, length);
+        unsigned distance = begun ? 0 : similar_distance(name, command->name);
+        if (distance < best) {
+            best = distance;
+            nearest = command;
+        }
+    }
+    return nearest;
 }
 
 char *commands_list(const char *rest)

@@ -20,6 +20,9 @@ extern const struct command COMMANDS[];
 /* NULL: there is none of that name. */
 const struct command *commands_find(const char *name);
 
+/* The one that was probably meant: less than half of the name is wrong; NULL: none. */
+const struct command *commands_similar(const char *name);
+
 /* A line for each, and `rest` behind them; the caller frees it. NULL: out of memory. */
 char *commands_list(const char *rest);
 

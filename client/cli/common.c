@@ -12,6 +12,7 @@
 #include "cli.h"
 #include "in_process.h"
 #include "others.h"
+#include "percuss/habits.h"
 #include "quantity.h"
 
 enum { HIGHEST_DOMAIN = 230 };
@@ -47,9 +48,6 @@ static const struct argp_option common_options[] = {
     {"json", OPTION_JSON, NULL, 0, "print one JSON object", 90},
     {"units", OPTION_UNITS, NULL, 0,
      "say units in the first line of comma-separated values: speed [m/s]", 90},
-    /* what many programs call -? and -V */
-    {NULL, 'h', NULL, OPTION_HIDDEN, NULL, 90},
-    {NULL, 'v', NULL, OPTION_HIDDEN, NULL, 90},
     {0},
 };
 
@@ -137,19 +135,13 @@ static error_t parse_common(int key, char *text, struct argp_state *state)
     case OPTION_UNITS:
         common->units = true;
         return 0;
-    /* what ends the program */
-    case 'h':
-        argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
-        return 0;
-    case 'v':
-        puts(argp_program_version);
-        exit(EXIT_ANSWERED);
     default:
         return ARGP_ERR_UNKNOWN;
     }
 }
 
-const struct argp common_argp = {.options = common_options, .parser = parse_common};
+const struct argp common_argp = {
+    .options = common_options, .parser = parse_common, .children = habits};
 
 static error_t pass_on_common(int key, char *text, struct argp_state *state)
 {

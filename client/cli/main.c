@@ -74,7 +74,12 @@ static int run(const char *name, int argc, char **argv, struct common *common)
     /* for the shells alone */
     if (!strcmp(name, "complete"))
         return command_complete(argc, argv, common);
-    complain("'%s' is not a command; percuss --help lists them", name);
+    const struct command *meant = commands_similar(name);
+    if (meant)
+        complain("'%s' is not a command: did you mean '%s'? percuss --help lists them", name,
+                 meant->name);
+    else
+        complain("'%s' is not a command; percuss --help lists them", name);
     return EXIT_USAGE;
 }
 

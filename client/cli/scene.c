@@ -10,9 +10,9 @@
 #include "similar.h"
 
 enum scene_key {
-    KEY_A = OPTION_SCENE,
-    KEY_B,
-    KEY_AT,
+    KEY_A = 'a',
+    KEY_B = 'b',
+    KEY_AT = OPTION_SCENE,
     KEY_TOLERANCE,
     KEY_HORIZON,
     KEY_CONTACT_MODEL,

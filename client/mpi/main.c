@@ -12,6 +12,8 @@
 #include "output_file.h"
 #include "team.h"
 
+const char *argp_program_version = "percuss-ensemble " PERCUSS_VERSION;
+
 static bool begun; /* the others have been told */
 
 /* However the first process ends, the others do. */

@@ -13,6 +13,7 @@
 
 #include "base/units.h"
 #include "bridge.h"
+#include "percuss/habits.h"
 #include "say.h"
 
 enum { HIGHEST_DOMAIN = 230, HIGHEST_ROS_DOMAIN = 232, USAGE = 2, TEND_SECONDS = 2 };
@@ -98,9 +99,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case OPTION_THREADS:
         config->threads = parse_whole("--threads", text, 1, BRIDGE_MOST_THREADS, state);
         return 0;
-    case ARGP_KEY_ARG:
-        argp_error(state, "'%s': no argument is expected", text);
-        return 0;
     case ARGP_KEY_END:
         if (config->network && config->ros_domain == config->client.domain)
             argp_error(state,
@@ -116,6 +114,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp argp = {
     .options = options,
     .parser = parse,
+    .children = habits,
     .doc =
         "Answers questions about impacts in a ROS 2 domain by asking a percussd: topics "
         "/percuss/request and /percuss/reply, service /percuss/impact (rmw_cyclonedds), topic "

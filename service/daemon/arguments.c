@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "percuss/habits.h"
 #include "respond/settings.h"
 
 enum { KEY_CHECK = 0x100, KEY_STORE, KEY_FORMAT, KEY_PARTITION, USAGE = 2 };
@@ -99,9 +100,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
         arguments->check_store = text;
         return 0;
     /* all are read */
-    case ARGP_KEY_ARG:
-        argp_error(state, "%s: must be an option", text);
-        return 0;
     case ARGP_KEY_END:
         if (!arguments->config && !arguments->catalogue && !arguments->check_store)
             argp_error(state, "--config FILE or --catalogue FILE must be given");
@@ -117,6 +115,7 @@ struct arguments arguments_read(int argc, char **argv)
     static const struct argp argp = {
         .options = options,
         .parser = parse,
+        .children = habits,
         .doc =
             "Answers what impacts do, on DDS."
             "\vSIGTERM and SIGINT: answers what is waiting and ends. SIGHUP: reads the catalogue "

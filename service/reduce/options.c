@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "mesh/mesh_read.h"
 #include "model/limits.h"
+#include "percuss/habits.h"
 
 enum {
     USAGE = 2,
@@ -39,8 +40,6 @@ static const struct limit limit_frequency = {
 
 static const struct limit limit_period = {
     0.1, 86400.0, false, false, "a time, 0.1 to 86400 s", QUANTITY_TIME};
-
-const char *argp_program_version = "percuss-reduce " PERCUSS_VERSION;
 
 static const struct argp_option list[] = {
     {"output", 'o', "BODY.h5", 0, "The body's file", 0},
@@ -242,7 +241,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case ARGP_KEY_ARG:
         if (options->file)
-            argp_error(state, "%s: one FILE alone is reduced", text);
+            argp_error(state, "'%s': one FILE alone is reduced", text);
         options->file = text;
         return 0;
     case ARGP_KEY_END:
@@ -261,6 +260,7 @@ struct options options_read(int argc, char **argv)
     static const struct argp argp = {
         .options = list,
         .parser = parse,
+        .children = habits,
         .args_doc = "FILE",
         .doc = "Reduces a body that is given as a mesh of second-order elements to its modes of "
                "vibration and what else an impact needs of it, in a file for the catalogue."

@@ -3,11 +3,14 @@
 
 /* percuss-reduce-mpi: percuss-reduce with matrices, factors and modes of big meshes spread over the
  * processes of mpirun, by PETSc and SLEPc. The first process reads, checks and writes. */
+#include <argp.h>
 #include <slepceps.h>
 #include <stdlib.h>
 
 #include "reduce/program.h"
 #include "reduce_mpi/team.h"
+
+const char *argp_program_version = "percuss-reduce-mpi " PERCUSS_VERSION;
 
 /* However the first process ends, the others do. */
 static void dismiss(void)

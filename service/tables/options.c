@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "base/units.h"
+#include "percuss/habits.h"
 #include "store/table_key.h"
 
 enum { USAGE = 2, LEAST_RESOLUTION = 6, MOST_RESOLUTION = 60 };
@@ -79,9 +80,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
         options->family = true;
         return 0;
     /* all are read */
-    case ARGP_KEY_ARG:
-        argp_error(state, "%s: must be an option", text);
-        return 0;
     case ARGP_KEY_END:
         if (options->family && (options->catalogue || options->a || options->b))
             argp_error(state, "--family: has no catalogue and no bodies");
@@ -100,6 +98,7 @@ struct options options_read(int argc, char **argv)
     static const struct argp argp = {
         .options = list,
         .parser = parse,
+        .children = habits,
         .doc = "Computes tables of elastic-plastic contacts ahead of time, for the contact model "
                "`table`: finite elements of the contact region, some seconds to minutes each. "
                "Without --a and --b: of every two materials in the catalogue whose bodies can meet "

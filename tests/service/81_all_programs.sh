@@ -1,0 +1,70 @@
+#!/bin/sh
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+# Every program of the project is met in the same manner.
+. "$(dirname "$0")/lib.sh"
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
+version=$("$bin/percuss" --version | sed 's/^percuss //')
+
+programs=
+for program in percuss percussd percuss-tables percuss-reduce percuss-reduce-mpi percuss-ensemble percuss-ros2; do
+    # those of MPI where there is one
+    [ ! -x "$bin/$program" ] || programs="$programs $program"
+done
+[ "$(echo "$programs" | wc -w)" -ge 5 ] || fail "programs are missing:$programs"
+
+for program in $programs; do
+    say "$program: -h, -?, --help; -v, -V, --version; a stray word; a manual page"
+    expect 0 "$bin/$program" --help
+    cp "$out" "$work/help"
+    grep -q "^Usage: $program " "$work/help" || fail "--help is not about $program"
+    for option in -h '-?'; do
+        expect 0 "$bin/$program" "$option"
+        cmp -s "$out" "$work/help" || fail "$option is not --help"
+    done
+    for option in --version -v -V; do
+        expect 0 "$bin/$program" "$option"
+        [ "$(cat "$out")" = "$program $version" ] || fail "$option"
+    done
+    # that of mpirun is not our say
+    case $program in
+    percuss) expect 2 "$bin/$program" status stray ;;
+    percuss-reduce*) expect 2 "$bin/$program" body.msh stray ;;
+    *) expect 2 "$bin/$program" stray ;;
+    esac
+    says "'stray': "
+    expect 2 "$bin/$program" --no-such-option
+    says "no-such-option"
+    # each option of the help is in the manual page; those of two are in the page of the program that they are as
+    page=$(ls "$source_dir/client/man/$program".[18])
+    grep -q "^\.Nm $program$" "$page" || fail "a manual page of another program"
+    case $program in percuss-reduce-mpi | percuss-ensemble) continue ;; esac
+    grep -q '^\.It Fl h , Fl -help , Fl -usage , Fl v , Fl -version$' "$page" || fail "no -h and -v in $page"
+    for option in $(grep -o '^ .\{0,5\} --[a-z-]*' "$work/help" | grep -o -- '--[a-z-]*'); do
+        grep -q -- "Fl ${option#-}\( \|$\)" "$page" || fail "$option is not in $page"
+    done
+done
+
+say "a mistyped command is known again, a word that no command takes is named"
+for typed in "qury query" "Sweep sweep" "emsemble ensemble" "stat status" "calib calibrate" "statsu status"; do
+    expect 2 "$bin/percuss" "${typed% *}"
+    says "'${typed% *}' is not a command: did you mean '${typed#* }'? percuss --help lists them"
+done
+expect 2 "$bin/percuss" frobnicate
+says "'frobnicate' is not a command; percuss --help lists them"
+expect 2 "$bin/percuss" help swep
+says "did you mean 'sweep'?"
+for command in query sweep ensemble bodies dents status ping; do
+    expect 2 "$bin/percuss" "$command" steel-sphere
+    says "'steel-sphere': no argument is expected, only options"
+done
+
+say "-a and -b are --a and --b"
+start_daemon
+expect 0 percuss query -a steel-sphere -b al-beam --speed 0.3 --json
+numbers "$out" >"$work/short"
+expect 0 percuss query --a steel-sphere --b al-beam --speed 0.3 --json
+numbers "$out" | cmp - "$work/short" || fail "-a, -b are not --a, --b"
+expect 0 percuss sweep -a steel-sphere -b al-beam -b al-rod --speed 0.1:0.2:2 --csv
+[ "$(wc -l <"$out")" -eq 5 ] || fail "no two curves"
+stop_daemon
