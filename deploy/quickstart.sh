@@ -50,7 +50,7 @@ done
 cat <<EOT
 
 Next: start the daemon and ask it yourself
-  build/bin/percussd --config config/percussd.yaml &
+  build/bin/percussd &
   build/bin/percuss query --a steel-sphere --b al-beam --speed 0.276
   build/bin/percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.4:31
 EOT

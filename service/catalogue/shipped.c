@@ -31,20 +31,38 @@ static bool find_self(char path[PATH_MAX])
     return length > 0;
 }
 
-char *shipped_find(const char *name)
+/* The first file of that name in the places, from where this is. */
+static char *find(const char *const *places, size_t count, const char *name)
 {
     char self[PATH_MAX];
     if (!find_self(self))
         return NULL;
     char *slash = strrchr(self, '/');
     int folder = slash ? (int)(slash + 1 - self) : 0;
-    for (size_t i = 0; i < sizeof PLACES / sizeof *PLACES; i++) {
+    for (size_t i = 0; i < count; i++) {
         char *path;
-        if (asprintf(&path, "%.*s%s/%s", folder, self, PLACES[i], name) < 0)
+        if (asprintf(&path, "%.*s%s/%s", folder, self, places[i], name) < 0)
             return NULL;
         if (access(path, F_OK) == 0)
             return path;
         free(path);
     }
     return NULL;
+}
+
+char *shipped_find(const char *name)
+{
+    return find(PLACES, sizeof PLACES / sizeof *PLACES, name);
+}
+
+char *shipped_settings(void)
+{
+    static const char *const edited = INSTALLED_SETTINGS;
+    char *found = find(&edited, 1, "percussd.yaml"), *whole;
+    if (!found)
+        found = shipped_find("percussd.yaml");
+    /* it is named to people */
+    whole = found ? realpath(found, NULL) : NULL;
+    free(found);
+    return whole;
 }

@@ -10,4 +10,9 @@
  * no memory. */
 char *shipped_find(const char *name);
 
+/* The path of the settings that a program goes by which is given none, for free(): those in the
+ * folder for configuration that belongs to its own, or else those in share/percuss. NULL as above.
+ */
+char *shipped_settings(void);
+
 #endif

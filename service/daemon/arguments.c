@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "catalogue/shipped.h"
 #include "percuss/habits.h"
 #include "respond/settings.h"
 
@@ -15,7 +16,10 @@ enum { KEY_CHECK = 0x100, KEY_STORE, KEY_FORMAT, KEY_PARTITION, USAGE = 2 };
 const char *argp_program_version = "percussd " PERCUSS_VERSION;
 
 static const struct argp_option options[] = {
-    {"config", 'c', "FILE", 0, "Settings; the shipped percussd.yaml explains each key", 0},
+    {"config", 'c', "FILE", 0,
+     "Settings; the shipped percussd.yaml explains each key, and is what is read where neither "
+     "this nor --catalogue is given",
+     0},
     {"catalogue", 'C', "FILE", 0, "Bodies and materials; goes before the one in the settings", 0},
     {"domain", 'd', "N", 0,
      "DDS domain, 0 to 230; goes before PERCUSS_DOMAIN, and that before the one in the settings",
@@ -101,8 +105,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     /* all are read */
     case ARGP_KEY_END:
-        if (!arguments->config && !arguments->catalogue && !arguments->check_store)
-            argp_error(state, "--config FILE or --catalogue FILE must be given");
         read_environment(state, arguments);
         return 0;
     default:
@@ -125,5 +127,7 @@ struct arguments arguments_read(int argc, char **argv)
     struct arguments arguments = {.domain = -1, .log_format = -1};
     argp_err_exit_status = USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
+    if (!arguments.config && !arguments.catalogue && !arguments.check_store)
+        arguments.shipped = shipped_settings();
     return arguments;
 }

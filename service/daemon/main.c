@@ -28,8 +28,9 @@ static const double END_SECONDS = 10.0;
 static enum percuss_status gather_settings(const struct arguments *arguments,
                                            struct settings *settings, struct fault *fault)
 {
+    const char *file = arguments->config ? arguments->config : arguments->shipped;
     *settings = settings_default();
-    if (arguments->config && settings_load(arguments->config, settings, fault))
+    if (file && settings_load(file, settings, fault))
         return PERCUSS_BAD_REQUEST;
     if (arguments->domain >= 0)
         settings->domain = (unsigned)arguments->domain;
@@ -39,11 +40,24 @@ static enum percuss_status gather_settings(const struct arguments *arguments,
         settings->log_format = (enum log_format)arguments->log_format;
     if (arguments->catalogue)
         snprintf(settings->catalogue, sizeof settings->catalogue, "%s", arguments->catalogue);
-    if (!settings->catalogue[0])
+    if (settings->catalogue[0])
+        return PERCUSS_OK;
+    if (!file)
         return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "%s: catalogue: missing: must be given there or as --catalogue FILE",
-                         arguments->config);
-    return PERCUSS_OK;
+                         "--config FILE or --catalogue FILE must be given: no settings are "
+                         "installed beside this program");
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "%s: catalogue: missing: must be given there or as --catalogue FILE", file);
+}
+
+/* Which settings were found where none were given; `look`: it is all that is asked. */
+static void name_settings(struct arguments *arguments, bool look)
+{
+    if (arguments->shipped && look)
+        fprintf(stderr, "percussd: no settings are given: %s\n", arguments->shipped);
+    else if (arguments->shipped)
+        log_line(LEVEL_INFO, "no settings are given: %s", arguments->shipped);
+    free(arguments->shipped);
 }
 
 /* The signals the main thread waits for; threads started later inherit that they are blocked. */
@@ -137,12 +151,16 @@ int main(int argc, char **argv)
         return store_care_check_file(arguments.check_store) ? EXIT_SUCCESS : EXIT_FAILURE;
     if (gather_settings(&arguments, &settings, &fault)) {
         fprintf(stderr, "percussd: %s\n", fault.text);
+        free(arguments.shipped);
         return EXIT_FAILURE;
     }
+    if (!arguments.check_config) {
+        log_limit(settings.log_level);
+        log_use(settings.log_format);
+    }
+    name_settings(&arguments, arguments.check_config);
     if (arguments.check_config)
         return check_config(&settings) ? EXIT_SUCCESS : EXIT_FAILURE;
-    log_limit(settings.log_level);
-    log_use(settings.log_format);
     struct notifier notifier = notifier_open();
     /* blocked before there are threads, so that no thread takes them */
     sigset_t signals = block_signals();

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
-# Every program of the project is met in the same manner.
+# Every program of the project is met in the same manner; a daemon starts without being told how.
 . "$(dirname "$0")/lib.sh"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
 version=$("$bin/percuss" --version | sed 's/^percuss //')
@@ -68,3 +68,37 @@ numbers "$out" | cmp - "$work/short" || fail "-a, -b are not --a, --b"
 expect 0 percuss sweep -a steel-sphere -b al-beam -b al-rod --speed 0.1:0.2:2 --csv
 [ "$(wc -l <"$out")" -eq 5 ] || fail "no two curves"
 stop_daemon
+
+say "percussd alone takes the settings that came with it, and says which"
+: >"$log" # "ready" of the daemon before is not this one's
+PERCUSS_DOMAIN=$domain "$bin/percussd" 2>"$log" 9>&- &
+daemon=$!
+wait_for 20 is_up_or_dead || fail "the daemon is not ready after 20 s"
+logged "no settings are given: .*/config/percussd.yaml$" || fail "it does not say which"
+expect 0 query
+stop_daemon
+expect 0 env PERCUSS_DOMAIN="$domain" "$bin/percussd" --check-config
+says "no settings are given: "
+shows ok
+
+say "installed, those in the folder for configuration go before those that are shipped"
+mkdir -p "$work/prefix/sbin" "$work/prefix/share"
+cp "$bin/percussd" "$work/prefix/sbin"
+expect 1 "$work/prefix/sbin/percussd" --check-config
+says "--config FILE or --catalogue FILE must be given: no settings are installed beside this program"
+cp -r "$source_dir/config" "$work/prefix/share/percuss"
+expect 0 env PERCUSS_DOMAIN="$domain" "$work/prefix/sbin/percussd" --check-config
+says "no settings are given: $work/prefix/share/percuss/percussd.yaml"
+# where that is, was said when it was built
+folder=$(sed -n 's/^CMAKE_INSTALL_PREFIX:[A-Z]*=//p' "$build/CMakeCache.txt")
+if [ "$folder" = /usr/local ]; then
+    mkdir -p "$work/prefix/etc/percuss"
+    settings "queue_capacity: 0"
+    cp "$work/percussd.yaml" "$work/prefix/etc/percuss"
+    expect 1 "$work/prefix/sbin/percussd" --check-config
+    says "prefix/etc/percuss/percussd.yaml:2: queue_capacity: 0"
+    # those that are given go before both
+    settings
+    expect 0 "$work/prefix/sbin/percussd" --check-config --config "$work/percussd.yaml" --domain "$domain"
+    ! grep -q "no settings are given" "$err" || fail "settings were given"
+fi
