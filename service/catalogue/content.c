@@ -14,7 +14,7 @@
 
 struct materials {
     struct names names;
-    struct material *list; /* in the order of the file */
+    struct stated_material *list; /* in the order of the file */
 };
 
 static enum percuss_status out_of_memory(const struct reader *reader)
@@ -38,12 +38,13 @@ static enum percuss_status refuse_field(struct reader *reader, struct entry entr
 }
 
 static enum percuss_status read_material(struct reader *reader, struct entry entry,
-                                         struct material *material)
+                                         struct stated_material *stated)
 {
-    *material = (struct material){.yield = INFINITY};
+    struct material *material = &stated->material;
+    *stated = (struct stated_material){.material.yield = INFINITY, .loss_factor = NAN};
     memcpy(material->name, entry.key->data.scalar.value, entry.key->data.scalar.length);
     size_t mark = reader_enter(reader, material->name);
-    enum percuss_status status = keys_read(reader, entry, &keys_material, material);
+    enum percuss_status status = keys_read(reader, entry, &keys_material, stated);
     if (status)
         return status;
     struct fault fault = {0};
@@ -97,7 +98,8 @@ static enum percuss_status find_material(struct reader *reader, struct entry ent
 {
     size_t position = names_find(&materials->names, body->material.name);
     if (position < materials->names.count) {
-        body->material = materials->list[position];
+        body->material = materials->list[position].material;
+        body->loss_factor = materials->list[position].loss_factor;
         return PERCUSS_OK;
     }
     const yaml_node_t *value = reader_find(reader, entry.value, "material").value;
@@ -116,6 +118,10 @@ static enum percuss_status read_rest(struct reader *reader, struct entry entry,
         status = find_material(reader, entry, materials, body);
     if (!status && body->kind->own_material)
         status = mesh_entry_read(reader, entry, files, set, body);
+    /* a mode of the ratio d loses 4 pi d of its energy in a cycle, the material 2 pi loss_factor */
+    if (!status && body->loss_factor > 0.0 && body_is_flexible(body) &&
+        !reader_find(reader, entry.value, "damping").value)
+        body->damping = 0.5 * body->loss_factor;
     return status;
 }
 
@@ -170,7 +176,7 @@ static enum percuss_status read_bodies(struct reader *reader, const yaml_node_t 
     struct mesh_files files = {NULL};
     for (size_t i = 0; !status && i < count; i++) {
         /* counted with what it owns, whether it is accepted or not */
-        set->bodies[set->count++] = (struct body){.tip_radius = INFINITY};
+        set->bodies[set->count++] = (struct body){.tip_radius = INFINITY, .loss_factor = NAN};
         struct body *body = &set->bodies[set->count - 1];
         status = read_body(reader, reader_entry(reader, mapping, i), materials, &files, set, body);
         /* what is not there yet is no body of the set */
@@ -229,7 +235,7 @@ enum percuss_status content_read_material(struct reader *reader, const char *nam
     enum percuss_status status = read_materials(reader, mapping.value, &materials);
     size_t position = status ? 0 : names_find(&materials.names, name);
     if (!status && position < materials.names.count)
-        *material = materials.list[position];
+        *material = materials.list[position].material;
     else if (!status)
         status = reader_refuse(reader, mapping.key,
                                "materials: %.63s: unknown material; must be one of %s", name,

@@ -7,10 +7,17 @@
 
 #include "catalogue/reader.h"
 #include "model/key.h"
+#include "model/material.h"
+
+/* A material as the catalogue states it. */
+struct stated_material {
+    struct material material;
+    double loss_factor; /* as struct body's */
+};
 
 extern const struct key_table keys_top;      /* into struct body_set */
 extern const struct key_table keys_contact;  /* into struct body_set */
-extern const struct key_table keys_material; /* into struct material */
+extern const struct key_table keys_material; /* into struct stated_material */
 extern const struct key_table keys_body; /* into struct body: those of every kind, shape first */
 
 extern const struct key_table keys_site; /* of a mesh, see mesh_entry.c */

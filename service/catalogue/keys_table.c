@@ -34,16 +34,21 @@ static const struct key contact[] = {
 const struct key_table keys_contact = {"contact", TABLE(contact)};
 
 static const struct key material[] = {
-    {"young", KEY_NUMBER, &limit_young, true, KEY_OF(material, young),
+    {"young", KEY_NUMBER, &limit_young, true, KEY_OF(stated_material, material.young),
      KEY_SAYS(NULL, "Young's modulus")},
-    {"poisson", KEY_NUMBER, &limit_poisson, true, KEY_OF(material, poisson),
+    {"poisson", KEY_NUMBER, &limit_poisson, true, KEY_OF(stated_material, material.poisson),
      KEY_SAYS(NULL, "Poisson's ratio")},
-    {"density", KEY_NUMBER, &limit_density, true, KEY_OF(material, density),
+    {"density", KEY_NUMBER, &limit_density, true, KEY_OF(stated_material, material.density),
      KEY_SAYS(NULL, "mass of a volume")},
-    {"yield", KEY_NUMBER, &limit_yield, false, KEY_OF(material, yield),
+    {"yield", KEY_NUMBER, &limit_yield, false, KEY_OF(stated_material, material.yield),
      KEY_SAYS("elastic", "yield stress in tension, beyond which a contact leaves a dent")},
-    {"tangent", KEY_NUMBER, &limit_tangent, false, KEY_OF(material, tangent),
+    {"tangent", KEY_NUMBER, &limit_tangent, false, KEY_OF(stated_material, material.tangent),
      KEY_SAYS("0", "slope of the stress-strain curve beyond yield; 0: ideally plastic")},
+    {"loss_factor", KEY_NUMBER, &limit_loss_factor, false, KEY_OF(stated_material, loss_factor),
+     KEY_SAYS("not stated",
+              "energy that a cycle of strain loses over 2 pi of what it stores, tan delta: 0.02 to "
+              "0.1 of hard plastics, 0.05 to 1 of rubber; 0: a soft material that is meant to lose "
+              "nothing")},
 };
 const struct key_table keys_material = {"a material", TABLE(material)};
 

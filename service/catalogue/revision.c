@@ -101,6 +101,10 @@ static void hash_body(struct hash *hash, const struct body *body)
     /* the factors themselves: they are NAN where the rule has no effect */
     for (int plane = 0; plane < 2 && !isnan(body->shear_factor[plane]); plane++)
         hash_double(hash, body->shear_factor[plane]);
+    if (!isnan(body->loss_factor)) {
+        hash_text(hash, "loss_factor");
+        hash_double(hash, body->loss_factor);
+    }
     if (body->mesh)
         hash_mesh(hash, body);
 }

@@ -36,6 +36,8 @@ struct body {
     double shear_number;          /* SHEAR_NUMBER: the factor */
     enum support supports[2];     /* rod, beam: at x = -length/2, +length/2 */
     double damping;               /* modal damping ratio, [0, 1); of several the largest */
+    double loss_factor;           /* of its material: what a cycle loses over 2 pi of what it
+                                   * stores; NAN: not stated */
     double *damping_shares;       /* mesh: [damping_count], see damping.h; borrowed from the set */
     unsigned modes;               /* fixed number of modes a family; 0: from the tolerance */
     bool varied;                  /* by body_vary */

@@ -47,7 +47,8 @@ static const struct key keys[] = {
                     "catalogue's folder, or "
                     "from share/percuss of the installation where it is not there")},
     {"damping", KEY_DAMPING, &limit_damping, KEY_OF(body, damping),
-     KEY_SAYS("0", "damping ratio of every elastic mode")},
+     KEY_SAYS("half of its material's loss_factor; 0 where that states none",
+              "damping ratio of every elastic mode")},
     {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),
      KEY_SAYS("as many as the tolerance asks for",
               "fixed number of modes, of those that the file has")},

@@ -22,6 +22,8 @@ const struct limit limit_yield = {1.0,
 const struct limit limit_tangent = {
     0.0, 1e13, false, false, "a finite modulus >= 0 Pa and below young", QUANTITY_STRESS};
 const struct limit limit_damping = {0.0, 1.0, false, true, "a ratio >= 0 and < 1", QUANTITY_NUMBER};
+const struct limit limit_loss_factor = {
+    0.0, 2.0, false, true, "a ratio >= 0 and < 2", QUANTITY_NUMBER};
 const struct limit limit_shear_factor = {
     1e-3, 2.0, false, false, "a number > 0 (1e-3 to 2)", QUANTITY_NUMBER};
 const struct limit limit_scale = {1e-6,           1e6, false, false, "a number > 0 (1e-6 to 1e6)",

@@ -27,6 +27,7 @@ extern const struct limit limit_density;      /* kg/m^3 */
 extern const struct limit limit_yield;        /* Pa */
 extern const struct limit limit_tangent;      /* Pa */
 extern const struct limit limit_damping;      /* ratio; 1 would no longer oscillate */
+extern const struct limit limit_loss_factor;  /* ratio; half of it damps a mode */
 extern const struct limit limit_shear_factor; /* of a Timoshenko beam */
 extern const struct limit limit_scale;        /* of a mesh's size */
 extern const struct limit limit_modes;        /* a whole number */

@@ -123,6 +123,37 @@ static void loads_a_foreign_catalogue(void **state)
     body_set_free(set);
 }
 
+/* What a material loses damps what is made of it, unless the body says otherwise; rigid ones have
+ * nothing that it could damp. */
+static void losses_damp(void **state)
+{
+    (void)state;
+    struct body_set *set = parse_good(
+        "materials:\n"
+        "  m: {young: 70e9, poisson: 0.3, density: 2700}\n"
+        "  nylon: {young: 3e9, poisson: 0.4, density: 1140, loss_factor: 0.06}\n"
+        "  ideal: {young: 3e9, poisson: 0.4, density: 1140, loss_factor: 0}\n"
+        "bodies:\n"
+        "  rod: {shape: rod, material: nylon, radius: 0.01, length: 1}\n"
+        "  beam: {shape: beam, material: nylon, radius: 0.01, length: 1, damping: 0.01}\n"
+        "  free: {shape: beam, material: nylon, radius: 0.01, length: 1, damping: 0}\n"
+        "  ball: {shape: sphere, material: nylon, radius: 0.01}\n"
+        "  other: {shape: rod, material: ideal, radius: 0.01, length: 1}\n"
+        "  metal: {shape: rod, material: m, radius: 0.01, length: 1}\n");
+    is_read_as(get(set, "rod")->damping, 0.03);
+    is_read_as(get(set, "rod")->loss_factor, 0.06);
+    is_read_as(get(set, "beam")->damping, 0.01);
+    is_read_as(get(set, "beam")->loss_factor, 0.06);
+    is_read_as(get(set, "free")->damping, 0.0);
+    is_read_as(get(set, "ball")->damping, 0.0);
+    is_read_as(get(set, "ball")->loss_factor, 0.06);
+    is_read_as(get(set, "other")->damping, 0.0);
+    is_read_as(get(set, "other")->loss_factor, 0.0);
+    is_read_as(get(set, "metal")->damping, 0.0);
+    assert_true(isnan(get(set, "metal")->loss_factor));
+    body_set_free(set);
+}
+
 /* Numbers mean the same where people write a comma (if such a locale is installed). */
 static void does_not_depend_on_the_locale(void **state)
 {
@@ -179,6 +210,9 @@ static void changes_its_revision_with_the_content(void **state)
     static const char *const rods[] = {
         "  r: {shape: rod, material: m, radius: 0.01, length: 1}\n",
         "  r: {shape: rod, material: n, radius: 0.01, length: 1}\n",
+        "  r: {shape: rod, material: o, radius: 0.01, length: 1}\n",
+        "  r: {shape: rod, material: p, radius: 0.01, length: 1}\n",
+        "  r: {shape: rod, material: p, radius: 0.01, length: 1, damping: 0}\n",
         "  r: {shape: rod, material: m, radius: 0.010000000000000002, length: 1}\n",
         "  r: {shape: rod, material: m, radius: 0.01, length: 2}\n",
         "  R: {shape: rod, material: m, radius: 0.01, length: 1}\n",
@@ -205,7 +239,9 @@ static void changes_its_revision_with_the_content(void **state)
         char text[512];
         snprintf(text, sizeof text,
                  "materials: {m: {young: 70e9, poisson: 0.3, density: 2700}, "
-                 "n: {young: 70e9, poisson: 0.3, density: 2700, yield: 1e8}}\nbodies:\n%s",
+                 "n: {young: 70e9, poisson: 0.3, density: 2700, yield: 1e8}, "
+                 "o: {young: 70e9, poisson: 0.3, density: 2700, loss_factor: 0}, "
+                 "p: {young: 70e9, poisson: 0.3, density: 2700, loss_factor: 0.1}}\nbodies:\n%s",
                  rods[i]);
         revision_of(text, revisions[i]);
         for (size_t k = 0; k < i; k++)
@@ -337,6 +373,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(loads_the_shipped_bodies),
         cmocka_unit_test(loads_a_foreign_catalogue),
+        cmocka_unit_test(losses_damp),
         cmocka_unit_test(does_not_depend_on_the_locale),
         cmocka_unit_test(keeps_its_revision_when_only_the_look_changes),
         cmocka_unit_test(changes_its_revision_with_the_content),

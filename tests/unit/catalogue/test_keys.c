@@ -225,7 +225,12 @@ static void refuses_bad_materials(void **state)
         {"young: 1e9, poisson: 0.3, density: 1, tangent: 1e6", "must be 0 or absent without yield"},
         {"young: 1e9, poisson: 0.3, density: 1, hardness: 3",
          "materials.m: hardness: unknown key; the keys of a material are young, poisson, density, "
-         "yield, tangent"},
+         "yield, tangent, loss_factor"},
+        {"young: 1e9, poisson: 0.3, density: 1, loss_factor: -0.1",
+         "materials.m.loss_factor: -0.1: must be a ratio >= 0 and < 2"},
+        {"young: 1e9, poisson: 0.3, density: 1, loss_factor: 2", "loss_factor: 2: must be a ratio"},
+        {"young: 1e9, poisson: 0.3, density: 1, loss_factor: .nan", "loss_factor: .nan: must be"},
+        {"young: 1e9, poisson: 0.3, density: 1, loss_factor: 5 %", "loss_factor: 5 %: must be"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         char text[512];

@@ -60,6 +60,7 @@ static enum percuss_status parse(struct body_set **set, struct fault *fault, con
              "materials:\n"
              "  alloy: {young: 75e9, poisson: 0.33, density: 2800, yield: 300e6}\n"
              "  other: {young: 75e9, poisson: 0.30, density: 2800}\n"
+             "  plastic: {young: 3e9, poisson: 0.33, density: 1140, loss_factor: 0.06}\n"
              "bodies:\n"
              "  part: %s\n",
              lines);
@@ -226,6 +227,31 @@ static void revisions_follow_what_is_said(void **state)
     struct body_set *set = good(texts[1]);
     assert_string_equal(set->revision, revisions[1]);
     body_set_free(set);
+}
+
+/* Files hold none: the catalogue states it, and the modes are damped by it. */
+static void a_material_that_loses_energy(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *lines;
+        double loss_factor, damping;
+    } cases[] = {
+        {"{shape: mesh, file: rod.h5}", NAN, 0.0},
+        {"{shape: mesh, file: rod.h5, material: alloy}", NAN, 0.0},
+        {"{shape: mesh, file: rod.h5, material: plastic}", 0.06, 0.03},
+        {"{shape: mesh, file: rod.h5, material: plastic, damping: 0.01}", 0.06, 0.01},
+        {"{shape: mesh, file: rod.h5, material: plastic, damping: [0.02, 0.01]}", 0.06, 0.02},
+        {"{shape: mesh, file: rod.h5, material: plastic, rigid: true}", 0.06, 0.0},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        struct body_set *set = good(cases[i].lines);
+        const struct body *part = body_set_find(set, "part");
+        assert_true(isnan(cases[i].loss_factor) ? isnan(part->loss_factor)
+                                                : part->loss_factor == cases[i].loss_factor);
+        near(part->damping, cases[i].damping, 1e-15);
+        body_set_free(set);
+    }
 }
 
 static void a_material_is_found_by_its_name(void **state)
@@ -419,6 +445,7 @@ int main(void)
         cmocka_unit_test(sites_stand_in_the_mesh_s_frame),
         cmocka_unit_test(sites_beside_the_surface_are_moved),
         cmocka_unit_test(revisions_follow_what_is_said),
+        cmocka_unit_test(a_material_that_loses_energy),
         cmocka_unit_test(a_material_is_found_by_its_name),
         cmocka_unit_test(says_what_is_wrong),
         cmocka_unit_test(a_mesh_is_ordered_until_its_body_is_there),
