@@ -14,9 +14,9 @@
 struct ensemble_sample {
     double restitution, impulse, end_time, peak_force; /* NAN where it was refused */
     uint16_t sub_impacts, significant;
-    uint16_t warnings;     /* 1 << enum warning_kind of each */
-    uint8_t status;        /* enum percuss_status */
-    uint8_t contact_model; /* enum percuss_contact_model */
+    uint32_t warnings;      /* 1 << enum warning_kind of each */
+    uint32_t status;        /* enum percuss_status */
+    uint32_t contact_model; /* enum percuss_contact_model */
 };
 
 static inline bool ensemble_has_result(enum percuss_status status)

@@ -108,8 +108,8 @@ void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensem
             (uint16_t)(outcome.sub_impacts < UINT16_MAX ? outcome.sub_impacts : UINT16_MAX),
         .significant = (uint16_t)outcome.significant,
         .warnings = good ? outcome.warnings : 0,
-        .status = (uint8_t)status,
-        .contact_model = (uint8_t)outcome.contact_model,
+        .status = (uint32_t)status,
+        .contact_model = (uint32_t)outcome.contact_model,
     };
 }
 

@@ -10,6 +10,7 @@
 #include "fe/complete_body.h"
 #include "fe/complete_converge.h"
 #include "model/vector.h"
+#include "solve/loss.h"
 #include "solve/model_error.h"
 #include "solve/report.h"
 #include "solve/validity.h"
@@ -290,11 +291,12 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
     for (size_t i = 0; i < result->contacts[0].sub_impacts_listed; i++)
         blow.force = fmax(blow.force, result->contacts[0].sub_impacts[i].peak_force);
     double e = result->contacts[0].restitution;
-    report_model_error(model_error_complete(problem, &blow),
+    report_model_error(model_error_complete(problem, &blow) + loss_of_contact(problem, 0, fabs(e)),
                        result->complete ? fmax(e, 1.0 - e) : 2.0, result);
-    /* where small strains end */
+    /* where small strains end, and what materials lose of themselves */
     struct warnings warnings = {0};
     validity_find_speed(problem, &warnings);
+    loss_find(problem, 0, fabs(e), &warnings);
     report_warnings(&warnings, result);
     return result->status;
 }

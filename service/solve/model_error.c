@@ -12,6 +12,7 @@
 #include "solve/contact_model.h"
 #include "solve/fewer.h"
 #include "solve/law_error.h"
+#include "solve/loss.h"
 #include "solve/outcome.h"
 #include "solve/validity.h"
 
@@ -63,24 +64,14 @@ static double sensitivity(const struct margin *margin)
     return LOST * share + SWUNG * sqrt(share);
 }
 
-/* Restitution that what follows the largest indentation makes, first of all. */
-static double rebound(const struct margin *margin, size_t c)
-{
-    const struct track *track = &margin->solution->outcome.tracks[c];
-    double back = 0.0;
-    for (size_t i = 0; i < track->count && i < PERCUSS_MAX_SUB_IMPACTS; i++)
-        back += track->list[i].impulse - track->list[i].compression_impulse;
-    double compression = margin->problem->impulse_compression[c];
-    return compression > 0.0 ? fabs(back) / compression : 0.0;
-}
-
 /* As if there were one contact after which the bodies part. */
 static double single(const struct margin *margin)
 {
     double largest = 0.0;
     for (size_t c = 0; c < margin->problem->contact_count; c++) {
         double spring = sensitivity(margin) * stiffness_share(margin, c);
-        double flow = margin->deviation[c].yield * rebound(margin, c);
+        double flow = margin->deviation[c].yield *
+                      outcome_rebound(margin->problem, &margin->solution->outcome, c);
         double ringing = model_deviation_ringing(margin->problem, c, &margin->blow[c]);
         largest = fmax(largest, hypot(hypot(spring, flow), ringing));
     }
@@ -289,6 +280,8 @@ enum percuss_status model_error_find(const struct problem *problem, const struct
         else if (!status)
             status = by_sequence(&margin, pace, restitution);
     }
+    /* and what the materials lose of themselves */
+    *restitution += loss_worst(problem, &solution->outcome);
     *restitution = fmin(*restitution, outcome_range(problem, &solution->outcome));
     return status;
 }

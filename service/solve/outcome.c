@@ -75,6 +75,17 @@ double outcome_deepest(const struct impact_outcome *outcome, size_t contact)
     return largest;
 }
 
+double outcome_rebound(const struct problem *problem, const struct impact_outcome *outcome,
+                       size_t contact)
+{
+    const struct track *track = &outcome->tracks[contact];
+    double back = 0.0;
+    for (size_t i = 0; i < listed(track); i++)
+        back += track->list[i].impulse - track->list[i].compression_impulse;
+    double compression = problem->impulse_compression[contact];
+    return compression > 0.0 ? fabs(back) / compression : 0.0;
+}
+
 struct outcome_difference outcome_compare(const struct problem *problem,
                                           const struct impact_outcome *a,
                                           const struct impact_outcome *b)

@@ -28,6 +28,10 @@ double outcome_range(const struct problem *problem, const struct impact_outcome 
 double outcome_peak_force(const struct impact_outcome *outcome, size_t contact);
 double outcome_deepest(const struct impact_outcome *outcome, size_t contact);
 
+/* Restitution that what follows the largest indentations makes. */
+double outcome_rebound(const struct problem *problem, const struct impact_outcome *outcome,
+                       size_t contact);
+
 /* Largest differences between two solutions over the contacts. */
 struct outcome_difference {
     double restitution, impulse;

@@ -24,7 +24,7 @@ struct repeat_outcome {
     unsigned sub_impacts, significant;        /* all; those of at least 1 % of the impulse */
     double error;                             /* estimated; repeat_search only, else NAN */
     enum percuss_contact_model contact_model; /* HERTZ, CLOSED_FORM or TABLE */
-    uint16_t warnings;                        /* 1 << enum warning_kind of each */
+    uint32_t warnings;                        /* 1 << enum warning_kind of each */
 };
 
 /* Memory of one worker. */

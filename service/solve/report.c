@@ -12,6 +12,7 @@
 #include "model/vector.h"
 #include "solve/contact_model.h"
 #include "solve/law_error.h"
+#include "solve/loss.h"
 #include "solve/radiation.h"
 #include "solve/state_out.h"
 #include "solve/validity.h"
@@ -168,7 +169,8 @@ static void fill_model(const struct problem *problem, const struct solution *sol
     /* what it leaves out */
     result->omitted_error =
         solution->modes.restitution + unmodelled +
-        law_error_worst(problem, &solution->outcome) * largest_restitution(result);
+        law_error_worst(problem, &solution->outcome) * largest_restitution(result) +
+        loss_worst(problem, &solution->outcome);
     if (unmodelled > problem->tolerance)
         report_warn(result,
                     "model.omitted_error: waves that the models leave out of compact bodies and of "

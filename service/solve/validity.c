@@ -10,6 +10,7 @@
 #include "model/vector.h"
 #include "solve/contact_model.h"
 #include "solve/law_error.h"
+#include "solve/loss.h"
 #include "solve/outcome.h"
 
 /* Contact or dent against the smallest radius: surfaces are no longer parabolas there. */
@@ -253,6 +254,7 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     find_size(problem, outcome, c, axes[0], warnings);
     find_place(problem, outcome, c, axes[0], warnings);
     find_sliding(problem, outcome, c, approach, warnings);
+    loss_find(problem, c, outcome_rebound(problem, outcome, c), warnings);
 }
 
 static void find_delassus(const struct problem *problem, struct warnings *warnings)

@@ -18,7 +18,7 @@ static size_t reserved(const struct warnings *warnings)
 
 void warnings_add(struct warnings *warnings, enum warning_kind kind, const char *format, ...)
 {
-    uint16_t bit = (uint16_t)(1u << kind);
+    uint32_t bit = UINT32_C(1) << kind;
     bool again = warnings->kinds & bit;
     if (again && warnings->count + reserved(warnings) >= WARNINGS_ROOM)
         return;

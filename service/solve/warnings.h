@@ -21,15 +21,16 @@ enum warning_kind {
     WARNING_COMPLIANCE,
     WARNING_NO_TOUCH,
     WARNING_LAW,
-    WARNING_KINDS
+    WARNING_LOSS,
+    WARNING_KINDS = 18
 };
-_Static_assert(WARNING_KINDS <= 16, "a set of kinds is 16 bits");
+_Static_assert(WARNING_KINDS <= 32, "a set of kinds is 32 bits");
 
 enum { WARNINGS_ROOM = 32, WARNING_SIZE = 256 };
 
 struct warnings {
     size_t count;
-    uint16_t kinds; /* 1 << kind of each that was found, in the list or not */
+    uint32_t kinds; /* 1 << kind of each that was found, in the list or not */
     enum warning_kind kind[WARNINGS_ROOM];
     char text[WARNINGS_ROOM][WARNING_SIZE];
 };

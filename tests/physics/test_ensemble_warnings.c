@@ -100,6 +100,36 @@ static void order_and_workers_do_not_matter(void **state)
     ensemble_lab_close(&e);
 }
 
+/* Of a body of plastic: stated, or by how soft it is, which one in five samples or so is. */
+static void losses_are_counted(void **state)
+{
+    (void)state;
+    struct ensemble_lab e;
+    ensemble_lab_open(&e);
+    e.spec.samples = 20;
+    e.request.options.tolerance = 1e-2;
+    e.lab->bodies[0].loss_factor = 0.05;
+    ensemble_lab_run(&e, false);
+    assert_true(warns(&e.report, "samples: 20 of 20, first 0: contacts[0]: what sphere loses of "
+                                 "itself in the contact (loss_factor 0.05) is not in the answer"));
+    ensemble_lab_clear(&e);
+    e.request.options.tolerance = 2e-3;
+    e.lab->bodies[0].loss_factor = NAN;
+    e.inputs[0] = uncertain(INPUT_YOUNG, 0, DISTRIBUTION_IS_UNIFORM, 8e9, 18e9);
+    ensemble_lab_run(&e, false);
+    uint64_t soft = 0;
+    for (uint64_t i = 0; i < 20; i++) {
+        double young;
+        ensemble_inputs(&e.ensemble, i, &young);
+        soft += young < 10e9;
+    }
+    char expected[64];
+    snprintf(expected, sizeof expected, "samples: %llu of 20, first ", (unsigned long long)soft);
+    assert_true(soft > 1 && soft < 10 && warns(&e.report, expected));
+    assert_true(warns(&e.report, "materials as soft as that of sphere (young "));
+    ensemble_lab_close(&e);
+}
+
 /* Where nothing is to be said nothing is; a refusal is quoted. */
 static void quiet_and_refused(void **state)
 {
@@ -189,6 +219,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fast_samples_are_counted),
         cmocka_unit_test(order_and_workers_do_not_matter),
+        cmocka_unit_test(losses_are_counted),
         cmocka_unit_test(quiet_and_refused),
         cmocka_unit_test(what_is_quoted_can_be_stopped),
         cmocka_unit_test(coarse_models_are_warned_of),

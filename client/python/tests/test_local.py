@@ -67,6 +67,35 @@ class Local(unittest.TestCase):
             self.assertNotEqual(reply.contacts[0].impulse, again.contacts[0].impulse)
             self.assertEqual(local.servers()[0].server, local.server)
 
+    def test_losses(self) -> None:
+        """What materials lose of themselves is said in replies and ensembles."""
+        with tempfile.TemporaryDirectory() as folder:
+            catalogue = Path(folder) / "catalogue.yaml"
+            catalogue.write_text(
+                "materials:\n"
+                "  steel: {young: 210e9, poisson: 0.3, density: 7800}\n"
+                "  nylon: {young: 3e9, poisson: 0.4, density: 1140, loss_factor: 0.06}\n"
+                "  rubber: {young: 5e6, poisson: 0.49, density: 1100}\n"
+                "bodies:\n"
+                "  ball: {shape: sphere, material: steel, radius: 0.015}\n"
+                "  wall: {shape: half-space, material: steel}\n"
+                "  stop: {shape: half-space, material: nylon}\n"
+                "  mat: {shape: half-space, material: rubber}\n"
+            )
+            with percuss.Local(catalogue) as local:
+                bodies = local.bodies()
+                said = {}
+                for wall in ("wall", "stop", "mat"):
+                    question = percuss.contact_pair(bodies["ball"], bodies[wall], speed=0.3)
+                    said[wall] = " ".join(local.solve(question).raise_for_status().warnings)
+                self.assertNotIn("of itself", said["wall"] + said["mat"])
+                self.assertIn("what stop loses of itself in the contact (loss_factor 0.06)", said["stop"])
+                self.assertIn("as soft as that of mat", said["mat"])
+                question = percuss.contact_pair(bodies["ball"], bodies["stop"], speed=0.3)
+                speed = percuss.Input("speed", percuss.Distribution.UNIFORM, 0.2, 0.4)
+                report = percuss.ensemble(percuss.Ensemble(question, [speed], samples=50), local)
+                self.assertTrue(any("of 50, first 0: contacts[0]: what stop loses" in one for one in report.warnings))
+
     def test_threads(self) -> None:
         """Several threads ask one client, and others theirs."""
         expected: list[float] = []
