@@ -49,6 +49,8 @@ enum option_key {
     OPTION_CATALOGUE,
     OPTION_CONFIG,
     OPTION_SCENE,
+    OPTION_PLOT = 290,
+    OPTION_PLOT_DATA,
     OPTION_OWN = 300
 };
 

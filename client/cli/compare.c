@@ -9,23 +9,21 @@
 #include <stdlib.h>
 
 #include "cli.h"
-#include "plot.h"
 
-enum { KEY_CSV = OPTION_OWN, KEY_PLOT, KEY_PERMUTATIONS, KEY_SEED };
+enum { KEY_CSV = OPTION_OWN, KEY_PERMUTATIONS, KEY_SEED };
 enum { DEFAULT_PERMUTATIONS = 1999, MOST_PERMUTATIONS = 1000000, MOST_SEED = 1u << 31 };
 
 struct compare {
     struct common *common;
     struct scene scene;
-    const char *file, *plot;
+    const char *file;
+    struct plot_output plot;
     bool csv;
     unsigned permutations, seed;
 };
 
 static const struct argp_option options[] = {
     {"csv", KEY_CSV, NULL, 0, "print the impacts as comma-separated values", 90},
-    {"plot", KEY_PLOT, "FILE", 0,
-     "draw measured and simulated restitution with gnuplot: FILE.png or FILE.svg", 40},
     {"permutations", KEY_PERMUTATIONS, "N", 0,
      "random permutations behind the p-value of the energy distance (default 1999)", 40},
     {"seed", KEY_SEED, "N", 0, "of the permutations (default 1)", 40},
@@ -49,14 +47,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &compare->scene;
         state->child_inputs[1] = compare->common;
+        state->child_inputs[2] = &compare->plot;
         return 0;
     /* what is written */
     case KEY_CSV:
         compare->csv = true;
-        return 0;
-    case KEY_PLOT:
-        plot_check(text, state);
-        compare->plot = text;
         return 0;
     /* the test by permutations */
     case KEY_PERMUTATIONS:
@@ -81,7 +76,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_child children[] = {
-    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
+    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {&plot_argp, 0, NULL, 0}, {0}};
 const struct argp compare_argp = {
     .options = options,
     .parser = parse,
@@ -146,7 +141,7 @@ static int report(const struct compare *compare, const struct comparison *compar
         compare_print_table(comparison);
     if (!compare->common->json)
         tally_complain(comparison->warnings);
-    return compare->plot ? compare_plot(compare->plot, comparison) : EXIT_ANSWERED;
+    return plot_wanted(&compare->plot) ? compare_plot(&compare->plot, comparison) : EXIT_ANSWERED;
 }
 
 static int run(const struct compare *compare, struct twins *twins, struct measured_set *set)

@@ -6,6 +6,7 @@
 #define PERCUSS_CLI_COMPARE_H
 
 #include "distance.h"
+#include "plot.h"
 #include "twins.h"
 
 struct comparison {
@@ -26,6 +27,6 @@ void compare_print_json(const struct comparison *comparison);
 
 /* The restitution and the number of sub-impacts against the speed, and both empirical
  * distributions. Exit code; complains. */
-int compare_plot(const char *file, const struct comparison *comparison);
+int compare_plot(const struct plot_output *output, const struct comparison *comparison);
 
 #endif

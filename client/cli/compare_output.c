@@ -9,7 +9,6 @@
 #include "compare.h"
 #include "csv.h"
 #include "json_writer.h"
-#include "plot.h"
 
 /* p-values below this are called small. */
 static const double SMALL = 0.05;
@@ -141,79 +140,4 @@ void compare_print_json(const struct comparison *comparison)
     json_object_set_new(root, "impacts", array);
     json_object_set_new(root, "warnings", tally_to_json(comparison->warnings));
     json_print(root);
-}
-
-static void write_data(const struct plot *plot, const struct comparison *comparison)
-{
-    fputs("$impacts << EOD\n", plot->script);
-    for (size_t i = 0; i < comparison->set->count; i++)
-        fprintf(plot->script, "%.9g %.9g %.9g %zu %.9g %.9g\n", comparison->set->impacts[i].speed,
-                comparison->set->impacts[i].restitution, comparison->twins[i].impact.restitution,
-                comparison->set->count, comparison->set->impacts[i].sub_impacts,
-                comparison->twins[i].impact.sub_impacts);
-    fputs("EOD\n", plot->script);
-}
-
-/* The measured mean with half, one, one and a half and two standard deviations: the paper's areas A
- * to D. */
-static void write_bands(const struct plot *plot, const struct comparison *comparison)
-{
-    static const char *const colours[] = {"#c4c4c4", "#d2d2d2", "#e0e0e0", "#ececec"};
-    double mean = comparison->measured_mean, deviation = comparison->measured_deviation;
-    if (!(deviation > 0.0))
-        return;
-    for (int band = 4; band-- > 0;) {
-        double half = 0.5 * (band + 1) * deviation;
-        fprintf(plot->script,
-                "set object rectangle from graph 0, first %.9g to graph 1, first %.9g "
-                "fc rgb '%s' fs solid noborder behind\n"
-                "set label '%c' at graph 0.985, first %.9g right tc rgb '#606060'\n",
-                mean - half, mean + half, colours[band], 'A' + band, mean + half - 0.2 * deviation);
-    }
-    fprintf(plot->script,
-            "set arrow from graph 0, first %.9g to graph 1, first %.9g nohead lc rgb '#808080'\n",
-            mean, mean);
-}
-
-/* Column `column` measured, the next one simulated, over the speed. */
-static void plot_both(const struct plot *plot, int column)
-{
-    fprintf(plot->script,
-            "plot $impacts using 1:%d with points lt 2 title 'measured', "
-            "'' using 1:%d with points lt 1 pt 6 ps 1.4 title 'simulated'\n",
-            column, column + 1);
-}
-
-int compare_plot(const char *file, const struct comparison *comparison)
-{
-    struct plot plot;
-    char title[160];
-    int code = plot_begin(&plot, file, 1000, 1100);
-    if (code != EXIT_ANSWERED)
-        return code;
-    write_data(&plot, comparison);
-    snprintf(title, sizeof title, "%s on %s, %zu impacts", comparison->scene->a,
-             comparison->scene->b, comparison->set->count);
-    fputs("set multiplot layout 3,1 title ", plot.script);
-    plot_text(&plot, title);
-    /* restitution over speed, joined to its twin, on bands of the measured deviation */
-    fputs("\nset lmargin 10\nset xlabel 'speed / (m/s)'\nset ylabel 'restitution e'\n"
-          "set yrange [0:1]\n",
-          plot.script);
-    write_bands(&plot, comparison);
-    fputs("plot $impacts using 1:2:(0):($3-$2) with vectors nohead lc rgb '#b0b0b0' notitle, "
-          "'' using 1:2 with points lt 2 title 'measured', "
-          "'' using 1:3 with points lt 1 title 'simulated'\n"
-          "unset object\nunset label\nunset arrow\nset yrange [0:*]\nset ytics 1\n"
-          "set offsets 0,0,0.5,0\nset ylabel 'sub-impacts'\n",
-          plot.script);
-    /* how many sub-impacts; both distributions */
-    plot_both(&plot, 5);
-    fputs("set ytics auto\nset offsets 0,0,0,0\nset key bottom right\nset xlabel 'restitution e'\n"
-          "set ylabel 'share of impacts below'\nset yrange [0:1]\n"
-          "plot $impacts using 2:(1.0/$4) smooth cumulative with steps lt 2 title 'measured', "
-          "'' using 3:(1.0/$4) smooth cumulative with steps lt 1 title 'simulated'\n"
-          "unset multiplot\n",
-          plot.script);
-    return plot_end(&plot);
 }

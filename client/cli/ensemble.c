@@ -15,7 +15,6 @@
 #include "input_text.h"
 #include "json_writer.h"
 #include "output_file.h"
-#include "plot.h"
 #include "quantity.h"
 #include "scene.h"
 
@@ -32,7 +31,6 @@ enum {
     KEY_QUANTILES,
     KEY_BINS,
     KEY_CSV,
-    KEY_PLOT,
     KEY_DEADLINE,
     KEY_PROGRESS
 };
@@ -42,7 +40,8 @@ struct ensemble {
     struct scene scene;
     struct percuss_ensemble_request *request;
     bool has_speed, has_samples, progress;
-    const char *csv, *plot; /* files; NULL: not wanted */
+    const char *csv; /* file; NULL: not wanted */
+    struct plot_output plot;
 };
 
 static const struct argp_option options[] = {
@@ -68,10 +67,6 @@ static const struct argp_option options[] = {
     {"quantiles", KEY_QUANTILES, "P,P,...", 0, "probabilities of the quantiles", 14},
     {"bins", KEY_BINS, "N", 0, "of the histogram", 14},
     {"csv", KEY_CSV, "FILE", 0, "write every sample", 15},
-    {"plot", KEY_PLOT, "FILE", 0,
-     "draw restitution over speed, histogram, distribution and sensitivities with gnuplot: "
-     "FILE.png or FILE.svg",
-     15},
     {"deadline", KEY_DEADLINE, "S", 0,
      "seconds, or with a unit, after which the server answers with what it has", 15},
     {"progress", KEY_PROGRESS, NULL, 0, "show progress even if stderr is no terminal", 15},
@@ -166,7 +161,7 @@ static void settle(struct ensemble *ensemble, struct argp_state *state)
     for (size_t i = 0; !ensemble->has_samples && i < request->input_count; i++)
         if (request->inputs[i].distribution == PERCUSS_DISTRIBUTION_LIST)
             request->samples = 0;
-    request->list_samples = ensemble->csv || ensemble->plot;
+    request->list_samples = ensemble->csv || plot_wanted(&ensemble->plot);
 }
 
 /* What is uncertain. */
@@ -233,6 +228,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &ensemble->scene;
         state->child_inputs[1] = ensemble->common;
+        state->child_inputs[2] = &ensemble->plot;
         return 0;
     /* what is told of the samples */
     case KEY_QUANTILES:
@@ -244,10 +240,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_CSV:
         output_file_check("csv", text, state);
         ensemble->csv = text;
-        return 0;
-    case KEY_PLOT:
-        plot_check(text, state);
-        ensemble->plot = text;
         return 0;
     case KEY_PROGRESS:
         ensemble->progress = true;
@@ -262,7 +254,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_child children[] = {
-    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
+    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {&plot_argp, 0, NULL, 0}, {0}};
 const struct argp ensemble_argp = {
     .options = options,
     .parser = parse,
@@ -319,8 +311,8 @@ static int ask(struct ensemble *ensemble, struct percuss_client *client,
     if (ensemble->csv && reply.statistic_count > 0 &&
         !ensemble_write_csv(ensemble->csv, request, &reply, ensemble->common->units))
         code = EXIT_FAILURE;
-    if (ensemble->plot && reply.statistic_count > 0 &&
-        ensemble_plot(ensemble->plot, request, &reply) != EXIT_ANSWERED)
+    if (plot_wanted(&ensemble->plot) && reply.statistic_count > 0 &&
+        ensemble_plot(&ensemble->plot, request, &reply) != EXIT_ANSWERED)
         code = EXIT_FAILURE;
     if (ensemble->common->json)
         json_print(ensemble_to_json(&reply));

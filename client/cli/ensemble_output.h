@@ -7,6 +7,8 @@
 #include <jansson.h>
 #include <percuss/percuss.h>
 
+#include "plot.h"
+
 /* The reply for people. */
 void ensemble_print_table(const struct percuss_ensemble_request *request,
                           const struct percuss_ensemble_reply *reply);
@@ -24,7 +26,7 @@ bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request 
 
 /* Draws what the reply says, the restitution over the speed from its listed samples. Exit code;
  * complains. */
-int ensemble_plot(const char *file, const struct percuss_ensemble_request *request,
+int ensemble_plot(const struct plot_output *output, const struct percuss_ensemble_request *request,
                   const struct percuss_ensemble_reply *reply);
 
 #endif

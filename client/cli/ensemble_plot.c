@@ -105,7 +105,7 @@ static bool take_intervals(const struct percuss_ensemble_reply *reply, struct co
     return true;
 }
 
-int ensemble_plot(const char *file, const struct percuss_ensemble_request *request,
+int ensemble_plot(const struct plot_output *output, const struct percuss_ensemble_request *request,
                   const struct percuss_ensemble_reply *reply)
 {
     const struct percuss_statistic *e = &reply->statistics[0];
@@ -133,7 +133,7 @@ int ensemble_plot(const char *file, const struct percuss_ensemble_request *reque
     bool complete = take_samples(request, reply, &columns, &picture) &&
                     take_intervals(reply, &columns, &picture);
     take_sensitivities(reply, &columns, &picture);
-    int code = plot_ensemble(file, &picture);
+    int code = plot_ensemble(output, &picture);
     free(columns.speeds);
     free(columns.lows);
     return complete ? code : EXIT_FAILURE;

@@ -67,6 +67,34 @@ void output_file_check(const char *option, const char *file, struct argp_state *
         argp_failure(state, EXIT_USAGE, errno, "--%s: %s: cannot be written", option, file);
 }
 
+/* A folder that is not there yet is tried and taken away again. */
+static bool can_write_into(const char *folder)
+{
+    struct stat there;
+    if (mkdir(folder, 0777) == 0) {
+        rmdir(folder);
+        return true;
+    }
+    if (errno != EEXIST || stat(folder, &there) != 0)
+        return false;
+    errno = ENOTDIR;
+    return S_ISDIR(there.st_mode) && access(folder, W_OK | X_OK) == 0;
+}
+
+void output_folder_check(const char *option, const char *folder, struct argp_state *state)
+{
+    if (!trusts && !can_write_into(folder))
+        argp_failure(state, EXIT_USAGE, errno, "--%s: %s: cannot be written", option, folder);
+}
+
+int output_folder_make(const char *option, const char *folder)
+{
+    if (mkdir(folder, 0777) == 0 || errno == EEXIST)
+        return EXIT_ANSWERED;
+    complain("--%s: %s: %s", option, folder, strerror(errno));
+    return EXIT_FAILURE;
+}
+
 int output_file_write(const char *option, const char *file, const void *bytes, size_t size)
 {
     FILE *out = fopen(file, "wb");

@@ -12,7 +12,14 @@
  * asked before there is an answer that could be lost. What is in the file stays there. */
 void output_file_check(const char *option, const char *file, struct argp_state *state);
 
-/* From now on no file is tried: another process of the same command line has done so, and writes. */
+/* Likewise of a folder, which may not be there yet. */
+void output_folder_check(const char *option, const char *folder, struct argp_state *state);
+
+/* Makes it unless it is there. Exit code; complains in the option's name. */
+int output_folder_make(const char *option, const char *folder);
+
+/* From now on no file is tried: another process of the same command line has done so, and writes.
+ */
 void output_file_trust(void);
 
 /* Writes it all. Exit code; complains in the option's name. */

@@ -4,16 +4,29 @@
 #include "plot.h"
 
 #include <errno.h>
-#include <fcntl.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "cli.h"
 #include "output_file.h"
+#include "plot_draw.h"
 
-enum { NOT_FOUND = 127 };
+/* Of the folder's script, and of its picture where no other is wanted. */
+static const char *const SCRIPT = "plot.gp", *const PICTURE = "plot.png";
+
+/* Pixels an inch: a PDF is as large as the pictures of pixels are on a screen. */
+static const double RESOLUTION = 96.0;
+
+static const struct argp_option options[] = {
+    {"plot", OPTION_PLOT, "FILE", 0,
+     "draw the answer with gnuplot: FILE.png, FILE.svg or FILE.pdf; percuss(1) says what", 40},
+    {"plot-data", OPTION_PLOT_DATA, "DIR", 0,
+     "write what is drawn as comma-separated values into the folder DIR, and plot.gp, the gnuplot "
+     "script that draws it",
+     40},
+    {0},
+};
 
 static bool ends_in(const char *file, const char *ending)
 {
@@ -21,11 +34,31 @@ static bool ends_in(const char *file, const char *ending)
     return length > tail && !strcmp(file + length - tail, ending);
 }
 
-void plot_check(const char *file, struct argp_state *state)
+static error_t parse(int key, char *text, struct argp_state *state)
 {
-    if (!ends_in(file, ".png") && !ends_in(file, ".svg"))
-        argp_error(state, "--plot: '%s': a name that ends in .png or .svg is needed", file);
-    output_file_check("plot", file, state);
+    struct plot_output *output = state->input;
+    switch (key) {
+    case OPTION_PLOT:
+        if (!ends_in(text, ".png") && !ends_in(text, ".svg") && !ends_in(text, ".pdf"))
+            argp_error(state, "--plot: '%s': a name that ends in .png, .svg or .pdf is needed",
+                       text);
+        output_file_check("plot", text, state);
+        output->file = text;
+        return 0;
+    case OPTION_PLOT_DATA:
+        output_folder_check("plot-data", text, state);
+        output->folder = text;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+const struct argp plot_argp = {.options = options, .parser = parse};
+
+bool plot_wanted(const struct plot_output *output)
+{
+    return output->file || output->folder;
 }
 
 void plot_text(const struct plot *plot, const char *text)
@@ -40,26 +73,37 @@ void plot_text(const struct plot *plot, const char *text)
     fputc('\'', plot->script);
 }
 
-int plot_begin(struct plot *plot, const char *file, unsigned width, unsigned height)
+const char *plot_file_name(const char *path)
 {
-    *plot = (struct plot){tmpfile(), file};
-    if (!plot->script) {
-        complain("--plot: a temporary file: %s", strerror(errno));
-        return EXIT_FAILURE;
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static void release(struct plot *plot)
+{
+    if (plot->script)
+        fclose(plot->script);
+    if (plot->data)
+        fclose(plot->data);
+    free(plot->script_text);
+    free(plot->data_text);
+}
+
+int plot_begin(struct plot *plot, const struct plot_output *output, unsigned width, unsigned height)
+{
+    *plot = (struct plot){.output = output, .width = width, .height = height};
+    plot->script = open_memstream(&plot->script_text, &plot->script_size);
+    plot->data = open_memstream(&plot->data_text, &plot->data_size);
+    if (!plot->script || !plot->data) {
+        release(plot);
+        return complain_memory();
     }
-    /* PNG or SVG by the file's name */
-    if (ends_in(file, ".png"))
-        fprintf(plot->script, "set terminal pngcairo noenhanced size %u,%u font 'sans,12'\n", width,
-                height);
-    else
-        fprintf(plot->script,
-                "set terminal svg noenhanced size %u,%u dynamic font 'sans,12' "
-                "background 'white'\n",
-                width, height);
-    /* what all pictures have in common: grid, axes, colours */
-    fputs("set encoding utf8\nset datafile missing 'nan'\nset grid lt 1 lw 0.5 lc rgb "
-          "'#d0d0d0'\nset border 3\n"
-          "set tics nomirror out\nset key top right\n"
+    /* what all pictures have in common: grid, axes, colours, legends outside of what they explain
+     */
+    fputs("set encoding utf8\nset datafile separator comma\nset datafile columnheaders\n"
+          "set datafile missing 'nan'\nset grid lt 1 lw 0.5 lc rgb '#d0d0d0'\nset border 3\n"
+          "set tics nomirror out\n"
+          "set key outside top center horizontal Left reverse samplen 2.5\n"
           "set linetype 1 lc rgb '#1f5fa8' lw 2 pt 7\nset linetype 2 lc rgb '#c8501e' lw 2 pt 5\n"
           "set linetype 3 lc rgb '#3c8c46' lw 2 pt 9\nset linetype 4 lc rgb '#8a4ba0' lw 2 pt 13\n"
           "set linetype 5 lc rgb '#a88f1f' lw 2 pt 11\nset linetype 6 lc rgb '#505050' lw 2 pt 6\n",
@@ -67,72 +111,124 @@ int plot_begin(struct plot *plot, const char *file, unsigned width, unsigned hei
     return EXIT_ANSWERED;
 }
 
-/* In the child: gnuplot reads the script as its standard input and draws on its standard output,
- * which is never ours. */
-static void become_gnuplot(FILE *script, int picture)
+void plot_table(struct plot *plot, const char *name, const char *columns)
 {
-    if (dup2(fileno(script), STDIN_FILENO) >= 0 && dup2(picture, STDOUT_FILENO) >= 0)
-        execlp("gnuplot", "gnuplot", "-", (char *)NULL);
-    _exit(NOT_FOUND);
+    size_t k = plot->table_count++;
+    fflush(plot->data);
+    snprintf(plot->tables[k].name, PLOT_NAME, "%s", name);
+    plot->tables[k].begin = plot->data_size;
+    fprintf(plot->data, "%s\n", columns);
 }
 
-/* Everything that comes out of a pipe; the caller frees it. NULL: out of memory. */
-static char *read_all(int from, size_t *size)
+/* The text of a table; its size. */
+static const char *table_text(const struct plot *plot, size_t k, size_t *size)
 {
-    char *bytes = NULL, part[1 << 14];
-    ssize_t count;
-    FILE *memory = open_memstream(&bytes, size);
-    if (!memory)
-        return NULL;
-    while ((count = read(from, part, sizeof part)) > 0 || (count < 0 && errno == EINTR))
-        fwrite(part, 1, count > 0 ? (size_t)count : 0, memory);
-    bool good = count == 0 && !ferror(memory);
-    good = fclose(memory) == 0 && good;
-    if (good)
-        return bytes;
-    free(bytes);
-    return NULL;
+    size_t begin = plot->tables[k].begin;
+    *size = (k + 1 < plot->table_count ? plot->tables[k + 1].begin : plot->data_size) - begin;
+    return plot->data_text + begin;
 }
 
-/* Runs the script; the picture, which the caller frees, or NULL with a complaint. */
-static char *draw(struct plot *plot, size_t *size)
+/* PNG, SVG or PDF by the file's name. */
+static void put_terminal(const struct plot *plot, const char *file, FILE *out)
 {
-    int pipe_ends[2], status = 0;
-    bool written = fflush(plot->script) == 0 && !ferror(plot->script);
-    rewind(plot->script);
-    if (!written || pipe2(pipe_ends, O_CLOEXEC)) {
-        complain("--plot: %s: gnuplot could not be started: %s", plot->file, strerror(errno));
-        return NULL;
-    }
-    /* gnuplot in a process of its own, whose picture comes through a pipe */
-    pid_t child = fork();
-    if (child == 0)
-        become_gnuplot(plot->script, pipe_ends[1]);
-    close(pipe_ends[1]);
-    char *picture = child > 0 ? read_all(pipe_ends[0], size) : NULL;
-    close(pipe_ends[0]);
-    /* no picture, and why */
-    bool ended = child > 0 && waitpid(child, &status, 0) == child;
-    if (!ended)
-        complain("--plot: %s: gnuplot could not be started: %s", plot->file, strerror(errno));
-    else if (WIFEXITED(status) && WEXITSTATUS(status) == NOT_FOUND)
-        complain("--plot: %s: gnuplot is not installed (Debian: apt-get install gnuplot-nox); "
-                 "the numbers are available as CSV all the same",
-                 plot->file);
-    else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || !picture || *size == 0)
-        complain("--plot: gnuplot could not draw %s", plot->file);
+    if (ends_in(file, ".png"))
+        fprintf(out, "set terminal pngcairo noenhanced size %u,%u font 'sans,12'\n", plot->width,
+                plot->height);
+    else if (ends_in(file, ".svg"))
+        fprintf(out,
+                "set terminal svg noenhanced size %u,%u dynamic font 'sans,12' "
+                "background 'white'\n",
+                plot->width, plot->height);
     else
-        return picture;
+        fprintf(out,
+                "set terminal pdfcairo noenhanced size %.4gin,%.4gin font 'sans,9' fontscale 1 "
+                "linewidth 1.6\n",
+                plot->width / RESOLUTION, plot->height / RESOLUTION);
+}
+
+/* Everything in one script, drawn on its standard output. */
+static int draw(const struct plot *plot)
+{
+    const char *file = plot->output->file;
+    FILE *script = tmpfile();
+    if (!script) {
+        complain("--plot: a temporary file: %s", strerror(errno));
+        return EXIT_FAILURE;
+    }
+    put_terminal(plot, file, script);
+    for (size_t k = 0; k < plot->table_count; k++) {
+        const char *name = plot->tables[k].name;
+        size_t size;
+        const char *text = table_text(plot, k, &size);
+        fprintf(script, "$%s << EOD\n%.*sEOD\n%s = '$%s'\n", name, (int)size, text, name, name);
+    }
+    fwrite(plot->script_text, 1, plot->script_size, script);
+    size_t size = 0;
+    char *picture = plot_draw(script, file, &size);
+    int code = picture ? output_file_write("plot", file, picture, size) : EXIT_FAILURE;
     free(picture);
-    return NULL;
+    fclose(script);
+    return code;
+}
+
+static int write_into(const char *folder, const char *name, const char *text, size_t size)
+{
+    char path[PATH_MAX];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return output_file_write("plot-data", path, text, size);
+}
+
+/* The script that reads the tables' files where it lies, and draws beside them. */
+static int write_script(const struct plot *plot)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *script = open_memstream(&text, &size);
+    if (!script)
+        return complain_memory();
+    const char *file = plot->output->file ? plot_file_name(plot->output->file) : PICTURE;
+    const struct plot names = {.script = script};
+    fprintf(script, "# The picture from the files beside this one: gnuplot %s, in this folder.\n",
+            SCRIPT);
+    put_terminal(plot, file, script);
+    fputs("set output ", script);
+    plot_text(&names, file);
+    fputc('\n', script);
+    for (size_t k = 0; k < plot->table_count; k++)
+        fprintf(script, "%s = \"'%s.csv'\"\n", plot->tables[k].name, plot->tables[k].name);
+    fwrite(plot->script_text, 1, plot->script_size, script);
+    bool good = fclose(script) == 0;
+    int code = good ? write_into(plot->output->folder, SCRIPT, text, size) : complain_memory();
+    free(text);
+    return code;
+}
+
+static int write_data(const struct plot *plot)
+{
+    const char *folder = plot->output->folder;
+    int code = output_folder_make("plot-data", folder);
+    for (size_t k = 0; k < plot->table_count && code == EXIT_ANSWERED; k++) {
+        char name[PLOT_NAME + 8];
+        size_t size;
+        const char *text = table_text(plot, k, &size);
+        snprintf(name, sizeof name, "%s.csv", plot->tables[k].name);
+        code = write_into(folder, name, text, size);
+    }
+    return code == EXIT_ANSWERED ? write_script(plot) : code;
 }
 
 int plot_end(struct plot *plot)
 {
-    size_t size = 0;
-    char *picture = draw(plot, &size);
-    int code = picture ? output_file_write("plot", plot->file, picture, size) : EXIT_FAILURE;
-    free(picture);
-    fclose(plot->script);
+    /* the texts are complete only now */
+    bool good = fflush(plot->script) == 0 && fflush(plot->data) == 0 && !ferror(plot->script) &&
+                !ferror(plot->data);
+    int code = good ? EXIT_ANSWERED : complain_memory();
+    if (good && plot->output->folder)
+        code = write_data(plot);
+    if (good && plot->output->file) {
+        int drawn = draw(plot);
+        code = code == EXIT_ANSWERED ? drawn : code;
+    }
+    release(plot);
     return code;
 }

@@ -8,7 +8,6 @@
 #include <stdio.h>
 
 #include "cli.h"
-#include "plot.h"
 
 /* SPEED_BINS: intervals of the speed in which the samples' mean and deviation are shown;
  * MOST_DOTS: samples drawn, as more hide each other and make an SVG large; COLOURS: numbers of
@@ -16,64 +15,77 @@
 enum { SPEED_BINS = 16, MOST_DOTS = 5000, COLOURS = 4 };
 static const char *const colours[COLOURS] = {"#7fa8d8", "#e0a060", "#70b878", "#b080c8"};
 
-static void write_histogram(const struct plot *plot, const struct ensemble_picture *picture)
+/* What the axis of restitutions must hold: samples or bins, and quantiles with their bounds. */
+static struct plot_range restitutions_of(const struct ensemble_picture *picture)
 {
-    fputs("$histogram << EOD\n", plot->script);
+    struct plot_range range = PLOT_NOTHING;
+    plot_range_take_all(&range, picture->edges, picture->bins > 0 ? picture->bins + 1 : 0);
+    plot_range_take_all(&range, picture->quantiles, picture->quantile_count);
+    plot_range_take_all(&range, picture->quantiles_low, picture->quantile_count);
+    plot_range_take_all(&range, picture->quantiles_high, picture->quantile_count);
+    plot_range_take_all(&range, picture->curve_values, picture->curve_count);
+    return range;
+}
+
+static void write_histogram(struct plot *plot, const struct ensemble_picture *picture)
+{
+    struct plot_range range = restitutions_of(picture), densities = {0.0, 0.0};
+    plot_table(plot, "histogram", "restitution,density,width");
     /* a density, whose area is 1 */
     double all = 0.0;
     for (size_t i = 0; i < picture->bins; i++)
         all += (double)picture->counts[i];
     for (size_t i = 0; i < picture->bins; i++) {
         double width = picture->edges[i + 1] - picture->edges[i];
-        fprintf(plot->script, "%.9g %.9g %.9g\n", picture->edges[i] + 0.5 * width,
-                (double)picture->counts[i] / (all * width), width);
+        double density = (double)picture->counts[i] / (all * width);
+        plot_range_take(&densities, density);
+        fprintf(plot->data, "%.9g,%.9g,%.9g\n", picture->edges[i] + 0.5 * width, density, width);
     }
+    densities.high *= 1.05;
+    plot_range_set(plot, "xrange", &range, 0.03);
+    plot_range_set(plot, "yrange", &densities, 0.0);
     /* bars, and a line at the mean */
-    fputs("EOD\nset xlabel 'restitution e'\nset ylabel 'density'\nset yrange [0:*]\n"
-          "set style fill solid 0.6 border\n",
-          plot->script);
     fprintf(plot->script,
+            "set xlabel 'restitution e'\nset ylabel 'density'\nset style fill solid 0.6 border\n"
             "set arrow 1 from %.9g, graph 0 to %.9g, graph 1 nohead lt 2\n"
-            "plot $histogram using 1:2:3 with boxes lt 1 lw 1 title 'samples', "
-            "NaN with lines lt 2 title 'mean'\nunset arrow 1\nset yrange [*:*]\n",
+            "plot @histogram using 1:2:3 with boxes lt 1 lw 1 title 'samples', "
+            "keyentry with lines lt 2 title 'mean'\nunset arrow 1\n",
             picture->mean, picture->mean);
 }
 
-static void write_distribution(const struct plot *plot, const struct ensemble_picture *picture)
+static void write_distribution(struct plot *plot, const struct ensemble_picture *picture)
 {
-    fputs("$distribution << EOD\n", plot->script);
+    struct plot_range range = restitutions_of(picture);
+    plot_table(plot, "quantiles", "restitution,probability,low,high");
     for (size_t i = 0; i < picture->quantile_count; i++)
-        fprintf(plot->script, "%.9g %.9g %.9g %.9g\n", picture->quantiles[i],
+        fprintf(plot->data, "%.9g,%.9g,%.9g,%.9g\n", picture->quantiles[i],
                 picture->probabilities[i], picture->quantiles_low[i], picture->quantiles_high[i]);
-    fputs("EOD\n$curve << EOD\n", plot->script);
-    for (size_t i = 0; i < picture->curve_count; i++)
-        fprintf(plot->script, "%.9g %.9g\n", picture->curve_values[i], picture->curve_shares[i]);
-    fputs("EOD\nset xlabel 'restitution e'\nset ylabel 'share of samples below'\n"
-          "set yrange [0:1]\nset key top left\n"
-          "plot $distribution using 1:2:3:4 with xerrorbars lt 1 ps 0.4 "
+    plot_range_set(plot, "xrange", &range, 0.03);
+    fputs("set xlabel 'restitution e'\nset ylabel 'share of samples below'\n"
+          "set yrange [0:1]\n"
+          "plot @quantiles using 1:2:3:4 with xerrorbars lt 1 ps 0.4 "
           "title 'quantiles, 95 % intervals'",
           plot->script);
     if (picture->curve_count > 0)
-        fputs(", $curve using 1:2 with lines lt 1 lw 1 title 'all samples'", plot->script);
-    fputs("\nset yrange [*:*]\nset key top right\n", plot->script);
+        fputs(", @distribution using 1:2 with lines lt 1 lw 1 title 'all samples'", plot->script);
+    fputc('\n', plot->script);
+    if (picture->curve_count > 0)
+        plot_table(plot, "distribution", "restitution,share");
+    for (size_t i = 0; i < picture->curve_count; i++)
+        fprintf(plot->data, "%.9g,%.9g\n", picture->curve_values[i], picture->curve_shares[i]);
 }
 
-/* Mean and deviation of the samples within equal intervals of the speed. */
-static void write_bands(const struct plot *plot, const struct ensemble_picture *picture)
+/* Mean and deviation of the samples within equal intervals of the speed; takes what they reach. */
+static void write_bands(struct plot *plot, const struct ensemble_picture *picture,
+                        const struct plot_range *speeds, struct plot_range *reach)
 {
-    double low = INFINITY, high = -INFINITY;
-    /* the range of speeds */
-    for (size_t i = 0; i < picture->sample_count; i++) {
-        low = fmin(low, picture->speeds[i]);
-        high = fmax(high, picture->speeds[i]);
-    }
-    double width = (high - low) / SPEED_BINS;
-    fputs("$bands << EOD\n", plot->script);
+    double width = (speeds->high - speeds->low) / SPEED_BINS;
+    plot_table(plot, "bands", "speed,mean,deviation");
     for (int b = 0; b < SPEED_BINS && width > 0.0; b++) {
         /* what lies within this interval */
         double count = 0.0, sum = 0.0, squares = 0.0;
         for (size_t i = 0; i < picture->sample_count; i++) {
-            int at = (int)((picture->speeds[i] - low) / width);
+            int at = (int)((picture->speeds[i] - speeds->low) / width);
             double e = picture->restitutions[i];
             if ((at < SPEED_BINS ? at : SPEED_BINS - 1) != b || !isfinite(e))
                 continue;
@@ -81,31 +93,33 @@ static void write_bands(const struct plot *plot, const struct ensemble_picture *
             sum += e;
             squares += e * e;
         }
+        if (!(count > 1.0))
+            continue;
         /* its middle, mean and deviation */
-        if (count > 1.0)
-            fprintf(plot->script, "%.9g %.9g %.9g\n", low + (b + 0.5) * width, sum / count,
-                    sqrt(fmax(0.0, (squares - sum * sum / count) / (count - 1.0))));
+        double mean = sum / count;
+        double deviation = sqrt(fmax(0.0, (squares - sum * mean) / (count - 1.0)));
+        fprintf(plot->data, "%.9g,%.9g,%.9g\n", speeds->low + (b + 0.5) * width, mean, deviation);
+        plot_range_take(reach, mean - deviation);
+        plot_range_take(reach, mean + deviation);
     }
-    fputs("EOD\n", plot->script);
 }
 
 /* Each with the same chance (Knuth's selection sampling), as every so manieth would follow the
  * pattern of a Sobol sequence. */
-static void write_dots(const struct plot *plot, const struct ensemble_picture *picture)
+static void write_dots(struct plot *plot, const struct ensemble_picture *picture)
 {
     uint64_t random = 1;
     size_t wanted = picture->sample_count < MOST_DOTS ? picture->sample_count : MOST_DOTS;
-    fputs("$samples << EOD\n", plot->script);
+    plot_table(plot, "samples", "speed,restitution,sub_impacts");
     for (size_t i = 0; i < picture->sample_count; i++) {
         random = random * 6364136223846793005u + 1442695040888963407u;
         double chance = (double)(random >> 11) * 0x1p-53;
         if (chance * (double)(picture->sample_count - i) >= (double)wanted)
             continue;
         wanted--;
-        fprintf(plot->script, "%.9g %.9g %.0f\n", picture->speeds[i], picture->restitutions[i],
+        fprintf(plot->data, "%.9g,%.9g,%.0f\n", picture->speeds[i], picture->restitutions[i],
                 picture->sub_impacts ? picture->sub_impacts[i] : 0.0);
     }
-    fputs("EOD\n", plot->script);
 }
 
 /* Grey behind the samples, darker towards the mean; leaves the height of the panel alone. */
@@ -129,35 +143,37 @@ static void write_colour(const struct plot *plot, const struct ensemble_picture 
     if (i == picture->sample_count)
         return;
     fprintf(plot->script,
-            "$samples using 1:($3 %s %d ? $2 : NaN) with points pt 7 ps 0.2 lc rgb '%s' notitle, "
-            "NaN with points pt 7 ps 0.8 lc rgb '%s' title '%s%d', ",
-            last ? ">=" : "==", k, colours[k - 1], colours[k - 1], last ? "≥ " : "", k);
+            "@samples using 1:($3 %s %d ? $2 : NaN) with points pt 7 ps 0.2 lc rgb '%s' notitle, "
+            "keyentry with points pt 7 ps 0.8 lc rgb '%s' title '%s%d sub-impact%s', ",
+            last ? ">=" : "==", k, colours[k - 1], colours[k - 1], last ? "≥ " : "", k,
+            k > 1 ? "s" : "");
 }
 
-static void write_samples(const struct plot *plot, const struct ensemble_picture *picture)
+static void write_samples(struct plot *plot, const struct ensemble_picture *picture)
 {
+    struct plot_range speeds = PLOT_NOTHING, reach = PLOT_NOTHING;
+    plot_range_take_all(&speeds, picture->speeds, picture->sample_count);
+    plot_range_take_all(&reach, picture->restitutions, picture->sample_count);
+    plot_range_take_all(&reach, picture->intervals_low, picture->interval_count);
+    plot_range_take_all(&reach, picture->intervals_high, picture->interval_count);
     write_dots(plot, picture);
-    write_bands(plot, picture);
+    write_bands(plot, picture, &speeds, &reach);
     write_intervals(plot, picture);
-    fprintf(plot->script,
-            "set xlabel 'speed / (m/s)' offset 0,0.4\nset ylabel 'restitution e'\nset key bmargin "
-            "center "
-            "horizontal samplen 1.5 "
-            "title '%s'\nplot ",
-            picture->sub_impacts ? "sub-impacts" : "");
+    plot_range_set(plot, "xrange", &speeds, 0.03);
+    plot_range_set(plot, "yrange", &reach, 0.03);
+    fputs("set xlabel 'speed / (m/s)'\nset ylabel 'restitution e'\nplot ", plot->script);
     /* the samples, in colours by their number of sub-impacts if that is known */
     if (!picture->sub_impacts)
-        fputs("$samples using 1:2 with points pt 7 ps 0.2 lc rgb '#808080' title 'samples', ",
+        fputs("@samples using 1:2 with points pt 7 ps 0.2 lc rgb '#808080' title 'samples', ",
               plot->script);
     for (int k = 1; picture->sub_impacts && k <= COLOURS; k++)
         write_colour(plot, picture, k);
     /* behind them the intervals, and over them mean and deviation of each band */
     if (picture->interval_count > 0)
-        fputs("NaN with boxes fillstyle solid 0.18 noborder lc rgb '#000000' "
+        fputs("keyentry with boxes fillstyle solid 0.18 noborder lc rgb '#000000' "
               "title 'all ± kσ', ",
               plot->script);
-    fputs("$bands using 1:2:3 with yerrorbars lt 6 lw 1.5 ps 0.6 "
-          "title 'local ± σ'\nset key default notitle samplen 4\nunset xlabel\n",
+    fputs("@bands using 1:2:3 with yerrorbars lt 6 lw 1.5 ps 0.6 title 'local ± σ'\n",
           plot->script);
     for (size_t i = 1; i <= picture->interval_count; i++)
         fprintf(plot->script, "unset object %zu\n", i);
@@ -166,45 +182,52 @@ static void write_samples(const struct plot *plot, const struct ensemble_picture
 /* A name as a string among the data, where only double quotes count. */
 static void write_name(const struct plot *plot, const char *name)
 {
-    fputc('"', plot->script);
+    fputc('"', plot->data);
     for (; *name; name++)
-        fputc(*name == '"' ? '\'' : *name, plot->script);
-    fputc('"', plot->script);
+        fputc(*name == '"' ? '\'' : *name, plot->data);
+    fputc('"', plot->data);
 }
 
 /* A bar without an interval gets a whisker of no length, or gnuplot leaves it out. */
-static void write_share(const struct plot *plot, const struct index_share *share)
+static void write_share(const struct plot *plot, const struct index_share *share,
+                        struct plot_range *reach)
 {
-    fprintf(plot->script, " %.9g %.9g %.9g", share->value,
-            isnan(share->low) ? share->value : share->low,
-            isnan(share->high) ? share->value : share->high);
+    double low = isnan(share->low) ? share->value : share->low;
+    double high = isnan(share->high) ? share->value : share->high;
+    fprintf(plot->data, ",%.9g,%.9g,%.9g", share->value, low, high);
+    plot_range_take(reach, low);
+    plot_range_take(reach, high);
 }
 
-static void write_sensitivities(const struct plot *plot, const struct ensemble_picture *picture)
+static void write_sensitivities(struct plot *plot, const struct ensemble_picture *picture)
 {
-    fputs("$sensitivities << EOD\n", plot->script);
+    struct plot_range reach = {0.0, 1.0};
+    plot_table(plot, "sensitivities",
+               "input,alone,alone_low,alone_high,total,total_low,total_high");
     for (size_t i = 0; i < picture->input_count; i++) {
         write_name(plot, picture->inputs[i].name);
-        write_share(plot, &picture->inputs[i].first_order);
-        write_share(plot, &picture->inputs[i].total);
-        fputc('\n', plot->script);
+        write_share(plot, &picture->inputs[i].first_order, &reach);
+        write_share(plot, &picture->inputs[i].total, &reach);
+        fputc('\n', plot->data);
     }
-    fputs("EOD\nset datafile separator whitespace\nunset xlabel\nset rmargin 8\n"
-          "set ylabel 'share of the variance'\nset yrange [0:1.3]\nset style data histograms\n"
+    fprintf(plot->script, "unset xlabel\nset rmargin 8\nset xrange [-0.6:%.9g]\n",
+            (double)picture->input_count - 0.4);
+    plot_range_set(plot, "yrange", &reach, 0.03);
+    fputs("set ylabel 'share of the variance'\nset style data histograms\n"
           "set style histogram errorbars gap 1 lw 1\nset xtics rotate by -20\n"
-          "plot $sensitivities using 2:3:4:xtic(1) lt 1 title 'alone', "
+          "plot @sensitivities using 2:3:4:xtic(1) lt 1 title 'alone', "
           "'' using 5:6:7 lt 2 title 'with its interactions'\n",
           plot->script);
 }
 
-int plot_ensemble(const char *file, const struct ensemble_picture *picture)
+int plot_ensemble(const struct plot_output *output, const struct ensemble_picture *picture)
 {
     struct plot plot;
     /* a panel for each of what there is */
     size_t panels = (picture->bins > 0) + (picture->quantile_count > 0) +
                     (picture->sample_count > 0) + (picture->input_count > 0);
     unsigned rows = panels > 3 ? 2 : 1, columns = (unsigned)(panels + rows - 1) / rows;
-    int code = plot_begin(&plot, file, columns > 2 ? 1440 : 600 * columns, 440 * rows);
+    int code = plot_begin(&plot, output, columns > 2 ? 1500 : 620 * columns, 480 * rows);
     if (code != EXIT_ANSWERED)
         return code;
     /* over all of them */
@@ -213,7 +236,7 @@ int plot_ensemble(const char *file, const struct ensemble_picture *picture)
              picture->mean, picture->deviation);
     fprintf(plot.script, "set multiplot layout %u,%u title ", rows, columns);
     plot_text(&plot, title);
-    fputc('\n', plot.script);
+    fputs(" offset 0,0.5\n", plot.script);
     if (picture->sample_count > 0)
         write_samples(&plot, picture);
     if (picture->bins > 0)

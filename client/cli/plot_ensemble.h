@@ -9,6 +9,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "plot.h"
+
 /* A Sobol index with its confidence interval. NAN: not known. */
 struct index_share {
     double value, low, high;
@@ -41,6 +43,6 @@ struct ensemble_picture {
 };
 
 /* Exit code; complains. */
-int plot_ensemble(const char *file, const struct ensemble_picture *picture);
+int plot_ensemble(const struct plot_output *output, const struct ensemble_picture *picture);
 
 #endif

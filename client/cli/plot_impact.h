@@ -1,25 +1,41 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Time histories of an impact as a picture and as comma-separated values. */
+/* Time histories of impacts as a picture and as comma-separated values. */
 #ifndef PERCUSS_CLI_PLOT_IMPACT_H
 #define PERCUSS_CLI_PLOT_IMPACT_H
 
 #include <percuss/percuss.h>
 
 #include "history.h"
+#include "plot.h"
 
-/* What stands in one picture. */
-struct impact_picture {
-    const struct percuss_request *request;
-    const struct percuss_reply *reply;
-    const struct percuss_trace *trace;
-    const struct history_motion *measured; /* laid over; NULL: nothing */
+/* One answer, with histories. */
+struct impact_run {
+    struct percuss_request request;
+    struct percuss_reply reply;
+    struct percuss_trace trace;
 };
 
-/* Displacement and velocity of both bodies with the contact force over time, of the contact with
- * the largest impulse. Exit code; complains. */
-int plot_impact(const char *file, const struct impact_picture *picture);
+/* What was measured, and the file it comes from. */
+struct impact_measured {
+    struct history_motion motion;
+    const char *file;
+};
+
+/* What stands in one picture: beside each other `speed_count` impacts, each by `model_count`
+ * contact models over each other. */
+struct impact_picture {
+    size_t speed_count, model_count;
+    const struct impact_run *runs; /* of the first speed all models, then of the next */
+    const double *speeds;          /* m/s; NULL: not told */
+    size_t measured_count;         /* laid over the first speeds */
+    const struct impact_measured *measured;
+};
+
+/* Displacement and velocity of both bodies and the contact force over time, of the contact with the
+ * largest impulse. Exit code; complains. */
+int plot_impact(const struct plot_output *output, const struct impact_picture *picture);
 
 /* All contacts: contact, time, force, indentation, gap, gap_rate, displacement_a, velocity_a,
  * displacement_b, velocity_b; "-" is standard output. Exit code; complains. */

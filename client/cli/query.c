@@ -8,14 +8,10 @@
 #include <string.h>
 
 #include "cli.h"
-#include "ensemble_output.h"
 #include "output_file.h"
-#include "plot.h"
 #include "plot_impact.h"
 #include "quantity.h"
-#include "reply_csv.h"
-#include "reply_json.h"
-#include "reply_table.h"
+#include "query_output.h"
 #include "request_json.h"
 #include "scene.h"
 #include "spread.h"
@@ -27,25 +23,32 @@ enum {
     KEY_SPECIMEN_A,
     KEY_SPECIMEN_B,
     KEY_TRACE,
-    KEY_PLOT,
     KEY_MEASURED,
     KEY_CSV
 };
 
+enum { MOST_SPEEDS = 6 };
+
 struct query {
     struct common *common;
     struct scene scene;
-    double speed;       /* NAN: not given */
-    double speed_sigma; /* its standard deviation; 0: not given */
+    double speeds[MOST_SPEEDS];
+    size_t speed_count;
+    double speed_sigma; /* standard deviation of the speed; 0: not given */
     const char *file;
     bool csv;
-    const char *trace, *plot;       /* files; NULL: not wanted */
-    struct history_motion measured; /* laid over the picture; count 0: nothing */
-    const char *specimens[2];       /* of A, B; NULL: not given */
+    const char *trace; /* file; NULL: not wanted */
+    struct plot_output plot;
+    struct impact_measured measured[MOST_SPEEDS]; /* laid over the picture */
+    size_t measured_count;
+    const char *specimens[2]; /* of A, B; NULL: not given */
 };
 
 static const struct argp_option options[] = {
-    {"speed", KEY_SPEED, "V", 0, "speed of A towards B, m/s or with a unit: 0.3, 300mm/s", 10},
+    {"speed", KEY_SPEED, "V", 0,
+     "speed of A towards B, m/s or with a unit: 0.3, 300mm/s; it and --contact-model may be given "
+     "several times: an answer for each",
+     10},
     {"speed-sigma", KEY_SPEED_SIGMA, "S", 0,
      "standard deviation of the speed: also tells how the restitution spreads", 10},
     {"specimen-a", KEY_SPECIMEN_A, "NAME", 0,
@@ -54,11 +57,9 @@ static const struct argp_option options[] = {
     {"request", KEY_REQUEST, "FILE", 0, "ask a whole request in JSON instead; - is standard input",
      30},
     {"trace", KEY_TRACE, "FILE", 0, "write the time histories as comma-separated values", 40},
-    {"plot", KEY_PLOT, "FILE", 0,
-     "draw motion and contact force over time with gnuplot: FILE.png or FILE.svg", 40},
     {"measured", KEY_MEASURED, "FILE.csv", 0,
      "lay a measured history over the picture: columns time, velocity_a or displacement_a, and "
-     "those of b",
+     "those of b; given several times, each over another speed",
      40},
     {"csv", KEY_CSV, NULL, 0,
      "print comma-separated values: a line for each sub-impact, with its contact's restitution",
@@ -66,22 +67,50 @@ static const struct argp_option options[] = {
     {0},
 };
 
+/* What is made of one answer alone. */
+static void check_several(const struct query *query, struct argp_state *state)
+{
+    const struct scene *scene = &query->scene;
+    bool several = query->speed_count > 1 || scene->model_count > 1;
+    bool specimen = query->specimens[0] || query->specimens[1];
+    const char *option = query->trace               ? "trace"
+                         : query->speed_sigma > 0.0 ? "speed-sigma"
+                         : specimen                 ? "specimen"
+                                                    : NULL;
+    if (several && option)
+        argp_error(state, "--%s: one --speed and one --contact-model are needed, not %zu and %zu",
+                   option, query->speed_count, scene->model_count);
+    if (query->measured_count > 0 && !plot_wanted(&query->plot))
+        argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
+    if (query->measured_count > 1 && query->measured_count > query->speed_count)
+        argp_error(state, "--measured: one a speed at most, not %zu of %zu", query->measured_count,
+                   query->speed_count);
+}
+
 /* Either a scene or a whole request. */
 static void check(const struct query *query, struct argp_state *state)
 {
     const struct scene *scene = &query->scene;
     bool specimen = query->specimens[0] || query->specimens[1];
     if (query->file &&
-        (scene->given || specimen || !isnan(query->speed) || query->speed_sigma > 0.0))
+        (scene->given || specimen || query->speed_count > 0 || query->speed_sigma > 0.0))
         argp_error(state, "--request says everything; no other flag of the impact goes with it");
-    scene_check_single(scene, state);
-    if (query->measured.count > 0 && !query->plot)
-        argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
+    scene_check_one_b(scene, state);
+    check_several(query, state);
     if (query->csv && (query->common->json || query->speed_sigma > 0.0))
         argp_error(state, "--csv or %s, not both",
                    query->common->json ? "--json" : "--speed-sigma");
-    if (!query->file && !(scene->a && scene->b && !isnan(query->speed)))
+    if (!query->file && !(scene->a && scene->b && query->speed_count > 0))
         argp_error(state, "--a ID --b ID --speed V or --request FILE is needed");
+}
+
+static void parse_speed(const char *text, struct query *query, struct argp_state *state)
+{
+    double speed = parse_positive_quantity("speed", text, QUANTITY_SPEED, state);
+    if (query->speed_count == MOST_SPEEDS)
+        argp_error(state, "--speed: '%s': at most %d speeds; percuss sweep takes more", text,
+                   MOST_SPEEDS);
+    query->speeds[query->speed_count++] = speed;
 }
 
 /* Reads a measured history and lays its first touch on time 0; usage error with the reason. */
@@ -90,14 +119,16 @@ static void read_measured(const char *file, struct query *query, struct argp_sta
     struct history history;
     struct history_impacts impacts;
     struct measured_fault fault = {""};
+    if (query->measured_count == MOST_SPEEDS)
+        argp_error(state, "--measured: '%s': at most %d files", file, MOST_SPEEDS);
+    struct impact_measured *measured = &query->measured[query->measured_count++];
+    measured->file = file;
     bool good = history_read(file, &history, &fault);
-    if (good && history_find(&history, &impacts, &fault)) {
-        history_motion_free(&query->measured);
-        good = history_align(&history, &impacts, &query->measured) ||
+    if (good && history_find(&history, &impacts, &fault))
+        good = history_align(&history, &impacts, &measured->motion) ||
                measured_fail(&fault, "%s: out of memory", file);
-    } else {
+    else
         good = false;
-    }
     history_free(&history);
     if (!good)
         argp_error(state, "--measured: %s", fault.text);
@@ -111,10 +142,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &query->scene;
         state->child_inputs[1] = query->common;
+        state->child_inputs[2] = &query->plot;
         return 0;
     /* the impact */
     case KEY_SPEED:
-        query->speed = parse_positive_quantity("speed", text, QUANTITY_SPEED, state);
+        parse_speed(text, query, state);
         return 0;
     case KEY_SPEED_SIGMA:
         query->speed_sigma = parse_positive_quantity("speed-sigma", text, QUANTITY_SPEED, state);
@@ -138,10 +170,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_CSV:
         query->csv = true;
         return 0;
-    case KEY_PLOT:
-        plot_check(text, state);
-        query->plot = text;
-        return 0;
     case KEY_MEASURED:
         read_measured(text, query, state);
         return 0;
@@ -155,7 +183,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_child children[] = {
-    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
+    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {&plot_argp, 0, NULL, 0}, {0}};
 const struct argp query_argp = {
     .options = options,
     .parser = parse,
@@ -166,100 +194,155 @@ const struct argp query_argp = {
     .children = children,
 };
 
+/* Everything that a query asks. */
+struct asking {
+    const struct query *query;
+    struct percuss_client *client;
+    struct query_output output;
+    size_t count; /* answers wanted: of the first speed by all models, then of the next */
+    struct impact_run *runs;
+};
+
+static bool begin(struct asking *asking, const struct query *query)
+{
+    size_t speeds = query->file ? 1 : query->speed_count;
+    size_t models = query->scene.model_count > 1 ? query->scene.model_count : 1;
+    *asking = (struct asking){.query = query, .count = speeds * models};
+    asking->output = (struct query_output){.json = query->common->json,
+                                           .csv = query->csv,
+                                           .units = query->common->units,
+                                           .several = asking->count > 1};
+    asking->runs = calloc(asking->count, sizeof *asking->runs);
+    return asking->runs != NULL;
+}
+
+static void end(struct asking *asking)
+{
+    for (size_t k = 0; asking->runs && k < asking->count; k++) {
+        percuss_trace_free(&asking->runs[k].trace);
+        percuss_reply_free(&asking->runs[k].reply);
+    }
+    free(asking->runs);
+    percuss_client_free(asking->client);
+}
+
 /* Names what is known after the server refused a body. */
-static void explain_unknown(const struct query *query, const struct percuss_request *request,
-                            struct percuss_client *client)
+static void explain_unknown(const struct asking *asking, const struct percuss_request *request)
 {
     struct percuss_body_list list;
-    if (percuss_bodies(client, common_timeout(query->common), &list) == PERCUSS_RESULT_OK)
+    if (percuss_bodies(asking->client, common_timeout(asking->query->common), &list) ==
+        PERCUSS_RESULT_OK)
         scene_explain_unknown(request, &list);
     percuss_body_list_free(&list);
 }
 
-/* The answer, and how it spreads where that was asked for (NULL: not). */
-static void print_answer(const struct query *query, const struct percuss_request *request,
-                         const struct percuss_reply *reply,
-                         const struct percuss_ensemble_reply *spread)
+/* Asks one question and prints the answer. */
+static int ask(struct asking *asking, struct impact_run *run, double speed)
 {
-    if (query->common->json) {
-        json_t *root = reply_to_json(reply);
-        if (spread)
-            json_object_set_new(root, "spread", ensemble_to_json(spread));
-        json_print(root);
-        return;
-    }
-    if (query->csv)
-        reply_csv_print(request, reply, query->common->units);
-    else
-        reply_table_print(request, reply);
-    if (spread)
-        spread_print(query->speed_sigma, spread);
-}
-
-static int ask(const struct query *query, const struct percuss_request *request,
-               struct percuss_client *client)
-{
-    struct percuss_reply reply;
+    const struct query *query = asking->query;
     struct percuss_ensemble_reply spread = {0};
-    struct percuss_trace trace = {0};
     double timeout = common_timeout(query->common);
     /* histories only where something is made of them */
-    bool traced = query->trace || query->plot;
+    bool traced = query->trace || plot_wanted(&query->plot);
     enum percuss_result result =
-        traced ? percuss_solve_traced(client, request, timeout, &reply, &trace)
-               : percuss_solve(client, request, timeout, &reply);
+        traced
+            ? percuss_solve_traced(asking->client, &run->request, timeout, &run->reply, &run->trace)
+            : percuss_solve(asking->client, &run->request, timeout, &run->reply);
     if (result != PERCUSS_RESULT_OK)
         return complain_result(result);
     /* what the spread of the speed does to the answer */
-    bool spreads = query->speed_sigma > 0.0 && reply.contact_count > 0;
+    bool spreads = query->speed_sigma > 0.0 && run->reply.contact_count > 0;
     if (spreads)
-        result = spread_ask(client, request, query->speed, query->speed_sigma, timeout, &spread);
-    print_answer(query, request, &reply, spreads && !result ? &spread : NULL);
-    if (reply.status == PERCUSS_UNKNOWN_BODY)
-        explain_unknown(query, request, client);
-    int code =
-        result == PERCUSS_RESULT_OK ? status_exit_code(reply.status) : complain_result(result);
-    /* files of the histories */
-    int written = EXIT_ANSWERED;
-    if (query->trace && trace.contact_count > 0)
-        written = write_trace_csv(query->trace, &trace, query->common->units);
-    const struct impact_picture picture = {request, &reply, &trace,
-                                           query->measured.count > 0 ? &query->measured : NULL};
-    if (query->plot && trace.contact_count > 0 && written == EXIT_ANSWERED)
-        written = plot_impact(query->plot, &picture);
-    if (written != EXIT_ANSWERED)
-        code = written;
-    percuss_trace_free(&trace);
+        result =
+            spread_ask(asking->client, &run->request, speed, query->speed_sigma, timeout, &spread);
+    query_output_add(&asking->output, run, speed, spreads && !result ? &spread : NULL);
+    if (spreads && !result && !query->common->json)
+        spread_print(query->speed_sigma, &spread);
+    if (run->reply.status == PERCUSS_UNKNOWN_BODY)
+        explain_unknown(asking, &run->request);
     percuss_ensemble_reply_free(&spread);
-    percuss_reply_free(&reply);
+    return result == PERCUSS_RESULT_OK ? status_exit_code(run->reply.status)
+                                       : complain_result(result);
+}
+
+/* Files of the histories; what was refused has none. */
+static int write_files(const struct asking *asking)
+{
+    const struct query *query = asking->query;
+    for (size_t k = 0; k < asking->count; k++)
+        if (asking->runs[k].trace.contact_count == 0)
+            return EXIT_ANSWERED;
+    int code = EXIT_ANSWERED;
+    if (query->trace)
+        code = write_trace_csv(query->trace, &asking->runs[0].trace, query->common->units);
+    size_t speeds = query->file ? 1 : query->speed_count;
+    const struct impact_picture picture = {speeds,
+                                           asking->count / speeds,
+                                           asking->runs,
+                                           query->file ? NULL : query->speeds,
+                                           query->measured_count,
+                                           query->measured};
+    if (code == EXIT_ANSWERED && plot_wanted(&query->plot))
+        code = plot_impact(&query->plot, &picture);
     return code;
 }
 
-static int ask_scene(const struct query *query)
+/* Prints the end of what `ask` has printed, and writes files; the exit code of both. */
+static int finish(struct asking *asking, int code)
 {
-    struct percuss_client *client;
+    query_output_end(&asking->output);
+    int written = write_files(asking);
+    return written != EXIT_ANSWERED ? written : code;
+}
+
+static int scene_question(const struct query *query, const struct scene_bodies *bodies,
+                          double speed, struct percuss_request *request)
+{
+    int code = scene_request(&query->scene, bodies, speed, request);
+    for (int i = 0; code == EXIT_ANSWERED && i < 2; i++)
+        if (query->specimens[i])
+            strcpy(request->bodies[i].specimen, query->specimens[i]); /* it fits: it was parsed */
+    return code;
+}
+
+/* All speeds by all models; the worst of the replies decides about the exit code. */
+static int ask_each(struct asking *asking, const struct scene_bodies *bodies)
+{
+    const struct query *query = asking->query;
+    size_t models = asking->count / query->speed_count;
+    int code = EXIT_ANSWERED, worst = EXIT_ANSWERED;
+    for (size_t k = 0; k < asking->count && code == EXIT_ANSWERED; k++) {
+        struct impact_run *run = &asking->runs[k];
+        double speed = query->speeds[k / models];
+        code = scene_question(query, bodies, speed, &run->request);
+        if (code != EXIT_ANSWERED)
+            break;
+        if (models > 1)
+            run->request.options.contact_model = query->scene.models[k % models];
+        int asked = ask(asking, run, speed);
+        worst = asked > worst ? asked : worst;
+        /* without a reply there are no others */
+        code = asking->output.count > k ? EXIT_ANSWERED : asked;
+    }
+    return code > worst ? code : worst;
+}
+
+static int ask_scene(const struct query *query, struct asking *asking)
+{
     struct scene_bodies bodies;
-    struct percuss_request request;
-    int code = open_client(query->common, NULL, &client);
+    int code = open_client(query->common, NULL, &asking->client);
     if (code != EXIT_ANSWERED)
         return code;
     /* bodies of the catalogue, placed in contact */
-    code = scene_find_bodies(&query->scene, query->common, client, &bodies);
+    code = scene_find_bodies(&query->scene, query->common, asking->client, &bodies);
     if (code == EXIT_ANSWERED)
-        code = scene_request(&query->scene, &bodies, query->speed, &request);
-    for (int i = 0; code == EXIT_ANSWERED && i < 2; i++)
-        if (query->specimens[i])
-            strcpy(request.bodies[i].specimen, query->specimens[i]); /* it fits: it was parsed */
-    if (code == EXIT_ANSWERED)
-        code = ask(query, &request, client);
+        code = finish(asking, ask_each(asking, &bodies));
     percuss_body_list_free(&bodies.list);
-    percuss_client_free(client);
     return code;
 }
 
-static int ask_file(const struct query *query)
+static int ask_file(const struct query *query, struct asking *asking)
 {
-    struct percuss_client *client;
     struct json_fault fault;
     struct json_request *request = malloc(sizeof *request);
     if (!request)
@@ -268,10 +351,11 @@ static int ask_file(const struct query *query)
     if (!request_json_load(query->file, request, &fault))
         complain("%s", fault.text);
     else
-        code = open_client(query->common, request->has_client ? request->client : NULL, &client);
+        code = open_client(query->common, request->has_client ? request->client : NULL,
+                           &asking->client);
     if (code == EXIT_ANSWERED) {
-        code = ask(query, &request->request, client);
-        percuss_client_free(client);
+        asking->runs[0].request = request->request;
+        code = finish(asking, ask(asking, &asking->runs[0], NAN));
     }
     free(request);
     return code;
@@ -279,9 +363,14 @@ static int ask_file(const struct query *query)
 
 int command_query(int argc, char **argv, struct common *common)
 {
-    struct query query = {.common = common, .scene = scene_default(), .speed = NAN};
+    struct query query = {.common = common, .scene = scene_default()};
+    struct asking asking;
     argp_parse(&query_argp, argc, argv, 0, NULL, &query);
-    int code = query.file ? ask_file(&query) : ask_scene(&query);
-    history_motion_free(&query.measured);
+    int code = !begin(&asking, &query) ? complain_memory()
+               : query.file            ? ask_file(&query, &asking)
+                                       : ask_scene(&query, &asking);
+    end(&asking);
+    for (size_t i = 0; i < query.measured_count; i++)
+        history_motion_free(&query.measured[i].motion);
     return code;
 }

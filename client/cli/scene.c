@@ -77,10 +77,15 @@ static void parse_contact_model(const char *text, struct scene *scene, struct ar
     scene->options.contact_model = scene->models[scene->model_count++] = model;
 }
 
-void scene_check_single(const struct scene *scene, struct argp_state *state)
+void scene_check_one_b(const struct scene *scene, struct argp_state *state)
 {
     if (scene->b_count > 1)
         argp_error(state, "--b: one body is needed, not %zu", scene->b_count);
+}
+
+void scene_check_single(const struct scene *scene, struct argp_state *state)
+{
+    scene_check_one_b(scene, state);
     if (scene->model_count > 1)
         argp_error(state, "--contact-model: one is needed, not %zu", scene->model_count);
 }

@@ -25,6 +25,10 @@ struct scene {
 /* Parses --a, --b, --at, --tolerance, ... into the `struct scene` that is its input. */
 extern const struct argp scene_argp;
 
+/* For commands with one body B: ends the process through argp_error if it was given more than once.
+ */
+void scene_check_one_b(const struct scene *scene, struct argp_state *state);
+
 /* For commands with one impact: ends the process through argp_error if --b or --contact-model was
  * given more than once. */
 void scene_check_single(const struct scene *scene, struct argp_state *state);

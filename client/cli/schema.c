@@ -20,10 +20,11 @@ static const struct kind kinds[] = {
     {"request", request_schema}, {"reply", reply_schema},     {"ensemble", ensemble_schema},
     {"sweep", sweep_schema},     {"compare", compare_schema}, {"calibrate", calibrate_schema},
     {"bodies", bodies_schema},   {"remarks", remarks_schema}, {"dents", dents_schema},
-    {"status", status_schema},   {"ping", ping_schema},
+    {"status", status_schema},   {"ping", ping_schema},       {"query", query_schema},
 };
 #define KIND_NAMES                                                                                 \
-    "request, reply, ensemble, sweep, compare, calibrate, bodies, remarks, dents, status, ping"
+    "request, reply, ensemble, sweep, compare, calibrate, bodies, remarks, dents, status, ping, "  \
+    "query"
 
 struct choice {
     struct common *common;
@@ -57,9 +58,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
 static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
 const struct argp schema_argp = {
     .parser = parse,
-    .args_doc = "request|reply|ensemble|sweep|compare|calibrate|bodies|remarks|dents|status|ping",
+    .args_doc = "request|reply|ensemble|sweep|compare|calibrate|bodies|remarks|dents|status|ping|"
+                "query",
     .doc = "Prints the JSON Schema of the requests that 'query --request' reads, of the replies "
-           "that 'query --json' prints, of what another command prints with "
+           "that 'query --json' prints (query: of several), of what another command prints with "
            "--json, or of the remarks of "
            "'bodies --check --json'; asks no server.",
     .children = children,

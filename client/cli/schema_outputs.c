@@ -81,6 +81,23 @@ static json_t *point_schema(void)
     return OBJECT(members);
 }
 
+static json_t *answer_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("speed", "number", "m/s"),
+        VALUE("contact_model", "string", "asked for"),
+        NESTED("reply", "as query prints it where one is asked for", reply_schema),
+    };
+    return OBJECT(members);
+}
+
+json_t *query_schema(void)
+{
+    static const struct member members[] = {LIST(
+        "answers", "of the first speed by each contact model, then of the next", answer_schema)};
+    return OBJECT(members);
+}
+
 static json_t *curve_schema(void)
 {
     static const struct member members[] = {

@@ -8,6 +8,7 @@
 
 #include <jansson.h>
 
+json_t *query_schema(void); /* of several answers */
 json_t *sweep_schema(void);
 json_t *compare_schema(void);
 json_t *calibrate_schema(void);

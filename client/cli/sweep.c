@@ -8,10 +8,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli.h"
 #include "output_file.h"
-#include "plot.h"
 #include "quantity.h"
 #include "scene.h"
 #include "sweep_file.h"
@@ -19,7 +19,7 @@
 #include "sweep_run.h"
 
 enum { MOST_POINTS = 1000000 };
-enum { KEY_SPEED = OPTION_OWN, KEY_CSV, KEY_RESUME, KEY_PLOT, KEY_MEASURED };
+enum { KEY_SPEED = OPTION_OWN, KEY_CSV, KEY_RESUME, KEY_MEASURED };
 enum { MOST_CURVES = SCENE_CHOICES * SCENE_CHOICES, MOST_MEASURED = 8 };
 
 struct sweep {
@@ -29,7 +29,7 @@ struct sweep {
     unsigned count; /* 0: no --speed */
     bool csv;
     const char *resume; /* file that is gone on with; NULL: none */
-    const char *plot;   /* file; NULL: no picture */
+    struct plot_output plot;
     struct sweep_measured measured[MOST_MEASURED];
     size_t measured_count;
 };
@@ -42,11 +42,9 @@ static const struct argp_option options[] = {
      "go on with a sweep that came to an end before its time: asks for the rows that FILE.csv "
      "lacks and adds them to it, as comma-separated values; begins it if it is not there",
      40},
-    {"plot", KEY_PLOT, "FILE", 0,
-     "draw the restitution against the speed with gnuplot: FILE.png or FILE.svg", 40},
     {"measured", KEY_MEASURED, "FILE.csv", 0,
-     "lay measured impacts over the picture: columns speed, restitution and sub_impacts; may be "
-     "given several times",
+     "lay measured impacts over the picture: columns speed, restitution and sub_impacts; "
+     "ID=FILE.csv: those on body ID alone; may be given several times",
      40},
     {0},
 };
@@ -74,6 +72,20 @@ static void parse_speeds(const char *text, struct sweep *sweep, struct argp_stat
     sweep->count = (unsigned)points;
 }
 
+/* Measured on a body that is asked for. */
+static void check_measured(const struct sweep *sweep, const struct sweep_measured *measured,
+                           struct argp_state *state)
+{
+    const struct scene *scene = &sweep->scene;
+    size_t b = 0;
+    while (measured->b && b < scene->b_count && strcmp(scene->all_b[b], measured->b) != 0)
+        b++;
+    if (measured->b && b == scene->b_count)
+        argp_error(state,
+                   "--measured: '%s=%s': a body that --b names is needed before the =", measured->b,
+                   measured->file);
+}
+
 static void check(const struct sweep *sweep, struct argp_state *state)
 {
     if (!sweep->scene.a || !sweep->scene.b || sweep->count == 0)
@@ -83,7 +95,9 @@ static void check(const struct sweep *sweep, struct argp_state *state)
     if (sweep->resume && (sweep->csv || sweep->common->json))
         argp_error(state,
                    "--resume writes comma-separated values into its file: no --csv or --json");
-    if (sweep->measured_count > 0 && !sweep->plot)
+    for (size_t k = 0; k < sweep->measured_count; k++)
+        check_measured(sweep, &sweep->measured[k], state);
+    if (sweep->measured_count > 0 && !plot_wanted(&sweep->plot))
         argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
 }
 
@@ -93,8 +107,16 @@ static void read_measured(const char *file, struct sweep *sweep, struct argp_sta
     if (sweep->measured_count == MOST_MEASURED)
         argp_error(state, "--measured: '%s': at most %d files", file, MOST_MEASURED);
     struct sweep_measured *measured = &sweep->measured[sweep->measured_count];
-    measured->file = file;
-    if (!measured_read(file, &measured->set, &fault))
+    const char *equals = strchr(file, '=');
+    *measured = (struct sweep_measured){.file = file};
+    /* a file's name may have one too */
+    if (equals && access(file, F_OK) != 0) {
+        measured->b = strndup(file, (size_t)(equals - file));
+        measured->file = equals + 1;
+        if (!measured->b)
+            exit(complain_memory());
+    }
+    if (!measured_read(measured->file, &measured->set, &fault))
         argp_error(state, "--measured: %s", fault.text);
     sweep->measured_count++;
 }
@@ -107,6 +129,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &sweep->scene;
         state->child_inputs[1] = sweep->common;
+        state->child_inputs[2] = &sweep->plot;
         return 0;
     /* what is swept */
     case KEY_SPEED:
@@ -119,10 +142,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_RESUME:
         output_file_check("resume", text, state);
         sweep->resume = text;
-        return 0;
-    case KEY_PLOT:
-        plot_check(text, state);
-        sweep->plot = text;
         return 0;
     case KEY_MEASURED:
         read_measured(text, sweep, state);
@@ -137,7 +156,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_child children[] = {
-    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
+    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {&plot_argp, 0, NULL, 0}, {0}};
 const struct argp sweep_argp = {
     .options = options,
     .parser = parse,
@@ -274,7 +293,7 @@ static int finish(struct work *work, int code)
 {
     const struct sweep *sweep = work->sweep;
     tell_end(work);
-    if (sweep->plot && sweep_plot(sweep->plot, &work->points) != EXIT_ANSWERED)
+    if (plot_wanted(&sweep->plot) && sweep_plot(&sweep->plot, &work->points) != EXIT_ANSWERED)
         code = EXIT_FAILURE;
     if (sweep->common->json)
         sweep_print_json(&work->points);
@@ -347,7 +366,7 @@ static int run_sweep(const struct sweep *sweep, struct percuss_client *client)
     if (code == EXIT_ANSWERED) {
         sweep_run_catch_interrupts();
         /* a reader that closes the output early is no reason to leave out the picture */
-        if (sweep->plot)
+        if (plot_wanted(&sweep->plot))
             signal(SIGPIPE, SIG_IGN);
         code = finish(work, ask_all(work));
     }
@@ -365,7 +384,9 @@ int command_sweep(int argc, char **argv, struct common *common)
         return code;
     code = run_sweep(&sweep, client);
     percuss_client_free(client);
-    for (size_t k = 0; k < sweep.measured_count; k++)
+    for (size_t k = 0; k < sweep.measured_count; k++) {
         measured_set_free(&sweep.measured[k].set);
+        free(sweep.measured[k].b);
+    }
     return code;
 }

@@ -11,6 +11,7 @@
 #include <stdio.h>
 
 #include "impact.h"
+#include "plot.h"
 #include "tally.h"
 
 /* NAN where undefined. */
@@ -32,6 +33,7 @@ struct sweep_curve {
 /* Measured restitutions, laid over the picture. */
 struct sweep_measured {
     const char *file;
+    char *b; /* on this body; NULL: on any */
     struct measured_set set;
 };
 
@@ -64,6 +66,6 @@ void sweep_print_json(const struct sweep_points *points);
 
 /* The restitution against the speed with its estimated error, the number of sub-impacts below.
  * Exit code; complains. */
-int sweep_plot(const char *file, const struct sweep_points *points);
+int sweep_plot(const struct plot_output *output, const struct sweep_points *points);
 
 #endif

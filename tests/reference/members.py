@@ -18,6 +18,7 @@ KINDS = [
     ("dents", "Specimens", "what `percuss dents --json` prints"),
     ("status", "Servers", "what `percuss status --json` prints"),
     ("ping", "Round trips", "what `percuss ping --json` prints"),
+    ("query", "Several answers", "what `percuss query --json` prints to several speeds or contact models"),
 ]
 
 
@@ -81,6 +82,8 @@ def without_replies(schema, kind):
         point = schema["properties"]["points"]["items"]
         point["properties"]["reply"]["title"] = "reply"
         schema["properties"]["curves"]["items"]["properties"]["points"]["items"]["title"] = "points"
+    if kind == "query":
+        schema["properties"]["answers"]["items"]["properties"]["reply"]["title"] = "reply"
     return schema
 
 

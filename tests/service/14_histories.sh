@@ -52,7 +52,7 @@ picture "$work/sweep.png" 10000
 expect 2 query --b al-rod
 says "--b: one body is needed, not 2"
 expect 2 query --plot "$work/beam.jpg"
-says ".png or .svg"
+says ".png, .svg or .pdf"
 mkdir "$work/empty"
 PATH=$work/empty expect 1 "$bin/percuss" query --domain "$domain" --a steel-sphere --b al-rod \
     --speed 0.3 --plot "$work/none.png"

@@ -28,7 +28,7 @@ awk -F, 'NR > 1 { i = $6 / $12 - 1; d = $7 / $13 - 1; bad += i * i > 1e-4 || d *
 
 say "measurements laid over pictures"
 expect 0 percuss query $pair --speed 0.276 --measured "$data/history-1.csv" --plot "$work/over.svg"
-grep -q measured "$work/over.svg" || fail "no measured history in the picture"
+grep -q history-1.csv "$work/over.svg" || fail "no measured history in the picture"
 expect 0 percuss sweep $pair --speed 0.1:0.4:7 --measured "$data/beam.csv" --plot "$work/points.svg"
 grep -q beam.csv "$work/points.svg" || fail "no measured points in the picture"
 expect 2 percuss query $pair --speed 0.276 --measured "$data/history-1.csv"

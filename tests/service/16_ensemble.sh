@@ -43,7 +43,7 @@ cmp -s "$work/plain" "$work/drawn" || fail "asking for a picture changes the rep
 expect 0 ensemble --samples 1 --plot "$work/one.svg"
 grep -q '</svg>' "$work/one.svg" || fail "no SVG"
 expect 2 ensemble --plot "$work/ensemble.jpg"
-says ".png or .svg"
+says ".png, .svg or .pdf"
 
 say "what the models are wrong by: one speed is a distribution where a sequence amplifies it"
 expect 0 percuss ensemble --a steel-sphere --b al-beam --speed 0.287 --model-error --samples 200 --json

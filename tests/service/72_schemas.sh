@@ -8,7 +8,7 @@ python3 -c 'import jsonschema' 2>/dev/null || {
     echo "python3-jsonschema is not there: skipped"
     exit 77
 }
-for kind in request reply ensemble sweep compare calibrate bodies remarks dents status ping; do
+for kind in request reply ensemble sweep compare calibrate bodies remarks dents status ping query; do
     "$bin/percuss" schema "$kind" >"$work/$kind.schema"
 done
 
@@ -50,6 +50,7 @@ printed reply 0 query --a steel-sphere --b al-rod-1 --speed 0.3 --specimen-b bar
 printed reply 0 query --a steel-sphere --b steel-wall --speed 0.3
 printed reply 5 query --a steel-sphere --b nobody --speed 0.3
 printed ensemble 0 ensemble --a steel-sphere --b al-beam --speed uniform:0.09:0.4 --samples 256
+printed query 0 query --a steel-sphere --b al-rod-1 --speed 0.2 --speed 0.3 --contact-model auto --contact-model hertz
 printed sweep 0 sweep --a steel-sphere --b al-rod --speed 0.1:0.3:3
 printed sweep 0 sweep --a steel-sphere --b al-rod --b al-beam --speed 0.1:0.3:2
 printed compare 0 compare "$source_dir/client/examples/measured/beam.csv" --a steel-sphere --b al-beam

@@ -66,7 +66,7 @@ static long drawn(const struct ensemble_picture *picture)
     int descriptor = mkstemps(file, 4);
     assert_true(descriptor >= 0);
     close(descriptor);
-    assert_int_equal(plot_ensemble(file, picture), 0);
+    assert_int_equal(plot_ensemble(&(struct plot_output){file, NULL}, picture), 0);
     unsigned char head[8] = {0};
     FILE *in = fopen(file, "rb");
     assert_non_null(in);

@@ -1,0 +1,266 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli.h"
+#include "sweep_output.h"
+
+/* Pixels of one body's panels and the axis before the first; curves have six colours. */
+enum { WIDTH = 900, NARROW = 560, AXIS = 100, GAP = 30, HEIGHT = 860, COLOURS = 6 };
+
+/* What of the height the panels take, and where they begin: restitution, with room for the legend,
+ * over numbers of sub-impacts. */
+static const double HIGH = 0.565, LOW = 0.35, UPPER = 0.365, LOWER = 0.01;
+
+static bool bodies_differ(const struct sweep_points *points)
+{
+    for (size_t k = 1; k < points->curve_count; k++)
+        if (strcmp(points->curves[k].b, points->curves->b))
+            return true;
+    return false;
+}
+
+static bool models_differ(const struct sweep_points *points)
+{
+    for (size_t k = 1; k < points->curve_count; k++)
+        if (strcmp(points->curves[k].contact_model, points->curves->contact_model))
+            return true;
+    return false;
+}
+
+static void write_curve(struct plot *plot, const struct sweep_points *points, size_t k)
+{
+    char name[PLOT_NAME];
+    snprintf(name, sizeof name, "curve_%zu", k + 1);
+    plot_table(plot, name, "speed,restitution,error,sub_impacts,significant");
+    for (unsigned i = 0; i < points->curves[k].done; i++) {
+        const struct sweep_row *row = &points->curves[k].rows[i];
+        if (row->sub_impacts > 0)
+            fprintf(plot->data, "%.9g,%.9g,%.3g,%u,%u\n", row->speed, row->restitution,
+                    isnan(row->error) ? 0.0 : row->error, row->sub_impacts, row->significant);
+    }
+}
+
+/* Restitutions that were measured; what is known by its impulse alone is no point here. */
+static void write_measured(struct plot *plot, const struct sweep_points *points, size_t k)
+{
+    const struct measured_set *set = &points->measured[k].set;
+    char name[PLOT_NAME];
+    snprintf(name, sizeof name, "measured_%zu", k + 1);
+    plot_table(plot, name, "speed,restitution,sub_impacts");
+    for (size_t i = 0; i < set->count; i++)
+        fprintf(plot->data, "%.9g,%.9g,%.9g\n", set->impacts[i].speed, set->impacts[i].restitution,
+                set->impacts[i].sub_impacts);
+}
+
+/* What the axes of all panels must hold. */
+struct axes {
+    struct plot_range speed, restitution, count;
+};
+
+static struct axes take_axes(const struct sweep_points *points)
+{
+    struct axes axes = {PLOT_NOTHING, PLOT_NOTHING, {0.0, 1.0}};
+    for (size_t k = 0; k < points->curve_count; k++)
+        for (unsigned i = 0; i < points->curves[k].done; i++) {
+            const struct sweep_row *row = &points->curves[k].rows[i];
+            double error = isnan(row->error) ? 0.0 : row->error;
+            plot_range_take(&axes.speed, row->speed);
+            plot_range_take(&axes.restitution, row->restitution - error);
+            plot_range_take(&axes.restitution, row->restitution + error);
+            plot_range_take(&axes.count, row->sub_impacts);
+        }
+    for (size_t k = 0; k < points->measured_count; k++)
+        for (size_t i = 0; i < points->measured[k].set.count; i++) {
+            const struct measured_impact *impact = &points->measured[k].set.impacts[i];
+            plot_range_take(&axes.speed, impact->speed);
+            plot_range_take(&axes.restitution, impact->restitution);
+            plot_range_take(&axes.count, impact->sub_impacts);
+        }
+    axes.count.high += 0.5;
+    return axes;
+}
+
+/* One panel of the picture's: the curves of one body, or all of them (NULL). */
+struct group {
+    const struct sweep_points *points;
+    const char *b;
+    bool bodies, models; /* what tells curves apart in the legend */
+};
+
+static bool holds(const struct group *group, size_t k)
+{
+    return !group->b || !strcmp(group->points->curves[k].b, group->b);
+}
+
+/* The colour of a curve among those of its group, from 1. */
+static size_t colour_of(const struct group *group, size_t k)
+{
+    size_t before = 0;
+    for (size_t i = 0; i < k; i++)
+        before += holds(group, i);
+    return before % COLOURS + 1;
+}
+
+/* Measured points, black, in a shape for each file. */
+static void write_points(const struct plot *plot, const struct group *group, int column)
+{
+    for (size_t k = 0; k < group->points->measured_count; k++) {
+        const struct sweep_measured *measured = &group->points->measured[k];
+        if (group->b && measured->b && strcmp(measured->b, group->b) != 0)
+            continue;
+        fprintf(plot->script, ", @measured_%zu using 1:%d with points pt %zu ps 1 lc rgb 'black' ",
+                k + 1, column, 4 + 2 * (k % 5));
+        fputs(column == 2 ? "title " : "notitle", plot->script);
+        if (column == 2)
+            plot_text(plot, plot_file_name(measured->file));
+    }
+}
+
+/* What tells the curve apart: the body, the model or both. */
+static void write_title(const struct plot *plot, const struct group *group, size_t k)
+{
+    const struct sweep_curve *curve = &group->points->curves[k];
+    char title[160];
+    if (group->bodies && group->models)
+        snprintf(title, sizeof title, "%s, %s", curve->b, curve->contact_model);
+    else
+        snprintf(title, sizeof title, "%s", group->models ? curve->contact_model : curve->b);
+    plot_text(plot, title);
+}
+
+/* Restitution with its error. */
+static void write_restitution(const struct plot *plot, const struct group *group)
+{
+    const char *comma = "plot ";
+    for (size_t k = 0; k < group->points->curve_count; k++) {
+        if (!holds(group, k))
+            continue;
+        fprintf(plot->script,
+                "%s@curve_%zu using 1:($2-$3):(0):(2*$3) with vectors nohead lt %zu lw 1 "
+                "notitle, "
+                "@curve_%zu using 1:2 with linespoints lt %zu lw 1 ps 0.6 title ",
+                comma, k + 1, colour_of(group, k), k + 1, colour_of(group, k));
+        write_title(plot, group, k);
+        comma = ", ";
+    }
+    write_points(plot, group, 2);
+    fputc('\n', plot->script);
+}
+
+/* How many curves the group has. */
+static size_t size_of(const struct group *group)
+{
+    size_t size = 0;
+    for (size_t k = 0; k < group->points->curve_count; k++)
+        size += holds(group, k);
+    return size;
+}
+
+/* Numbers of sub-impacts, open, and of those that are not negligible, filled. Points of several
+ * curves stand beside each other, within four fifths of a whole number. */
+static void write_counts(const struct plot *plot, const struct group *group)
+{
+    const char *comma = "plot ";
+    size_t size = size_of(group);
+    double step = size > 1 ? fmin(0.8 / (double)size, 0.2) : 0.0;
+    double aside = -0.5 * step * (double)(size - 1), open = size > 1 ? 0.45 : 0.8;
+    for (size_t k = 0; k < group->points->curve_count; k++) {
+        if (!holds(group, k))
+            continue;
+        fprintf(plot->script,
+                "%s@curve_%zu using 1:($4+%.4g) with points lt %zu lw 1 pt 6 ps %g notitle, "
+                "@curve_%zu using 1:($5+%.4g) with points lt %zu pt 7 ps %g notitle",
+                comma, k + 1, aside, colour_of(group, k), open, k + 1, aside, colour_of(group, k),
+                0.5 * open);
+        aside += step;
+        comma = ", ";
+    }
+    fprintf(plot->script,
+            ", keyentry with points lt 6 pt 6 ps %g title 'all', "
+            "keyentry with points lt 6 pt 7 ps %g title 'without negligible ones'",
+            open, 0.5 * open);
+    write_points(plot, group, 3);
+    fputc('\n', plot->script);
+}
+
+/* Both panels of the group that stands there. */
+static void write_group(const struct plot *plot, const struct group *group, const struct axes *axes,
+                        double left, double right)
+{
+    fprintf(plot->script, "set lmargin at screen %.6g\nset rmargin at screen %.6g\n", left, right);
+    fprintf(plot->script, "set origin 0,%g\nset size 1,%g\nset format x ''\nunset xlabel\n", UPPER,
+            HIGH);
+    plot_range_set(plot, "xrange", &axes->speed, 0.02);
+    plot_range_set(plot, "yrange", &axes->restitution, 0.05);
+    if (group->b) {
+        fputs("set label 1 ", plot->script);
+        plot_text(plot, group->b);
+        fprintf(plot->script, " at screen %.6g,0.95 center\n", 0.5 * (left + right));
+    }
+    write_restitution(plot, group);
+    fprintf(plot->script,
+            "unset label 1\nset origin 0,%g\nset size 1,%g\nset format x '%%g'\n"
+            "set xlabel 'speed / (m/s)'\nset ytics 1\n",
+            LOWER, LOW);
+    plot_range_set(plot, "yrange", &axes->count, 0.0);
+    fputs(left * plot->width > AXIS + 1 ? "" : "set ylabel 'sub-impacts'\n", plot->script);
+    write_counts(plot, group);
+    /* the next ones share the axes of the first */
+    fputs("set ytics autofreq\nunset ylabel\nset format y ''\n", plot->script);
+}
+
+/* The body of every group: of several bodies by several models each has one, else all have one. */
+static size_t list_groups(const struct sweep_points *points, const char *bodies[])
+{
+    size_t count = 0;
+    bodies[0] = NULL;
+    if (!bodies_differ(points) || !models_differ(points))
+        return 1;
+    for (size_t k = 0; k < points->curve_count; k++)
+        if (count == 0 || strcmp(points->curves[k].b, bodies[count - 1]) != 0)
+            bodies[count++] = points->curves[k].b;
+    return count;
+}
+
+/* "A on B": which others, the legend tells. */
+static void write_heading(const struct plot *plot, const struct sweep_points *points)
+{
+    char title[2 * PERCUSS_ID_SIZE + 8];
+    if (bodies_differ(points))
+        snprintf(title, sizeof title, "%s on bodies at rest", points->a);
+    else
+        snprintf(title, sizeof title, "%s on %s", points->a, points->curves[0].b);
+    plot_text(plot, title);
+}
+
+int sweep_plot(const struct plot_output *output, const struct sweep_points *points)
+{
+    struct plot plot;
+    const char *bodies[PLOT_TABLES];
+    size_t groups = list_groups(points, bodies);
+    unsigned width = groups > 1 ? NARROW * (unsigned)groups : WIDTH;
+    int code = plot_begin(&plot, output, AXIS + width, HEIGHT);
+    if (code != EXIT_ANSWERED)
+        return code;
+    for (size_t k = 0; k < points->curve_count; k++)
+        write_curve(&plot, points, k);
+    for (size_t k = 0; k < points->measured_count; k++)
+        write_measured(&plot, points, k);
+    const struct axes axes = take_axes(points);
+    fputs("set multiplot title ", plot.script);
+    write_heading(&plot, points);
+    fputs("\nset ylabel 'restitution e'\n", plot.script);
+    for (size_t g = 0; g < groups; g++) {
+        const struct group group = {points, bodies[g], !bodies[g] && bodies_differ(points),
+                                    models_differ(points)};
+        double whole = plot.width, left = AXIS + (double)width / (double)groups * (double)g;
+        write_group(&plot, &group, &axes, left / whole,
+                    (left + (double)width / (double)groups - GAP) / whole);
+    }
+    fputs("unset multiplot\n", plot.script);
+    return plot_end(&plot);
+}
