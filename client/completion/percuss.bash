@@ -8,6 +8,8 @@ _percuss() {
     while IFS= read -r line; do
         if [ "$line" = ":files" ]; then
             compopt -o default
+        elif [ "$line" = ":nospace" ]; then
+            compopt -o nospace
         else
             COMPREPLY+=("${line%%$'\t'*}")
         fi

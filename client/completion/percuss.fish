@@ -7,7 +7,7 @@ function __percuss_complete
     for line in (command $words[1] complete $words[2..-1] 2>/dev/null)
         if test "$line" = ":files"
             __fish_complete_path (commandline -ct)
-        else
+        else if test "$line" != ":nospace" # which fish leaves out behind a = by itself
             echo $line
         end
     end

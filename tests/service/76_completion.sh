@@ -9,6 +9,7 @@ for shell in bash zsh fish; do
         exit 77
     }
 done
+settings "store: $work/specimens.db"
 start_daemon
 PERCUSS_DOMAIN=$domain
 HOME=$work # fish keeps a history
@@ -106,6 +107,64 @@ in_fish "percuss query --b al-b"
 offers al-beam
 in_bash percuss --domain "$domain" query --a steel-s
 offers steel-sphere
+in_bash percuss query -a steel-s
+offers steel-sphere
+
+say "places on the body that the line names, by --b and by -b"
+for ask in "in_bash percuss" "in_zsh percuss"; do
+    $ask query --a steel-sphere --b al-half-plate --at-b ""
+    offers edge
+    $ask query -b al-half-plate --at-b e
+    offers edge
+    # that one has none
+    $ask query --b al-half-plate --a steel-sphere --at-a ""
+    offers_not edge
+done
+
+say "parameters of the bodies that the line names, as they are typed"
+for ask in "in_bash percuss" "in_zsh percuss"; do
+    $ask calibrate file.csv --a steel-sphere --b al-beam --fit y
+    offers_not yield
+    offers_not damping
+done
+# zsh has its own mark before a colon in a name
+sed -i 's/\\:/:/g' "$out"
+offers young:al-beam
+offers young:steel-sphere
+offers_not young:al-rod
+in_bash percuss calibrate file.csv --a steel-sphere --b al-beam --fit young : al-
+offers al-beam
+offers_not al-rod
+in_bash percuss ensemble -b al-beam --input d
+offers density@al-beam=
+offers direction=
+offers_not young
+shows "compopt -o nospace"
+in_bash percuss ensemble -b al-beam --input young @ al
+offers al-beam=
+in_fish "percuss calibrate --b al-beam --fit damping:"
+offers damping:al-beam
+in_fish "percuss ensemble --b al-beam --input young@"
+offers young@al-beam=
+offers_not :nospace
+
+say "servers that answer, their domains, and the specimens that they keep"
+expect 0 percuss query --a steel-sphere --b al-rod-1 --speed 0.3 --specimen-b bar-7
+id=$("$bin/percuss" status --json | sed -n 's/^ *"server": "\([0-9a-f]\{8\}\).*/\1/p')
+for ask in "in_bash percuss" "in_zsh percuss"; do
+    $ask query --server ""
+    offers "$id"
+    offers least-loaded
+    $ask dents --specimen b
+    offers bar-7
+    $ask query --specimen-b ""
+    offers bar-7
+done
+in_bash percuss query --server "$(echo "$id" | cut -c 1-3)"
+offers "$id"
+offers_not least-loaded
+in_bash percuss status --domain ""
+offers "$domain"
 
 say "files"
 in_bash percuss query --plot ""
