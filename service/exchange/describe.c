@@ -37,6 +37,8 @@ void describe_body(const struct body *body, percuss_v1_Body *wire,
     snprintf(wire->shape, sizeof wire->shape, "%s", body->kind->name);
     snprintf(wire->material, sizeof wire->material, "%s", body->material.name);
     body->kind->describe(body, &description);
+    if (body->loss_factor > 0.0)
+        describe_add(&description, "loss factor %g", body->loss_factor);
     memcpy(wire->half_extents, description.half_extents, sizeof wire->half_extents);
     wire->tip_radius = description.tip_radius;
     snprintf(wire->description, sizeof wire->description, "%s", description.text);

@@ -29,6 +29,11 @@ once() {
     [ "$(grep -cF -- "$1" "$2")" -eq 1 ] || fail "'$1' in $(grep -cF -- "$1" "$2") lines, not one"
 }
 
+say "who lists the bodies sees it"
+expect 0 percuss bodies
+grep "^bead .*loss factor 0.06" "$out" >/dev/null || fail "not listed"
+! grep "^ball .*loss factor" "$out" >/dev/null || fail "steel's is not stated"
+
 say "a stated loss is told with its size, and so is one that nobody stated"
 expect 0 percuss query --a ball --b stop --speed 0.3
 says "contacts[0]: what stop loses $lost"
