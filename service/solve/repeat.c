@@ -76,6 +76,7 @@ static enum percuss_status judge(struct repeat *repeat, size_t contact,
     const struct impact_outcome *solved = &repeat->solution.outcome;
     read_track(problem, solved, contact, outcome);
     validity_find(problem, solved, &repeat->warnings);
+    validity_find_waves(problem, repeat->solution.assembly->radiated_error, &repeat->warnings);
     outcome->warnings = repeat->warnings.kinds;
     outcome->contact_model = contact_model_used(problem)->model;
     double defect = outcome_energy_defect(problem, solved);

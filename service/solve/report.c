@@ -157,7 +157,6 @@ static void fill_model(const struct problem *problem, const struct solution *sol
     result->delassus_source =
         problem->from_client ? PERCUSS_DELASSUS_CLIENT : PERCUSS_DELASSUS_SERVICE;
     const struct assembly *assembly = solution->assembly;
-    double unmodelled = assembly->radiated_error + validity_wave_loss(problem);
     /* why, in words */
     struct text reason = text_begin(result->reason, sizeof result->reason);
     contact_model_explain(problem, &solution->outcome, &reason);
@@ -168,15 +167,9 @@ static void fill_model(const struct problem *problem, const struct solution *sol
         text_format(&reason, "; half-space: %s", problem->compliance.reason);
     /* what it leaves out */
     result->omitted_error =
-        solution->modes.restitution + unmodelled +
+        solution->modes.restitution + assembly->radiated_error + validity_wave_loss(problem) +
         law_error_worst(problem, &solution->outcome) * largest_restitution(result) +
         loss_worst(problem, &solution->outcome);
-    if (unmodelled > problem->tolerance)
-        report_warn(result,
-                    "model.omitted_error: waves that the models leave out of compact bodies and of "
-                    "half-spaces change the restitution by about %.2g: more than the tolerance of "
-                    "%.2g",
-                    unmodelled, problem->tolerance);
 }
 
 /* Whether every mode that a file holds of some body takes part. */
@@ -328,6 +321,7 @@ void report_fill(const struct problem *problem, const struct solution *solution,
     /* where the models end */
     struct warnings warnings;
     validity_find(problem, &solution->outcome, &warnings);
+    validity_find_waves(problem, solution->assembly->radiated_error, &warnings);
     report_warnings(&warnings, result);
     /* numbers that are no answer */
     if (!outcome_keeps_energy(solution->steps.energy_defect))

@@ -138,17 +138,19 @@ static enum percuss_status search(struct attempt_context *context, struct soluti
     return status;
 }
 
-/* The scene of a model: stand-ins for the modes that it leaves out take part. NULL: out of memory.
+/* The scene of a model: stand-ins for the modes that it leaves out take part. False: out of memory.
  */
-static const struct scene *make_scene(const struct problem *problem,
-                                      const struct solution_model *model)
+static bool make_scene(const struct problem *problem, const struct solution_model *model,
+                       struct solution *solution)
 {
     const struct mode_choice choice = {.cut = model->cut, .most = MODE_SEARCH_MOST};
     struct assembly *assembly = arena_take(problem->arena, 1, sizeof *assembly);
     struct scene *scene = arena_take(problem->arena, 1, sizeof *scene);
     bool made = assembly && scene && assemble(assembly, problem, &choice) &&
                 assemble_remainder(assembly, problem, scene);
-    return made ? scene : NULL;
+    solution->assembly = made ? assembly : NULL;
+    solution->scene = made ? scene : NULL;
+    return made;
 }
 
 /* Once, without an estimate of the error. */
@@ -156,9 +158,7 @@ static enum percuss_status run(struct attempt_context *context, const struct sol
                                struct solution *solution)
 {
     struct attempt attempt = {.accuracy = model->accuracy};
-    if (!solution->scene)
-        solution->scene = make_scene(context->problem, model);
-    if (!solution->scene)
+    if (!solution->scene && !make_scene(context->problem, model, solution))
         return PERCUSS_INTERNAL;
     enum percuss_status status = attempt_run(context, &attempt, solution->scene);
     solution->outcome = attempt.outcome;

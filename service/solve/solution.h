@@ -17,7 +17,7 @@ struct solution_model {
     double accuracy; /* of the time steps, see impact_settings */
 };
 
-/* By a model only `scene`, `outcome` and `revised` are filled. */
+/* By a model only `scene`, `assembly`, `outcome` and `revised` are filled. */
 struct solution {
     const struct scene *scene;     /* of the answer, in the problem's arena */
     struct impact_outcome outcome; /* the answer */

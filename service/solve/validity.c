@@ -200,6 +200,17 @@ void validity_find_speed(const struct problem *problem, struct warnings *warning
         }
 }
 
+void validity_find_waves(const struct problem *problem, double radiated, struct warnings *warnings)
+{
+    double unmodelled = radiated + validity_wave_loss(problem);
+    if (unmodelled > problem->tolerance)
+        warnings_add(warnings, WARNING_WAVES,
+                     "model.omitted_error: waves that the models leave out of compact bodies and "
+                     "of half-spaces change the restitution by about %.2g: more than the tolerance "
+                     "of %.2g",
+                     unmodelled, problem->tolerance);
+}
+
 /* Speed along `direction` (unit, world) of the bodies' points against each other after a unit of
  * impulse along it, 1/kg, by the bodies' own masses. */
 static double inverse_mass_along(const struct problem *problem, size_t c, const double direction[3])

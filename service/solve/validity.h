@@ -22,4 +22,8 @@ void validity_find(const struct problem *problem, const struct impact_outcome *o
 /* Of that, what needs no solution: adds the speeds of approach. */
 void validity_find_speed(const struct problem *problem, struct warnings *warnings);
 
+/* Adds the waves left out, where they matter: of compact bodies, and of half-spaces, which change
+ * the restitution by `radiated` (struct assembly). */
+void validity_find_waves(const struct problem *problem, double radiated, struct warnings *warnings);
+
 #endif

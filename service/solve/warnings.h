@@ -22,7 +22,8 @@ enum warning_kind {
     WARNING_NO_TOUCH,
     WARNING_LAW,
     WARNING_LOSS,
-    WARNING_KINDS = 18
+    WARNING_WAVES = 18,
+    WARNING_KINDS
 };
 _Static_assert(WARNING_KINDS <= 32, "a set of kinds is 32 bits");
 

@@ -100,6 +100,28 @@ static void order_and_workers_do_not_matter(void **state)
     ensemble_lab_close(&e);
 }
 
+/* Waves that leave a sphere by its speed are beyond the tolerance of the faster samples. */
+static void waves_left_out_are_counted(void **state)
+{
+    (void)state;
+    struct ensemble_lab e;
+    ensemble_lab_open(&e);
+    lab_add(e.lab, "wall", rigid_wall());
+    strcpy(e.request.bodies[1].id, "wall");
+    e.request.bodies[1].position[2] = 0.010;
+    e.inputs[0] = uncertain(INPUT_SPEED, 0, DISTRIBUTION_IS_UNIFORM, 0.5, 1.5);
+    e.spec.samples = 60;
+    e.request.options.tolerance = 2e-6; /* 0.01 v/c is as much at 1.04 m/s */
+    ensemble_lab_run(&e, false);
+    const char *words = "model.omitted_error: waves that the models leave out of compact bodies";
+    uint64_t first = 0, fast = count_by_solve(&e, words, &first);
+    char expected[160];
+    snprintf(expected, sizeof expected, "samples: %llu of 60, first %llu: %s",
+             (unsigned long long)fast, (unsigned long long)first, words);
+    assert_true(fast > 5 && fast < 55 && warns(&e.report, expected));
+    ensemble_lab_close(&e);
+}
+
 /* Of a body of plastic: stated, or by how soft it is, which one in five samples or so is. */
 static void losses_are_counted(void **state)
 {
@@ -219,6 +241,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fast_samples_are_counted),
         cmocka_unit_test(order_and_workers_do_not_matter),
+        cmocka_unit_test(waves_left_out_are_counted),
         cmocka_unit_test(losses_are_counted),
         cmocka_unit_test(quiet_and_refused),
         cmocka_unit_test(what_is_quoted_can_be_stopped),
