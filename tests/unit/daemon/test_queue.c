@@ -23,6 +23,14 @@ static struct job job_of_client(uint64_t client)
     return (struct job){.items = 1, .owner = {client, 0}};
 }
 
+/* All its items, by workers who have been given them. */
+static void finish(struct queue *queue, struct job *job)
+{
+    for (size_t i = 1; i < job->items; i++)
+        queue_done(queue, job->owner, NULL);
+    queue_done(queue, job->owner, job);
+}
+
 /* Without anybody who gives way. */
 static bool put(struct queue *queue, struct job *job)
 {
@@ -80,6 +88,9 @@ static void a_batch_lets_others_in_between(void **state)
     takes(queue, &pair, 1);
     takes(queue, &batch, 2);
     assert_int_equal(queue_length(queue), 0);
+    finish(queue, &single);
+    finish(queue, &pair);
+    finish(queue, &batch);
     queue_free(queue);
 }
 
@@ -96,6 +107,7 @@ static void a_closed_queue_gives_what_it_has(void **state)
     takes(queue, &batch, 1);
     assert_null(queue_take(queue, &index));
     assert_null(queue_take(queue, &index));
+    finish(queue, &batch);
     queue_free(queue);
 }
 
@@ -243,6 +255,11 @@ static void cancels_what_waits_and_what_runs(void **state)
     assert_false(put(queue, &ended));
     /* what waits is still handed out, to say so */
     takes(queue, &waiting, 0);
+    for (size_t index; queue_length(queue) > 0;)
+        assert_non_null(queue_take(queue, &index));
+    finish(queue, &running);
+    finish(queue, &waiting);
+    finish(queue, &other);
     queue_free(queue);
 }
 
