@@ -79,3 +79,7 @@ expect 0 sh "$example/run.sh" "$build" "$work/run"
 shows "MuJoCo alone, default contact: e = 0.13"
 [ -s "$work/run/sub_impacts.csv" ] || fail "no sub-impacts"
 [ -s "$work/run/pendulum-hinged-bar.svg" ] || fail "no plot"
+peak=$(awk -F, '$1 == "pendulum-hinged-bar" && $7 > p { p = $7 } END { print p }' "$work/run/sub_impacts.csv")
+gnuplot -e "folder='$work/run'; scene='pendulum-hinged-bar'; format='pdf'; load '$example/plot.gp'; \
+    if (GPVAL_Y_MAX < $peak || GPVAL_Y_MIN > 0) { exit status 1 }" 2>"$err" || fail "no axis for $peak N"
+[ "$(head -c 4 "$work/run/pendulum-hinged-bar.pdf")" = %PDF ] || fail "no PDF"
