@@ -49,6 +49,8 @@ includes service/base/made_up.c solve/solve.h
 refused "service/base/made_up.c (base) includes solve/solve.h"
 includes client/cli/made_up.c solve/solve.h
 refused "client looks into the service"
+includes client/measured/made_up.c base/fault.h
+refused "client looks into the service"
 echo '#include <sqlite3.h>' >>"$work/service/solve/made_up.c"
 refused "<sqlite3> outside service/store"
 echo "layers_test: passed"

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "measured_file.h"
 #include "quantity.h"
 #include "twins.h"
 
@@ -24,6 +25,7 @@ struct calibrate {
     struct common *common;
     struct scene scene;
     const char *file;
+    struct column_map columns;
     struct calibrate_parameter parameters[FIT_PARAMETERS];
     size_t count;
     double noise;
@@ -112,6 +114,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_INIT:
         state->child_inputs[0] = &calibrate->scene;
         state->child_inputs[1] = calibrate->common;
+        state->child_inputs[2] = &calibrate->columns;
         return 0;
     /* what is fitted, and how well it was measured */
     case KEY_FIT:
@@ -138,7 +141,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_child children[] = {
-    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
+    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {&measured_file_argp, 0, NULL, 0}, {0}};
 const struct argp calibrate_argp = {
     .options = options,
     .parser = parse,
@@ -272,8 +275,8 @@ static int run_calibration(struct run *run)
     if (code != EXIT_ANSWERED)
         complain("asked once more with the values that came out, the model did not answer: what it "
                  "warns of there is not known");
-    struct calibrate_report report = {calibrate->parameters, calibrate->count, &calibration,
-                                      run->set.count, &run->twins.warnings};
+    struct calibrate_report report = {calibrate->parameters, calibrate->count,     &calibration,
+                                      run->set.count,        &run->twins.warnings, &run->set};
     /* from multiples back to the parameters' units */
     for (size_t i = 0; i < calibrate->count; i++) {
         struct calibrate_parameter *parameter = &calibrate->parameters[i];
@@ -307,18 +310,16 @@ int command_calibrate(int argc, char **argv, struct common *common)
 {
     struct calibrate calibrate = {.common = common, .scene = scene_default(), .noise = 0.01};
     struct run run = {.calibrate = &calibrate};
-    struct measured_fault fault;
     argp_parse(&calibrate_argp, argc, argv, 0, NULL, &calibrate);
     if (calibrate.scene.options.tolerance == 0.0)
         calibrate.scene.options.tolerance = FINE_TOLERANCE;
     /* what was measured */
-    if (!measured_read(calibrate.file, &run.set, &fault)) {
-        complain("%s", fault.text);
-        return EXIT_USAGE;
-    }
+    int code = measured_file_read(calibrate.file, &calibrate.columns, &run.set);
+    if (code != EXIT_ANSWERED)
+        return code;
     /* its twins, and the parameters that bring them closest */
     run.list = calloc(run.set.count, sizeof *run.list);
-    int code = run.list ? twins_open(&run.twins, common, &calibrate.scene) : complain_memory();
+    code = run.list ? twins_open(&run.twins, common, &calibrate.scene) : complain_memory();
     if (code == EXIT_ANSWERED) {
         code = prepare(&run);
         if (code == EXIT_ANSWERED)

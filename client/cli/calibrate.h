@@ -24,6 +24,7 @@ struct calibrate_report {
     const struct calibration *calibration;
     size_t impacts;
     const struct tally *warnings; /* of the twins with the calibrated values */
+    const struct measured_set *set;
 };
 
 void calibrate_print_table(const struct calibrate_report *report);

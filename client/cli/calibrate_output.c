@@ -8,6 +8,7 @@
 #include "calibrate.h"
 #include "cli.h"
 #include "json_writer.h"
+#include "measured_file.h"
 
 /* An interval wider than this share of the value leaves the parameter open. */
 static const double WIDE = 0.5;
@@ -93,6 +94,7 @@ void calibrate_print_json(const struct calibrate_report *report)
     json_object_set_new(root, "quantities", quantities_to_json(report->calibration));
     json_object_set_new(root, "impacts", json_integer((json_int_t)report->impacts));
     json_object_set_new(root, "freedom", json_number(fit->freedom));
+    json_object_set_new(root, "left_out", measured_file_left_to_json(report->set));
     json_object_set_new(root, "warnings", tally_to_json(report->warnings));
     json_print(root);
 }

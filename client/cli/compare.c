@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "cli.h"
+#include "measured_file.h"
 
 enum { KEY_CSV = OPTION_OWN, KEY_PERMUTATIONS, KEY_SEED };
 enum { DEFAULT_PERMUTATIONS = 1999, MOST_PERMUTATIONS = 1000000, MOST_SEED = 1u << 31 };
@@ -18,6 +19,7 @@ struct compare {
     struct scene scene;
     const char *file;
     struct plot_output plot;
+    struct column_map columns;
     bool csv;
     unsigned permutations, seed;
 };
@@ -48,6 +50,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[0] = &compare->scene;
         state->child_inputs[1] = compare->common;
         state->child_inputs[2] = &compare->plot;
+        state->child_inputs[3] = &compare->columns;
         return 0;
     /* what is written */
     case KEY_CSV:
@@ -75,8 +78,11 @@ static error_t parse(int key, char *text, struct argp_state *state)
     }
 }
 
-static const struct argp_child children[] = {
-    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {&plot_argp, 0, NULL, 0}, {0}};
+static const struct argp_child children[] = {{&scene_argp, 0, NULL, 0},
+                                             {&common_argp, 0, NULL, 0},
+                                             {&plot_argp, 0, NULL, 0},
+                                             {&measured_file_argp, 0, NULL, 0},
+                                             {0}};
 const struct argp compare_argp = {
     .options = options,
     .parser = parse,
@@ -84,10 +90,11 @@ const struct argp compare_argp = {
     .doc =
         "Puts measured impacts beside their simulated twins: residuals, and how different the two "
         "distributions of the restitution are.\v"
-        "MEASURED.csv has a line of column names: speed, restitution and optionally impulse, "
-        "sub_impacts, first_impulse, first_duration, second_start, at; or history, the name of a "
-        "file with the columns time and velocity_a (or displacement_a), from which the others "
-        "follow. percuss(1) says more.\n"
+        "MEASURED.csv, or - for standard input, has a line of column names: speed, restitution "
+        "and optionally impulse, sub_impacts, first_impulse, first_duration, second_start, at; or "
+        "history, the name of a file with the columns time and velocity_a (or displacement_a), "
+        "from which the others follow. Separators are commas, semicolons, tabs or blanks; units "
+        "may stand in the names, as in speed [mm/s]. percuss(1) says more.\n"
         "Example: percuss compare measured.csv --a steel-sphere --b al-beam --plot measured.svg",
     .children = children,
 };
@@ -165,16 +172,14 @@ int command_compare(int argc, char **argv, struct common *common)
                               .permutations = DEFAULT_PERMUTATIONS,
                               .seed = 1};
     struct measured_set set;
-    struct measured_fault fault;
     struct twins twins;
     argp_parse(&compare_argp, argc, argv, 0, NULL, &compare);
     /* what was measured */
-    if (!measured_read(compare.file, &set, &fault)) {
-        complain("%s", fault.text);
-        return EXIT_USAGE;
-    }
+    int code = measured_file_read(compare.file, &compare.columns, &set);
+    if (code != EXIT_ANSWERED)
+        return code;
     /* its twins, and how far they are from it */
-    int code = twins_open(&twins, common, &compare.scene);
+    code = twins_open(&twins, common, &compare.scene);
     if (code == EXIT_ANSWERED) {
         code = run(&compare, &twins, &set);
         twins_close(&twins);

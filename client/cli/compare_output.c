@@ -9,6 +9,7 @@
 #include "compare.h"
 #include "csv.h"
 #include "json_writer.h"
+#include "measured_file.h"
 
 /* p-values below this are called small. */
 static const double SMALL = 0.05;
@@ -138,6 +139,7 @@ void compare_print_json(const struct comparison *comparison)
     json_object_set_new(root, "sub_impacts_equal",
                         json_integer((json_int_t)comparison->counts_equal));
     json_object_set_new(root, "impacts", array);
+    json_object_set_new(root, "left_out", measured_file_left_to_json(comparison->set));
     json_object_set_new(root, "warnings", tally_to_json(comparison->warnings));
     json_print(root);
 }

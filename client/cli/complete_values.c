@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "column.h"
 #include "domains.h"
 
 /* s for a server to appear and to answer: who types does not wait longer, and on one host it takes
@@ -150,6 +151,20 @@ static void offer_domains(const struct line *line)
     }
 }
 
+/* NAME= of those that a file of measurements may have. */
+static void offer_columns(const struct line *line)
+{
+    char text[HEADING_SIZE];
+    puts(":nospace");
+    for (int i = 0; i < IMPACT_COLUMNS + HISTORY_COLUMNS; i++) {
+        bool impact = i < IMPACT_COLUMNS;
+        const struct column_kind *kind =
+            impact ? &IMPACT_KINDS[i] : &HISTORY_KINDS[i - IMPACT_COLUMNS];
+        snprintf(text, sizeof text, "%s=", kind->name);
+        line_offer(line, text, impact ? "of a file of impacts" : "of a file of histories");
+    }
+}
+
 void complete_values(const struct line *line)
 {
     const char *name = line->option->name, *kind = line->option->arg;
@@ -169,7 +184,8 @@ void complete_values(const struct line *line)
         puts(":nospace");
         line_offer(line, "direction=", "of the approach, radians from the normal");
         offer_of_bodies(line, named, offer_inputs);
-    }
+    } else if (!strcmp(name, "column"))
+        offer_columns(line);
     /* who answers, and what it keeps */
     if (!strcmp(name, "server"))
         offer_servers(line);

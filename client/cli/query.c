@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cli.h"
+#include "measured_file.h"
 #include "output_file.h"
 #include "plot_impact.h"
 #include "quantity.h"
@@ -41,7 +42,8 @@ struct query {
     struct plot_output plot;
     struct impact_measured measured[MOST_SPEEDS]; /* laid over the picture */
     size_t measured_count;
-    const char *specimens[2]; /* of A, B; NULL: not given */
+    struct column_map columns; /* of these */
+    const char *specimens[2];  /* of A, B; NULL: not given */
 };
 
 static const struct argp_option options[] = {
@@ -82,6 +84,8 @@ static void check_several(const struct query *query, struct argp_state *state)
                    option, query->speed_count, scene->model_count);
     if (query->measured_count > 0 && !plot_wanted(&query->plot))
         argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
+    if (query->columns.count > 0 && query->measured_count == 0)
+        argp_error(state, "--column is of a file that is measured: --measured FILE is needed");
     if (query->measured_count > 1 && query->measured_count > query->speed_count)
         argp_error(state, "--measured: one a speed at most, not %zu of %zu", query->measured_count,
                    query->speed_count);
@@ -114,24 +118,29 @@ static void parse_speed(const char *text, struct query *query, struct argp_state
 }
 
 /* Reads a measured history and lays its first touch on time 0; usage error with the reason. */
-static void read_measured(const char *file, struct query *query, struct argp_state *state)
+static void read_measured(const struct query *query, struct impact_measured *measured,
+                          struct argp_state *state)
 {
     struct history history;
     struct history_impacts impacts;
-    struct measured_fault fault = {""};
+    struct measured_remarks remarks = {0};
+    struct measured_fault fault;
+    bool good = history_read(measured->file, &query->columns, &history, &remarks);
+    if (good && !history_find(&history, &impacts, &fault))
+        good = remarks_wrong(&remarks, "%s: %.400s", measured->file, fault.text);
+    if (good && !history_align(&history, &impacts, &measured->motion))
+        good = remarks_wrong(&remarks, "%s: out of memory", measured->file);
+    history_free(&history);
+    measured_file_complain("--measured: ", &remarks);
+    if (!good)
+        argp_error(state, "--measured: '%s' is not read", measured->file);
+}
+
+static void add_measured(const char *file, struct query *query, struct argp_state *state)
+{
     if (query->measured_count == MOST_SPEEDS)
         argp_error(state, "--measured: '%s': at most %d files", file, MOST_SPEEDS);
-    struct impact_measured *measured = &query->measured[query->measured_count++];
-    measured->file = file;
-    bool good = history_read(file, &history, &fault);
-    if (good && history_find(&history, &impacts, &fault))
-        good = history_align(&history, &impacts, &measured->motion) ||
-               measured_fail(&fault, "%s: out of memory", file);
-    else
-        good = false;
-    history_free(&history);
-    if (!good)
-        argp_error(state, "--measured: %s", fault.text);
+    query->measured[query->measured_count++].file = file;
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -143,6 +152,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[0] = &query->scene;
         state->child_inputs[1] = query->common;
         state->child_inputs[2] = &query->plot;
+        state->child_inputs[3] = &query->columns;
         return 0;
     /* the impact */
     case KEY_SPEED:
@@ -171,19 +181,25 @@ static error_t parse(int key, char *text, struct argp_state *state)
         query->csv = true;
         return 0;
     case KEY_MEASURED:
-        read_measured(text, query, state);
+        add_measured(text, query, state);
         return 0;
     /* all are read */
     case ARGP_KEY_END:
         check(query, state);
+        /* once all is known that is said of their columns */
+        for (size_t i = 0; i < query->measured_count; i++)
+            read_measured(query, &query->measured[i], state);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
     }
 }
 
-static const struct argp_child children[] = {
-    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {&plot_argp, 0, NULL, 0}, {0}};
+static const struct argp_child children[] = {{&scene_argp, 0, NULL, 0},
+                                             {&common_argp, 0, NULL, 0},
+                                             {&plot_argp, 0, NULL, 0},
+                                             {&measured_file_argp, 0, NULL, 0},
+                                             {0}};
 const struct argp query_argp = {
     .options = options,
     .parser = parse,

@@ -136,6 +136,16 @@ static json_t *measured_schema(void)
     return OBJECT(members);
 }
 
+static json_t *left_schema(void)
+{
+    static const struct member members[] = {
+        VALUE("line", "integer", "of the file"),
+        VALUE("reason", "string", "what the row lacks"),
+    };
+    return OBJECT(members);
+}
+#define LEFT_OUT LIST("left_out", "rows of the file that tell no impact", left_schema)
+
 static json_t *twin_schema(void)
 {
     static const struct member members[] = {
@@ -188,6 +198,7 @@ json_t *compare_schema(void)
         VALUE("sub_impacts_known", "integer", "impacts whose number was measured"),
         VALUE("sub_impacts_equal", "integer", "of these, with as many in the twin"),
         LIST("impacts", "impact by impact", twin_schema),
+        LEFT_OUT,
         WARNINGS,
     };
     return OBJECT(members);
@@ -231,6 +242,7 @@ json_t *calibrate_schema(void)
         LIST("quantities", "what was measured", quantity_schema),
         VALUE("impacts", "integer", ""),
         VALUE("freedom", "number", "degrees of freedom"),
+        LEFT_OUT,
         WARNINGS,
     };
     return OBJECT(members);

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "cli.h"
+#include "measured_file.h"
 #include "output_file.h"
 #include "quantity.h"
 #include "scene.h"
@@ -32,6 +33,7 @@ struct sweep {
     struct plot_output plot;
     struct sweep_measured measured[MOST_MEASURED];
     size_t measured_count;
+    struct column_map columns; /* of these */
 };
 
 static const struct argp_option options[] = {
@@ -99,11 +101,12 @@ static void check(const struct sweep *sweep, struct argp_state *state)
         check_measured(sweep, &sweep->measured[k], state);
     if (sweep->measured_count > 0 && !plot_wanted(&sweep->plot))
         argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
+    if (sweep->columns.count > 0 && sweep->measured_count == 0)
+        argp_error(state, "--column is of a file that is measured: --measured FILE is needed");
 }
 
-static void read_measured(const char *file, struct sweep *sweep, struct argp_state *state)
+static void add_measured(const char *file, struct sweep *sweep, struct argp_state *state)
 {
-    struct measured_fault fault;
     if (sweep->measured_count == MOST_MEASURED)
         argp_error(state, "--measured: '%s': at most %d files", file, MOST_MEASURED);
     struct sweep_measured *measured = &sweep->measured[sweep->measured_count];
@@ -116,9 +119,20 @@ static void read_measured(const char *file, struct sweep *sweep, struct argp_sta
         if (!measured->b)
             exit(complain_memory());
     }
-    if (!measured_read(measured->file, &measured->set, &fault))
-        argp_error(state, "--measured: %s", fault.text);
     sweep->measured_count++;
+}
+
+/* Once all is known that is said of their columns. */
+static void read_measured(struct sweep *sweep, struct argp_state *state)
+{
+    for (size_t i = 0; i < sweep->measured_count; i++) {
+        struct measured_remarks remarks = {0};
+        struct sweep_measured *measured = &sweep->measured[i];
+        bool good = measured_read(measured->file, &sweep->columns, &measured->set, &remarks);
+        measured_file_complain("--measured: ", &remarks);
+        if (!good)
+            argp_error(state, "--measured: '%s' is not read", measured->file);
+    }
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -130,6 +144,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[0] = &sweep->scene;
         state->child_inputs[1] = sweep->common;
         state->child_inputs[2] = &sweep->plot;
+        state->child_inputs[3] = &sweep->columns;
         return 0;
     /* what is swept */
     case KEY_SPEED:
@@ -144,19 +159,23 @@ static error_t parse(int key, char *text, struct argp_state *state)
         sweep->resume = text;
         return 0;
     case KEY_MEASURED:
-        read_measured(text, sweep, state);
+        add_measured(text, sweep, state);
         return 0;
     /* all are read */
     case ARGP_KEY_END:
         check(sweep, state);
+        read_measured(sweep, state);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
     }
 }
 
-static const struct argp_child children[] = {
-    {&scene_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {&plot_argp, 0, NULL, 0}, {0}};
+static const struct argp_child children[] = {{&scene_argp, 0, NULL, 0},
+                                             {&common_argp, 0, NULL, 0},
+                                             {&plot_argp, 0, NULL, 0},
+                                             {&measured_file_argp, 0, NULL, 0},
+                                             {0}};
 const struct argp sweep_argp = {
     .options = options,
     .parser = parse,

@@ -9,7 +9,7 @@
 
 #include "distance.h"
 
-enum { LEAST_READINGS = 32, LEAST_FLIGHT = 3 };
+enum { LEAST_FLIGHT = 3 };
 /* A jump counts from so many standard deviations on, and from this share of the largest. */
 static const double SIGNIFICANT = 6.0, LEAST_SHARE = 2e-3;
 
@@ -19,108 +19,6 @@ void history_free(struct history *history)
     free(history->velocity_a);
     free(history->velocity_b);
     *history = (struct history){0};
-}
-
-/* Replaces displacements by their differences: central ones, one-sided at the ends. */
-static bool differentiate(const double *time, double *values, size_t count)
-{
-    double *slope = calloc(count, sizeof *slope);
-    if (!slope)
-        return false;
-    for (size_t i = 0; i < count; i++) {
-        size_t before = i > 0 ? i - 1 : 0, after = i + 1 < count ? i + 1 : i;
-        slope[i] = (values[after] - values[before]) / (time[after] - time[before]);
-    }
-    memcpy(values, slope, count * sizeof *values);
-    free(slope);
-    return true;
-}
-
-static double *read_column(const struct table *table, int column, struct measured_fault *fault)
-{
-    double *values = calloc(table->rows + 1, sizeof *values);
-    bool good = values || measured_fail(fault, "%s: out of memory", table->file);
-    for (size_t row = 0; good && row < table->rows; row++) {
-        good = table_number(table, row, column, &values[row], fault);
-        if (good && isnan(values[row]))
-            good = measured_fail(fault, "%s:%zu: %s: empty: every reading is needed", table->file,
-                                 table->lines[row], table->names[column]);
-    }
-    if (!good) {
-        free(values);
-        values = NULL;
-    }
-    return values;
-}
-
-/* The velocity of body `which`, measured or from its displacement; NULL with *there false: not
- * measured. */
-static double *read_body(const struct table *table, char which, struct history *history,
-                         bool *there, struct measured_fault *fault)
-{
-    char velocity[] = "velocity_?", displacement[] = "displacement_?";
-    velocity[sizeof velocity - 2] = displacement[sizeof displacement - 2] = which;
-    /* its velocity, or else its displacement */
-    int column = table_column(table, velocity);
-    bool derived = column < 0;
-    if (derived)
-        column = table_column(table, displacement);
-    *there = column >= 0;
-    double *values = *there ? read_column(table, column, fault) : NULL;
-    /* differentiated in place */
-    if (values && derived) {
-        history->from_displacement = true;
-        if (!differentiate(history->time, values, history->count)) {
-            measured_fail(fault, "%s: out of memory", table->file);
-            free(values);
-            values = NULL;
-        }
-    }
-    return values;
-}
-
-static bool read_time(const struct table *table, struct history *history,
-                      struct measured_fault *fault)
-{
-    int column = table_column(table, "time");
-    if (column < 0)
-        return measured_fail(fault, "%s: column 'time': missing", table->file);
-    if (table->rows < LEAST_READINGS)
-        return measured_fail(fault, "%s: %zu readings: must be at least %d", table->file,
-                             table->rows, LEAST_READINGS);
-    history->count = table->rows;
-    history->time = read_column(table, column, fault);
-    for (size_t i = 1; history->time && i < history->count; i++)
-        if (!(history->time[i] > history->time[i - 1]))
-            return measured_fail(fault, "%s:%zu: time: %g: must be later than the line before",
-                                 table->file, table->lines[i], history->time[i]);
-    return history->time != NULL;
-}
-
-bool history_read(const char *file, struct history *history, struct measured_fault *fault)
-{
-    struct table table;
-    bool there = true;
-    *history = (struct history){0};
-    if (!table_read(file, &table, fault))
-        return false;
-    bool good = read_time(&table, history, fault);
-    /* A's motion is needed */
-    if (good) {
-        history->velocity_a = read_body(&table, 'a', history, &there, fault);
-        good = history->velocity_a != NULL;
-        if (!there)
-            measured_fail(fault, "%s: column 'velocity_a' or 'displacement_a': missing", file);
-    }
-    /* B's only where it moves */
-    if (good) {
-        history->velocity_b = read_body(&table, 'b', history, &there, fault);
-        good = history->velocity_b || !there;
-    }
-    table_free(&table);
-    if (!good)
-        history_free(history);
-    return good;
 }
 
 /* A search under way. */
@@ -333,9 +231,9 @@ bool history_find(const struct history *history, struct history_impacts *impacts
                   struct measured_fault *fault)
 {
     struct search search = {history, history->velocity_a, history->count, 1, NULL, 0.0};
-    if (history->count < LEAST_READINGS)
+    if (history->count < HISTORY_LEAST_READINGS)
         return measured_fail(fault, "%zu readings: must be at least %d", history->count,
-                             LEAST_READINGS);
+                             HISTORY_LEAST_READINGS);
     search.sum = calloc(history->count + 1, sizeof *search.sum);
     if (!search.sum)
         return measured_fail(fault, "out of memory");

@@ -6,7 +6,9 @@
 #ifndef PERCUSS_MEASURED_HISTORY_H
 #define PERCUSS_MEASURED_HISTORY_H
 
-#include "table.h"
+#include "column.h"
+
+enum { HISTORY_LEAST_READINGS = 32 };
 
 /* Arrays of `count`. */
 struct history {
@@ -17,9 +19,11 @@ struct history {
     bool from_displacement; /* velocities are differences of measured displacements */
 };
 
-/* Reads columns time and velocity_a or displacement_a, optionally velocity_b or displacement_b;
- * others are ignored. False with the reason. */
-bool history_read(const char *file, struct history *history, struct measured_fault *fault);
+/* Reads a file of columns (table.h): time and velocity_a or displacement_a, optionally velocity_b
+ * or displacement_b. Up to a tenth of the rows may lack a reading; they are left out, with a note.
+ * False with all that is wrong. */
+bool history_read(const char *file, const struct column_map *map, struct history *history,
+                  struct measured_remarks *remarks);
 
 void history_free(struct history *history);
 

@@ -8,24 +8,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The columns that are numbers, and where they go. */
-static const struct {
-    const char *name;
-    size_t offset;
-    double low, high;
-    const char *allowed;
-} columns[] = {
-    {"speed", offsetof(struct measured_impact, speed), 1e-9, 1e6, "m/s > 0"},
-    {"restitution", offsetof(struct measured_impact, restitution), -10.0, 10.0,
-     "a number of -10 to 10"},
-    {"impulse", offsetof(struct measured_impact, impulse), 0.0, 1e12, "N s >= 0"},
-    {"sub_impacts", offsetof(struct measured_impact, sub_impacts), 0.0, 1e6, "a count >= 0"},
-    {"first_impulse", offsetof(struct measured_impact, first_impulse), 0.0, 1e12, "N s >= 0"},
-    {"first_duration", offsetof(struct measured_impact, first_duration), 0.0, 1e6, "s >= 0"},
-    {"second_start", offsetof(struct measured_impact, second_start), 0.0, 1e6, "s >= 0"},
-    {"at", offsetof(struct measured_impact, at), 0.0, 1.0, "a fraction 0..1"},
+#include "divide.h"
+#include "table.h"
+#include "text.h"
+
+/* Where the columns that are numbers go. */
+static const size_t OFFSETS[IMPACT_HISTORY] = {
+    [IMPACT_SPEED] = offsetof(struct measured_impact, speed),
+    [IMPACT_RESTITUTION] = offsetof(struct measured_impact, restitution),
+    [IMPACT_IMPULSE] = offsetof(struct measured_impact, impulse),
+    [IMPACT_SUB_IMPACTS] = offsetof(struct measured_impact, sub_impacts),
+    [IMPACT_FIRST_IMPULSE] = offsetof(struct measured_impact, first_impulse),
+    [IMPACT_FIRST_DURATION] = offsetof(struct measured_impact, first_duration),
+    [IMPACT_SECOND_START] = offsetof(struct measured_impact, second_start),
+    [IMPACT_AT] = offsetof(struct measured_impact, at),
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0] };
+
+/* What a row may lack. */
+enum { LACKS_SPEED, LACKS_OUTCOME, LACKS };
+static const char *const REASONS[LACKS] = {"no speed", "no restitution, impulse or history"};
 
 struct measured_impact measured_impact_unknown(void)
 {
@@ -52,6 +53,7 @@ struct measured_impact measured_impact_from(const struct history_impacts *histor
 void measured_set_free(struct measured_set *set)
 {
     free(set->impacts);
+    free(set->left);
     *set = (struct measured_set){0};
 }
 
@@ -69,22 +71,6 @@ bool measured_append(struct measured_set *set, const struct measured_impact *imp
     return true;
 }
 
-static bool check_names(const struct table *table, struct measured_fault *fault)
-{
-    for (size_t k = 0; k < table->columns; k++) {
-        size_t i = 0;
-        while (i < COLUMNS && strcmp(table->names[k], columns[i].name))
-            i++;
-        if (i == COLUMNS && strcmp(table->names[k], "history"))
-            return measured_fail(fault,
-                                 "%s: column '%s': unknown; allowed are speed, restitution, "
-                                 "impulse, sub_impacts, first_impulse, first_duration, "
-                                 "second_start, at, history",
-                                 table->file, table->names[k]);
-    }
-    return true;
-}
-
 /* The file beside the table's. */
 static bool path_beside(const char *table, const char *name, char *path, size_t size)
 {
@@ -94,23 +80,23 @@ static bool path_beside(const char *table, const char *name, char *path, size_t 
 }
 
 /* What a history says stands where the row says nothing. */
-static bool add_history(const struct table *table, const char *name, struct measured_impact *impact,
-                        struct measured_fault *fault)
+static bool add_history(const char *file, const char *name, const struct column_map *map,
+                        struct measured_impact *impact, struct measured_remarks *remarks)
 {
     char path[1024];
     struct history history;
     struct history_impacts found;
+    struct measured_fault reason;
     /* beside the file that names it */
-    if (!path_beside(table->file, name, path, sizeof path))
-        return measured_fail(fault, "%s: history '%s': the path is too long", table->file, name);
-    if (!history_read(path, &history, fault))
+    if (!path_beside(file, name, path, sizeof path))
+        return remarks_wrong(remarks, "%s: history '%s': the path is too long", text_name(file),
+                             name);
+    if (!history_read(path, map, &history, remarks))
         return false;
-    bool good = history_find(&history, &found, fault);
+    bool good = history_find(&history, &found, &reason);
     history_free(&history);
-    if (!good) {
-        struct measured_fault reason = *fault;
-        return measured_fail(fault, "%s: %.400s", path, reason.text);
-    }
+    if (!good)
+        return remarks_wrong(remarks, "%s: %.400s", path, reason.text);
     struct measured_impact told = measured_impact_from(&found);
     double *to = (double *)impact;
     const double *from = (const double *)&told;
@@ -120,55 +106,112 @@ static bool add_history(const struct table *table, const char *name, struct meas
     return true;
 }
 
-static bool read_row(const struct table *table, size_t row, struct measured_impact *impact,
-                     struct measured_fault *fault)
+/* Reads all of the row, so that all that is wrong with it is said. */
+static bool read_row(struct table *table, size_t row, struct measured_impact *impact,
+                     struct measured_remarks *remarks)
 {
+    const struct table_source *source = table->layout.source;
+    const char *history = table_cell(table, row, IMPACT_HISTORY);
+    bool good = true;
     *impact = measured_impact_unknown();
-    for (size_t i = 0; i < COLUMNS; i++) {
-        double *value = (double *)((char *)impact + columns[i].offset);
-        if (!table_number(table, row, table_column(table, columns[i].name), value, fault))
-            return false;
-        if (*value < columns[i].low || *value > columns[i].high)
-            return measured_fail(fault, "%s:%zu: %s: %g: must be %s", table->file,
-                                 table->lines[row], columns[i].name, *value, columns[i].allowed);
-    }
+    for (size_t k = 0; k < IMPACT_HISTORY; k++)
+        good =
+            table_number(table, row, k, (double *)((char *)impact + OFFSETS[k]), remarks) && good;
     /* what its history adds */
-    int history = table_column(table, "history");
-    bool has_history = history >= 0 && *table_cell(table, row, history);
-    if (has_history && !add_history(table, table_cell(table, row, history), impact, fault))
-        return false;
-    /* the least that an impact must tell */
+    if (*history && !cell_is_missing(history))
+        good = add_history(source->file, history, source->map, impact, remarks) && good;
+    return good;
+}
+
+/* What the impact lacks of the least that it must tell; LACKS: nothing. */
+static int find_lack(const struct measured_impact *impact)
+{
     if (isnan(impact->speed))
-        return measured_fail(fault, "%s:%zu: speed: unknown: must be given, here or by a history",
-                             table->file, table->lines[row]);
-    if (isnan(impact->restitution) && isnan(impact->impulse) && isnan(impact->momentum))
-        return measured_fail(fault,
-                             "%s:%zu: restitution: unknown: must be given, or an impulse or a "
-                             "history",
-                             table->file, table->lines[row]);
+        return LACKS_SPEED;
+    bool outcome =
+        !isnan(impact->restitution) || !isnan(impact->impulse) || !isnan(impact->momentum);
+    return outcome ? LACKS : LACKS_OUTCOME;
+}
+
+/* False with what is wrong where no row could tell an impact. */
+static bool check_columns(const struct table *table, struct measured_remarks *remarks)
+{
+    char list[256];
+    const char *file = text_name(table->layout.source->file);
+    bool history = table_has(table, IMPACT_HISTORY);
+    layout_list(&table->layout, true, list, sizeof list);
+    if (!history && !table_has(table, IMPACT_SPEED))
+        return remarks_wrong(remarks,
+                             "%s: column 'speed' or 'history': missing; there are %s; --column "
+                             "speed=HEADING says which it is",
+                             file, list);
+    if (!history && !table_has(table, IMPACT_RESTITUTION) && !table_has(table, IMPACT_IMPULSE))
+        return remarks_wrong(remarks,
+                             "%s: column 'restitution', 'impulse' or 'history': missing; there are "
+                             "%s; --column restitution=HEADING says which it is",
+                             file, list);
     return true;
 }
 
-bool measured_read(const char *file, struct measured_set *set, struct measured_fault *fault)
+/* Counts and names the rows that are left out. */
+static void note_left(const struct table *table, const struct measured_set *set,
+                      struct measured_remarks *remarks)
 {
-    struct table table;
-    *set = (struct measured_set){0};
-    if (!table_read(file, &table, fault))
-        return false;
+    struct left_out left[LACKS] = {{0}};
+    char text[400] = "";
+    for (size_t i = 0; i < set->left_count; i++)
+        for (int lack = 0; lack < LACKS; lack++)
+            if (set->left[i].reason == REASONS[lack])
+                left_out_add(&left[lack], set->left[i].line);
+    for (int lack = 0; lack < LACKS; lack++)
+        left_out_tell(&left[lack], REASONS[lack], text, sizeof text);
+    if (set->left_count > 0)
+        remarks_note(remarks, "%s: %zu of %zu rows left out: %s",
+                     text_name(table->layout.source->file), set->left_count, table->rows, text);
+}
+
+static bool take_rows(struct table *table, struct measured_set *set,
+                      struct measured_remarks *remarks)
+{
+    const char *file = text_name(table->layout.source->file);
+    size_t errors = remarks->errors;
+    set->left = calloc(table->rows + 1, sizeof *set->left);
+    if (!set->left)
+        return remarks_wrong(remarks, "%s: out of memory", file);
     /* an impact a row */
-    bool good = check_names(&table, fault);
-    for (size_t row = 0; good && row < table.rows; row++) {
+    for (size_t row = 0; row < table->rows; row++) {
         struct measured_impact impact;
-        good = read_row(&table, row, &impact, fault);
-        if (good && !measured_append(set, &impact))
-            good = measured_fail(fault, "%s: out of memory", file);
+        if (!read_row(table, row, &impact, remarks))
+            continue;
+        int lack = find_lack(&impact);
+        if (lack < LACKS)
+            set->left[set->left_count++] =
+                (struct measured_left){table->numbers[row], REASONS[lack]};
+        else if (!measured_append(set, &impact))
+            return remarks_wrong(remarks, "%s: out of memory", file);
     }
-    if (good && set->count == 0)
-        good = measured_fail(fault, "%s: no impacts: at least one line is needed", file);
+    note_left(table, set, remarks);
+    if (remarks->errors == errors && set->count == 0)
+        return remarks_wrong(remarks, "%s: no impacts: at least one line is needed", file);
+    return true;
+}
+
+bool measured_read(const char *file, const struct column_map *map, struct measured_set *set,
+                   struct measured_remarks *remarks)
+{
+    const struct table_source source = {file, IMPACT_KINDS, IMPACT_COLUMNS, map};
+    struct table table;
+    size_t errors = remarks->errors;
+    *set = (struct measured_set){0};
+    if (!table_read(&source, &table, remarks))
+        return false;
+    if (check_columns(&table, remarks))
+        take_rows(&table, set, remarks);
     table_free(&table);
-    if (!good)
-        measured_set_free(set);
-    return good;
+    if (remarks->errors == errors)
+        return true;
+    measured_set_free(set);
+    return false;
 }
 
 void measured_complete(struct measured_impact *impact, double mass_a, double w)

@@ -24,19 +24,28 @@ struct measured_impact {
 /* Nothing known. */
 struct measured_impact measured_impact_unknown(void);
 
+/* A row that tells no impact. */
+struct measured_left {
+    size_t line;
+    const char *reason;
+};
+
 struct measured_set {
     size_t count, room;
     struct measured_impact *impacts;
+    size_t left_count;
+    struct measured_left *left;
 };
 
 void measured_set_free(struct measured_set *set);
 
-/* Reads comma-separated values with a line of column names: any of speed, restitution, impulse,
- * sub_impacts, first_impulse, first_duration, second_start, at, and history, the name of a file of
- * time histories (relative to this one). Empty fields and nan are unknown; # begins a comment.
- * Every impact needs a speed (or a history, which has it) and a restitution, an impulse or a
- * history. False with file, line, value and what is allowed. */
-bool measured_read(const char *file, struct measured_set *set, struct measured_fault *fault);
+/* Reads a file of columns (table.h): any of speed, restitution, impulse, sub_impacts,
+ * first_impulse, first_duration, second_start, at, and history, the name of a file of time
+ * histories (relative to this one). Empty fields and nan are unknown. Rows without a speed (or a
+ * history, which has it) or without any of restitution, impulse and history are left out, with a
+ * note. False with all that is wrong: file, line, value and what is allowed. */
+bool measured_read(const char *file, const struct column_map *map, struct measured_set *set,
+                   struct measured_remarks *remarks);
 
 /* Appends an impact. False: out of memory. */
 bool measured_append(struct measured_set *set, const struct measured_impact *impact);

@@ -3,139 +3,98 @@
 
 #include "table.h"
 
-#include <ctype.h>
-#include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Larger files are a mistake. */
-static const long MOST_BYTES = 1L << 30;
+#include "divide.h"
+#include "survey.h"
+#include "text.h"
 
-bool measured_fail(struct measured_fault *fault, const char *format, ...)
+static const char *file_of(const struct table *table)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(fault->text, sizeof fault->text, format, arguments);
-    va_end(arguments);
-    /* what the file holds goes to a terminal */
-    for (char *c = fault->text; *c; c++)
-        if ((unsigned char)*c < ' ' || *c == 0x7f)
-            *c = '?';
-    return false;
+    return text_name(table->layout.source->file);
 }
 
-static char *load(const char *file, struct measured_fault *fault)
+/* How many columns a row must have for all that is read of it. */
+static size_t least_columns(const struct layout *layout)
 {
-    FILE *in = fopen(file, "rb");
-    char *text = NULL;
-    long size = -1;
-    /* as much as it says that it holds */
-    if (in && fseek(in, 0, SEEK_END) == 0)
-        size = ftell(in);
-    if (size >= 0 && size <= MOST_BYTES && fseek(in, 0, SEEK_SET) == 0)
-        text = malloc((size_t)size + 1);
-    if (text && fread(text, 1, (size_t)size, in) == (size_t)size) {
-        text[size] = '\0';
-    } else {
-        measured_fail(fault, "%s: %s", file, errno ? strerror(errno) : "cannot be read");
-        free(text);
-        text = NULL;
-    }
-    if (in)
-        fclose(in);
-    return text;
+    size_t least = 1;
+    for (size_t k = 0; k < layout->source->kind_count; k++)
+        if (layout->place[k] >= (int)least)
+            least = (size_t)layout->place[k] + 1;
+    return least;
 }
 
-/* Cuts white space off both ends. */
-static char *trim(char *text)
+/* Divides a line, in place, and keeps the cells of the columns that are read. */
+static bool take_row(struct table *table, const struct text_line *line, char **list,
+                     struct measured_remarks *remarks)
 {
-    while (isspace((unsigned char)*text))
-        text++;
-    char *end = text + strlen(text);
-    while (end > text && isspace((unsigned char)end[-1]))
-        *--end = '\0';
-    return text;
-}
-
-/* Splits a line in place; returns the number of cells, which may exceed `room`. */
-static size_t split(char *line, char **cells, size_t room)
-{
-    size_t count = 0;
-    for (char *next = line; next; count++) {
-        char *cell = next;
-        next = strchr(cell, ',');
-        if (next)
-            *next++ = '\0';
-        if (count < room)
-            cells[count] = trim(cell);
-    }
-    return count;
-}
-
-/* The next line with something in it; *number counts all lines. NULL: no more. */
-static char *next_line(char **rest, size_t *number)
-{
-    while (*rest) {
-        char *line = *rest, *end = strchr(line, '\n');
-        *rest = end ? end + 1 : NULL;
-        if (end)
-            *end = '\0';
-        ++*number;
-        line = trim(line);
-        if (*line && *line != '#')
-            return line;
-    }
-    return NULL;
-}
-
-static size_t count_char(const char *text, char wanted)
-{
-    size_t count = 0;
-    for (; *text; text++)
-        count += *text == wanted;
-    return count;
-}
-
-static bool take_rows(struct table *table, char *rest, size_t number, struct measured_fault *fault)
-{
-    for (char *line; (line = next_line(&rest, &number)); table->rows++) {
-        char **cells = table->cells + table->rows * table->columns;
-        size_t count = split(line, cells, table->columns);
-        table->lines[table->rows] = number;
-        if (count != table->columns)
-            return measured_fail(fault, "%s:%zu: %zu values: must be %zu, one a column",
-                                 table->file, number, count, table->columns);
-    }
+    const struct layout *layout = &table->layout;
+    size_t columns = layout->titles.all, kinds = layout->source->kind_count, all;
+    size_t filled = divide_line(line->text, layout->separator, list, columns, &all);
+    if (filled > columns || all < least_columns(layout))
+        return remarks_wrong(remarks, "%s:%zu: %zu values: must be %zu, one a column%s",
+                             file_of(table), line->number, all, columns,
+                             layout->separator == ',' && filled > columns
+                                 ? " (decimal commas need another separator, or quotes)"
+                                 : "");
+    char **cells = table->cells + table->rows * kinds;
+    for (size_t k = 0; k < kinds; k++)
+        cells[k] = layout->place[k] >= 0 ? list[layout->place[k]] : strchr(line->text, '\0');
+    table->numbers[table->rows++] = line->number;
     return true;
 }
 
-bool table_read(const char *file, struct table *table, struct measured_fault *fault)
+static bool take_rows(struct table *table, struct measured_remarks *remarks)
 {
-    errno = 0;
-    *table = (struct table){.file = file, .text = load(file, fault)};
-    if (!table->text)
-        return false;
-    /* names stand in the first line with something in it */
-    size_t number = 0, lines = count_char(table->text, '\n') + 1;
-    char *rest = table->text, *head = next_line(&rest, &number);
-    if (!head) {
-        table_free(table);
-        return measured_fail(fault, "%s: empty: a line of column names is needed", file);
-    }
-    /* room for as many rows as there are lines */
-    table->columns = count_char(head, ',') + 1;
-    table->names = calloc(table->columns, sizeof *table->names);
-    table->cells = calloc(lines * table->columns, sizeof *table->cells);
-    table->lines = calloc(lines, sizeof *table->lines);
-    bool good = table->names && table->cells && table->lines;
+    const struct layout *layout = &table->layout;
+    const struct text_lines *lines = &table->lines;
+    size_t room = lines->count - layout->first + 1;
+    char **list = calloc(layout->titles.all, sizeof *list);
+    table->cells = calloc(room * layout->source->kind_count, sizeof *table->cells);
+    table->numbers = calloc(room, sizeof *table->numbers);
+    bool good = list && table->cells && table->numbers;
     if (!good)
-        measured_fail(fault, "%s: out of memory", file);
+        remarks_wrong(remarks, "%s: out of memory", file_of(table));
+    for (size_t i = layout->first; good && i < lines->count; i++)
+        if (!line_is_comment(&lines->list[i]))
+            take_row(table, &lines->list[i], list, remarks);
+    free(list);
+    return good;
+}
+
+/* How the file was understood, where that is not plain. */
+static void note_layout(const struct table *table, struct measured_remarks *remarks)
+{
+    const struct layout *layout = &table->layout;
+    char unread[256];
+    bool above = false;
+    for (size_t i = 0; i < layout->first && table->lines.list[i].number < layout->line; i++)
+        above |= !line_is_comment(&table->lines.list[i]);
+    if (above)
+        remarks_note(remarks, "%s: what stands above the headings in line %zu is not read",
+                     file_of(table), layout->line);
+    if (layout->line > 0 && layout_list(layout, false, unread, sizeof unread) > 0)
+        remarks_note(remarks, "%s: columns that are not read: %s", file_of(table), unread);
+}
+
+bool table_read(const struct table_source *source, struct table *table,
+                struct measured_remarks *remarks)
+{
+    struct measured_fault fault;
+    *table = (struct table){.text = text_read(source->file, &fault)};
+    if (!table->text)
+        return remarks_wrong(remarks, "%s", fault.text);
+    if (!lines_find(table->text, &table->lines)) {
+        table_free(table);
+        return remarks_wrong(remarks, "%s: out of memory", text_name(source->file));
+    }
+    bool good = survey_layout(source, &table->lines, &table->layout, remarks);
     if (good) {
-        split(head, table->names, table->columns);
-        good = take_rows(table, rest, number, fault);
+        note_layout(table, remarks);
+        good = take_rows(table, remarks);
     }
     if (!good)
         table_free(table);
@@ -144,39 +103,90 @@ bool table_read(const char *file, struct table *table, struct measured_fault *fa
 
 void table_free(struct table *table)
 {
+    layout_free(&table->layout);
     free(table->text);
-    free(table->names);
+    free(table->lines.list);
     free(table->cells);
-    free(table->lines);
+    free(table->numbers);
     *table = (struct table){0};
 }
 
-int table_column(const struct table *table, const char *name)
+bool table_has(const struct table *table, size_t kind)
 {
-    for (size_t i = 0; i < table->columns; i++)
-        if (!strcmp(table->names[i], name))
-            return (int)i;
-    return -1;
+    return table->layout.place[kind] >= 0;
 }
 
-const char *table_cell(const struct table *table, size_t row, int column)
+const char *table_cell(const struct table *table, size_t row, size_t kind)
 {
-    return table->cells[row * table->columns + (size_t)column];
+    return table->cells[row * table->layout.source->kind_count + kind];
 }
 
-bool table_number(const struct table *table, size_t row, int column, double *number,
-                  struct measured_fault *fault)
+/* One file has one decimal mark: a comma in one number and a point in the next may be thousands. */
+static bool check_mark(struct table *table, size_t row, size_t kind,
+                       struct measured_remarks *remarks)
 {
+    const char *cell = table_cell(table, row, kind);
+    char mark = cell_mark(cell);
+    if (mark && !table->mark) {
+        table->mark = mark;
+        table->mark_line = table->numbers[row];
+    }
+    if (!mark || mark == table->mark)
+        return true;
+    return remarks_wrong(
+        remarks, "%s:%zu: %s: '%s': must have one decimal mark, '%c' as in line %zu %s",
+        file_of(table), table->numbers[row], table->layout.source->kinds[kind].name, cell,
+        table->mark, table->mark_line, layout_place(&table->layout, kind).text);
+}
+
+bool table_number(struct table *table, size_t row, size_t kind, double *number,
+                  struct measured_remarks *remarks)
+{
+    const struct column_kind *column = &table->layout.source->kinds[kind];
+    const char *cell = table_cell(table, row, kind);
+    char text[CELL_SIZE];
     *number = NAN;
-    if (column < 0)
+    if (!table_has(table, kind) || cell_is_missing(cell))
         return true;
-    const char *text = table_cell(table, row, column);
-    char *end;
-    if (!*text || !strcmp(text, "nan"))
-        return true;
-    *number = strtod(text, &end);
-    if (*end || !isfinite(*number))
-        return measured_fail(fault, "%s:%zu: %s: '%s': must be a finite number, empty or nan",
-                             table->file, table->lines[row], table->names[column], text);
+    /* a number, in whichever unit */
+    if (!cell_with_point(cell, text) ||
+        column_number(column, text, table->layout.unit[kind], number) != UNITS_GOOD) {
+        *number = NAN;
+        return remarks_wrong(remarks, "%s:%zu: %s: '%s': must be a finite number, empty or nan %s",
+                             file_of(table), table->numbers[row], column->name, cell,
+                             layout_place(&table->layout, kind).text);
+    }
+    if (!check_mark(table, row, kind, remarks))
+        return false;
+    /* that can be */
+    if (*number < column->low || *number > column->high ||
+        (column->is_count && *number != floor(*number)))
+        return remarks_wrong(remarks, "%s:%zu: %s: %.10g: must be %s %s", file_of(table),
+                             table->numbers[row], column->name, *number, column->allowed,
+                             layout_place(&table->layout, kind).text);
     return true;
+}
+
+void left_out_add(struct left_out *left, size_t line)
+{
+    if (left->count < LEFT_OUT_NAMED)
+        left->lines[left->count] = line;
+    left->count++;
+}
+
+void left_out_tell(const struct left_out *left, const char *reason, char *text, size_t size)
+{
+    size_t length = strlen(text);
+    if (left->count == 0)
+        return;
+    length += (size_t)snprintf(text + length, size - length, "%s%s in line%s", length ? "; " : "",
+                               reason, left->count > 1 ? "s" : "");
+    for (size_t i = 0; i < left->count && i < LEFT_OUT_NAMED && length < size; i++)
+        length += (size_t)snprintf(text + length, size - length, "%s%zu",
+                                   i == 0                 ? " "
+                                   : i + 1 == left->count ? " and "
+                                                          : ", ",
+                                   left->lines[i]);
+    if (left->count > LEFT_OUT_NAMED && length < size)
+        snprintf(text + length, size - length, " and %zu more", left->count - LEFT_OUT_NAMED);
 }

@@ -1,43 +1,51 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* A file of comma-separated values with a line of column names. */
+/* A file of columns of numbers, as rigs write them. */
 #ifndef PERCUSS_MEASURED_TABLE_H
 #define PERCUSS_MEASURED_TABLE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-
-struct measured_fault {
-    char text[512];
-};
+#include "layout.h"
 
 struct table {
-    const char *file; /* borrowed */
-    char *text;       /* holds everything below */
-    size_t columns, rows;
-    char **names;  /* [columns] */
-    char **cells;  /* [rows][columns], without white space around */
-    size_t *lines; /* [rows], for messages */
+    char *text; /* holds everything below */
+    struct text_lines lines;
+    struct layout layout;
+    size_t rows;
+    char **cells;     /* [rows][source->kind_count]; "" where there is none */
+    size_t *numbers;  /* [rows], of lines, for messages */
+    char mark;        /* the decimal mark of the first number that has one; 0: none yet */
+    size_t mark_line; /* where that was */
 };
 
-/* Reads a file; empty lines and lines that begin with # are skipped. False with the reason. */
-bool table_read(const char *file, struct table *table, struct measured_fault *fault);
+/* Reads a file; empty lines and lines that begin with # are skipped. What is wrong with single
+ * lines is said, and these are no rows. Notes columns that are not read, and lines before the
+ * headings. False: it cannot be read. Release with table_free. */
+bool table_read(const struct table_source *source, struct table *table,
+                struct measured_remarks *remarks);
 
 void table_free(struct table *table);
 
-/* The column's index, or -1. */
-int table_column(const struct table *table, const char *name);
+/* Whether the file has such a column. */
+bool table_has(const struct table *table, size_t kind);
 
-const char *table_cell(const struct table *table, size_t row, int column);
+const char *table_cell(const struct table *table, size_t row, size_t kind);
 
-/* The cell as a number, NAN where it is empty, "nan" or the column is -1. False with the reason for
- * anything else. */
-bool table_number(const struct table *table, size_t row, int column, double *number,
-                  struct measured_fault *fault);
+/* The cell in SI units, NAN where nothing is in it or the file has no such column. False, with what
+ * is wrong, for what is no number or one that cannot be. */
+bool table_number(struct table *table, size_t row, size_t kind, double *number,
+                  struct measured_remarks *remarks);
 
-/* Writes a message; returns false. */
-bool measured_fail(struct measured_fault *fault, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+/* Rows that are left out for one reason. */
+enum { LEFT_OUT_NAMED = 10 };
+struct left_out {
+    size_t count;
+    size_t lines[LEFT_OUT_NAMED];
+};
+void left_out_add(struct left_out *left, size_t line);
+
+/* Appends "; no speed in lines 4, 7 and 3 more" to the text, without the semicolon where it is
+ * empty, and nothing where none was left out. */
+void left_out_tell(const struct left_out *left, const char *reason, char *text, size_t size);
 
 #endif

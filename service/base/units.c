@@ -67,6 +67,7 @@ static const struct {
     [QUANTITY_FREQUENCY] = {"frequency", "Hz", "20 kHz", 0, 0, -1},
     [QUANTITY_SPEED] = {"speed", "m/s", "300 mm/s", 0, 1, -1},
     [QUANTITY_TIME] = {"time", "s", "20 ms", 0, 0, 1},
+    [QUANTITY_IMPULSE] = {"impulse", "N s", "30 mN s", 1, 1, -1},
 };
 
 const char *units_name(enum quantity quantity)

@@ -65,6 +65,8 @@ static void test_values_are_those_of_si_to_the_bit(void **state)
     bits("36 km/h", QUANTITY_SPEED, 10.0);
     bits("20ms", QUANTITY_TIME, 0.02);
     bits("1.5 min", QUANTITY_TIME, 90.0);
+    bits("30 mN s", QUANTITY_IMPULSE, 0.03);
+    bits("30 g m/s", QUANTITY_IMPULSE, 0.03);
     bits("0.3", QUANTITY_NUMBER, 0.3);
     bits("70e9", QUANTITY_STRESS, 70e9);
 }
@@ -119,6 +121,8 @@ static void test_what_is_refused(void **state)
     bad("8 kh", QUANTITY_TIME, UNITS_UNKNOWN);
     bad("8 N", QUANTITY_STRESS, UNITS_OF_ANOTHER);
     bad("8 g", QUANTITY_DENSITY, UNITS_OF_ANOTHER);
+    bad("8 m/s^2", QUANTITY_SPEED, UNITS_OF_ANOTHER);
+    bad("8 N/s", QUANTITY_IMPULSE, UNITS_OF_ANOTHER);
     bad("0.3 m", QUANTITY_NUMBER, UNITS_OF_ANOTHER);
     bad("0.3 m/m", QUANTITY_NUMBER, UNITS_OF_ANOTHER);
     /* products of too many, and a number longer than any is */

@@ -1,13 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/measured/history.c, history_align.c, impact.c and table.c: sub-impacts of known
- * start, length and jump are found again in noisy readings, and bad files are refused by line. */
-#include <stdio.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "check.h"
+/* Tests client/measured/history.c, history_read.c and history_align.c: sub-impacts of known start,
+ * length and jump are found again in noisy readings, and bad files are refused by line. */
+#include "files.h"
 #include "impact.h"
 #include "random.h"
 
@@ -162,100 +158,77 @@ static void takes_what_instruments_give(void **state)
     measured("jump", other.list[2].jump, found.list[2].jump, 1e-12);
 }
 
-static char folder[] = "/tmp/percuss-measured-XXXXXX";
-
-static const char *write_file(const char *name, const char *text)
-{
-    static char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-    return path;
-}
-
-static void refuse(const char *text, const char *message)
-{
-    struct measured_set set;
-    struct measured_fault fault;
-    if (measured_read(write_file("bad.csv", text), &set, &fault))
-        fail_msg("accepted: %s", text);
-    if (!strstr(fault.text, message))
-        fail_msg("'%s' does not say '%s'", fault.text, message);
-}
-
-static void reads_tables(void **state)
+/* Displacement readings in millimetres and milliseconds, under names of their own; a reading is
+ * missing. */
+static void reads_files(void **state)
 {
     (void)state;
-    struct measured_set set;
+    struct history history = make(pulses, 3, 500e3, 1e-6, 9), read;
+    static struct measured_remarks remarks;
+    struct column_map map = {0};
     struct measured_fault fault;
-    /* displacement readings in a file beside the table */
-    struct history history = make(pulses, 3, 500e3, 1e-6, 9);
     char path[128];
-    snprintf(path, sizeof path, "%s/one.csv", folder);
+    snprintf(path, sizeof path, "%s/one.csv", files_folder);
     FILE *file = fopen(path, "w");
-    fputs("time, displacement_a, comment\n", file);
+    assert_non_null(file);
+    fputs("time (ms);x;comment\n", file);
     double x = 0.0;
     for (size_t i = 0; i < history.count; i++) {
-        fprintf(file, "%.9g,%.12g,x\n", history.time[i], x);
+        if (i == 7)
+            fprintf(file, "%.9g;;x\n", 1e3 * history.time[i]);
+        else
+            fprintf(file, "%.9g;%.12g;x\n", 1e3 * history.time[i], 1e3 * x);
         x += history.velocity_a[i] * 2e-6;
     }
     fclose(file);
-    bool read =
-        measured_read(write_file("good.csv", "# from the rig\nspeed,restitution, sub_impacts"
-                                             ",history\n0.2,0.7,1,\r\n\n0.25,nan,,one.csv\n"),
-                      &set, &fault);
-    if (!read)
-        fail_msg("%s", fault.text);
-    assert_int_equal(set.count, 2);
-    assert_true(set.impacts[0].speed == 0.2 && set.impacts[0].restitution == 0.7);
-    assert_true(isnan(set.impacts[0].second_start));
-    /* the row's speed stands, the rest is the history's */
-    assert_true(set.impacts[1].speed == 0.25);
-    assert_true(set.impacts[1].sub_impacts == 3.0);
-    measured("momentum", set.impacts[1].momentum, 0.44, 1e-4);
-    measured_complete(&set.impacts[0], 0.11, 10.0);
-    measured("impulse", set.impacts[0].impulse, 1.7 * 0.2 / 10.0, 1e-15);
-    measured("first impulse", set.impacts[0].first_impulse, 1.7 * 0.2 / 10.0, 1e-15);
-    measured_set_free(&set);
+    assert_true(column_map_add(&map, "displacement_a=x:mm", &fault));
+    if (!history_read(path, &map, &read, &remarks))
+        fail_msg("%s", remarks.error[0].text);
+    assert_int_equal(read.count, history.count - 1);
+    assert_true(read.from_displacement);
+    near(read.time[100], history.time[101], 1e-12);
+    near(read.velocity_a[100], -0.3, 1e-4);
+    assert_true(files_say(remarks.note, remarks.notes,
+                          "rows left out: readings that are not there in line 9"));
+    assert_true(files_say(remarks.note, remarks.notes, "columns that are not read: 'comment'"));
+    history_free(&read);
 }
 
-static void refuses_bad_tables(void **state)
+static void refuse(const char *text, size_t errors, const char *words)
 {
-    (void)state;
-    refuse("", "empty");
-    refuse("speed,colour\n1,2\n", "column 'colour': unknown; allowed are speed,");
-    refuse("speed,\x1b[2J\n1,2\n", "column '?[2J': unknown");
-    refuse("speed,restitution\n", "no impacts");
-    refuse("speed,restitution\n0.1,0.5\n0.1\n", "bad.csv:3: 1 values: must be 2");
-    refuse("speed,restitution\n0.1,half\n", "bad.csv:2: restitution: 'half': must be a finite");
-    refuse("speed,restitution\n-0.1,0.5\n", "bad.csv:2: speed: -0.1: must be m/s > 0");
-    refuse("restitution\n0.5\n", "bad.csv:2: speed: unknown");
-    refuse("speed\n0.5\n", "bad.csv:2: restitution: unknown");
-    refuse("speed,history\n0.5,nowhere.csv\n", "nowhere.csv: No such file");
-    write_file("short.csv", "time,velocity_a\n0,1\n1,1\n");
-    refuse("history\nshort.csv\n", "short.csv: 2 readings: must be at least 32");
-    write_file("blind.csv", "time,speed\n");
-    refuse("history\nblind.csv\n", "readings");
+    static struct measured_remarks remarks;
+    struct history history;
+    remarks = (struct measured_remarks){0};
+    if (history_read(files_text("bad.csv", text), NULL, &history, &remarks))
+        fail_msg("accepted: %s", text);
+    assert_int_equal(remarks.errors, errors);
+    assert_true(files_say(remarks.error, remarks.errors, words));
 }
 
-static int make_folder(void **state)
+static void refuses_bad_files(void **state)
 {
     (void)state;
-    return mkdtemp(folder) ? 0 : 1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    static const char *const names[] = {"bad.csv", "good.csv", "one.csv", "short.csv", "blind.csv"};
-    char path[128];
-    for (size_t i = 0; i < 5; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        unlink(path);
-    }
-    return rmdir(folder);
+    char text[2000] = "time,velocity_a\n";
+    refuse("speed,restitution\n1,2\n", 1,
+           "bad.csv:1: column 'time': missing, and all that may be there (time, velocity_a");
+    refuse("time,velocity\n0,1\n", 1,
+           "column 'velocity_a' or 'displacement_a': missing; there "
+           "are 'time', 'velocity'");
+    refuse("velocity_a\n0\n", 1, "column 'time': missing");
+    refuse("time,velocity_a\n0,1\n1,1\n", 1, "2 readings: must be at least 32");
+    /* all that is wrong at once, by lines */
+    for (int i = 0; i < 40; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%d,%s\n", i == 9 ? 3 : i,
+                 i == 20 ? "x" : "1");
+    refuse(text, 2, "bad.csv:11: time: 3: must be later than the line before");
+    refuse(text, 2, "bad.csv:22: velocity_a: 'x': must be a finite number");
+    /* more gaps than readings tell */
+    strcpy(text, "time,velocity_a\n");
+    for (int i = 0; i < 40; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%d,%s\n", i, i % 8 ? "1" : "");
+    refuse(text, 1,
+           "5 of 40 rows: readings that are not there in lines 2, 10, 18, 26 and 34: must "
+           "be at most a tenth");
 }
 
 int main(void)
@@ -265,8 +238,8 @@ int main(void)
         cmocka_unit_test(finds_sub_impacts),
         cmocka_unit_test(invents_nothing),
         cmocka_unit_test(takes_what_instruments_give),
-        cmocka_unit_test(reads_tables),
-        cmocka_unit_test(refuses_bad_tables),
+        cmocka_unit_test(reads_files),
+        cmocka_unit_test(refuses_bad_files),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, files_begin, files_end);
 }

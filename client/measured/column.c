@@ -1,0 +1,197 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "column.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "divide.h"
+
+const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS] = {
+    [IMPACT_SPEED] = {"speed", false, false, QUANTITY_SPEED, 1e-9, 1e6, "m/s > 0"},
+    [IMPACT_RESTITUTION] = {"restitution", false, false, QUANTITY_NUMBER, 0.0, 1.0,
+                            "a number 0..1"},
+    [IMPACT_IMPULSE] = {"impulse", false, false, QUANTITY_IMPULSE, 0.0, 1e12, "N s >= 0"},
+    [IMPACT_SUB_IMPACTS] = {"sub_impacts", false, true, QUANTITY_NUMBER, 0.0, 1e6, "a count >= 0"},
+    [IMPACT_FIRST_IMPULSE] = {"first_impulse", false, false, QUANTITY_IMPULSE, 0.0, 1e12,
+                              "N s >= 0"},
+    [IMPACT_FIRST_DURATION] = {"first_duration", false, false, QUANTITY_TIME, 0.0, 1e6, "s >= 0"},
+    [IMPACT_SECOND_START] = {"second_start", false, false, QUANTITY_TIME, 0.0, 1e6, "s >= 0"},
+    [IMPACT_AT] = {"at", false, false, QUANTITY_NUMBER, 0.0, 1.0, "a fraction 0..1"},
+    [IMPACT_HISTORY] = {"history", true, false, QUANTITY_NUMBER, 0.0, 0.0, "a file"},
+};
+
+#define ANY -HUGE_VAL, HUGE_VAL, "any"
+const struct column_kind HISTORY_KINDS[HISTORY_COLUMNS] = {
+    [HISTORY_TIME] = {"time", false, false, QUANTITY_TIME, ANY},
+    [HISTORY_VELOCITY_A] = {"velocity_a", false, false, QUANTITY_SPEED, ANY},
+    [HISTORY_VELOCITY_B] = {"velocity_b", false, false, QUANTITY_SPEED, ANY},
+    [HISTORY_DISPLACEMENT_A] = {"displacement_a", false, false, QUANTITY_LENGTH, ANY},
+    [HISTORY_DISPLACEMENT_B] = {"displacement_b", false, false, QUANTITY_LENGTH, ANY},
+};
+
+const struct column_kind *column_find(const char *name)
+{
+    for (int i = 0; i < IMPACT_COLUMNS; i++)
+        if (!strcmp(name, IMPACT_KINDS[i].name))
+            return &IMPACT_KINDS[i];
+    for (int i = 0; i < HISTORY_COLUMNS; i++)
+        if (!strcmp(name, HISTORY_KINDS[i].name))
+            return &HISTORY_KINDS[i];
+    return NULL;
+}
+
+const struct column_choice *column_map_find(const struct column_map *map,
+                                            const struct column_kind *kind)
+{
+    for (size_t i = 0; map && i < map->count; i++)
+        if (map->choices[i].kind == kind)
+            return &map->choices[i];
+    return NULL;
+}
+
+struct column_allowed column_allowed_unit(const struct column_kind *kind)
+{
+    struct column_allowed allowed;
+    if (kind->quantity == QUANTITY_NUMBER)
+        snprintf(allowed.text, sizeof allowed.text, "%s: %s has no unit",
+                 kind->is_count ? "nothing" : "nothing or %", kind->name);
+    else
+        snprintf(allowed.text, sizeof allowed.text, "a unit of %s, as in %s",
+                 units_name(kind->quantity), units_example(kind->quantity));
+    return allowed;
+}
+
+/* NAME, to which there must be a kind that has no choice yet. */
+static const struct column_kind *find_free(const struct column_map *map, const char *text,
+                                           size_t length, struct measured_fault *fault)
+{
+    char name[HEADING_SIZE];
+    snprintf(name, sizeof name, "%.*s", (int)length, text);
+    const struct column_kind *kind = length < sizeof name ? column_find(name) : NULL;
+    if (!kind) {
+        measured_fail(fault,
+                      "'%s': '%s' is none of speed, restitution, impulse, sub_impacts, "
+                      "first_impulse, first_duration, second_start, at, history, and in histories "
+                      "time, velocity_a, velocity_b, displacement_a, displacement_b",
+                      text, name);
+    } else if (column_map_find(map, kind)) {
+        measured_fail(fault, "'%s': %s is given twice", text, name);
+        kind = NULL;
+    }
+    return kind;
+}
+
+bool column_map_add(struct column_map *map, const char *text, struct measured_fault *fault)
+{
+    struct column_choice choice = {NULL, "", ""};
+    const char *equals = strchr(text, '=');
+    if (!equals || !equals[1])
+        return measured_fail(fault, "'%s': NAME=HEADING[:UNIT] is needed", text);
+    choice.kind = find_free(map, text, (size_t)(equals - text), fault);
+    if (!choice.kind)
+        return false;
+    /* HEADING, and a unit behind the last colon */
+    const char *heading = equals + 1, *colon = strrchr(heading, ':');
+    size_t length = colon ? (size_t)(colon - heading) : strlen(heading);
+    if (length == 0 || length >= sizeof choice.heading)
+        return measured_fail(fault, "'%s': a heading of 1 to %d bytes is needed", text,
+                             HEADING_SIZE - 1);
+    memcpy(choice.heading, heading, length);
+    if (colon)
+        column_unit(colon + 1, choice.unit);
+    if (column_accepts(choice.kind, choice.unit) != UNITS_GOOD)
+        return measured_fail(fault, "'%s': '%s': must be %s", text, choice.unit,
+                             column_allowed_unit(choice.kind).text);
+    map->choices[map->count++] = choice;
+    return true;
+}
+
+/* How programs of rigs write it, and how the unit table does. */
+static const char *const SPELLINGS[][2] = {
+    {"Ns", "N s"},  {"mNs", "mN s"}, {"kNs", "kN s"}, {"sec", "s"}, {"msec", "ms"},
+    {"usec", "us"}, {"1", ""},       {"-", ""},       {"--", ""},   {"\xE2\x80\x93", ""},
+};
+
+void column_unit(const char *text, char unit[UNIT_SIZE])
+{
+    size_t length = strlen(text), size = 0;
+    /* without what is around it */
+    while (length > 0 && strchr(" [(", *text)) {
+        text++;
+        length--;
+    }
+    while (length > 0 && strchr(" ])", text[length - 1]))
+        length--;
+    /* a middle dot, of which there are two, is a sign */
+    for (size_t i = 0; i < length && size + 1 < UNIT_SIZE; i++) {
+        size_t dot = !strncmp(text + i, "\xC2\xB7", 2)       ? 2
+                     : !strncmp(text + i, "\xE2\x8B\x85", 3) ? 3
+                                                             : 0;
+        unit[size++] = text[i];
+        if (dot > 0) {
+            unit[size - 1] = '*';
+            i += dot - 1;
+        }
+    }
+    unit[size] = '\0';
+    /* in the table's words */
+    for (size_t i = 0; i < sizeof SPELLINGS / sizeof SPELLINGS[0]; i++)
+        if (!strcmp(unit, SPELLINGS[i][0])) {
+            snprintf(unit, UNIT_SIZE, "%s", SPELLINGS[i][1]);
+            return;
+        }
+}
+
+enum units_problem column_number(const struct column_kind *kind, const char *number,
+                                 const char *unit, double *value)
+{
+    char text[CELL_SIZE + UNIT_SIZE + 2];
+    /* a share of something is to it what a centimetre is to a metre */
+    bool share = kind->quantity == QUANTITY_NUMBER && !kind->is_count && !strcmp(unit, "%");
+    snprintf(text, sizeof text, "%.*s %s", CELL_SIZE, number, share ? "cm" : unit);
+    return units_read(text, share ? QUANTITY_LENGTH : kind->quantity, value);
+}
+
+enum units_problem column_accepts(const struct column_kind *kind, const char *unit)
+{
+    double one;
+    if (kind->is_text)
+        return *unit ? UNITS_OF_ANOTHER : UNITS_GOOD;
+    return column_number(kind, "1", unit, &one);
+}
+
+/* What stands before, without what leads over to the unit. */
+static void take_name(const char *heading, size_t length, char name[HEADING_SIZE])
+{
+    while (length > 0 && strchr(" /", heading[length - 1]))
+        length--;
+    if (length > 3 && !strncmp(heading + length - 3, " in", 3))
+        length -= 3;
+    snprintf(name, HEADING_SIZE, "%.*s", (int)length, heading);
+}
+
+void column_heading(const char *heading, char name[HEADING_SIZE], char unit[UNIT_SIZE])
+{
+    size_t length = strlen(heading);
+    const char *in = strstr(heading, " in "), *slash = strchr(heading, '/');
+    const char *bracket = strpbrk(heading, "[(");
+    /* in brackets up to the end */
+    const char *from = NULL;
+    if (bracket && bracket > heading && strchr("])", heading[length - 1]))
+        from = bracket;
+    else if (in)
+        from = in + 4;
+    else if (slash)
+        from = slash + 1;
+    /* or there is none: nor where these are several headings that another sign separates */
+    column_unit(from ? from : "", unit);
+    if (strpbrk(unit, "[]();,\t")) {
+        from = NULL;
+        *unit = '\0';
+    }
+    take_name(heading, from ? (size_t)(from - heading) : length, name);
+}

@@ -1,0 +1,89 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Columns that are known by name, and what a file calls them. */
+#ifndef PERCUSS_MEASURED_COLUMN_H
+#define PERCUSS_MEASURED_COLUMN_H
+
+#include "base/units.h"
+#include "remarks.h"
+
+struct column_kind {
+    const char *name;
+    bool is_text, is_count;
+    enum quantity quantity;
+    double low, high;
+    const char *allowed; /* in words */
+};
+
+/* Those of a file of impacts, and of one of time histories. */
+enum {
+    IMPACT_SPEED,
+    IMPACT_RESTITUTION,
+    IMPACT_IMPULSE,
+    IMPACT_SUB_IMPACTS,
+    IMPACT_FIRST_IMPULSE,
+    IMPACT_FIRST_DURATION,
+    IMPACT_SECOND_START,
+    IMPACT_AT,
+    IMPACT_HISTORY,
+    IMPACT_COLUMNS
+};
+enum {
+    HISTORY_TIME,
+    HISTORY_VELOCITY_A,
+    HISTORY_VELOCITY_B,
+    HISTORY_DISPLACEMENT_A,
+    HISTORY_DISPLACEMENT_B,
+    HISTORY_COLUMNS
+};
+enum { COLUMN_KINDS = IMPACT_COLUMNS };
+extern const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS], HISTORY_KINDS[HISTORY_COLUMNS];
+
+enum { HEADING_SIZE = 128, UNIT_SIZE = 48 };
+
+/* What the user says of a column. */
+struct column_choice {
+    const struct column_kind *kind;
+    char heading[HEADING_SIZE]; /* or the column's number from 1 on */
+    char unit[UNIT_SIZE];       /* empty: as the file says */
+};
+
+struct column_map {
+    size_t count;
+    struct column_choice choices[IMPACT_COLUMNS + HISTORY_COLUMNS];
+};
+
+/* Takes "NAME=HEADING[:UNIT]"; a heading with a colon needs one behind it as well. False with the
+ * reason. */
+bool column_map_add(struct column_map *map, const char *text, struct measured_fault *fault);
+
+/* The choice for that kind; NULL: none, as where there is no map. */
+const struct column_choice *column_map_find(const struct column_map *map,
+                                            const struct column_kind *kind);
+
+/* The kind of that name; NULL: none. */
+const struct column_kind *column_find(const char *name);
+
+/* A unit as the unit table has it: without brackets, "Ns" as "N s", a middle dot as a sign of
+ * multiplication, "-" and "1" as nothing. */
+void column_unit(const char *text, char unit[UNIT_SIZE]);
+
+/* Whether a column of that kind may be in this unit, written as column_unit does; nothing: in SI
+ * units. */
+enum units_problem column_accepts(const struct column_kind *kind, const char *unit);
+
+/* Which units these are, in words. */
+struct column_allowed {
+    char text[96];
+};
+struct column_allowed column_allowed_unit(const struct column_kind *kind);
+
+/* Reads a number, without a mark but the decimal point, that is in this unit. */
+enum units_problem column_number(const struct column_kind *kind, const char *number,
+                                 const char *unit, double *value);
+
+/* A heading's name and unit: "v [mm/s]", "v (mm/s)", "v / (mm/s)", "v in mm/s". */
+void column_heading(const char *heading, char name[HEADING_SIZE], char unit[UNIT_SIZE]);
+
+#endif

@@ -1,0 +1,18 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The text of a file as UTF-8, in whatever of the usual encodings a rig's program wrote it. */
+#ifndef PERCUSS_MEASURED_TEXT_H
+#define PERCUSS_MEASURED_TEXT_H
+
+#include "remarks.h"
+
+/* The whole file, "-": standard input, with a zero behind it and without a byte order mark. UTF-16
+ * is known by its mark; what is no UTF-8 is taken for Windows-1252. Lines end with '\n', whether
+ * they did by CR, LF or both. The caller frees it. NULL with the reason. */
+char *text_read(const char *file, struct measured_fault *fault);
+
+/* What to call the file in messages. */
+const char *text_name(const char *file);
+
+#endif
