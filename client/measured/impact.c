@@ -91,6 +91,8 @@ static bool add_history(const char *file, const char *name, const struct column_
     if (!path_beside(file, name, path, sizeof path))
         return remarks_wrong(remarks, "%s: history '%s': the path is too long", text_name(file),
                              name);
+    if (!text_is_file(path, &reason))
+        return remarks_wrong(remarks, "%s", reason.text);
     if (!history_read(path, map, &history, remarks))
         return false;
     bool good = history_find(&history, &found, &reason);

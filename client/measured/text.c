@@ -53,6 +53,22 @@ static uint8_t *load(const char *file, size_t *size, struct measured_fault *faul
     return bytes;
 }
 
+bool text_is_file(const char *file, struct measured_fault *fault)
+{
+    errno = 0;
+    FILE *in = fopen(file, "rb");
+    long size = -1;
+    if (in && fseek(in, 0, SEEK_END) == 0)
+        size = ftell(in);
+    if (!in)
+        measured_fail(fault, "%s: %s", file, strerror(errno));
+    else if (size <= 0)
+        measured_fail(fault, "%s: must be a file with something in it", file);
+    if (in)
+        fclose(in);
+    return size > 0;
+}
+
 /* Appends a character; up to four bytes. */
 static uint8_t *put(uint8_t *to, uint32_t c)
 {

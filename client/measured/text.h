@@ -12,6 +12,10 @@
  * they did by CR, LF or both. The caller frees it. NULL with the reason. */
 char *text_read(const char *file, struct measured_fault *fault);
 
+/* Whether it has a size, as no terminal, pipe or device has: a file that is named in another one
+ * must, so that reading it comes to an end. False with the reason. */
+bool text_is_file(const char *file, struct measured_fault *fault);
+
 /* What to call the file in messages. */
 const char *text_name(const char *file);
 

@@ -58,6 +58,26 @@ static void refuses_what_is_no_text(void **state)
     refuse(files_folder, "Is a directory");
 }
 
+static void knows_files(void **state)
+{
+    (void)state;
+    struct measured_fault fault;
+    int ends[2];
+    char path[40];
+    assert_true(text_is_file(files_text("file", "x"), &fault));
+    assert_false(text_is_file(files_text("file", ""), &fault));
+    assert_true(files_say(&fault, 1, "file: must be a file with something in it"));
+    assert_false(text_is_file("/dev/zero", &fault));
+    assert_false(text_is_file("/nowhere/file.csv", &fault));
+    assert_true(files_say(&fault, 1, "No such file"));
+    /* a pipe that nobody writes into */
+    assert_int_equal(pipe(ends), 0);
+    snprintf(path, sizeof path, "/proc/self/fd/%d", ends[0]);
+    assert_false(text_is_file(path, &fault));
+    close(ends[0]);
+    close(ends[1]);
+}
+
 /* More than is read at once. */
 static void reads_long_files(void **state)
 {
@@ -70,9 +90,8 @@ static void reads_long_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reads_encodings),
-        cmocka_unit_test(reads_line_ends),
-        cmocka_unit_test(refuses_what_is_no_text),
+        cmocka_unit_test(reads_encodings),         cmocka_unit_test(reads_line_ends),
+        cmocka_unit_test(refuses_what_is_no_text), cmocka_unit_test(knows_files),
         cmocka_unit_test(reads_long_files),
     };
     return cmocka_run_group_tests(tests, files_begin, files_end);
