@@ -87,8 +87,9 @@ meshes, and percuss-tables computes contact tables ahead of time."
   RECOMMENDS "percuss-daemon ${alike}" "libpercuss-local0 ${alike}" "gnuplot-nox | gnuplot")
 percuss_package(library libpercuss0 libs
   SUMMARY "asking what an impact does, from C"
-  TEXT "libpercuss asks a percussd over DDS, which it hides, and
-libpercuss-slowscale applies the answers in a multibody engine."
+  TEXT "libpercuss asks a percussd over DDS, which it hides,
+libpercuss-slowscale applies the answers in a multibody engine, and
+libpercuss-measured puts measured impacts beside simulated ones."
   CONTROL ${packaging}/library/triggers)
 percuss_package(local libpercuss-local0 libs
   SUMMARY "what an impact does, computed in a program's own process"
@@ -98,8 +99,8 @@ library. Its default catalogue and contact tables are those of percuss-daemon."
   CONTROL ${packaging}/library/triggers)
 percuss_package(development libpercuss-dev libdevel
   SUMMARY "asking what an impact does, from C: headers"
-  TEXT "Headers, pkg-config and CMake files of libpercuss, libpercuss-local and
-libpercuss-slowscale, the IDL of what percussd reads and writes, and examples."
+  TEXT "Headers, pkg-config and CMake files of libpercuss, libpercuss-local,
+libpercuss-slowscale and libpercuss-measured, the IDL of what percussd reads and writes, and examples."
   DEPENDS "libpercuss0 ${alike}" "libpercuss-local0 ${alike}")
 percuss_package(python python3-percuss python ANY_MACHINE
   SUMMARY "asking what an impact does, from Python"

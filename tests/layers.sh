@@ -121,7 +121,7 @@ only 'sqlite3' 'service/store'
 only 'hdf5' 'service/mesh'
 only 'zmumps' 'service/spatial'
 only 'dds/' 'service/endpoint|service/daemon|client/lib|client/ros2'
-only 'time\.h|sys/|unistd|pthread' 'service/exchange|service/respond|service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/local|client/cli|client/ros2'
+only 'time\.h|sys/|unistd|pthread' 'service/exchange|service/respond|service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/local|client/cli|client/twins|client/ros2'
 
 # clients do not look into the service, but for the one that is a service to itself; the slow scale is built
 # with its complementarity solver, and command lines and files of measurements with its numbers with

@@ -26,7 +26,7 @@ refused() {
 as_it_is() {
     mkdir -p "$work/client"
     cp -R "$source/service" "$work"
-    for folder in cli include lib measured slowscale; do cp -R "$source/client/$folder" "$work/client"; done
+    for folder in cli include lib measured slowscale twins; do cp -R "$source/client/$folder" "$work/client"; done
 }
 
 as_it_is

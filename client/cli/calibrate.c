@@ -15,11 +15,6 @@
 #include "twins.h"
 
 enum { KEY_FIT = OPTION_OWN, KEY_NOISE };
-/* Finer than an answer needs to be, so that derivatives by differences are good. */
-static const double FINE_TOLERANCE = 1e-4;
-/* A damping ratio of 0 has no size of its own to be measured by. */
-static const double DAMPING_SIZE = 0.01;
-static const double MOST_DAMPING = 0.9, LEAST_SHARE = 0.02;
 
 struct calibrate {
     struct common *common;
@@ -162,79 +157,28 @@ struct run {
     struct calibrate *calibrate;
     struct twins twins;
     struct measured_set set;
-    struct twin *list;
-    int code; /* of the last asking */
+    struct fitting fitting;
 };
 
-/* The parameter's value at the fit's number, which is 1 at the start. */
-static double value_at(const struct calibrate_parameter *parameter, double x)
+static int complain_start(const struct run *run, enum fitting_lack lack, size_t which)
 {
-    if (parameter->parameter == PERCUSS_PARAMETER_DAMPING)
-        /* even about 0, so that the fit may cross it */
-        return fmin(MOST_DAMPING, fabs(parameter->start + (x - 1.0) * parameter->size));
-    return parameter->start * fmax(x, LEAST_SHARE);
-}
-
-/* Asks for the twins at the fit's numbers `x`. */
-static int ask_twins(struct run *run, const double *x, double faster)
-{
-    const struct calibrate *calibrate = run->calibrate;
-    struct twin_override overrides[2 * FIT_PARAMETERS];
-    size_t count = 0;
-    for (size_t i = 0; i < calibrate->count; i++) {
-        const struct calibrate_parameter *parameter = &calibrate->parameters[i];
-        const char *ids[2] = {calibrate->scene.a, calibrate->scene.b};
-        for (unsigned body = 0; body < 2; body++)
-            if (!strcmp(parameter->body, ids[body]))
-                overrides[count++] =
-                    (struct twin_override){body, {parameter->parameter, value_at(parameter, x[i])}};
-    }
-    return twins_ask(&run->twins, &run->set, overrides, count, faster, run->list);
-}
-
-static bool simulate(void *context, const double *x, double faster, struct measured_impact *twins)
-{
-    struct run *run = context;
-    run->code = ask_twins(run, x, faster);
-    for (size_t i = 0; run->code == EXIT_ANSWERED && i < run->set.count; i++)
-        twins[i] = run->list[i].impact;
-    return run->code == EXIT_ANSWERED;
-}
-
-/* Where to start: what was given, or what the catalogue says. */
-static int find_starts(struct run *run)
-{
-    struct calibrate *calibrate = run->calibrate;
-    for (size_t i = 0; i < calibrate->count; i++) {
-        struct calibrate_parameter *parameter = &calibrate->parameters[i];
-        const struct percuss_body *body =
-            percuss_body_find(&run->twins.bodies.list, parameter->body);
-        const char *name = percuss_parameter_name(parameter->parameter);
-        /* not every kind of body has every parameter */
-        if (body && isnan(body->parameters[parameter->parameter])) {
-            complain("--fit: a %s like %s has no %s", body->shape, body->id, name);
-            return EXIT_USAGE;
-        }
-        if (isnan(parameter->start) && body)
-            parameter->start = body->parameters[parameter->parameter];
-        /* what is multiplied cannot start from 0; damping has a size of its own */
-        bool damping = parameter->parameter == PERCUSS_PARAMETER_DAMPING;
-        if (body && (!isfinite(parameter->start) || (!damping && parameter->start == 0.0))) {
-            complain("--fit: the catalogue has no %s of %s to start from; give --fit %s:%s=START",
-                     name, parameter->body, name, parameter->body);
-            return EXIT_USAGE;
-        }
-        parameter->size = damping ? fmax(DAMPING_SIZE, parameter->start) : parameter->start;
-    }
-    return EXIT_ANSWERED;
+    const struct calibrate_parameter *parameter = &run->calibrate->parameters[which];
+    const char *name = percuss_parameter_name(parameter->parameter), *id = parameter->body;
+    if (lack == FITTING_LACKS_PARAMETER)
+        complain("--fit: a %s like %s has no %s",
+                 percuss_body_find(&run->twins.bodies.list, id)->shape, id, name);
+    else
+        complain("--fit: the catalogue has no %s of %s to start from; give --fit %s:%s=START", name,
+                 id, name, id);
+    return EXIT_USAGE;
 }
 
 /* Too few readings is the data's fault; anything else was complained of. */
 static int explain(const struct run *run, const struct calibration *calibration)
 {
     size_t used = 0, known = 0;
-    if (run->code != EXIT_ANSWERED)
-        return run->code;
+    if (run->fitting.result != PERCUSS_RESULT_OK)
+        return twins_code(&run->twins, run->fitting.result);
     /* what the file holds, and what of it could be used */
     for (int q = 0; q < QUANTITIES; q++) {
         used += calibration->used[q];
@@ -257,32 +201,16 @@ static int explain(const struct run *run, const struct calibration *calibration)
 static int run_calibration(struct run *run)
 {
     struct calibrate *calibrate = run->calibrate;
-    struct calibration calibration = {0};
-    struct calibration_problem problem = {
-        .set = &run->set,
-        .parameters = calibrate->count,
-        .simulate = simulate,
-        .context = run,
-        .noise = calibrate->noise,
-    };
-    /* 1: where each of them starts */
-    for (size_t i = 0; i < calibrate->count; i++)
-        calibration.fit.x[i] = 1.0;
-    if (!calibration_solve(&problem, &calibration))
+    struct calibration calibration;
+    if (!fitting_solve(&run->fitting, &calibration))
         return explain(run, &calibration);
     /* what is to be said of the twins is said of those that came out best */
-    int code = ask_twins(run, calibration.fit.x, 1.0);
+    int code = twins_code(&run->twins, fitting_ask(&run->fitting, calibration.fit.x, 1.0));
     if (code != EXIT_ANSWERED)
         complain("asked once more with the values that came out, the model did not answer: what it "
                  "warns of there is not known");
     struct calibrate_report report = {calibrate->parameters, calibrate->count,     &calibration,
                                       run->set.count,        &run->twins.warnings, &run->set};
-    /* from multiples back to the parameters' units */
-    for (size_t i = 0; i < calibrate->count; i++) {
-        struct calibrate_parameter *parameter = &calibrate->parameters[i];
-        parameter->value = value_at(parameter, calibration.fit.x[i]);
-        parameter->half_width = parameter->size * calibration.fit.half_width[i];
-    }
     /* the values, and what makes them doubtful */
     if (calibrate->common->json)
         calibrate_print_json(&report);
@@ -296,14 +224,22 @@ static int run_calibration(struct run *run)
     return warned ? EXIT_ANSWERED_WITH_WARNING : EXIT_ANSWERED;
 }
 
+/* The twins as the catalogue has them complete what was measured. */
 static int prepare(struct run *run)
 {
-    int code = find_starts(run);
-    if (code == EXIT_ANSWERED)
-        code = twins_ask(&run->twins, &run->set, NULL, 0, 1.0, run->list);
-    if (code == EXIT_ANSWERED)
-        code = twins_complete(&run->twins, &run->set, run->list);
-    return code;
+    struct calibrate *calibrate = run->calibrate;
+    struct twin *list = calloc(run->set.count, sizeof *list);
+    if (!list)
+        return complain_memory();
+    run->fitting = (struct fitting){
+        &run->twins.question, &run->set, calibrate->parameters,       calibrate->count,
+        calibrate->noise,     list,      twins_listener(&run->twins), PERCUSS_RESULT_OK};
+    size_t which;
+    enum fitting_lack lack = fitting_start(&run->fitting, &which);
+    if (lack != FITTING_LACKS_NOTHING)
+        return complain_start(run, lack, which);
+    int code = twins_ask(&run->twins, &run->set, &(struct twin_changes){.faster = 1.0}, list);
+    return code == EXIT_ANSWERED ? twins_complete(&run->twins, &run->set, list) : code;
 }
 
 int command_calibrate(int argc, char **argv, struct common *common)
@@ -312,21 +248,20 @@ int command_calibrate(int argc, char **argv, struct common *common)
     struct run run = {.calibrate = &calibrate};
     argp_parse(&calibrate_argp, argc, argv, 0, NULL, &calibrate);
     if (calibrate.scene.options.tolerance == 0.0)
-        calibrate.scene.options.tolerance = FINE_TOLERANCE;
+        calibrate.scene.options.tolerance = FITTING_TOLERANCE;
     /* what was measured */
     int code = measured_file_read(calibrate.file, &calibrate.columns, &run.set);
     if (code != EXIT_ANSWERED)
         return code;
     /* its twins, and the parameters that bring them closest */
-    run.list = calloc(run.set.count, sizeof *run.list);
-    code = run.list ? twins_open(&run.twins, common, &calibrate.scene) : complain_memory();
+    code = twins_open(&run.twins, common, &calibrate.scene);
     if (code == EXIT_ANSWERED) {
         code = prepare(&run);
         if (code == EXIT_ANSWERED)
             code = run_calibration(&run);
         twins_close(&run.twins);
     }
-    free(run.list);
+    free(run.fitting.list);
     measured_set_free(&run.set);
     return code;
 }

@@ -7,16 +7,8 @@
 
 #include <percuss/percuss.h>
 
-#include "calibration.h"
-#include "tally.h"
-
-struct calibrate_parameter {
-    enum percuss_parameter parameter;
-    char body[PERCUSS_ID_SIZE];
-    double start;             /* NAN: the catalogue's */
-    double size;              /* what the fit measures changes by */
-    double value, half_width; /* of the 95 % interval */
-};
+#include "fitting.h"
+#include "tally_output.h"
 
 struct calibrate_report {
     const struct calibrate_parameter *parameters;

@@ -10,17 +10,10 @@
 #include "json_writer.h"
 #include "measured_file.h"
 
-/* An interval wider than this share of the value leaves the parameter open. */
-static const double WIDE = 0.5;
 /* Parameters more alike than this can stand in for each other. */
 static const double ALIKE = 0.95;
 /* Some second sub-impacts are always near a jump; more than this share tell of another fault. */
 static const double MANY = 0.5;
-
-static bool is_determined(const struct calibrate_parameter *parameter)
-{
-    return parameter->half_width <= WIDE * fabs(parameter->value);
-}
 
 static void name_parameter(const struct calibrate_parameter *parameter, char name[128])
 {
@@ -43,7 +36,7 @@ void calibrate_print_table(const struct calibrate_report *report)
             printf("%.6g to %.6g (+- %.2g %%)%s\n", parameter->value - parameter->half_width,
                    parameter->value + parameter->half_width,
                    100.0 * parameter->half_width / fabs(parameter->value),
-                   is_determined(parameter) ? "" : " not determined");
+                   fitting_determines(parameter) ? "" : " not determined");
     }
     /* the readings that they rest on */
     printf("\nfitted to %zu impacts:\n", report->impacts);
@@ -82,7 +75,7 @@ void calibrate_print_json(const struct calibrate_report *report)
         json_object_set_new(object, "value", json_number(parameter->value));
         json_object_set_new(object, "low", json_number(parameter->value - parameter->half_width));
         json_object_set_new(object, "high", json_number(parameter->value + parameter->half_width));
-        json_object_set_new(object, "determined", json_boolean(is_determined(parameter)));
+        json_object_set_new(object, "determined", json_boolean(fitting_determines(parameter)));
         json_array_append_new(array, object);
         for (size_t j = 0; j < report->count; j++)
             json_array_append_new(row, json_number(fit->correlation[i][j]));
@@ -107,7 +100,7 @@ bool calibrate_warn(const struct calibrate_report *report)
     /* parameters that cannot be told, or not from each other */
     for (size_t i = 0; i < report->count; i++) {
         name_parameter(&report->parameters[i], name);
-        if (!is_determined(&report->parameters[i])) {
+        if (!fitting_determines(&report->parameters[i])) {
             complain("these data do not determine the %s: leave it at a known value", name);
             warned = true;
         }

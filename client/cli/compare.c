@@ -5,7 +5,6 @@
 
 #include "compare.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "cli.h"
@@ -99,45 +98,6 @@ const struct argp compare_argp = {
     .children = children,
 };
 
-/* Fills the statistics. False: out of memory. */
-static bool evaluate(const struct compare *compare, struct comparison *comparison)
-{
-    size_t n = comparison->set->count;
-    double *measured = calloc(3 * n, sizeof *measured), *simulated, *residuals;
-    if (!measured)
-        return false;
-    simulated = measured + n;
-    residuals = measured + 2 * n;
-    double squares = 0.0;
-    /* impact by impact */
-    for (size_t i = 0; i < n; i++) {
-        const struct measured_impact *impact = &comparison->set->impacts[i];
-        const struct measured_impact *twin = &comparison->twins[i].impact;
-        measured[i] = impact->restitution;
-        simulated[i] = twin->restitution;
-        residuals[i] = simulated[i] - measured[i];
-        squares += residuals[i] * residuals[i];
-        comparison->counted += !isnan(impact->sub_impacts);
-        comparison->counts_equal += impact->sub_impacts == twin->sub_impacts;
-    }
-    /* moments; the interval of the residual's mean by Student's t */
-    comparison->measured_mean = sample_mean(measured, n);
-    comparison->measured_deviation = sample_deviation(measured, n);
-    comparison->simulated_mean = sample_mean(simulated, n);
-    comparison->simulated_deviation = sample_deviation(simulated, n);
-    comparison->residual_mean = sample_mean(residuals, n);
-    comparison->residual_half_width = n > 1 ? student_quantile(0.975, (double)(n - 1)) *
-                                                  sample_deviation(residuals, n) / sqrt((double)n)
-                                            : NAN;
-    comparison->residual_rms = sqrt(squares / (double)n);
-    /* whether both may be samples of one distribution */
-    bool good = distance_kolmogorov(measured, n, simulated, n, &comparison->kolmogorov) &&
-                distance_energy(measured, n, simulated, n, compare->permutations, compare->seed,
-                                &comparison->energy);
-    free(measured);
-    return good;
-}
-
 static int report(const struct compare *compare, const struct comparison *comparison)
 {
     if (compare->common->json)
@@ -156,11 +116,15 @@ static int run(const struct compare *compare, struct twins *twins, struct measur
     struct twin *list = calloc(set->count, sizeof *list);
     struct comparison comparison = {
         .scene = &compare->scene, .set = set, .twins = list, .warnings = &twins->warnings};
-    int code = list ? twins_ask(twins, set, NULL, 0, 1.0, list) : complain_memory();
+    int code = list ? twins_ask(twins, set, &(struct twin_changes){.faster = 1.0}, list)
+                    : complain_memory();
     if (code == EXIT_ANSWERED)
         code = twins_complete(twins, set, list);
     if (code == EXIT_ANSWERED)
-        code = evaluate(compare, &comparison) ? report(compare, &comparison) : complain_memory();
+        code = differences_find(set, list, compare->permutations, compare->seed,
+                                &comparison.differences)
+                   ? report(compare, &comparison)
+                   : complain_memory();
     free(list);
     return code;
 }

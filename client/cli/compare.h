@@ -5,7 +5,7 @@
 #ifndef PERCUSS_CLI_COMPARE_H
 #define PERCUSS_CLI_COMPARE_H
 
-#include "distance.h"
+#include "differences.h"
 #include "plot.h"
 #include "twins.h"
 
@@ -13,11 +13,7 @@ struct comparison {
     const struct scene *scene;
     const struct measured_set *set;
     const struct twin *twins;
-    double measured_mean, measured_deviation; /* of the restitution */
-    double simulated_mean, simulated_deviation;
-    double residual_mean, residual_half_width, residual_rms; /* simulated less measured */
-    struct distance kolmogorov, energy;
-    size_t counted, counts_equal; /* impacts with a measured number of sub-impacts */
+    struct differences differences;
     const struct tally *warnings; /* of the twins */
 };
 

@@ -39,17 +39,18 @@ void compare_print_table(const struct comparison *comparison)
     /* over all of them */
     printf("\n%s on %s, %zu impacts\n", comparison->scene->a, comparison->scene->b,
            comparison->set->count);
-    printf("  %-20s mean %.4f, standard deviation %.4f\n", "measured e", comparison->measured_mean,
-           comparison->measured_deviation);
+    printf("  %-20s mean %.4f, standard deviation %.4f\n", "measured e",
+           comparison->differences.measured_mean, comparison->differences.measured_deviation);
     printf("  %-20s mean %.4f, standard deviation %.4f\n", "simulated e",
-           comparison->simulated_mean, comparison->simulated_deviation);
+           comparison->differences.simulated_mean, comparison->differences.simulated_deviation);
     printf("  %-20s mean %.4f +- %.4f (95 %%), root mean square %.4f\n", "residual",
-           comparison->residual_mean, comparison->residual_half_width, comparison->residual_rms);
-    print_distance("Kolmogorov-Smirnov", &comparison->kolmogorov);
-    print_distance("energy distance", &comparison->energy);
-    if (comparison->counted > 0)
-        printf("  %-20s equal in %zu of %zu impacts\n", "sub-impacts", comparison->counts_equal,
-               comparison->counted);
+           comparison->differences.residual_mean, comparison->differences.residual_half_width,
+           comparison->differences.residual_rms);
+    print_distance("Kolmogorov-Smirnov", &comparison->differences.kolmogorov);
+    print_distance("energy distance", &comparison->differences.energy);
+    if (comparison->differences.counted > 0)
+        printf("  %-20s equal in %zu of %zu impacts\n", "sub-impacts",
+               comparison->differences.counts_equal, comparison->differences.counted);
 }
 
 static void print_csv_of(const struct measured_impact *impact)
@@ -124,20 +125,25 @@ void compare_print_json(const struct comparison *comparison)
         json_array_append_new(array, object);
     }
     /* over all of them */
-    json_object_set_new(residual, "mean", json_number(comparison->residual_mean));
-    json_object_set_new(residual, "half_width", json_number(comparison->residual_half_width));
-    json_object_set_new(residual, "root_mean_square", json_number(comparison->residual_rms));
+    json_object_set_new(residual, "mean", json_number(comparison->differences.residual_mean));
+    json_object_set_new(residual, "half_width",
+                        json_number(comparison->differences.residual_half_width));
+    json_object_set_new(residual, "root_mean_square",
+                        json_number(comparison->differences.residual_rms));
     json_object_set_new(root, "measured",
-                        moments_to_json(comparison->measured_mean, comparison->measured_deviation));
-    json_object_set_new(
-        root, "simulated",
-        moments_to_json(comparison->simulated_mean, comparison->simulated_deviation));
+                        moments_to_json(comparison->differences.measured_mean,
+                                        comparison->differences.measured_deviation));
+    json_object_set_new(root, "simulated",
+                        moments_to_json(comparison->differences.simulated_mean,
+                                        comparison->differences.simulated_deviation));
     json_object_set_new(root, "residual", residual);
-    json_object_set_new(root, "kolmogorov_smirnov", distance_to_json(&comparison->kolmogorov));
-    json_object_set_new(root, "energy_distance", distance_to_json(&comparison->energy));
-    json_object_set_new(root, "sub_impacts_known", json_integer((json_int_t)comparison->counted));
+    json_object_set_new(root, "kolmogorov_smirnov",
+                        distance_to_json(&comparison->differences.kolmogorov));
+    json_object_set_new(root, "energy_distance", distance_to_json(&comparison->differences.energy));
+    json_object_set_new(root, "sub_impacts_known",
+                        json_integer((json_int_t)comparison->differences.counted));
     json_object_set_new(root, "sub_impacts_equal",
-                        json_integer((json_int_t)comparison->counts_equal));
+                        json_integer((json_int_t)comparison->differences.counts_equal));
     json_object_set_new(root, "impacts", array);
     json_object_set_new(root, "left_out", measured_file_left_to_json(comparison->set));
     json_object_set_new(root, "warnings", tally_to_json(comparison->warnings));

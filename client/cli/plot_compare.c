@@ -45,10 +45,10 @@ static struct axes take_axes(const struct comparison *comparison)
         plot_range_take(&axes.count, twin->sub_impacts);
     }
     /* areas may reach where no restitution is: below 0 */
-    double wide = 0.5 * AREAS * comparison->measured_deviation;
+    double wide = 0.5 * AREAS * comparison->differences.measured_deviation;
     axes.areas = axes.restitution;
-    plot_range_take(&axes.areas, comparison->measured_mean - wide);
-    plot_range_take(&axes.areas, comparison->measured_mean + wide);
+    plot_range_take(&axes.areas, comparison->differences.measured_mean - wide);
+    plot_range_take(&axes.areas, comparison->differences.measured_mean + wide);
     plot_range_take(&axes.areas, 0.0);
     axes.count.high += 0.5;
     return axes;
@@ -57,7 +57,8 @@ static struct axes take_axes(const struct comparison *comparison)
 /* The areas with their letters on their right, at both of their ends, and the mean. */
 static void write_areas(const struct plot *plot, const struct comparison *comparison)
 {
-    double mean = comparison->measured_mean, deviation = comparison->measured_deviation;
+    double mean = comparison->differences.measured_mean,
+           deviation = comparison->differences.measured_deviation;
     if (!(deviation > 0.0))
         return;
     for (int area = AREAS; area-- > 0;) {
@@ -88,7 +89,7 @@ static void write_restitution(const struct plot *plot, const struct comparison *
           "'' using 1:2 with points lt 2 title 'measured', "
           "'' using 1:3 with points lt 1 title 'simulated'",
           plot->script);
-    if (comparison->measured_deviation > 0.0)
+    if (comparison->differences.measured_deviation > 0.0)
         fputs(", keyentry with lines lc rgb '#808080' lw 1 title 'mean of the measured', "
               "keyentry with boxes fs solid noborder lc rgb '#d2d2d2' "
               "title 'A to D: ± 0.5, 1, 1.5, 2 σ'",

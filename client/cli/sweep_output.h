@@ -12,7 +12,7 @@
 
 #include "impact.h"
 #include "plot.h"
-#include "tally.h"
+#include "tally_output.h"
 
 /* NAN where undefined. */
 struct sweep_row {

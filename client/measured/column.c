@@ -12,8 +12,8 @@
 
 const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS] = {
     [IMPACT_SPEED] = {"speed", false, false, QUANTITY_SPEED, 1e-9, 1e6, "m/s > 0"},
-    [IMPACT_RESTITUTION] = {"restitution", false, false, QUANTITY_NUMBER, 0.0, 1.0,
-                            "a number 0..1"},
+    [IMPACT_RESTITUTION] = {"restitution", false, false, QUANTITY_NUMBER, -1.0, 2.0,
+                            "a number -1..2"}, /* 0..1 but for what a reading scatters */
     [IMPACT_IMPULSE] = {"impulse", false, false, QUANTITY_IMPULSE, 0.0, 1e12, "N s >= 0"},
     [IMPACT_SUB_IMPACTS] = {"sub_impacts", false, true, QUANTITY_NUMBER, 0.0, 1e6, "a count >= 0"},
     [IMPACT_FIRST_IMPULSE] = {"first_impulse", false, false, QUANTITY_IMPULSE, 0.0, 1e12,

@@ -10,7 +10,7 @@ has() {
 }
 
 files="$bin/percussd $bin/percuss $bin/percuss-tables $bin/percuss-reduce"
-for library in percuss percuss-slowscale; do
+for library in percuss percuss-measured percuss-slowscale; do
     files="$files $(find "$build/client" -name "lib$library.so" | head -n 1)"
 done
 for file in $files; do

@@ -22,13 +22,13 @@ mkdir "$work/here"
 ln -s "$source_dir/client" "$source_dir/config" "$work/here"
 cd "$work/here"
 
-# snippet N: the page's N-th block of Python
+# snippet N [PAGE]: the page's N-th block of Python
 snippet() {
     awk -v wanted="$1" '
         /^```python$/ { inside = 1; n++; next }
         /^```$/ { inside = 0 }
         inside && n == wanted { print; found = 1 }
-        END { exit !found }' "$page" >snippet.py || fail "no snippet $1"
+        END { exit !found }' "${2:-$page}" >snippet.py || fail "no snippet $1"
 }
 
 say "a daemon asked: the snippet prints what stands beside its lines"
@@ -66,6 +66,12 @@ expect 0 python snippet.py
 prints "s: 0\.31[34] m/s, e = 0\.70"
 awk '/ e = / { n++ } /^Counts/ { exit index($0, "impacts=" n ", requests=" n ",") == 0 }' "$out" || fail "counts"
 grep -c " e = " "$out" | grep -qx '[3-9]' || fail "not some impacts"
+
+say "measurements: compared, and Young's modulus found"
+snippet 1 "$source_dir/docs/measurements.md"
+expect 0 python snippet.py
+prints " 0\.7[0-9]* 0\.8[0-9]*$"
+prints "^7192[0-9.]* 7283[0-9.]*$"
 
 say "the examples, as the page calls them"
 commands "$page" bounces.py >examples.sh

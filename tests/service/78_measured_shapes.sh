@@ -134,10 +134,10 @@ tr -d ' \n' <"$out" | grep -qF '"left_out":[{"line":3,"reason":"nospeed"},{"line
     fail "the rows are not named"
 
 say "all that is wrong with a file is said at once"
-printf 'speed [mm/s];restitution;sub_impacts\n-200;0,7;1\n200;1,4;1\n200;half;2\n200;0.7;2\n200;0,7;1,5\n200\n200;inf;1\n' >bad.csv
+printf 'speed [mm/s];restitution;sub_impacts\n-200;0,7;1\n200;7,4;1\n200;half;2\n200;0.7;2\n200;0,7;1,5\n200\n200;inf;1\n' >bad.csv
 expect 2 percuss compare bad.csv $pair
 says "bad.csv:2: speed: -0.2: must be m/s > 0 (column 1, 'speed [mm/s]')"
-says "bad.csv:3: restitution: 1.4: must be a number 0..1 (column 2)"
+says "bad.csv:3: restitution: 7.4: must be a number -1..2 (column 2)"
 says "bad.csv:4: restitution: 'half': must be a finite number, empty or nan (column 2)"
 says "bad.csv:5: restitution: '0.7': must have one decimal mark, ',' as in line 2 (column 2)"
 says "bad.csv:6: sub_impacts: 1.5: must be a count >= 0 (column 3)"
@@ -147,7 +147,7 @@ says "bad.csv:8: restitution: 'inf': must be a finite number, empty or nan (colu
 expect 2 percuss calibrate bad.csv $pair --fit young:al-beam
 says "bad.csv:8: restitution: 'inf'"
 expect 2 percuss sweep $pair --speed 0.1:0.4:3 --measured bad.csv --plot points.svg
-says "--measured: bad.csv:3: restitution: 1.4"
+says "--measured: bad.csv:3: restitution: 7.4"
 
 # refused TEXT [ARGUMENT...]: of what is on standard input
 refused() {

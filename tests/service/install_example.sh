@@ -22,7 +22,7 @@ cmake --install "$build" --prefix "$prefix" >"$work/install.log"
 for file in bin/percuss share/man/man1/percuss.1 share/man/man8/percussd.8 share/man/man8/percuss-tables.8 \
     share/man/man5/percuss-catalogue.5 share/man/man5/percussd.yaml.5 share/man/man8/percuss-reduce.8 sbin/percuss-reduce \
     include/percuss/percuss.h include/percuss/vocabulary.h include/percuss/slowscale.h \
-    include/percuss/slow_equations.h share/percuss/percuss_wire.idl share/percuss/catalogue.yaml \
+    include/percuss/slow_equations.h include/percuss/measured.h lib/pkgconfig/percuss-measured.pc share/percuss/percuss_wire.idl share/percuss/catalogue.yaml \
     share/percuss/percussd.yaml share/percuss/bodies/half-plate-20.h5 share/percuss/examples/query.c share/percuss/python/pyproject.toml \
     share/percuss/python/percuss/__init__.py share/percuss/python/examples/speed_sweep.py \
     share/doc/percuss/README.md share/doc/percuss/integrating.md share/doc/percuss/LICENSE; do
@@ -48,7 +48,7 @@ fi
 
 say "nothing but percuss_ leaves the libraries, and their headers do not need those of DDS"
 libraries=$prefix/lib
-for library in libpercuss libpercuss-local libpercuss-slowscale; do
+for library in libpercuss libpercuss-local libpercuss-measured libpercuss-slowscale; do
     if nm -D --defined-only "$libraries/$library.so" | awk '{print $3}' | grep -v '^percuss_' ||
         nm -D --defined-only "$libraries/$library.so" | grep ' percuss_v1_'; then
         fail "$library exports symbols of its inside"

@@ -140,7 +140,8 @@ def read_body(source: Any) -> Body:
     return read(source, Body, supports=(Support(first), Support(second)), parameters=parameters, sites=sites)
 
 
-def _write_body(body: Body) -> _server_abi.Body:
+def write_body(body: Body) -> _server_abi.Body:
+    """The C body."""
     return _server_abi.Body(
         body.id.encode(),
         body.shape.encode(),
@@ -157,6 +158,15 @@ def _write_body(body: Body) -> _server_abi.Body:
         len(body.sites),
         tuple((site.name.encode(), tuple(site.point.tolist()), tuple(site.normal.tolist())) for site in body.sites),
     )
+
+
+def find(name: str, body: Body | str, known: dict[str, Body]) -> Body:
+    """The body, or that of the catalogue with this id; `name` is for messages."""
+    if isinstance(body, Body):
+        return body
+    if body not in known:
+        raise ValueError(f"{name}: {body!r}: not in the catalogue, which has {', '.join(known)}")
+    return known[body]
 
 
 def contact_pair(
@@ -176,7 +186,7 @@ def contact_pair(
     that is free, else at -x; beam: +z side; mesh: its first site with a name. b stands unrotated at the origin, the normal is the outward
     one of its site. InvalidArgument for a shape that cannot be placed, or a number out of range.
     """
-    first, second = _write_body(a), _write_body(b)
+    first, second = write_body(a), write_body(b)
     pair = _server_abi.Pair(ctypes.pointer(first), ctypes.pointer(second), speed, at_a, at_b)
     pair.site_a, pair.site_b = (None if name is None else name.encode() for name in (site_a, site_b))
     request = _abi.Request()

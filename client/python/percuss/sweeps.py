@@ -24,7 +24,7 @@ from .client import Client
 from .errors import WindowFull
 from .reply import Reply
 from .request import FloatArray, Options, Request
-from .server import Body, contact_pair
+from .server import Body, contact_pair, find
 from .vocabulary import ContactModel, Status
 
 _OUTSTANDING = 16
@@ -130,7 +130,7 @@ def sweep(
     given = [options.contact_model] if contact_model is None else contact_model
     models = [given] if isinstance(given, (str, ContactModel)) else list(given)
     known = client.bodies(timeout) if any(isinstance(one, str) for one in (a, *bodies_b)) else {}
-    first, others = _find("a", a, known), [_find("b", one, known) for one in bodies_b]
+    first, others = find("a", a, known), [find("b", one, known) for one in bodies_b]
     values = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
     if values.ndim != 1 or not (np.isfinite(values) & (values > 0.0)).all():
         raise ValueError(f"speeds: {speeds!r}: a list of numbers > 0 is allowed")
@@ -142,14 +142,6 @@ def sweep(
                 question.options = replace(options, contact_model=model)
             curves.append(_curve(first, other, model, values, _ask(client, questions, timeout)))
     return Sweep(tuple(curves))
-
-
-def _find(name: str, body: Body | str, known: dict[str, Body]) -> Body:
-    if isinstance(body, Body):
-        return body
-    if body not in known:
-        raise ValueError(f"{name}: {body!r}: not in the catalogue, which has {', '.join(known)}")
-    return known[body]
 
 
 def _ask(client: Client, questions: Sequence[Request], timeout: float) -> list[Reply]:

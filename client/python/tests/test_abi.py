@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import percuss
-from percuss import _abi, _ensemble_abi, _slow_abi, vocabulary
+from percuss import _abi, _ensemble_abi, _measured_abi, _slow_abi, vocabulary
 from percuss.slowscale import Application
 
 SOURCE = Path(os.environ["PERCUSS_SOURCE"])
@@ -52,7 +52,7 @@ def public_structs(headers: list[Path] = LIBRARY) -> dict[str, list[str]]:
 
 def compiled_layouts(structs: dict[str, list[str]]) -> dict[tuple[str, ...], list[int]]:
     """(struct,): [size]; (struct, field): [offset, size], as the compiler has them."""
-    headers = ("percuss/local.h", "percuss/ensemble_share.h", "percuss/slowscale.h", "percuss/slow_link.h", "stdio.h")
+    headers = ("percuss/local.h", "percuss/measured.h", "percuss/ensemble_share.h", "percuss/slowscale.h", "percuss/slow_link.h", "stdio.h")
     lines = [*(f"#include <{header}>" for header in headers), "int main(void) {"]
     for struct, fields in structs.items():
         lines.append(f'printf("{struct} : %zu\\n", sizeof(struct {struct}));')
@@ -90,7 +90,7 @@ def _size(struct: type[Structure]) -> int:
 class Abi(unittest.TestCase):
     def test_layouts(self) -> None:
         structs = public_structs()
-        all_ours = {**_abi.STRUCTS, **_ensemble_abi.STRUCTS}
+        all_ours = {**_abi.STRUCTS, **_ensemble_abi.STRUCTS, **_measured_abi.STRUCTS}
         self.assertEqual(structs, {name: [field[0] for field in ours._fields_] for name, ours in all_ours.items()})
         self.assertEqual(our_layouts(all_ours), compiled_layouts(structs))
 
@@ -152,13 +152,14 @@ class Abi(unittest.TestCase):
             *(name for name in functions if name.endswith(("_name", "_default"))),
             *("request_init", "request_add_body", "request_add_contact", "body_find"),
             "client_create_secured",
-            "ensemble_request_init",
+            *("ensemble_request_init", "measured_count"),
         }
         declared = {name for name, _, _ in (
             *_abi._FUNCTIONS,
             *_abi.LOCAL_FUNCTIONS,
             *_ensemble_abi.FUNCTIONS,
             *_ensemble_abi.SHARE_FUNCTIONS,
+            *_measured_abi.FUNCTIONS,
         )}
         self.assertEqual(declared | unused | {"version"}, functions)
 

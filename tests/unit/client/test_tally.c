@@ -1,12 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/cli/tally.c: the warnings of many replies, each kind once. */
+/* Tests client/twins/tally.c: the warnings of many replies, each kind once. */
 #include <stdio.h>
 #include <string.h>
 
 #include "check.h"
-#include "tally.h"
+#include "tally_output.h"
 
 static void take(struct tally *tally, const char *place, char *first, char *second)
 {

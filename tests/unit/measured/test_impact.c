@@ -170,8 +170,8 @@ static void refuses_bad_values(void **state)
     refuse("speed,restitution\n0.1,inf\n", "bad.csv:2: restitution: 'inf': must be a finite");
     refuse("speed [mm/s],restitution\n-0.1,0.5\n",
            "bad.csv:2: speed: -0.0001: must be m/s > 0 (column 1, 'speed [mm/s]')");
-    refuse("speed,restitution\n0.1,1.01\n", "restitution: 1.01: must be a number 0..1 (column 2)");
-    refuse("speed,restitution\n0.1,-0.2\n", "restitution: -0.2: must be a number 0..1");
+    refuse("speed,restitution\n0.1,2.01\n", "restitution: 2.01: must be a number -1..2 (column 2)");
+    refuse("speed,restitution\n0.1,-1.2\n", "restitution: -1.2: must be a number -1..2");
     refuse("speed,restitution,at\n0.1,0.2,1.5\n", "at: 1.5: must be a fraction 0..1 (column 3)");
     refuse("speed,restitution,sub_impacts\n0.1,0.2,1.5\n", "sub_impacts: 1.5: must be a count");
     refuse("speed;restitution\n0,25;0,5\n0.3;0,5\n",

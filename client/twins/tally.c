@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli.h"
-
 enum { TEXT = 512, PLACE = 128 };
 
 struct tally_entry {
@@ -73,13 +71,18 @@ static bool add(struct tally *tally, const char *text, const char *place)
     return true;
 }
 
+/* The statuses of an answer that is not all that was asked for. */
+static bool is_warning(enum percuss_status status)
+{
+    return status == PERCUSS_TRUNCATED || status == PERCUSS_NOT_APPROACHING;
+}
+
 bool tally_take(struct tally *tally, const struct percuss_reply *reply, const char *place)
 {
     char text[TEXT];
     tally->asked++;
     snprintf(text, sizeof text, "%s: %.450s", percuss_status_name(reply->status), reply->message);
-    bool good =
-        status_exit_code(reply->status) != EXIT_ANSWERED_WITH_WARNING || add(tally, text, place);
+    bool good = !is_warning(reply->status) || add(tally, text, place);
     for (size_t i = 0; good && i < reply->warning_count; i++)
         good = add(tally, reply->warnings[i], place);
     return good;
@@ -91,29 +94,9 @@ void tally_clear(struct tally *tally)
     *tally = (struct tally){.unit = tally->unit};
 }
 
-static void describe(const struct tally *tally, size_t i, char line[2 * TEXT])
+void tally_line(const struct tally *tally, size_t i, char line[TALLY_LINE])
 {
     const struct tally_entry *entry = &tally->entries[i];
-    snprintf(line, 2 * TEXT, "%s: %zu of %zu, first %s: %s", tally->unit, entry->count,
+    snprintf(line, TALLY_LINE, "%s: %zu of %zu, first %s: %s", tally->unit, entry->count,
              tally->asked, entry->place, entry->text);
-}
-
-void tally_complain(const struct tally *tally)
-{
-    char line[2 * TEXT];
-    for (size_t i = 0; i < tally->count; i++) {
-        describe(tally, i, line);
-        complain("warning: %s", line);
-    }
-}
-
-json_t *tally_to_json(const struct tally *tally)
-{
-    char line[2 * TEXT];
-    json_t *array = json_array();
-    for (size_t i = 0; i < tally->count; i++) {
-        describe(tally, i, line);
-        json_array_append_new(array, json_string(line));
-    }
-    return array;
 }

@@ -3,11 +3,12 @@
 
 /* The warnings of many replies: each kind once, with how many replies give it. Texts that differ in
  * numbers only are of one kind. */
-#ifndef PERCUSS_CLI_TALLY_H
-#define PERCUSS_CLI_TALLY_H
+#ifndef PERCUSS_TWINS_TALLY_H
+#define PERCUSS_TWINS_TALLY_H
 
-#include <jansson.h>
 #include <percuss/percuss.h>
+
+enum { TALLY_LINE = 1024 };
 
 struct tally {
     const char *unit; /* what a reply is of, in the plural; set by the caller */
@@ -21,9 +22,8 @@ struct tally {
 bool tally_take(struct tally *tally, const struct percuss_reply *reply, const char *place);
 void tally_clear(struct tally *tally);
 
-/* "UNIT: COUNT of ASKED, first PLACE: the first's text" for each kind, in the order of their first
- * occurrence: on standard error, or as an array for JSON. */
-void tally_complain(const struct tally *tally);
-json_t *tally_to_json(const struct tally *tally);
+/* "UNIT: COUNT of ASKED, first PLACE: the first's text" of the i-th kind, in the order of their
+ * first occurrence. */
+void tally_line(const struct tally *tally, size_t i, char line[TALLY_LINE]);
 
 #endif

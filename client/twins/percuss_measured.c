@@ -1,0 +1,226 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* <percuss/measured.h>: impacts, and what they are beside their twins. */
+#include <percuss/measured.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "differences.h"
+#include "report.h"
+
+/* All errors of a file, a line each. */
+static enum percuss_result refuse(const struct measured_remarks *remarks)
+{
+    char text[REMARKS_KEPT * sizeof remarks->error[0]];
+    size_t length = 0, kept = remarks->errors < REMARKS_KEPT ? remarks->errors : REMARKS_KEPT;
+    for (size_t i = 0; i < kept; i++)
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", i ? "\n" : "",
+                                   remarks->error[i].text);
+    if (remarks->errors > kept && length < sizeof text)
+        snprintf(text + length, sizeof text - length, "\nand %zu errors more",
+                 remarks->errors - kept);
+    return report_set(PERCUSS_RESULT_INVALID_ARGUMENT, "%s", text);
+}
+
+enum percuss_result percuss_measured_read(const char *file, size_t column_count,
+                                          const char *const *columns,
+                                          struct percuss_measured **measured)
+{
+    struct column_map map = {0};
+    struct measured_fault fault;
+    *measured = NULL;
+    for (size_t i = 0; i < column_count; i++)
+        if (!column_map_add(&map, columns[i], &fault))
+            return report_set(PERCUSS_RESULT_INVALID_ARGUMENT, "columns[%zu]: %s", i, fault.text);
+    struct percuss_measured *made = calloc(1, sizeof *made);
+    if (!made)
+        return report_set(PERCUSS_RESULT_NO_MEMORY, "out of memory: %s", file);
+    if (measured_read(file, &map, &made->set, &made->remarks)) {
+        *measured = made;
+        return PERCUSS_RESULT_OK;
+    }
+    enum percuss_result result = refuse(&made->remarks);
+    percuss_measured_free(made);
+    return result;
+}
+
+/* The numbers of an impact, and of which they must be. */
+static const struct {
+    const char *name, *allowed;
+    size_t public_offset, offset;
+    double low, high;
+} NUMBERS[] = {
+#define NUMBER(name, low, high, allowed)                                                           \
+    {#name,                                                                                        \
+     allowed,                                                                                      \
+     offsetof(struct percuss_measured_impact, name),                                               \
+     offsetof(struct measured_impact, name),                                                       \
+     low,                                                                                          \
+     high},
+    /* as in files (column.c) */
+    NUMBER(speed, 1e-9, 1e6, "m/s > 0")              /**/
+    NUMBER(restitution, -1.0, 2.0, "a number -1..2") /**/
+    NUMBER(impulse, 0.0, 1e12, "N s >= 0")           /**/
+    NUMBER(sub_impacts, 0.0, 1e6, "a count >= 0")    /**/
+    NUMBER(first_impulse, 0.0, 1e12, "N s >= 0")     /**/
+    NUMBER(first_duration, 0.0, 1e6, "s >= 0")       /**/
+    NUMBER(second_start, 0.0, 1e6, "s >= 0")         /**/
+    NUMBER(at, 0.0, 1.0, "a fraction 0..1")
+#undef NUMBER
+};
+enum { NUMBER_COUNT = sizeof NUMBERS / sizeof NUMBERS[0] };
+
+static enum percuss_result take(size_t index, const struct percuss_measured_impact *given,
+                                struct measured_impact *impact)
+{
+    *impact = measured_impact_unknown();
+    for (size_t i = 0; i < NUMBER_COUNT; i++) {
+        double value = *(const double *)((const char *)given + NUMBERS[i].public_offset);
+        if (value < NUMBERS[i].low || value > NUMBERS[i].high)
+            return report_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                              "impacts[%zu].%s: %g: %s or NAN is allowed", index, NUMBERS[i].name,
+                              value, NUMBERS[i].allowed);
+        *(double *)((char *)impact + NUMBERS[i].offset) = value;
+    }
+    if (isnan(impact->speed))
+        return report_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                          "impacts[%zu].speed: unknown: a number > 0 is needed", index);
+    if (isnan(impact->restitution) && isnan(impact->impulse))
+        return report_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                          "impacts[%zu].restitution: unknown: it or the impulse is needed", index);
+    return PERCUSS_RESULT_OK;
+}
+
+enum percuss_result percuss_measured_create(size_t count,
+                                            const struct percuss_measured_impact *impacts,
+                                            struct percuss_measured **measured)
+{
+    *measured = NULL;
+    if (count == 0)
+        return report_set(PERCUSS_RESULT_INVALID_ARGUMENT, "impacts: none: at least one is needed");
+    struct percuss_measured *made = calloc(1, sizeof *made);
+    enum percuss_result result = PERCUSS_RESULT_OK;
+    for (size_t i = 0; made && result == PERCUSS_RESULT_OK && i < count; i++) {
+        struct measured_impact impact;
+        result = take(i, &impacts[i], &impact);
+        if (result == PERCUSS_RESULT_OK && !measured_append(&made->set, &impact))
+            result = report_set(PERCUSS_RESULT_NO_MEMORY, "out of memory: impacts");
+    }
+    if (!made)
+        return report_set(PERCUSS_RESULT_NO_MEMORY, "out of memory: impacts");
+    if (result == PERCUSS_RESULT_OK)
+        *measured = made;
+    else
+        percuss_measured_free(made);
+    return result;
+}
+
+void percuss_measured_free(struct percuss_measured *measured)
+{
+    if (measured)
+        measured_set_free(&measured->set);
+    free(measured);
+}
+
+size_t percuss_measured_count(const struct percuss_measured *measured)
+{
+    return measured->set.count;
+}
+
+const char *percuss_measured_note(const struct percuss_measured *measured, size_t index)
+{
+    size_t count = measured->remarks.notes;
+    return index < count && index < REMARKS_KEPT ? measured->remarks.note[index].text : NULL;
+}
+
+struct percuss_measured_question percuss_measured_question_default(struct percuss_client *client,
+                                                                   const struct percuss_body *a,
+                                                                   const struct percuss_body *b)
+{
+    return (struct percuss_measured_question){.client = client,
+                                              .pair = percuss_pair_default(a, b),
+                                              .options = percuss_options_default(),
+                                              .timeout = 60.0,
+                                              .permutations = 1999,
+                                              .seed = 1,
+                                              .noise = 0.01};
+}
+
+static struct percuss_measured_impact give(const struct measured_impact *impact)
+{
+    struct percuss_measured_impact given;
+    for (size_t i = 0; i < NUMBER_COUNT; i++)
+        *(double *)((char *)&given + NUMBERS[i].public_offset) =
+            *(const double *)((const char *)impact + NUMBERS[i].offset);
+    return given;
+}
+
+static void fill(const struct differences *differences, struct percuss_comparison *comparison)
+{
+    comparison->measured_mean = differences->measured_mean;
+    comparison->measured_deviation = differences->measured_deviation;
+    comparison->simulated_mean = differences->simulated_mean;
+    comparison->simulated_deviation = differences->simulated_deviation;
+    comparison->residual_mean = differences->residual_mean;
+    comparison->residual_half_width = differences->residual_half_width;
+    comparison->residual_rms = differences->residual_rms;
+    comparison->kolmogorov_smirnov = (struct percuss_measured_distance){
+        differences->kolmogorov.value, differences->kolmogorov.p};
+    comparison->energy_distance =
+        (struct percuss_measured_distance){differences->energy.value, differences->energy.p};
+    comparison->sub_impacts_known = differences->counted;
+    comparison->sub_impacts_equal = differences->counts_equal;
+}
+
+static enum percuss_result compare(const struct report *report,
+                                   struct percuss_comparison *comparison)
+{
+    const struct measured_set *set = &report->set;
+    struct differences differences;
+    if (!differences_find(set, report->list, report->asked->permutations, report->asked->seed,
+                          &differences))
+        return report_set(PERCUSS_RESULT_NO_MEMORY, "out of memory: distances");
+    fill(&differences, comparison);
+    /* impact by impact */
+    comparison->impacts = calloc(set->count, sizeof *comparison->impacts);
+    comparison->warnings = report_warnings(report);
+    if (!comparison->impacts || !comparison->warnings)
+        return report_set(PERCUSS_RESULT_NO_MEMORY, "out of memory: a comparison");
+    comparison->warning_count = report->warnings.count;
+    comparison->impact_count = set->count;
+    for (size_t i = 0; i < set->count; i++) {
+        const struct twin *twin = &report->list[i];
+        comparison->impacts[i] = (struct percuss_measured_twin){
+            give(&set->impacts[i]), give(&twin->impact), twin->status,
+            twin->impact.restitution - set->impacts[i].restitution};
+    }
+    return PERCUSS_RESULT_OK;
+}
+
+enum percuss_result percuss_measured_compare(const struct percuss_measured *measured,
+                                             const struct percuss_measured_question *question,
+                                             struct percuss_comparison *comparison)
+{
+    struct report report;
+    *comparison = (struct percuss_comparison){0};
+    enum percuss_result result = report_check(question);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    result = report_begin(measured, question, &report);
+    if (result == PERCUSS_RESULT_OK)
+        result = compare(&report, comparison);
+    if (result != PERCUSS_RESULT_OK)
+        percuss_comparison_free(comparison);
+    report_end(&report);
+    return result;
+}
+
+void percuss_comparison_free(struct percuss_comparison *comparison)
+{
+    free(comparison->impacts);
+    report_free_warnings(comparison->warning_count, comparison->warnings);
+    *comparison = (struct percuss_comparison){0};
+}
