@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _convert, _ensemble_abi, _tables
+from . import _convert, _ensemble_abi, _plots, _tables
 from .ensemble_request import Ensemble
 from .request import FloatArray
 from .reply import Timing
@@ -170,6 +170,12 @@ class EnsembleReply:
             columns[name] = columns[name].astype(np.int64)
         columns["status"] = [Status(int(number)).name for number in columns["status"]]
         return _tables.frame(columns)
+
+    def plot(self, figure: Any = None) -> Any:
+        """Draws the distribution of the restitution; with list_samples its samples over the first input, too.
+
+        Returns a matplotlib Figure of its own (`.savefig`, or a notebook's last line), or the given one drawn into."""
+        return _plots.ensemble(self, figure)
 
     def _repr_html_(self) -> str:
         rows = [

@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _convert, _tables
+from . import _convert, _plots, _tables
 from . import _measured_abi as abi
 from . import server as announced
 from .client import Client
@@ -110,6 +110,12 @@ class Comparison:
         columns = {name: getattr(self.measured, name) for name in ("speed", "at", *told)}
         columns.update({f"simulated_{name}": getattr(self.simulated, name) for name in told})
         return _tables.frame({**columns, "residual": self.residual})
+
+    def plot(self, figure: Any = None) -> Any:
+        """Draws every impact beside its twin, their numbers of sub-impacts, both distributions.
+
+        Returns a matplotlib Figure of its own (`.savefig`, or a notebook's last line), or the given one drawn into."""
+        return _plots.comparison(self, figure)
 
     def _repr_html_(self) -> str:
         rows = [

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _tables
+from . import _plots, _tables
 from .client import Client
 from .errors import WindowFull
 from .reply import Reply
@@ -84,6 +84,12 @@ class Sweep:
         """A row a point: b, contact_model, and what the command line writes: speed, restitution, error, impulse,
         sub_impacts, significant, end_time, status."""
         return _tables.stack([curve._columns() for curve in self.curves], ("b", "contact_model", *_COLUMNS))
+
+    def plot(self, figure: Any = None) -> Any:
+        """Draws the restitution with its estimated error over the speed, the number of sub-impacts below.
+
+        Returns a matplotlib Figure of its own (`.savefig`, or a notebook's last line), or the given one drawn into."""
+        return _plots.sweep(self, figure)
 
     def _repr_html_(self) -> str:
         return "".join(

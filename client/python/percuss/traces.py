@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _abi, _convert, _tables, request
+from . import _abi, _convert, _plots, _tables, request
 from .client import Client
 from .errors import check
 from .reply import Reply
@@ -63,6 +63,12 @@ class Trace:
             for i, one in enumerate(self.contacts)
         ]
         return _tables.stack(parts, ("contact", *names))
+
+    def plot(self, figure: Any = None) -> Any:
+        """Draws a column for each contact: the force, the velocities of the bodies, the indentation.
+
+        Returns a matplotlib Figure of its own (`.savefig`, or a notebook's last line), or the given one drawn into."""
+        return _plots.trace(self, figure)
 
     def _repr_html_(self) -> str:
         rows = [

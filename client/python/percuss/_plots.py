@@ -1,0 +1,158 @@
+# Copyright 2026 The percuss authors
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures of results by matplotlib, where it is installed. Legends stand above the axes, where no data are."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from .ensemble_reply import EnsembleReply
+    from .measured import Comparison
+    from .sweeps import Curve, Sweep
+    from .traces import Trace
+
+_GREYS = ("#ececec", "#e0e0e0", "#d2d2d2", "#c4c4c4")
+
+
+def _figure(given: Any, size: tuple[float, float]) -> Any:
+    """A figure of its own, which a notebook shows and nothing else keeps, or the one that is given."""
+    try:
+        # a notebook learns to show figures when pyplot comes
+        import matplotlib.pyplot  # noqa: F401
+        from matplotlib.figure import Figure
+    except ImportError as missing:
+        raise ImportError("plot needs matplotlib: pip install 'percuss[plot]'") from missing
+    if given is None:
+        return Figure(figsize=size, layout="constrained")
+    if hasattr(given, "set_layout_engine"):
+        given.set_layout_engine("constrained")
+    return given
+
+
+def _legend(figure: Any, axes: Sequence[Any]) -> None:
+    """One for all axes, above them."""
+    found: dict[str, Any] = {}
+    for one in axes:
+        for handle, label in zip(*one.get_legend_handles_labels()):
+            found.setdefault(label, handle)
+    if found:
+        columns = min(4, len(found))
+        figure.legend(list(found.values()), list(found), loc="outside upper center", ncols=columns, frameon=False)
+
+
+def trace(traced: "Trace", figure: Any) -> Any:
+    """A column for each contact: the force, the bodies' velocities, the indentation."""
+    if not traced.contacts:
+        raise ValueError(f"{traced.reply.status}: {traced.reply.message}: there are no histories to plot")
+    count = len(traced.contacts)
+    figure = _figure(figure, (8.0 + 3.0 * (count - 1), 7.0))
+    rows = figure.subplots(3, count, sharex="col", squeeze=False)
+    for i, contact in enumerate(traced.contacts):
+        force, velocity, depth = rows[:, i]
+        time = 1e3 * contact.time
+        force.fill_between(time, contact.force, color="#d8d8d8", linewidth=0)
+        force.plot(time, contact.force, color="black", linewidth=0.8)
+        bodies = (("velocity of a", contact.velocity_a), ("velocity of b", contact.velocity_b))
+        for name, values in (*bodies, ("gap rate of the rigid bodies", contact.gap_rate)):
+            if not np.isnan(values).all():
+                velocity.plot(time, values, linewidth=1.0, label=name)
+        depth.plot(time, 1e6 * contact.indentation, color="black", linewidth=0.8)
+        force.set(title=f"contact {i}", ylabel="force, N" if i == 0 else None)
+        velocity.set(ylabel="velocity, m/s" if i == 0 else None)
+        depth.set(xlabel="time, ms", ylabel="indentation, um" if i == 0 else None)
+    _legend(figure, list(rows[1]))
+    return figure
+
+
+def _name(curve: "Curve", curves: Sequence["Curve"]) -> str:
+    """What tells the curve from the others."""
+    models = len({one.contact_model for one in curves}) > 1
+    return f"{curve.b}, {curve.contact_model.text}" if models else curve.b
+
+
+def sweep(swept: "Sweep", figure: Any) -> Any:
+    """The restitution with its estimated error over the speed, and the number of sub-impacts below."""
+    figure = _figure(figure, (8.0, 6.0))
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
+    for i, curve in enumerate(swept.curves):
+        error = np.nan_to_num(curve.error)
+        there = np.isfinite(curve.restitution)
+        style = {"color": f"C{i}", "markersize": 3, "linewidth": 1.0}
+        above.errorbar(
+            curve.speed[there], curve.restitution[there], error[there], fmt="o-", label=_name(curve, swept.curves), **style
+        )
+        below.plot(curve.speed[there], curve.sub_impacts[there], "o", color=f"C{i}", markersize=5, fillstyle="none")
+        below.plot(curve.speed[there], curve.significant[there], ".", color=f"C{i}", markersize=3)
+    names = ", ".join(sorted({curve.a for curve in swept.curves}))
+    above.set(ylabel=f"restitution of {names}")
+    below.set(xlabel="speed, m/s", ylabel="sub-impacts (dots: significant)")
+    below.set_ylim(bottom=0)
+    below.yaxis.get_major_locator().set_params(integer=True)
+    _legend(figure, [above])
+    return figure
+
+
+def ensemble(reply: "EnsembleReply", figure: Any) -> Any:
+    """The restitution's histogram and distribution function with the intervals of its quantiles; the samples over the
+    first input, where they were handed over."""
+    if "restitution" not in reply.statistics:
+        raise ValueError(f"{reply.status}: {reply.message}: there is no distribution to plot")
+    of = reply.restitution
+    listed = reply.rows is not None and len(reply.columns) > 7
+    figure = _figure(figure, (12.0 if listed else 8.0, 4.5))
+    axes = figure.subplots(1, 3 if listed else 2)
+    shares = of.bin_counts / max(1, of.count)
+    axes[0].stairs(shares, of.bin_edges, fill=True, color="C0", alpha=0.5)
+    axes[0].axvspan(of.mean_low, of.mean_high, color="C1", alpha=0.4, linewidth=0)
+    axes[0].axvline(of.mean, color="C1", linewidth=1.2, label=f"mean {of.mean:.4g}")
+    for side in (-1.0, 1.0):
+        label = f"standard deviation {of.standard_deviation:.4g}" if side > 0.0 else None
+        axes[0].axvline(of.mean + side * of.standard_deviation, color="C1", linestyle=":", linewidth=1.2, label=label)
+    axes[0].set(xlabel="restitution", ylabel="share of the samples")
+    axes[1].plot(of.curve_values, of.curve_shares, color="C0", linewidth=1.2, label="distribution function")
+    sides = np.array([of.quantiles - of.quantiles_low, of.quantiles_high - of.quantiles])
+    axes[1].errorbar(
+        of.quantiles,
+        of.probabilities,
+        xerr=np.maximum(0.0, np.nan_to_num(sides)),
+        fmt=".",
+        color="black",
+        capsize=2,
+        label="quantiles with 95 % intervals",
+    )
+    axes[1].set(xlabel="restitution", ylabel="share of the samples below")
+    if reply.rows is not None and listed:
+        axes[2].plot(reply.rows[:, 0], reply.rows[:, reply.columns.index("restitution")], ".", markersize=2, alpha=0.6)
+        axes[2].set(xlabel=reply.columns[0], ylabel="restitution")
+    _legend(figure, list(axes))
+    return figure
+
+
+def comparison(compared: "Comparison", figure: Any) -> Any:
+    """Every impact joined to its twin over half to two deviations of what was measured (the paper's areas A to D), the
+    numbers of sub-impacts, both distributions."""
+    figure = _figure(figure, (8.0, 9.0))
+    above, middle, below = figure.subplots(3, 1, height_ratios=(2, 1, 1.5))
+    speed, ours, theirs = compared.measured.speed, compared.measured.restitution, compared.simulated.restitution
+    mean, deviation = compared.measured_mean, compared.measured_deviation
+    if deviation > 0.0:
+        for i, grey in enumerate(_GREYS):
+            half = 0.5 * (4 - i) * deviation
+            above.axhspan(mean - half, mean + half, color=grey, linewidth=0, zorder=0)
+            above.annotate("DCBA"[i], (1.01, mean + half), xycoords=("axes fraction", "data"), va="top", color="#606060")
+        above.axhline(mean, color="#808080", linewidth=0.8, zorder=1)
+    above.vlines(speed, ours, theirs, color="#b0b0b0", linewidth=0.8, zorder=2)
+    for axes, name in ((above, "restitution"), (middle, "sub_impacts")):
+        axes.plot(speed, getattr(compared.measured, name), "o", color="C1", markersize=4, label="measured")
+        axes.plot(speed, getattr(compared.simulated, name), "o", color="C0", markersize=6, fillstyle="none", label="simulated")
+    for values, colour in ((ours, "C1"), (theirs, "C0")):
+        values = np.sort(values[np.isfinite(values)])
+        below.step(values, np.arange(1, len(values) + 1) / max(1, len(values)), color=colour, where="post")
+    above.set(ylabel="restitution", title=f"{compared.a} on {compared.b}, {len(speed)} impacts")
+    middle.set(xlabel="speed, m/s", ylabel="sub-impacts")
+    middle.yaxis.get_major_locator().set_params(integer=True)
+    below.set(xlabel="restitution", ylabel="share of impacts below")
+    _legend(figure, [above])
+    return figure
