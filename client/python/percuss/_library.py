@@ -13,17 +13,25 @@ _NUMBER = "so.0"
 
 
 def _candidates(name: str) -> list[str]:
-    """That beside PERCUSS_LIBRARY alone if it is set; else that of the tree this file is in, or the system's."""
+    """That beside PERCUSS_LIBRARY alone if it is set; else that of the wheel or tree this file is in, or the
+    system's."""
     chosen = os.environ.get("PERCUSS_LIBRARY")
     if chosen:
         return [chosen if name == f"libpercuss.{_NUMBER}" else str(Path(chosen).resolve().parent / name)]
     above = Path(__file__).resolve().parents
+    # a wheel has its libraries inside (deploy/wheel.sh), and no others
+    within = above[0] / "lib" / name
+    if within.exists():
+        return [str(within)]
     # this file is share/percuss/python/percuss/_library.py in an installed tree, and
     # client/python/percuss/_library.py in a source tree
     installed = [path for tree in above[4:5] for path in (*tree.glob(f"lib*/{name}"), *tree.glob(f"lib/*/{name}"))]
     built = [path for tree in above[3:4] for path in tree.glob(f"build*/client/{name}")]
+    # and who took the package out of an installed tree by pip has where that was
+    noted = Path(__file__).with_name("libraries.txt")
+    kept = [str(Path(noted.read_text().strip()) / name)] if noted.exists() else []
     # by folders: build comes before build-address, whose sanitizers no Python bears
-    return [*map(str, sorted(installed)), name, *map(str, sorted(built))]
+    return [*map(str, sorted(installed)), *kept, name, *map(str, sorted(built))]
 
 
 def _check_version(library: ctypes.CDLL) -> None:

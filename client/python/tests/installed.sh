@@ -19,4 +19,10 @@ pip install --no-index --no-deps --no-build-isolation --target "$PWD/target" "$p
     cat log >&2
     exit 1
 }
-PYTHONPATH=$PWD/target PERCUSS_LIBRARY=$(echo "$PWD"/prefix/lib*/libpercuss.so.0) python -c "import percuss"
+# from where pip has put it, it finds the libraries of that tree too, and they the installed catalogue
+PYTHONPATH=$PWD/target python -c "
+import percuss, percuss._abi, percuss.measured
+assert percuss.__file__.startswith('$PWD/target'), percuss.__file__
+assert percuss._abi.library._name.startswith('$PWD/prefix/lib'), percuss._abi.library._name
+with percuss.Local() as local:
+    assert 'al-beam' in local.bodies()"
