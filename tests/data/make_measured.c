@@ -3,13 +3,14 @@
 
 /* Makes the synthetic measurements in client/examples/measured: 53 impacts of a steel sphere on a
  * beam with 1 % noise, whose speeds are drawn (the paper states mean and deviation of its 53, not
- * the speeds), and three more as velocity histories, at the speeds of its Figure 5. The truth is in
- * tests/physics/synthetic.h. usage: make_measured FOLDER */
+ * the speeds), three more as velocity histories, at the speeds of its Figure 5, and for its Figure
+ * 1 impacts on two rods that yield. The truth is in tests/physics/synthetic.h. usage: make_measured
+ * FOLDER */
 #include "physics/synthetic.h"
 
 #include "impact/trace.h"
 
-enum { IMPACTS = 53, HISTORIES = 3 };
+enum { IMPACTS = 53, HISTORIES = 3, ROD_IMPACTS = 23 };
 static const double NOISE = 0.01, RATE = 250e3, VELOCITY_NOISE = 2e-4, LEAD = 1e-3;
 
 static FILE *open_file(const char *folder, const char *name)
@@ -89,6 +90,37 @@ static void write_history(struct lab *lab, const char *folder, int index, double
     fclose(file);
 }
 
+/* Impacts on the end of a rod that yields, by the closed form, which the service takes last. */
+static void write_rod(struct lab *lab, const char *folder, int index, double yield)
+{
+    static struct solve_result result;
+    char body[16], name[32];
+    struct random random = {(uint64_t)index + 1205};
+    struct material material = ALUMINIUM;
+    material.young = SYNTHETIC_YOUNG;
+    material.yield = yield;
+    snprintf(body, sizeof body, "true-rod-%d", index);
+    snprintf(name, sizeof name, "rod-%d.csv", index);
+    lab_add(lab, body, make_bar(&rod_kind, material, 0.010, 1.0));
+    FILE *file = open_file(folder, name);
+    fprintf(file,
+            "# synthetic: sphere of steel (R 15 mm) on the end of a rod of aluminium (1 m, r 10 mm)"
+            ";\n# Young's modulus 72.5 GPa, yield %.0f MPa, closed form; 1 %% noise on every number"
+            "\nspeed,restitution,sub_impacts\n",
+            yield / 1e6);
+    for (int i = 0; i < ROD_IMPACTS; i++) {
+        double speed = 0.06 + 0.44 * i / (ROD_IMPACTS - 1);
+        struct solve_request request =
+            strike(sphere_spot("sphere", 0.015), end_spot(body, 1.0), speed);
+        request.options.contact_model = PERCUSS_CONTACT_CLOSED_FORM;
+        lab_solve(lab, &request, &result);
+        struct measured_impact impact = synthetic_impact(&result, speed);
+        synthetic_read(&impact, NOISE, &random);
+        fprintf(file, "%.5f,%.4f,%.0f\n", impact.speed, impact.restitution, impact.sub_impacts);
+    }
+    fclose(file);
+}
+
 int main(int argc, char **argv)
 {
     static const double speeds[HISTORIES] = {0.276, 0.287, 0.303};
@@ -110,6 +142,8 @@ int main(int argc, char **argv)
         fprintf(list, "history-%d.csv\n", i + 1);
     }
     fclose(list);
+    write_rod(lab, argv[1], 1, 205e6);
+    write_rod(lab, argv[1], 2, 575e6);
     lab_free(lab);
     return 0;
 }

@@ -4,14 +4,19 @@
 #
 # The figures and tables of the paper, computed: starts percussd on loopback, asks for every impact of
 # them, draws them, and puts the numbers into docs/paper.md of a source tree.
-# Table 2 and Fig. 3 are those kept in docs/figures; with PERCUSS_PAPER=all they are computed anew, which
-# takes some twenty minutes more and needs the benchmarks (tests/bench/beam_3d.sh).
-# usage: run.sh [BUILD [OUTPUT]]    (default: build/ of this source tree, and BUILD/paper)
+# Table 2 and model A of Fig. 3 are those kept in docs/figures and beside this script; with PERCUSS_PAPER=all
+# they are computed anew, which takes some twenty minutes more and needs the benchmarks (tests/bench/beam_3d.sh).
+# usage: run.sh [BUILD [OUTPUT [PART]...]]    (default: build/ of this source tree, BUILD/paper, and all of table_1,
+# figure_1, figure_2, table_2, figure_3, figure_5, figure_6)
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../../.." && pwd)
 build=${1:-$source/build}
 output=${2:-$build/paper}
+[ $# -le 2 ] && parts="table_1 figure_1 figure_2 table_2 figure_3 figure_5 figure_6" || {
+    shift 2
+    parts=$*
+}
 measured=$source/client/examples/measured
 mkdir -p "$output"
 
@@ -68,10 +73,9 @@ table_1() {
 }
 
 figure_1() {
-    for rod in 1 2; do
-        ask sweep --a steel-sphere --b al-rod-$rod --contact-model hertz --contact-model auto \
-            --speed 0.05:0.5:46 --plot "$output/figure-1-rod-$rod.png" >"$output/figure-1-rod-$rod.txt"
-    done
+    ask sweep --a steel-sphere --b al-rod-1 --b al-rod-2 --contact-model hertz --contact-model auto \
+        --speed 0.05:0.5:46 --measured "al-rod-1=$measured/rod-1.csv" --measured "al-rod-2=$measured/rod-2.csv" \
+        --plot "$output/figure-1.png" --plot-data "$output/figure-1" >"$output/figure-1.txt"
 }
 
 # curves FILE.csv: one row a speed, one column a curve
@@ -94,7 +98,8 @@ curves() {
 
 figure_2() {
     bodies="--b al-cylinder --b al-half-plate --b al-half-plate-10 --b al-rod --b al-beam"
-    ask sweep --a steel-sphere $bodies --speed 0.025:0.5:96 --plot "$output/figure-2.png" >/dev/null
+    ask sweep --a steel-sphere $bodies --speed 0.025:0.5:96 --plot "$output/figure-2.png" \
+        --plot-data "$output/figure-2" >/dev/null
     ask sweep --a steel-sphere $bodies --speed 0.05:0.5:10 --csv >"$output/figure-2.csv"
     curves "$output/figure-2.csv"
 }
@@ -112,7 +117,7 @@ table_2() {
     if [ "${PERCUSS_PAPER:-}" = all ]; then
         kept=$output
         sh "$source/tests/bench/beam_3d.sh" "$build" "$output" >&2
-        mv "$output/beam-3d.png" "$output/figure-3.png"
+        cp "$output/model-A.csv" "$here/model-A.csv"
     fi
     echo "| model | e | ahead, s | impact, s | the paper's e | the paper's s |"
     echo "|---|---|---|---|---|---|"
@@ -121,24 +126,29 @@ table_2() {
     table_2_row "$kept/beam-3d-modal.csv" C 10 11 0.717 "16 (and 1000 ahead)"
 }
 
-# a speed, the file of a history, and what the paper says
+figure_3() {
+    ask query --a steel-sphere --b al-beam --speed 0.2 --contact-model concurrent-fe --contact-model table \
+        --measured "$here/model-A.csv" --plot "$output/figure-3.png" --plot-data "$output/figure-3" \
+        >"$output/figure-3.txt"
+}
+
+# a speed, and what the paper says
 figure_5_row() {
-    ask query --a steel-sphere --b al-beam --speed "$1" --measured "$measured/$2" \
-        --plot "$output/figure-5-$1.png" >"$output/figure-5-$1.txt"
-    awk -v speed="$1" -v paper="$3" '
-        $1 == "restitution" && !e { e = $2 }
-        /start\/ms/ { list = 1; next }
-        list && NF >= 7 && $5 >= 1 { starts = starts (starts ? ", " : "") sprintf("%.2f", $2) }
-        list && NF < 7 { list = 0 }
-        END { printf "| %s | %.3f | %s | %s |\n", speed, e, starts, paper }' "$output/figure-5-$1.txt"
+    awk -F, -v speed="$1" -v paper="$2" '
+        NR > 1 && $1 == speed { e = $6; if ($NF == 0) starts = starts (starts ? ", " : "") sprintf("%.2f", 1e3 * $13) }
+        END { printf "| %s | %.3f | %s | %s |\n", speed, e, starts, paper }' "$output/figure-5.csv"
 }
 
 figure_5() {
+    ask query --a steel-sphere --b al-beam --speed 0.276 --speed 0.287 --speed 0.303 \
+        --measured "$measured/history-1.csv" --measured "$measured/history-2.csv" \
+        --measured "$measured/history-3.csv" --plot "$output/figure-5.png" --plot-data "$output/figure-5" \
+        --csv | awk -F, -v OFS=, 'NR > 1 { $1 = sprintf("%g", $1) } 1' >"$output/figure-5.csv"
     echo "| m/s | e | starts of sub-impacts, ms | the paper: simulated e; measured e; sub-impacts |"
     echo "|---|---|---|---|"
-    figure_5_row 0.276 history-1.csv "0.687; 0.664; a second after 4 ms, a third after 5.2 ms"
-    figure_5_row 0.287 history-2.csv "0.334; 0.620; a second after 4 ms"
-    figure_5_row 0.303 history-3.csv "0.243; 0.230; a second after 4 ms (measured: a third after 5.7 ms)"
+    figure_5_row 0.276 "0.687; 0.664; a second after 4 ms, a third after 5.2 ms"
+    figure_5_row 0.287 "0.334; 0.620; a second after 4 ms"
+    figure_5_row 0.303 "0.243; 0.230; a second after 4 ms (measured: a third after 5.7 ms)"
 }
 
 # statistics of an ensemble: mean, deviation, range
@@ -154,7 +164,7 @@ statistics() {
 
 figure_6() {
     ask compare "$measured/beam.csv" --a steel-sphere --b al-beam --plot "$output/figure-6.png" \
-        >"$output/figure-6.txt"
+        --plot-data "$output/figure-6" >"$output/figure-6.txt"
     echo "| | mean of e | standard deviation | range |"
     echo "|---|---|---|---|"
     ask ensemble --a steel-sphere --b al-beam --speed uniform:0.089:0.411 --samples 100000 --json \
@@ -175,7 +185,7 @@ put() {
     cp "$output/paper.md" "$source/docs/paper.md"
 }
 
-for part in table_1 figure_1 figure_2 table_2 figure_5 figure_6; do
+for part in $parts; do
     say "$part"
     "$part" >"$output/$part.md"
     put "$part"
