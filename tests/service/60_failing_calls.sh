@@ -112,6 +112,8 @@ start_daemon
 pair="--a steel-sphere --b al-beam --domain $domain"
 data=$source_dir/client/examples/measured/beam.csv
 try files 100 "$bin/percuss" query $pair --speed 0.3 --plot "$files/plot.png" --trace "$files/trace.csv"
+try files 60 "$bin/percuss" query $pair --speed 0.3 --plot-data "$files"
+try memory 8 "$bin/percuss" query $pair --speed 0.3 --plot-data "$files"
 try memory 10 "$bin/percuss" query $pair --speed 0.3 --json --trace "$files/trace.csv"
 try files 100 "$bin/percuss" ensemble $pair --speed uniform:0.1:0.3 --samples 50 --csv "$files/samples.csv"
 try memory 10 "$bin/percuss" ensemble $pair --speed uniform:0.1:0.3 --samples 50 --json
