@@ -10,9 +10,10 @@
 #include "cli.h"
 
 /* SPEED_BINS: intervals of the speed in which the samples' mean and deviation are shown;
- * MOST_DOTS: samples drawn, as more hide each other and make an SVG large; COLOURS: numbers of
- * sub-impacts that are told apart, the last also stands for more. */
-enum { SPEED_BINS = 16, MOST_DOTS = 5000, COLOURS = 4 };
+ * MOST_DOTS: samples drawn, as more hide each other and make an SVG large; FEW_DOTS: fewer are
+ * drawn larger; HEIGHT: pixels of a panel; COLOURS: numbers of sub-impacts that are told apart, the
+ * last also stands for more. */
+enum { SPEED_BINS = 16, MOST_DOTS = 5000, FEW_DOTS = 1000, HEIGHT = 480, COLOURS = 4 };
 static const char *const colours[COLOURS] = {"#7fa8d8", "#e0a060", "#70b878", "#b080c8"};
 
 /* What the axis of restitutions must hold: samples or bins, and quantiles with their bounds. */
@@ -143,10 +144,10 @@ static void write_colour(const struct plot *plot, const struct ensemble_picture 
     if (i == picture->sample_count)
         return;
     fprintf(plot->script,
-            "@samples using 1:($3 %s %d ? $2 : NaN) with points pt 7 ps 0.2 lc rgb '%s' notitle, "
+            "@samples using 1:($3 %s %d ? $2 : NaN) with points pt 7 ps %g lc rgb '%s' notitle, "
             "keyentry with points pt 7 ps 0.8 lc rgb '%s' title '%s%d sub-impact%s', ",
-            last ? ">=" : "==", k, colours[k - 1], colours[k - 1], last ? "≥ " : "", k,
-            k > 1 ? "s" : "");
+            last ? ">=" : "==", k, picture->sample_count < FEW_DOTS ? 0.4 : 0.2, colours[k - 1],
+            colours[k - 1], last ? "≥ " : "", k, k > 1 ? "s" : "");
 }
 
 static void write_samples(struct plot *plot, const struct ensemble_picture *picture)
@@ -188,7 +189,7 @@ static void write_name(const struct plot *plot, const char *name)
     fputc('"', plot->data);
 }
 
-/* A bar without an interval gets a whisker of no length, or gnuplot leaves it out. */
+/* A bar without an interval gets one of no length. */
 static void write_share(const struct plot *plot, const struct index_share *share,
                         struct plot_range *reach)
 {
@@ -197,6 +198,17 @@ static void write_share(const struct plot *plot, const struct index_share *share
     fprintf(plot->data, ",%.9g,%.9g,%.9g", share->value, low, high);
     plot_range_take(reach, low);
     plot_range_take(reach, high);
+}
+
+/* Bars of the shares in that column, the interval in the next two, so far above the input's row. */
+static void write_bars(const struct plot *plot, int column, double above, const char *title)
+{
+    fprintf(plot->script,
+            "@sensitivities using (0.5*$%d):(%g-$0):(0.5*$%d):(0.12) with boxxyerror "
+            "lt %d lw 1 title '%s', "
+            "@sensitivities using %d:(%g-$0):($%d-$%d):(0) with vectors nohead lt 6 lw 1.5 notitle",
+            column, above, column, above > 0.0 ? 1 : 2, title, column + 1, above, column + 2,
+            column + 1);
 }
 
 static void write_sensitivities(struct plot *plot, const struct ensemble_picture *picture)
@@ -210,14 +222,18 @@ static void write_sensitivities(struct plot *plot, const struct ensemble_picture
         write_share(plot, &picture->inputs[i].total, &reach);
         fputc('\n', plot->data);
     }
-    fprintf(plot->script, "unset xlabel\nset rmargin 8\nset xrange [-0.6:%.9g]\n",
-            (double)picture->input_count - 0.4);
-    plot_range_set(plot, "yrange", &reach, 0.03);
-    fputs("set ylabel 'share of the variance'\nset style data histograms\n"
-          "set style histogram errorbars gap 1 lw 1\nset xtics rotate by -20\n"
-          "plot @sensitivities using 2:3:4:xtic(1) lt 1 title 'alone', "
-          "'' using 5:6:7 lt 2 title 'with its interactions'\n",
+    /* a row for each input, the first above: its name over its bars */
+    struct plot_range rows = {0.5 - (double)picture->input_count, 0.6};
+    plot_range_set(plot, "xrange", &reach, 0.03);
+    plot_range_set(plot, "yrange", &rows, 0.0);
+    fputs("unset ylabel\nunset ytics\nset xlabel 'share of the variance'\n"
+          "set style fill solid 0.6 border\nplot ",
           plot->script);
+    write_bars(plot, 2, 0.12, "alone");
+    fputs(", ", plot->script);
+    write_bars(plot, 5, -0.16, "with its interactions");
+    fputs(", @sensitivities using (0):(0.37-$0):1 with labels left notitle", plot->script);
+    fputc('\n', plot->script);
 }
 
 int plot_ensemble(const struct plot_output *output, const struct ensemble_picture *picture)
@@ -227,7 +243,10 @@ int plot_ensemble(const struct plot_output *output, const struct ensemble_pictur
     size_t panels = (picture->bins > 0) + (picture->quantile_count > 0) +
                     (picture->sample_count > 0) + (picture->input_count > 0);
     unsigned rows = panels > 3 ? 2 : 1, columns = (unsigned)(panels + rows - 1) / rows;
-    int code = plot_begin(&plot, output, columns > 2 ? 1500 : 620 * columns, 480 * rows);
+    /* many inputs need room for their rows */
+    unsigned high = HEIGHT, needed = 60 * (unsigned)picture->input_count + 90;
+    high = needed > high ? needed : high;
+    int code = plot_begin(&plot, output, columns > 2 ? 1500 : 620 * columns, high * rows);
     if (code != EXIT_ANSWERED)
         return code;
     /* over all of them */

@@ -112,7 +112,7 @@ picture wide "A to D" compare "$work/wide.csv" $pair
 sed -n 's/^set yrange \[\(-[0-9.]*\):.*/\1/p' "$work/wide/plot.gp" | head -n 1 | grep -q . || fail "area D is cut at 0"
 
 say "an ensemble"
-picture ensemble "3 sub-impacts|local ± σ|quantiles, 95 % intervals|with its interactions|share of the variance" \
+picture ensemble "3 sub-impacts|local ± σ|quantiles, 95 % intervals|with its interactions|young@al-beam|share of the variance" \
     ensemble $pair --speed uniform:0.089:0.411 --input young@al-beam=normal:70e9:1e9 --samples 500
 
 say "the script draws the same picture from the files; they are there without gnuplot, too"

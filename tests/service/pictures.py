@@ -41,13 +41,14 @@ def check_words(file, names):
     return wrong + ([] if len(words) > 10 else ["hardly any words"])
 
 
-def value_of(expression, row):
-    """Of "3", "($3*1e6)" and the like; None: of another kind."""
+def value_of(expression, number, row):
+    """Of "3", "($3*1e6)" and the like, where $0 is the row's number; None: of another kind."""
     if re.fullmatch(r"\d+", expression):
         return float(row[int(expression) - 1])
     if not re.fullmatch(r"\([-+*.$\de]+\)", expression):
         return None
-    return eval(re.sub(r"\$(\d+)", lambda match: f"({row[int(match[1]) - 1]})", expression), {"nan": float("nan")})
+    cells = [str(number), *row]
+    return eval(re.sub(r"\$(\d+)", lambda match: f"({cells[int(match[1])]})", expression), {"nan": float("nan")})
 
 
 def is_within(value, bounds):
@@ -62,11 +63,9 @@ def check_curve(folder, name, using, rest, ranges):
         return [f"{name}.csv: no names of columns"]
     if "smooth" in rest:  # y is made of them
         columns[1] = "-"
-    if "xtic" in using:  # y alone
-        columns = ["-", columns[0]]
-    for row in rows:
+    for number, row in enumerate(rows):
         for axis, column in zip("xy", columns):
-            if not is_within(value_of(column, row), ranges[axis]):
+            if not is_within(value_of(column, number, row), ranges[axis]):
                 return [f"{name}.csv: {column}: {row} is not within the {axis}range {ranges[axis]}"]
     return []
 
