@@ -59,7 +59,9 @@ static int by_number(const void *a, const void *b)
 static size_t unique(uint64_t *keys, size_t count)
 {
     size_t kept = 0;
-    qsort(keys, count, sizeof *keys, by_number);
+    /* of none, there is no array either */
+    if (count > 0)
+        qsort(keys, count, sizeof *keys, by_number);
     for (size_t i = 0; i < count; i++)
         if (i == 0 || keys[i] != keys[i - 1])
             keys[kept++] = keys[i];
