@@ -92,8 +92,9 @@ static void check(const struct calibrate *calibrate, struct argp_state *state)
 {
     const struct scene *scene = &calibrate->scene;
     scene_check_single(scene, state);
-    if (!calibrate->file || !scene->a || !scene->b || calibrate->count == 0)
-        argp_error(state, "MEASURED.csv --a ID --b ID --fit PARAMETER:ID are needed");
+    const struct scene_need others[] = {{"MEASURED.csv", calibrate->file},
+                                        {"--fit PARAMETER:ID", calibrate->count > 0}};
+    scene_check_given(scene, others, 2, "", state);
     for (size_t i = 0; i < calibrate->count; i++) {
         const char *body = calibrate->parameters[i].body;
         if (strcmp(body, scene->a) != 0 && strcmp(body, scene->b) != 0)

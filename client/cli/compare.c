@@ -34,8 +34,8 @@ static const struct argp_option options[] = {
 static void check(const struct compare *compare, struct argp_state *state)
 {
     scene_check_single(&compare->scene, state);
-    if (!compare->file || !compare->scene.a || !compare->scene.b)
-        argp_error(state, "MEASURED.csv --a ID --b ID are needed");
+    const struct scene_need file = {"MEASURED.csv", compare->file};
+    scene_check_given(&compare->scene, &file, 1, "", state);
     if (compare->csv && compare->common->json)
         argp_error(state, "--csv or --json, not both");
 }

@@ -28,10 +28,8 @@ void line_offer(const struct line *line, const char *text, const char *what)
     printf("%s\t%s\n", whole + (line->split < strlen(whole) ? line->split : 0), what ? what : "");
 }
 
-/* The option of that name, or of that letter, in an argp and those below it; NULL: there is none.
- */
-static const struct argp_option *find_option(const struct argp *argp, const char *name,
-                                             size_t length, int letter)
+const struct argp_option *line_find_option(const struct argp *argp, const char *name, size_t length,
+                                           int letter)
 {
     const struct argp_option *found = NULL;
     for (const struct argp_option *o = argp->options; o && !line_options_end(o) && !found; o++) {
@@ -40,7 +38,7 @@ static const struct argp_option *find_option(const struct argp *argp, const char
             found = o;
     }
     for (const struct argp_child *child = argp->children; child && child->argp && !found; child++)
-        found = find_option(child->argp, name, length, letter);
+        found = line_find_option(child->argp, name, length, letter);
     return found;
 }
 
@@ -85,10 +83,10 @@ static const struct argp_option *take_option(struct line *line, char *word, char
     if (word[1] == '-') {
         char *equals = strchr(word, '=');
         size_t length = equals ? (size_t)(equals - word) : strlen(word);
-        option = find_option(argp, word + 2, length - 2, 0);
+        option = line_find_option(argp, word + 2, length - 2, 0);
         *value = equals ? equals + 1 : NULL;
     } else {
-        option = find_option(argp, NULL, 0, word[1]);
+        option = line_find_option(argp, NULL, 0, word[1]);
         *value = word[1] && word[2] ? word + 2 : NULL;
     }
     return option;

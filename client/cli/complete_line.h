@@ -28,6 +28,11 @@ void line_free(struct line *line);
 /* The argp of its options. */
 const struct argp *line_argp(const struct line *line);
 
+/* The option of that name, or, where it is not 0, of that letter, in an argp and those below it;
+ * NULL: there is none. */
+const struct argp_option *line_find_option(const struct argp *argp, const char *name, size_t length,
+                                           int letter);
+
 /* Whether an array of options ends here. */
 bool line_options_end(const struct argp_option *option);
 

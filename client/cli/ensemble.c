@@ -156,8 +156,8 @@ static uint64_t parse_seed(const char *text, struct argp_state *state)
 static void settle(struct ensemble *ensemble, struct argp_state *state)
 {
     struct percuss_ensemble_request *request = ensemble->request;
-    if (!ensemble->scene.a || !ensemble->scene.b || !ensemble->has_speed)
-        argp_error(state, "--a ID --b ID --speed DIST are needed");
+    const struct scene_need speed = {"--speed DIST", ensemble->has_speed};
+    scene_check_given(&ensemble->scene, &speed, 1, "", state);
     for (size_t i = 0; !ensemble->has_samples && i < request->input_count; i++)
         if (request->inputs[i].distribution == PERCUSS_DISTRIBUTION_LIST)
             request->samples = 0;

@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "complete.h"
 #include "fold.h"
+#include "option_hint.h"
 
 const char *argp_program_version = "percuss " PERCUSS_VERSION;
 
@@ -56,8 +57,8 @@ static const struct argp main_argp = {
     .parser = parse_main,
     .args_doc = "COMMAND [OPTION...]\nhelp [COMMAND]",
     .doc = "Asks a percussd what an impact does, or with --local the solver in this process.\v"
-           "percuss help COMMAND explains a command. Try: "
-           "percuss query --local --a steel-sphere --b al-beam --speed 0.3\n\n"
+           "percuss help COMMAND explains a command. Try:\n"
+           "  percuss query --local --a steel-sphere --b al-beam --speed 0.3\n\n"
            "Where an answer leaves the range of its models, warnings say so on standard error "
            "(with --json in the list warnings); of many impacts each kind once, with its count.\n\n"
            "Exit status: 0 answered, 1 answered with a warning status, 2 usage, 3 no server, "
@@ -69,8 +70,10 @@ static const struct argp main_argp = {
 static int run(const char *name, int argc, char **argv, struct common *common)
 {
     const struct command *command = commands_find(name);
-    if (command)
+    if (command) {
+        option_hint_say(command->argp, argc, argv);
         return command->function(argc, argv, common);
+    }
     /* for the shells alone */
     if (!strcmp(name, "complete"))
         return command_complete(argc, argv, common);

@@ -104,8 +104,9 @@ static void check(const struct query *query, struct argp_state *state)
     if (query->csv && (query->common->json || query->speed_sigma > 0.0))
         argp_error(state, "--csv or %s, not both",
                    query->common->json ? "--json" : "--speed-sigma");
-    if (!query->file && !(scene->a && scene->b && query->speed_count > 0))
-        argp_error(state, "--a ID --b ID --speed V or --request FILE is needed");
+    const struct scene_need speed = {"--speed V", query->speed_count > 0};
+    if (!query->file)
+        scene_check_given(scene, &speed, 1, " (or a whole request: --request FILE)", state);
 }
 
 static void parse_speed(const char *text, struct query *query, struct argp_state *state)

@@ -77,6 +77,22 @@ static void parse_contact_model(const char *text, struct scene *scene, struct ar
     scene->options.contact_model = scene->models[scene->model_count++] = model;
 }
 
+void scene_check_given(const struct scene *scene, const struct scene_need *others, size_t count,
+                       const char *instead, struct argp_state *state)
+{
+    char missing[256] = "";
+    const struct scene_need bodies[] = {{"--a ID", scene->a}, {"--b ID", scene->b}};
+    for (size_t i = 0; i < 2 + count; i++) {
+        const struct scene_need *need = i < 2 ? &bodies[i] : &others[i - 2];
+        size_t length = strlen(missing);
+        if (!need->given)
+            snprintf(missing + length, sizeof missing - length, "%s%s", length ? ", " : "",
+                     need->what);
+    }
+    if (*missing)
+        argp_error(state, "missing: %s%s", missing, instead);
+}
+
 void scene_check_one_b(const struct scene *scene, struct argp_state *state)
 {
     if (scene->b_count > 1)

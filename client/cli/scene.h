@@ -25,6 +25,17 @@ struct scene {
 /* Parses --a, --b, --at, --tolerance, ... into the `struct scene` that is its input. */
 extern const struct argp scene_argp;
 
+/* What else a command needs beside --a and --b: "--speed V", and whether it was given. */
+struct scene_need {
+    const char *what;
+    bool given;
+};
+
+/* Ends the process through argp_error if --a, --b or one of `count` others is missing, and names
+ * all that are. `instead` is put behind that; may be empty. */
+void scene_check_given(const struct scene *scene, const struct scene_need *others, size_t count,
+                       const char *instead, struct argp_state *state);
+
 /* For commands with one body B: ends the process through argp_error if it was given more than once.
  */
 void scene_check_one_b(const struct scene *scene, struct argp_state *state);

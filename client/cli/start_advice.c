@@ -70,7 +70,7 @@ void complain_no_server(const struct common *common)
     for (size_t i = 0; known && !found && i < sizeof places / sizeof places[0]; i++)
         found =
             find(folder, places[i].daemon, daemon) && find(folder, places[i].settings, settings);
-    complain("%s%s; start one with: %s --config %s --domain %u%s%s", what, elsewhere,
-             found ? daemon : "percussd", found ? settings : "FILE", common->domain,
+    complain("%s%s; --local needs none; start one with: %s --config %s --domain %u%s%s", what,
+             elsewhere, found ? daemon : "percussd", found ? settings : "FILE", common->domain,
              partition ? " --partition " : "", partition ? common->partition : "");
 }

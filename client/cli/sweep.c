@@ -90,8 +90,8 @@ static void check_measured(const struct sweep *sweep, const struct sweep_measure
 
 static void check(const struct sweep *sweep, struct argp_state *state)
 {
-    if (!sweep->scene.a || !sweep->scene.b || sweep->count == 0)
-        argp_error(state, "--a ID --b ID --speed LO:HI:N are needed");
+    const struct scene_need speeds = {"--speed LO:HI:N", sweep->count > 0};
+    scene_check_given(&sweep->scene, &speeds, 1, "", state);
     if (sweep->csv && sweep->common->json)
         argp_error(state, "--csv or --json, not both");
     if (sweep->resume && (sweep->csv || sweep->common->json))

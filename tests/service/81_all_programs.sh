@@ -59,6 +59,26 @@ for command in query sweep ensemble bodies dents status ping; do
     says "'steel-sphere': no argument is expected, only options"
 done
 
+say "so is a mistyped option, not one that is a value; what is missing is named"
+expect 2 "$bin/percuss" query -a steel-sphere --b al-beam --sped 0.3
+says "percuss: --sped: did you mean --speed?"
+says "unrecognized option '--sped'"
+expect 2 "$bin/percuss" bodies --chekc
+says "percuss: --chekc: did you mean --check?"
+expect 2 "$bin/percuss" ensemble --local -a --sped -b al-beam
+says "percuss ensemble: missing: --speed DIST"
+! grep -q "did you mean" "$err" || fail "a value is no option"
+expect 2 "$bin/percuss" query --xyzzy
+! grep -q "did you mean" "$err" || fail "nothing is like that"
+expect 2 "$bin/percuss" query -a steel-sphere
+says "percuss query: missing: --b ID, --speed V (or a whole request: --request FILE)"
+expect 2 "$bin/percuss" sweep --speed 0.1:0.4:3
+says "missing: --a ID, --b ID"
+expect 2 "$bin/percuss" calibrate -a steel-sphere -b al-beam
+says "missing: MEASURED.csv, --fit PARAMETER:ID"
+expect 2 "$bin/percuss" compare --b al-beam
+says "missing: --a ID, MEASURED.csv"
+
 say "-a and -b are --a and --b"
 start_daemon
 expect 0 percuss query -a steel-sphere -b al-beam --speed 0.3 --json
