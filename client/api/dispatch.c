@@ -130,3 +130,9 @@ enum percuss_result percuss_clear_specimen(struct percuss_client *client, const 
 {
     return report(client, operations_of(client)->clear_specimen(client, name, timeout));
 }
+
+void percuss_client_watch(struct percuss_client *client, percuss_watch_function *watch,
+                          void *context)
+{
+    operations_of(client)->watch(client, watch, context);
+}

@@ -47,6 +47,7 @@ struct client_operations {
                                      struct percuss_specimen_list *list);
     enum percuss_result (*clear_specimen)(struct percuss_client *client, const char *name,
                                           double timeout);
+    void (*watch)(struct percuss_client *client, percuss_watch_function *watch, void *context);
 };
 
 #endif

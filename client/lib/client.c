@@ -350,6 +350,13 @@ bool client_server(struct percuss_client *client, uint8_t server[16])
     return memcmp(server, none, sizeof none) != 0;
 }
 
+void client_watch(struct percuss_client *client, percuss_watch_function *watch, void *context)
+{
+    pthread_mutex_lock(&client->lock);
+    client->watching = watching_begin(watch, context);
+    pthread_mutex_unlock(&client->lock);
+}
+
 uint64_t client_draw_sequences(struct percuss_client *client, size_t count)
 {
     uint64_t first = client->next_sequence;

@@ -11,6 +11,7 @@
 
 #include "operations.h"
 #include "pending.h"
+#include "watching.h"
 #include "wire.h"
 
 enum {
@@ -71,6 +72,7 @@ struct percuss_client {
     dds_entity_t dents_reader, dents_writer;
     dds_entity_t endpoints[CLIENT_MOST_ENDPOINTS]; /* all of them, to be deleted */
     size_t endpoint_count;
+    struct watching watching;
     int announcement_room; /* of the largest read so far, see announcements.c */
 };
 

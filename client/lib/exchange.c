@@ -112,6 +112,25 @@ static enum percuss_result send_request(struct percuss_client *client,
     return write_request(client, &wire, *pending);
 }
 
+/* Tells the server that nobody waits for a request any more. */
+static void withdraw(struct percuss_client *client, const struct pending *pending)
+{
+    percuss_v1_Request wire = {.sequence = pending->sequence, .cancel = true};
+    if (pending->ready || pending->orphaned || exchange_check_connected(client))
+        return;
+    memcpy(wire.client, client->id, sizeof wire.client);
+    memcpy(wire.server, client->server.id, sizeof wire.server);
+    dds_write(client->request_writer, &wire);
+}
+
+/* Whether a request that came to that end is given up for good: a number of the program's own may
+ * be asked again, and finds what is done by then. */
+static bool is_given_up(const struct percuss_request *request, enum percuss_result result)
+{
+    return result == PERCUSS_RESULT_CANCELLED ||
+           (result == PERCUSS_RESULT_TIMEOUT && request->sequence == 0);
+}
+
 /* Hands over a ready reply and forgets the request. */
 static enum percuss_result collect(struct percuss_client *client, struct pending *pending,
                                    struct percuss_reply *reply)
@@ -191,10 +210,13 @@ enum percuss_result exchange_solve(struct percuss_client *client,
         result = await_all(client, pending, deadline);
     }
     /* handed over, or given up: nothing stays behind */
-    if (result == PERCUSS_RESULT_OK)
+    if (result == PERCUSS_RESULT_OK) {
         result = collect(client, pending, reply);
-    else
+    } else {
+        if (is_given_up(request, result))
+            withdraw(client, pending);
         pending_remove(&client->pending, pending);
+    }
 unsent:
     pthread_mutex_unlock(&client->lock);
     return result;
@@ -300,8 +322,10 @@ enum percuss_result exchange_cancel(struct percuss_client *client, uint64_t sequ
     struct pending *pending;
     pthread_mutex_lock(&client->lock);
     enum percuss_result result = find(client, sequence, &pending);
-    if (result == PERCUSS_RESULT_OK)
+    if (result == PERCUSS_RESULT_OK) {
+        withdraw(client, pending);
         pending_remove(&client->pending, pending);
+    }
     pthread_mutex_unlock(&client->lock);
     return result;
 }

@@ -25,4 +25,5 @@ const struct client_operations LIBRARY_OPERATIONS = {
     .bodies = bodies_list,
     .specimens = specimens_list,
     .clear_specimen = specimens_clear,
+    .watch = client_watch,
 };

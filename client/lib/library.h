@@ -43,5 +43,6 @@ enum percuss_result specimens_list(struct percuss_client *client, double timeout
                                    struct percuss_specimen_list *list);
 enum percuss_result specimens_clear(struct percuss_client *client, const char *name,
                                     double timeout);
+void client_watch(struct percuss_client *client, percuss_watch_function *watch, void *context);
 
 #endif

@@ -338,25 +338,40 @@ static enum percuss_result ask_newcomer(struct percuss_client *client, double se
     return result ? result : lead(client, fmax(fmin(seconds, PING_INTERVAL), 0.0));
 }
 
+bool receive_is_watched_on(struct percuss_client *client, const struct watching *watching,
+                           double *next)
+{
+    if (moment_now() < *next)
+        return true;
+    pthread_mutex_unlock(&client->lock);
+    bool goes_on = watching_asks(watching, next);
+    pthread_mutex_lock(&client->lock);
+    return goes_on;
+}
+
 static enum percuss_result receive(struct percuss_client *client, receive_condition *done,
                                    const void *subject, double deadline, bool regardless)
 {
     enum percuss_result result = PERCUSS_RESULT_OK;
     const uint64_t successions = client->successions;
+    const struct watching watching = client->watching;
+    double ask = watching_first(&watching);
     bool looked = false;
     while (result == PERCUSS_RESULT_OK && !done(client, subject)) {
-        const double now = moment_now(), left = deadline - now;
+        const double now = moment_now(), left = deadline - now, until = fmin(deadline, ask);
         if (!regardless && is_without_server(client, successions))
             return failure_lost(client->server_name);
         if (left <= 0.0 && looked)
             return PERCUSS_RESULT_TIMEOUT;
         looked = true;
-        if (client->leading)
-            follow(client, deadline);
+        if (isfinite(ask) && now >= ask)
+            result = receive_is_watched_on(client, &watching, &ask) ? result : watching_cancelled();
+        else if (client->leading)
+            follow(client, until);
         else if (client->connected && now < client->newcomer_until)
-            result = ask_newcomer(client, left);
+            result = ask_newcomer(client, until - now);
         else
-            result = lead(client, fmax(left, 0.0));
+            result = lead(client, fmax(until - now, 0.0));
     }
     return result;
 }

@@ -14,15 +14,20 @@
 typedef bool receive_condition(const struct percuss_client *client, const void *subject);
 
 /* Receives until `done` or the deadline; looks at least once at what has arrived. The lock is held
- * at entry and return, and whenever `done` is called. OK, TIMEOUT, TRANSPORT, or NO_SERVER: the
- * server of a connected client has gone, or has a successor, who knows nothing of what was asked.
- */
+ * at entry and return, and whenever `done` is called. OK, TIMEOUT, TRANSPORT, CANCELLED by whoever
+ * watches, or NO_SERVER: the server of a connected client has gone, or has a successor, who knows
+ * nothing of what was asked. */
 enum percuss_result receive_until(struct percuss_client *client, receive_condition *done,
                                   const void *subject, double deadline);
 
 /* The same of a client whose server has gone: for its successor. */
 enum percuss_result receive_regardless(struct percuss_client *client, receive_condition *done,
                                        const void *subject, double deadline);
+
+/* Asks whoever watches, if it is time, without the lock, which is held otherwise. False: he gives
+ * the call up. */
+bool receive_is_watched_on(struct percuss_client *client, const struct watching *watching,
+                           double *next);
 
 /* Looks whether the server still writes to us; the lock is held. */
 void receive_note_loss(struct percuss_client *client);

@@ -88,6 +88,17 @@ static enum percuss_result send_batch(struct percuss_client *client, struct batc
     return failure_dds("writing the batch", code);
 }
 
+/* Tells the server that nobody waits for a batch any more: its number was drawn for it. */
+static void withdraw_batch(struct percuss_client *client, const struct pending *pending)
+{
+    percuss_v1_BatchRequest wire = {.sequence = pending->sequence, .cancel = true};
+    if (pending->ready || pending->orphaned || exchange_check_connected(client))
+        return;
+    memcpy(wire.client, client->id, sizeof wire.client);
+    memcpy(wire.server, client->server.id, sizeof wire.server);
+    dds_write(client->batch_writer, &wire);
+}
+
 /* Sends a converted batch and waits until `batch` is complete. */
 static enum percuss_result exchange_batch(struct percuss_client *client,
                                           struct batch_sample *sample, size_t count,
@@ -102,6 +113,8 @@ static enum percuss_result exchange_batch(struct percuss_client *client,
         result = exchange_await(client, pending, deadline);
         if (result == PERCUSS_RESULT_OK && pending->result != PERCUSS_RESULT_OK)
             result = error_set(pending->result, "a batch reply");
+        if (result == PERCUSS_RESULT_CANCELLED || result == PERCUSS_RESULT_TIMEOUT)
+            withdraw_batch(client, pending);
         pending_remove(&client->pending, pending);
     }
     pthread_mutex_unlock(&client->lock);

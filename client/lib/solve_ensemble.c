@@ -128,6 +128,8 @@ struct watcher {
 static enum percuss_result await(struct percuss_client *client, struct pending *pending,
                                  double timeout, const struct watcher *watcher)
 {
+    const struct watching watching = client->watching;
+    double ask = watching_first(&watching);
     bool cancelled = false;
     unsigned told = 0;
     while (!pending->ready) {
@@ -143,6 +145,9 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
                              (unsigned long long)pending->sequence, timeout);
         if (result != PERCUSS_RESULT_OK)
             return result;
+        /* progress may come more often than receive_until asks */
+        if (!receive_is_watched_on(client, &watching, &ask))
+            return watching_cancelled();
         /* only what is new is told, without the lock */
         if (!watcher->function || pending->ensemble->told == told)
             continue;
@@ -186,6 +191,9 @@ static enum percuss_result exchange_ensemble(struct percuss_client *client,
         pending->waited = true;
         pending->ensemble = exchange;
         result = await(client, pending, timeout, watcher);
+        /* nobody waits for what it would say */
+        if (result == PERCUSS_RESULT_CANCELLED)
+            send_cancel(client, pending->sequence);
         /* samples have a topic of their own, and the last ones may be later than the reply */
         if (result == PERCUSS_RESULT_OK && wire->list_samples && exchange->reply.samples > 0)
             receive_until(client, samples_are_there, exchange, moment_now() + STRAGGLER_SECONDS);

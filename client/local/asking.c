@@ -61,14 +61,14 @@ enum percuss_result asking_answer(struct percuss_client *client, const percuss_v
     if (!desk)
         return error_set(PERCUSS_RESULT_NO_MEMORY, "a workspace");
     struct answer *answer = solve_at(client, desk, wire, in_batch);
-    bool over = desk->patience.over;
+    const struct patience patience = desk->patience;
     desk_give(client, desk);
     /* what was given up says nothing */
     enum percuss_result result = PERCUSS_RESULT_OK;
     if (!answer)
         result = error_set(PERCUSS_RESULT_NO_MEMORY, "a reply");
-    else if (over && answer->reply->status == PERCUSS_TIMEOUT)
-        result = asking_timeout(wire->sequence);
+    else if (patience.over && answer->reply->status == PERCUSS_TIMEOUT)
+        result = patience.cancelled ? watching_cancelled() : asking_timeout(wire->sequence);
     else
         result = hand_over(answer, gather, reply);
     if (result == PERCUSS_RESULT_OK)

@@ -10,6 +10,8 @@
 enum percuss_status desk_is_wanted(void *context, struct fault *fault)
 {
     struct patience *patience = context;
+    if (!patience->over && !watching_asks(&patience->watching, &patience->ask))
+        patience->cancelled = patience->over = true;
     patience->over = patience->over || moment_now() > patience->deadline;
     return patience->over ? fault_set(fault, PERCUSS_TIMEOUT, "nobody waits any more") : PERCUSS_OK;
 }
@@ -42,6 +44,7 @@ static struct desk *create(const struct percuss_client *client)
 struct desk *desk_take(struct percuss_client *client, double deadline)
 {
     pthread_mutex_lock(&client->lock);
+    const struct watching watching = client->watching;
     struct desk *desk = client->idle;
     if (desk)
         client->idle = desk->next;
@@ -49,7 +52,8 @@ struct desk *desk_take(struct percuss_client *client, double deadline)
     if (!desk)
         desk = create(client);
     if (desk)
-        desk->patience = (struct patience){.deadline = deadline};
+        desk->patience = (struct patience){
+            .deadline = deadline, .watching = watching, .ask = watching_first(&watching)};
     return desk;
 }
 

@@ -9,8 +9,11 @@
 
 /* Who waits for the answer, and how long. */
 struct patience {
-    double deadline; /* moment_now() at which it is given up */
-    bool over;       /* it was */
+    double deadline;          /* moment_now() at which it is given up */
+    struct watching watching; /* whoever may give it up */
+    double ask;               /* when he is asked next */
+    bool over;                /* it was given up, */
+    bool cancelled;           /* by him */
 };
 
 /* A question of `still_wanted`, with a patience as its context. */

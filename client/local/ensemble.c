@@ -20,7 +20,9 @@
 struct watcher {
     percuss_progress_function *function; /* NULL: nobody */
     void *context;
-    bool cancelled;
+    struct watching watching; /* whoever may give it up */
+    double ask;               /* when he is asked next */
+    bool cancelled, given_up;
     double *rows; /* of the listed samples; NULL: none */
     size_t columns;
     uint64_t listed;
@@ -46,6 +48,8 @@ static void tell(void *context, uint64_t done, uint64_t samples,
     };
     if (watcher->function && !watcher->function(watcher->context, &told))
         watcher->cancelled = true;
+    if (!watcher->given_up && !watching_asks(&watcher->watching, &watcher->ask))
+        watcher->cancelled = watcher->given_up = true;
 }
 
 static bool list(void *context, const struct ensemble *ensemble,
@@ -126,13 +130,20 @@ static enum percuss_result ask(struct percuss_client *client,
     struct ensemble_storage *storage = malloc(sizeof *storage);
     enum percuss_result result = storage ? convert_ensemble_request(request, storage, &wire)
                                          : error_set(PERCUSS_RESULT_NO_MEMORY, "an ensemble");
+    pthread_mutex_lock(&client->lock);
+    watcher->watching = client->watching;
+    pthread_mutex_unlock(&client->lock);
+    watcher->ask = watching_first(&watcher->watching);
     if (result == PERCUSS_RESULT_OK) {
         memcpy(wire.client, client->id, sizeof wire.client);
         wire.sequence = instance_draw_sequences(client, request->sequence, 1);
         /* solved, and told as it would be */
         struct answer *answer = run(client, &wire, watcher);
-        result = answer ? hand_over(answer, watcher, reply)
-                        : error_set(PERCUSS_RESULT_NO_MEMORY, "the reply to an ensemble");
+        if (watcher->given_up)
+            result = watching_cancelled();
+        else
+            result = answer ? hand_over(answer, watcher, reply)
+                            : error_set(PERCUSS_RESULT_NO_MEMORY, "the reply to an ensemble");
         answer_release(answer);
     }
     free(watcher->rows);

@@ -16,6 +16,7 @@
 #include "respond/snapshot.h"
 #include "respond/table_cache.h"
 #include "store/specimens.h"
+#include "watching.h"
 
 struct desk;
 struct outstanding;
@@ -42,6 +43,7 @@ struct percuss_client {
 
     pthread_mutex_t lock; /* guards everything below */
     uint64_t next_sequence;
+    struct watching watching;
     struct desk *idle;                /* desks nobody works at */
     struct outstanding *first, *last; /* questions of percuss_submit, in their order */
     size_t outstanding_count;

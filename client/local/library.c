@@ -25,4 +25,5 @@ const struct client_operations LIBRARY_OPERATIONS = {
     .bodies = local_bodies,
     .specimens = local_specimens,
     .clear_specimen = local_clear_specimen,
+    .watch = local_watch,
 };

@@ -43,5 +43,6 @@ enum percuss_result local_specimens(struct percuss_client *client, double timeou
                                     struct percuss_specimen_list *list);
 enum percuss_result local_clear_specimen(struct percuss_client *client, const char *name,
                                          double timeout);
+void local_watch(struct percuss_client *client, percuss_watch_function *watch, void *context);
 
 #endif

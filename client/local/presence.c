@@ -47,6 +47,13 @@ enum percuss_result local_ping(struct percuss_client *client, double timeout, do
     return local_connect(client, timeout);
 }
 
+void local_watch(struct percuss_client *client, percuss_watch_function *watch, void *context)
+{
+    pthread_mutex_lock(&client->lock);
+    client->watching = watching_begin(watch, context);
+    pthread_mutex_unlock(&client->lock);
+}
+
 static void describe(struct percuss_client *client, struct percuss_server *server)
 {
     const struct body_set *set = client->snapshot->set;

@@ -17,6 +17,7 @@ void client_job_begin(struct client_job *job, struct shared *shared,
     job->arrival = arrival;
     job->snapshot = snapshots_hold(&shared->snapshots);
     atomic_init(&job->abandoned, false);
+    atomic_init(&job->fate, FATE_OPEN);
     atomic_init(&job->running, 0);
     atomic_init(&job->done, 0.0);
 }
@@ -39,8 +40,33 @@ bool client_job_is_gone(struct client_job *job)
     return gone;
 }
 
+/* False: it has come to another end before. */
+static bool settle(struct client_job *job, enum client_job_fate fate)
+{
+    int open = FATE_OPEN;
+    return atomic_compare_exchange_strong(&job->fate, &open, (int)fate);
+}
+
+bool client_job_is_withdrawn(const struct client_job *job)
+{
+    return atomic_load(&job->fate) == FATE_WITHDRAWN;
+}
+
+bool client_job_withdraw(struct job *job, const struct request_name *name)
+{
+    struct client_job *ours = (struct client_job *)job;
+    if (name->exchange != ours->name.exchange || name->sequence != ours->name.sequence ||
+        memcmp(name->client, ours->client, sizeof ours->client) != 0 ||
+        !settle(ours, FATE_WITHDRAWN))
+        return false;
+    reply_store_forget(ours->shared->replies, name);
+    return true;
+}
+
 void client_job_deliver(struct client_job *job, struct answer *answer)
 {
+    if (!settle(job, FATE_DELIVERED))
+        return;
     if (atomic_load(&job->abandoned) && client_job_is_gone(job))
         reply_store_forget(job->shared->replies, &job->name);
     else
@@ -57,7 +83,7 @@ static double share_done(const struct client_job *job)
     return done > 0.0 ? fmin(done, 1.0) : NAN;
 }
 
-void client_job_describe(const struct client_job *job, uint32_t kind, struct task *task)
+bool client_job_describe(const struct client_job *job, uint32_t kind, struct task *task)
 {
     *task = (struct task){
         .sequence = job->name.sequence,
@@ -67,4 +93,5 @@ void client_job_describe(const struct client_job *job, uint32_t kind, struct tas
         .done = share_done(job),
     };
     memcpy(task->client, job->client, sizeof task->client);
+    return !client_job_is_withdrawn(job);
 }

@@ -11,7 +11,10 @@
 #include "daemon/shared.h"
 #include "daemon/task.h"
 
-/* All but the last three members stays as it was begun. */
+/* How it ends for its client, once. */
+enum client_job_fate { FATE_OPEN, FATE_DELIVERED, FATE_WITHDRAWN };
+
+/* All but the last four members stays as it was begun. */
 struct client_job {
     struct job job;
     struct shared *shared;
@@ -21,6 +24,7 @@ struct client_job {
     double arrival;            /* monotonic, s */
     struct snapshot *snapshot; /* it is answered from, held */
     atomic_bool abandoned;     /* its client was found gone */
+    atomic_int fate;           /* enum client_job_fate */
     atomic_uint running;       /* items that are being done */
     _Atomic double done;       /* share of the item at hand; 0: nobody knows */
 };
@@ -40,7 +44,13 @@ bool client_job_is_gone(struct client_job *job);
  * has gone gets none, one that has come back is told. */
 void client_job_deliver(struct client_job *job, struct answer *answer);
 
-/* What it is about, as a task of that kind. */
-void client_job_describe(const struct client_job *job, uint32_t kind, struct task *task);
+/* Whether its client has said that he does not wait for it. */
+bool client_job_is_withdrawn(const struct client_job *job);
+
+/* As job_kind.withdraw: from now on the request is as if it had never been asked. */
+bool client_job_withdraw(struct job *job, const struct request_name *name);
+
+/* What it is about, as a task of that kind; false: it was withdrawn. */
+bool client_job_describe(const struct client_job *job, uint32_t kind, struct task *task);
 
 #endif

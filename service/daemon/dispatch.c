@@ -175,12 +175,30 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
     return !limit.over;
 }
 
+/* Its client does not wait for a request any more. What is not known here was answered before. */
+static void withdraw(struct shared *shared, const struct request_name *name)
+{
+    struct job *withdrawn = NULL;
+    bool found = false;
+    for (int lane = 0; !found && lane < LANE_COUNT; lane++)
+        found = queue_withdraw(shared->lanes[lane], name, &withdrawn);
+    if (withdrawn)
+        withdrawn->kind->release(withdrawn);
+    if (found)
+        log_about(LEVEL_DEBUG, &(struct log_request){name->client, name->sequence}, "%s",
+                  SHARED_WITHDRAWN);
+}
+
 static void receive_single(void *context, const percuss_v1_Request *request, bool alone)
 {
     struct dispatch *dispatch = context;
     struct shared *shared = dispatch->shared;
     double arrival = clock_now();
     struct request_name name = {request->client, EXCHANGE_SINGLE, request->sequence};
+    if (request->cancel) {
+        withdraw(shared, &name);
+        return;
+    }
     /* a ping */
     if (request->sequence == 0) {
         deliver_at_once(shared, &name, PERCUSS_OK, "");
@@ -206,7 +224,9 @@ static void receive_batch(void *context, const percuss_v1_BatchRequest *batch)
     const char *problem = batch->sequence == 0           ? "sequence: 0: must be > 0 for a batch"
                           : batch->requests._length == 0 ? "requests: none given: must be 1 to 256"
                                                          : NULL;
-    if (problem)
+    if (batch->cancel)
+        withdraw(shared, &name);
+    else if (problem)
         deliver_at_once(shared, &name, PERCUSS_BAD_REQUEST, problem);
     else if (admit(shared, &name, question_digest_batch(batch), arrival) && is_open(shared, &name))
         enqueue(shared, &name,

@@ -59,12 +59,13 @@ static void release(struct job *job)
     free(ensemble);
 }
 
-static void describe(const struct job *job, struct task *task)
+static bool describe(const struct job *job, struct task *task)
 {
-    client_job_describe((const struct client_job *)job, percuss_v1_TASK_ENSEMBLE, task);
+    return client_job_describe((const struct client_job *)job, percuss_v1_TASK_ENSEMBLE, task);
 }
 
-static const struct job_kind ensemble_kind = {run, refuse, report, cancel, release, describe};
+/* Cancelled by its client (ensembles.h) it still has a reply. */
+static const struct job_kind ensemble_kind = {run, refuse, report, cancel, release, describe, NULL};
 
 struct client_job *ensemble_job_create(struct shared *shared, const struct request_name *name,
                                        const percuss_v1_EnsembleRequest *request, double arrival)

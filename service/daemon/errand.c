@@ -52,7 +52,7 @@ static void release(struct job *job)
 }
 
 /* Its parent is told of. */
-static const struct job_kind errand_kind = {run, refuse, report, cancel, release, NULL};
+static const struct job_kind errand_kind = {run, refuse, report, cancel, release, NULL, NULL};
 
 enum job_end errand_send(struct job *job, size_t item, struct queue *queue)
 {

@@ -53,6 +53,8 @@ static enum percuss_status is_wanted(void *context, struct fault *fault)
     struct impact_job *impact = attempt->impact;
     if (atomic_load(&impact->cancelled))
         return fault_set(fault, PERCUSS_BUSY, SHARED_SHUTTING_DOWN);
+    if (client_job_is_withdrawn(&impact->base))
+        return fault_set(fault, PERCUSS_TIMEOUT, SHARED_WITHDRAWN);
     if (client_job_is_gone(&impact->base))
         return fault_set(fault, PERCUSS_TIMEOUT, SHARED_CLIENT_GONE);
     if (makes_way(attempt))
@@ -168,21 +170,21 @@ static void release(struct job *job)
 }
 
 /* One that waits for tables is told from others by its lane. */
-static void describe(const struct job *job, struct task *task)
+static bool describe(const struct job *job, struct task *task)
 {
     const struct client_job *base = (const struct client_job *)job;
     uint32_t kind = base->lane == LANE_TABLES               ? percuss_v1_TASK_TABLES
                     : base->name.exchange == EXCHANGE_BATCH ? percuss_v1_TASK_BATCH
                                                             : percuss_v1_TASK_REQUEST;
-    client_job_describe(base, kind, task);
+    return client_job_describe(base, kind, task);
 }
 
-static const struct job_kind impact_kind = {run_impact, refuse_impact, report_impact,
-                                            cancel,     release,       describe};
-static const struct job_kind batch_kind = {run_impact, refuse_impact, report_batch,
-                                           cancel,     release,       describe};
-static const struct job_kind specimen_kind = {run_on_specimens, refuse_impact, report_impact,
-                                              cancel,           release,       describe};
+static const struct job_kind impact_kind = {run_impact, refuse_impact, report_impact,      cancel,
+                                            release,    describe,      client_job_withdraw};
+static const struct job_kind batch_kind = {run_impact, refuse_impact, report_batch,       cancel,
+                                           release,    describe,      client_job_withdraw};
+static const struct job_kind specimen_kind = {
+    run_on_specimens, refuse_impact, report_impact, cancel, release, describe, client_job_withdraw};
 
 bool impact_job_is_durable(const struct shared *shared, const percuss_v1_Request *request)
 {

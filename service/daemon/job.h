@@ -14,6 +14,7 @@
 
 struct job;
 struct queue;
+struct request_name;
 struct responder;
 struct task;
 
@@ -32,9 +33,12 @@ struct job_kind {
     void (*cancel)(struct job *job);
     /* Frees the job, whether it has run or not. */
     void (*release)(struct job *job);
-    /* What it is about. Any thread, as long as the job is in a queue or being done. NULL: nobody
-     * wants to know. */
-    void (*describe)(const struct job *job, struct task *task);
+    /* What it is about; false: nobody waits for it any more. Any thread, as long as the job is in a
+     * queue or being done. NULL: nobody wants to know. */
+    bool (*describe)(const struct job *job, struct task *task);
+    /* Whether it is the request of that name, whose client does not wait for it any more: it gets
+     * no reply, and what is left of it is given up soon. As `describe`. NULL: it is nobody's. */
+    bool (*withdraw)(struct job *job, const struct request_name *name);
 };
 
 /* The first member of every job. */

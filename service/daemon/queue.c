@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "exchange/key_map.h"
+#include "exchange/reply_store.h"
 
 /* Of a client whose item took long so many more are passed on untried: trying them all costs others
  * the time that each is given before. */
@@ -231,12 +232,16 @@ void queue_retire(struct job *job)
     pthread_mutex_unlock(&queue->lock);
 }
 
+static bool is_of(const struct job *job, struct digest owner)
+{
+    return job->owner.first == owner.first && job->owner.second == owner.second;
+}
+
 /* The lock is held. */
 static bool others_wait(const struct queue *queue, const struct job *job)
 {
     const struct party *first = TAILQ_FIRST(&queue->turns);
-    return first && (TAILQ_NEXT(first, turn) || first->node.key.first != job->owner.first ||
-                     first->node.key.second != job->owner.second);
+    return first && (TAILQ_NEXT(first, turn) || !is_of(job, first->node.key));
 }
 
 bool queue_others_wait(struct queue *queue, const struct job *job)
@@ -300,6 +305,39 @@ bool queue_drain(struct queue *queue, double seconds)
     bool drained = queue->length == 0 && queue->running == 0;
     pthread_mutex_unlock(&queue->lock);
     return drained;
+}
+
+/* Takes out a job that has not begun; the lock is held. */
+static void take_out(struct queue *queue, struct job *job)
+{
+    struct party *party = party_find(queue, job->owner);
+    pull(queue, party, job);
+    LIST_REMOVE(job, live);
+    party_drop_if_idle(queue, party);
+    if (queue->running == 0 && queue->length == 0)
+        pthread_cond_broadcast(&queue->drained);
+    /* whoever waits for more in a queue that is closed waits in vain */
+    if (queue->closed)
+        pthread_cond_broadcast(&queue->filled);
+}
+
+bool queue_withdraw(struct queue *queue, const struct request_name *name, struct job **withdrawn)
+{
+    const struct digest owner = digest_of_octets(name->client);
+    struct job *job;
+    *withdrawn = NULL;
+    pthread_mutex_lock(&queue->lock);
+    LIST_FOREACH(job, &queue->live, live)
+    {
+        if (is_of(job, owner) && job->kind->withdraw && job->kind->withdraw(job, name))
+            break;
+    }
+    if (job && job->next == 0) {
+        take_out(queue, job);
+        *withdrawn = job;
+    }
+    pthread_mutex_unlock(&queue->lock);
+    return job;
 }
 
 void queue_visit(struct queue *queue, void (*visit)(void *context, const struct job *job),

@@ -57,6 +57,10 @@ void queue_cancel(struct queue *queue);
 /* Waits until nothing is queued or being answered, at most `seconds`. False: something is. */
 bool queue_drain(struct queue *queue, double seconds);
 
+/* Tells the job of that name that its client does not wait for it any more. *withdrawn: it has not
+ * begun and is the caller's to release; NULL: it has. False: there is no such job here. */
+bool queue_withdraw(struct queue *queue, const struct request_name *name, struct job **withdrawn);
+
 /* Shows each job that waits or is being done, under the queue's lock. */
 void queue_visit(struct queue *queue, void (*visit)(void *context, const struct job *job),
                  void *context);

@@ -60,6 +60,7 @@ struct shared {
 
 /* What clients are told by more than one module. */
 #define SHARED_SHUTTING_DOWN "the server is shutting down: ask another one"
+#define SHARED_WITHDRAWN     "cancelled by its client"
 #define SHARED_CLIENT_GONE   "the client had gone: ask again"
 
 /* Loads the catalogue and the tables into what is zeroed; the endpoint and the specimens are the

@@ -38,9 +38,8 @@ static void note(void *context, const struct job *job)
 {
     struct visit *visit = context;
     struct task task;
-    if (!job->kind->describe)
+    if (!job->kind->describe || !job->kind->describe(job, &task))
         return;
-    job->kind->describe(job, &task);
     if (task.running || !reply_store_is_gone(visit->shared->replies, task.client))
         insert(visit->tasks, &task);
 }

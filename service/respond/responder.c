@@ -212,6 +212,8 @@ static struct answer *compute(struct responder *responder, const struct question
         table_maker_begin(&responder->maker, question->snapshot->tables, question->request,
                           envelope->client, question->arrival),
         {goes_on, &inquiry}};
+    responder->maker.still_wanted = question->still_wanted;
+    responder->maker.wanted_context = question->context;
     responder->maker.done = question->done;
     solve(responder->workspace, &means, &responder->request, result);
     /* why there is no result */

@@ -24,6 +24,8 @@ static bool go_on(void *context, double done)
     if (maker->done)
         atomic_store(maker->done, done);
     maker->status = maker->wait.goes_on(maker->wait.context, maker, done, &maker->fault);
+    if (!maker->status && maker->still_wanted)
+        maker->status = maker->still_wanted(maker->wanted_context, &maker->fault);
     if (maker->status)
         return false;
     if (clock_now() - maker->begun > maker->limit)

@@ -32,6 +32,9 @@ struct table_maker {
     const uint8_t *client;      /* who asks */
     enum percuss_status status; /* why a table could not be had */
     struct fault fault;
+    /* who waits for the request, as for a solve (struct question); NULL: nobody but `wait` */
+    enum percuss_status (*still_wanted)(void *context, struct fault *fault);
+    void *wanted_context; /* of that */
     _Atomic double *done; /* is told which share of a table is computed; NULL: nobody looks */
 };
 

@@ -25,6 +25,7 @@
 #include <percuss/server.h>
 #include <percuss/specimen.h>
 #include <percuss/trace.h>
+#include <percuss/watch.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -102,8 +103,8 @@ PERCUSS_API bool percuss_client_server(struct percuss_client *client, uint8_t se
 PERCUSS_API void percuss_client_id(const struct percuss_client *client, uint8_t id[16]);
 
 /* Asks and waits. `reply` is overwritten; free it with percuss_reply_free after OK, any other
- * result leaves it empty. After TIMEOUT a late reply is dropped; to repeat the question so that the
- * server answers it once, set request.sequence before the first try and send it again. */
+ * result leaves it empty. After TIMEOUT the server gives it up, unless request.sequence was set
+ * before the first try: sent again, the question is then answered once. */
 PERCUSS_API enum percuss_result percuss_solve(struct percuss_client *client,
                                               const struct percuss_request *request, double timeout,
                                               struct percuss_reply *reply);
@@ -125,8 +126,8 @@ PERCUSS_API enum percuss_result percuss_wait(struct percuss_client *client, uint
 PERCUSS_API enum percuss_result percuss_poll(struct percuss_client *client, uint64_t sequence,
                                              struct percuss_reply *reply);
 
-/* Forgets an outstanding request; its reply is dropped. The server is not told. UNKNOWN_SEQUENCE as
- * for percuss_wait. */
+/* Forgets an outstanding request; its reply is dropped, and the server gives it up: sent again it
+ * begins anew. UNKNOWN_SEQUENCE as for percuss_wait. */
 PERCUSS_API enum percuss_result percuss_cancel(struct percuss_client *client, uint64_t sequence);
 
 /* Asks up to PERCUSS_MAX_BATCH questions in one sample and waits for all: replies[i] answers

@@ -22,7 +22,8 @@
     X(WINDOW_FULL, "too many outstanding requests")                                                \
     X(UNKNOWN_SEQUENCE, "no outstanding request of that sequence")                                 \
     X(NO_MEMORY, "out of memory")                                                                  \
-    X(TRANSPORT, "DDS failed")
+    X(TRANSPORT, "DDS failed")                                                                     \
+    X(CANCELLED, "given up")
 
 #define PERCUSS_RESULT_MEMBER(name, text) PERCUSS_RESULT_##name,
 enum percuss_result { PERCUSS_RESULT_LIST(PERCUSS_RESULT_MEMBER) PERCUSS_RESULT_COUNT };

@@ -23,6 +23,7 @@ from .ensembles import Correlation, Distribution, Ensemble, EnsembleReply, Input
 from .errors import (
     AnswerTimeout,
     CallError,
+    Cancelled,
     Incompatible,
     InvalidArgument,
     NoServer,
@@ -85,6 +86,7 @@ __all__ = [
     "BodyState",
     "BodyVelocity",
     "CallError",
+    "Cancelled",
     "Client",
     "Compliance",
     "Contact",

@@ -3,7 +3,7 @@
 """The structs and functions of <percuss/percuss.h>; tests/test_abi.py compares them with the compiler's."""
 
 import ctypes
-from ctypes import POINTER, c_bool, c_char, c_char_p, c_double, c_int, c_size_t
+from ctypes import CFUNCTYPE, POINTER, c_bool, c_char, c_char_p, c_double, c_int, c_size_t
 from ctypes import c_uint, c_uint8, c_uint32, c_uint64, c_void_p
 from typing import Any
 
@@ -263,6 +263,7 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
 library = load()
 _Client = c_void_p
 
+WATCH = CFUNCTYPE(c_bool, c_void_p)
 _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("client_config_default", ClientConfig, []),
     ("client_create", c_int, [POINTER(ClientConfig), POINTER(_Client)]),
@@ -272,6 +273,7 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("client_id", None, [_Client, _Octets]),
     ("client_server", c_bool, [_Client, _Octets]),
     ("client_observes", c_bool, [_Client]),
+    ("client_watch", None, [_Client, WATCH, c_void_p]),
     ("solve", c_int, [_Client, POINTER(Request), c_double, POINTER(Reply)]),
     ("solve_traced", c_int, [_Client, POINTER(Request), c_double, POINTER(Reply), POINTER(Trace)]),
     ("trace_free", None, [POINTER(Trace)]),

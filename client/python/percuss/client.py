@@ -9,6 +9,7 @@ from types import TracebackType
 
 from . import _abi, _server_abi, request, server
 from ._convert import read
+from ._signals import Signals, listening
 from .errors import CallError, check
 from .reply import Reply
 from .request import Request
@@ -21,11 +22,15 @@ _library = _abi.library
 class Client:
     """A client of the percussd in a DDS domain; `connect` makes one that is connected.
 
-    Timeouts are seconds from the call, >= 0, math.inf allowed; a signal (Ctrl-C) takes effect when the
-    call returns. Methods may be called from several threads at once, except that `close` must be the
-    last; one outstanding request is waited for by one thread. Without CYCLONEDDS_URI in the environment
-    it talks to this machine only.
+    Timeouts are seconds from the call, >= 0, math.inf allowed. A signal's handler runs within some tenths of a
+    second; where it raises, as that of Ctrl-C does, the call ends with that exception and the server gives up what was
+    asked (but `wait`: it stays outstanding). Methods may be called from several threads at once, except that
+    `close` must be the last; one outstanding request is waited for by one thread. Without CYCLONEDDS_URI in the
+    environment it talks to this machine only.
     """
+
+    # set by the first call in the main thread
+    _signals: Signals | None = None
 
     def __init__(
         self,
@@ -103,7 +108,31 @@ class Client:
     def _open(self) -> ctypes.c_void_p:
         if not self._handle:
             raise ValueError("the client is closed")
+        if self._signals is None:
+            self._listen()
         return self._handle
+
+    def _listen(self) -> None:
+        self._signals = listening()
+        if self._signals is not None:
+            _library.percuss_client_watch(self._handle, self._signals.function, None)
+
+    def _settle(self) -> None:
+        """Raises what a signal's handler raised while a call waited."""
+        if self._signals is not None:
+            self._signals.settle()
+
+    def _check(self, code: int) -> None:
+        self._settle()
+        check(code)
+
+    def _take(self, code: int, answer: _abi.Reply) -> Reply:
+        """Copies a C reply, if the call has brought one, and frees it."""
+        try:
+            self._check(code)
+            return read(answer, Reply)
+        finally:
+            _library.percuss_reply_free(ctypes.byref(answer))
 
     @property
     def id(self) -> Id:
@@ -130,19 +159,17 @@ class Client:
         there but a quality of service does not fit. When that server goes, what waits for it raises
         NoServer. To be called again then, and after a restart; what was outstanding is lost then and
         may be submitted again as it was."""
-        check(_library.percuss_client_connect(self._open, timeout))
+        self._check(_library.percuss_client_connect(self._open, timeout))
 
     def solve(self, question: Request, timeout: float = 10.0) -> Reply:
-        """Asks and waits. A refusal is an answer: see Reply.status. AnswerTimeout: a late reply is
-        dropped; to repeat a question so that the server answers it once, set its sequence before."""
+        """Asks and waits. A refusal is an answer: see Reply.status. AnswerTimeout: the server gives it up, unless
+        the question had a sequence of its own: asked again it is then answered once."""
         asked = _abi.Request()
         kept = request.fill(question, asked)
         answer = _abi.Reply()
-        check(
-            _library.percuss_solve(self._open, ctypes.byref(asked), timeout, ctypes.byref(answer))
-        )
+        code: int = _library.percuss_solve(self._open, ctypes.byref(asked), timeout, ctypes.byref(answer))
         del kept
-        return _take(answer)
+        return self._take(code, answer)
 
     def submit(self, question: Request) -> int:
         """Sends a request and returns its sequence. WindowFull until replies are collected or cancelled.
@@ -161,8 +188,8 @@ class Client:
         AnswerTimeout it stays outstanding. UnknownSequence: never sent, collected, cancelled or waited for
         by another thread; with 0: nothing is outstanding."""
         answer = _abi.Reply()
-        check(_library.percuss_wait(self._open, sequence, timeout, ctypes.byref(answer)))
-        return _take(answer)
+        code: int = _library.percuss_wait(self._open, sequence, timeout, ctypes.byref(answer))
+        return self._take(code, answer)
 
     def poll(self, sequence: int = 0) -> Reply | None:
         """As `wait`, without waiting: None if the reply is not there."""
@@ -170,11 +197,10 @@ class Client:
         code: int = _library.percuss_poll(self._open, sequence, ctypes.byref(answer))
         if code == Result.PENDING:
             return None
-        check(code)
-        return _take(answer)
+        return self._take(code, answer)
 
     def cancel(self, sequence: int) -> None:
-        """Forgets an outstanding request; its reply is dropped. The server is not told."""
+        """Forgets an outstanding request; its reply is dropped, and the server gives it up."""
         check(_library.percuss_cancel(self._open, sequence))
 
     def solve_batch(self, questions: Sequence[Request], timeout: float = 10.0) -> list[Reply]:
@@ -185,9 +211,10 @@ class Client:
         asked = (_abi.Request * count)()
         kept = [request.fill(question, asked[i]) for i, question in enumerate(questions)]
         answers = (_abi.Reply * count)()
-        check(_library.percuss_solve_batch(self._open, asked, count, timeout, answers))
+        code: int = _library.percuss_solve_batch(self._open, asked, count, timeout, answers)
         del kept
         try:
+            self._check(code)
             return [read(answer, Reply) for answer in answers]
         finally:
             for answer in answers:
@@ -196,7 +223,7 @@ class Client:
     def ping(self, timeout: float = 1.0) -> float:
         """Sends an empty request and returns the time until it is answered, s."""
         round_trip = ctypes.c_double()
-        check(_library.percuss_ping(self._open, timeout, ctypes.byref(round_trip)))
+        self._check(_library.percuss_ping(self._open, timeout, ctypes.byref(round_trip)))
         return round_trip.value
 
     def servers(self, timeout: float = 3.0) -> list[Server]:
@@ -233,14 +260,6 @@ class Client:
         """Has the server forget a specimen, its dents and which body it is. InvalidArgument: it keeps
         none of that name."""
         check(_library.percuss_clear_specimen(self._open, name.encode(), timeout))
-
-
-def _take(answer: _abi.Reply) -> Reply:
-    """Copies a C reply and frees it."""
-    try:
-        return read(answer, Reply)
-    finally:
-        _library.percuss_reply_free(ctypes.byref(answer))
 
 
 def connect(

@@ -36,25 +36,31 @@ Watch = Callable[[Progress], bool | None]
 class Watching:
     """The caller's function as one of C, which knows of no exceptions."""
 
-    def __init__(self, progress: Watch | None) -> None:
+    def __init__(self, progress: Watch | None, shared: bool) -> None:
         self._progress = progress
+        self._refused = False
         self.problem: BaseException | None = None
-        self.function = _ensemble_abi.PROGRESS(self._told)
+        # who asks for no progress hears nothing but signals
+        self.function = _ensemble_abi.PROGRESS(self._told) if progress or shared else _ensemble_abi.PROGRESS()
 
     def _told(self, _: Any, told: Any) -> bool:
         if self.problem is not None:
             return False
-        if self._progress is None:
-            return True
         try:
-            return self._progress(_convert.read(told[0], Progress)) is not False
+            self._refused = self._progress is not None and self._progress(_convert.read(told[0], Progress)) is False
         except BaseException as problem:
             self.problem = problem
-            return False
+        return not self._refused and self.problem is None
 
-    def finish(self, code: int, library: ctypes.CDLL | None) -> None:
+    def finish(
+        self, code: int, library: ctypes.CDLL | None, client: Client, answer: _ensemble_abi.Reply
+    ) -> None:
+        client._settle()
         if self.problem is not None:
             raise self.problem
+        # a signal's handler has raised before the first line of _told, where nobody can catch it
+        if answer.message.startswith(b"cancelled") and not self._refused:
+            raise KeyboardInterrupt
         check(code, library) if library else check(code)
 
 
@@ -80,7 +86,7 @@ def solve_shared(
     code = library.percuss_solve_ensemble_shared(
         client._open, ctypes.byref(asked), deal.function, watch.function, None, ctypes.byref(answer)
     )
-    watch.finish(code, library)
+    watch.finish(code, library, client, answer)
 
 
 def _share_library() -> ctypes.CDLL:

@@ -67,16 +67,16 @@ def ensemble(
     is not looked at."""
     asked, kept = ensemble_request.fill(question)
     answer = _ensemble_abi.Reply()
-    watch = Watching(progress)
-    if executor is None:
-        code = _abi.library.percuss_solve_ensemble(
-            client._open, ctypes.byref(asked), timeout, watch.function, None, ctypes.byref(answer)
-        )
-        watch.finish(code, None)
-    else:
-        solve_shared(question, asked, client, executor, watch, answer)
-    del kept
+    watch = Watching(progress, executor is not None)
     try:
+        if executor is None:
+            code = _abi.library.percuss_solve_ensemble(
+                client._open, ctypes.byref(asked), timeout, watch.function, None, ctypes.byref(answer)
+            )
+            watch.finish(code, None, client, answer)
+        else:
+            solve_shared(question, asked, client, executor, watch, answer)
+        del kept
         return ensemble_reply.read(answer, question)
     finally:
         _abi.library.percuss_ensemble_reply_free(ctypes.byref(answer))

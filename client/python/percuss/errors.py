@@ -56,6 +56,10 @@ class UnknownSequence(CallError, LookupError):
     """Never sent, collected already, cancelled, or waited for by another thread."""
 
 
+class Cancelled(CallError):
+    """The call was given up."""
+
+
 class TransportError(CallError):
     """DDS failed."""
 
@@ -76,6 +80,7 @@ _CLASSES: dict[Result, type[CallError]] = {
     Result.WINDOW_FULL: WindowFull,
     Result.UNKNOWN_SEQUENCE: UnknownSequence,
     Result.TRANSPORT: TransportError,
+    Result.CANCELLED: Cancelled,
 }
 
 

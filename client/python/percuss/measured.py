@@ -279,7 +279,9 @@ def compare(
     answer = abi.Comparison()
     with _taken(source, columns) as handle:
         notes = _notes(handle)
-        _check(_library.percuss_measured_compare(handle, ctypes.byref(asked.question), ctypes.byref(answer)))
+        code: int = _library.percuss_measured_compare(handle, ctypes.byref(asked.question), ctypes.byref(answer))
+    client._settle()
+    _check(code)
     try:
         twins = answer.impacts[: answer.impact_count]
         return _convert.read(
@@ -330,7 +332,9 @@ def calibrate(
     answer = _write_fit(fit)
     with _taken(source, columns) as handle:
         notes = _notes(handle)
-        _check(_library.percuss_measured_calibrate(handle, ctypes.byref(asked.question), ctypes.byref(answer)))
+        code: int = _library.percuss_measured_calibrate(handle, ctypes.byref(asked.question), ctypes.byref(answer))
+    client._settle()
+    _check(code)
     try:
         n = answer.parameter_count
         return Calibration(

@@ -308,6 +308,8 @@ class SlowScale:
         raised, self._callbacks.raised = self._callbacks.raised, None
         if raised is not None:
             raise raised
+        if self._client is not None:
+            self._client._settle()
 
     def _check(self, code: int) -> None:
         self._raise()

@@ -17,7 +17,6 @@ import numpy as np
 
 from . import _abi, _convert, _plots, _tables, request
 from .client import Client
-from .errors import check
 from .reply import Reply
 from .request import FloatArray, Request
 
@@ -88,13 +87,12 @@ def trace(question: Request, client: Client, timeout: float = 10.0) -> Trace:
     """As client.solve, with the time histories of the answer. A refusal has none: see Trace.reply.status."""
     asked, answer, histories = _abi.Request(), _abi.Reply(), _abi.Trace()
     kept = request.fill(question, asked)
-    check(
-        _library.percuss_solve_traced(
-            client._open, ctypes.byref(asked), timeout, ctypes.byref(answer), ctypes.byref(histories)
-        )
+    code: int = _library.percuss_solve_traced(
+        client._open, ctypes.byref(asked), timeout, ctypes.byref(answer), ctypes.byref(histories)
     )
     del kept
     try:
+        client._check(code)
         contacts = tuple(_read(one) for one in histories.contacts[: histories.contact_count])
         return Trace(_convert.read(answer, Reply), contacts)
     finally:

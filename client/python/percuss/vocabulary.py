@@ -188,6 +188,7 @@ class Result(Choice):
     UNKNOWN_SEQUENCE = 7
     NO_MEMORY = 8
     TRANSPORT = 9
+    CANCELLED = 10
 
 
 ID_SIZE = 64

@@ -9,6 +9,8 @@
 #include "check.h"
 #include "daemon/queue.h"
 #include "exchange/clock.h"
+#include "exchange/key_map.h"
+#include "exchange/reply_store.h"
 
 /* The queue looks at nothing of a job but how many items it has. */
 static struct job job_of(size_t items)
@@ -263,6 +265,73 @@ static void cancels_what_waits_and_what_runs(void **state)
     queue_free(queue);
 }
 
+/* A job is called what its arrival in the test says. */
+static bool is_called(struct job *job, const struct request_name *name)
+{
+    return job->items == name->sequence;
+}
+
+static void gives_back_what_is_not_wanted_and_has_not_begun(void **state)
+{
+    (void)state;
+    static const struct job_kind named = {.withdraw = is_called}, nameless = {0};
+    static const uint8_t client[16] = {7}, other[16] = {8};
+    struct job running = job_of(3), first = job_of(1), last = job_of(2), clear = job_of(1);
+    struct job *withdrawn;
+    struct queue *queue = queue_create(4, QUEUE_WHOLE);
+    running.kind = first.kind = last.kind = &named;
+    clear.kind = &nameless;
+    running.owner = first.owner = last.owner = clear.owner = digest_of_octets(client);
+    assert_true(put(queue, &running));
+    takes(queue, &running, 0);
+    assert_true(put(queue, &clear));
+    assert_true(put(queue, &first));
+    assert_true(put(queue, &last));
+    assert_int_equal(queue_length(queue), 4);
+    /* nobody else's, nothing that is not there */
+    assert_false(
+        queue_withdraw(queue, &(struct request_name){other, EXCHANGE_SINGLE, 1}, &withdrawn));
+    assert_false(
+        queue_withdraw(queue, &(struct request_name){client, EXCHANGE_SINGLE, 9}, &withdrawn));
+    /* what has begun is told only */
+    assert_true(
+        queue_withdraw(queue, &(struct request_name){client, EXCHANGE_SINGLE, 3}, &withdrawn));
+    assert_null(withdrawn);
+    assert_true(
+        queue_withdraw(queue, &(struct request_name){client, EXCHANGE_SINGLE, 1}, &withdrawn));
+    assert_ptr_equal(withdrawn, &first);
+    assert_int_equal(queue_length(queue), 3);
+    /* the others have their turns as before */
+    takes(queue, &running, 1);
+    takes(queue, &clear, 0);
+    takes(queue, &last, 0);
+    takes(queue, &running, 2);
+    takes(queue, &last, 1);
+    for (int i = 0; i < 5; i++)
+        queue_done(queue, last.owner, i == 0 ? &running : i == 1 ? &clear : i == 2 ? &last : NULL);
+    queue_free(queue);
+}
+
+static void a_drained_queue_may_have_lost_its_last_job(void **state)
+{
+    (void)state;
+    static const struct job_kind named = {.withdraw = is_called};
+    static const uint8_t client[16] = {7};
+    struct job job = job_of(1), *withdrawn;
+    size_t item;
+    struct queue *queue = queue_create(1, QUEUE_WHOLE);
+    job.kind = &named;
+    job.owner = digest_of_octets(client);
+    assert_true(put(queue, &job));
+    queue_close(queue);
+    assert_true(
+        queue_withdraw(queue, &(struct request_name){client, EXCHANGE_SINGLE, 1}, &withdrawn));
+    assert_ptr_equal(withdrawn, &job);
+    assert_true(queue_drain(queue, 60.0));
+    assert_null(queue_take(queue, &item));
+    queue_free(queue);
+}
+
 static void *done_later(void *queue)
 {
     nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
@@ -343,6 +412,8 @@ int main(void)
         cmocka_unit_test(what_has_begun_does_not_give_way),
         cmocka_unit_test(a_client_has_his_share_of_workers),
         cmocka_unit_test(cancels_what_waits_and_what_runs),
+        cmocka_unit_test(gives_back_what_is_not_wanted_and_has_not_begun),
+        cmocka_unit_test(a_drained_queue_may_have_lost_its_last_job),
         cmocka_unit_test(draining_ends_with_the_last_request),
         cmocka_unit_test(threads_take_every_request_once),
     };

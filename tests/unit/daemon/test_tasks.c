@@ -9,14 +9,18 @@
 #include "daemon/queue.h"
 #include "daemon/tasks.h"
 
+/* A client who does not wait for what he asked. */
+enum { FORGOTTEN = 99 };
+
 struct toy {
     struct job job; /* first */
     struct task task;
 };
 
-static void describe(const struct job *job, struct task *task)
+static bool describe(const struct job *job, struct task *task)
 {
     *task = ((const struct toy *)job)->task;
+    return task->client[0] != FORGOTTEN;
 }
 
 static const struct job_kind told = {.describe = describe}, silent = {0};
@@ -110,7 +114,9 @@ static void leaves_out_what_waits_for_nobody(void **state)
     struct shared shared;
     struct tasks tasks;
     struct toy waits = toy_of(1, false, 1.0), runs = toy_of(1, true, 2.0);
+    struct toy forgotten = toy_of(FORGOTTEN, true, 1.0);
     create(&shared);
+    put(&shared, LANE_SHORT, &forgotten);
     put(&shared, LANE_SHORT, &waits);
     put(&shared, LANE_LONG, &runs);
     reply_store_set_present(shared.replies, waits.task.client, true, 1.0);

@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Tests client/local: what is opened and refused, questions alone, outstanding, in batches and from
- * several threads, each answered to the same bits. */
+ * several threads, each answered to the same bits; given up by whoever watches. */
 
 #include <percuss/local.h>
 #include <pthread.h>
@@ -127,6 +127,62 @@ static void test_a_batch_answers_as_single_questions_do(void **state)
     percuss_client_free(client);
 }
 
+/* Has enough of it when it was asked so often. */
+struct looker {
+    int asked, most;
+};
+
+static bool look_on(void *context)
+{
+    struct looker *looker = context;
+    return ++looker->asked < looker->most;
+}
+
+static void *solve_unwatched(void *client)
+{
+    struct percuss_request *request = question(client, "al-rod-1", 0.3);
+    struct percuss_reply reply;
+    /* longer than it takes to be asked, were it watched */
+    request->options.contact_model = PERCUSS_CONTACT_COMPLETE_FE;
+    request->options.tolerance = 1e-4;
+    assert_int_equal(percuss_solve(client, request, 0.5, &reply), PERCUSS_RESULT_TIMEOUT);
+    free(request);
+    return NULL;
+}
+
+static void test_whoever_watches_gives_up_what_takes_long(void **state)
+{
+    struct percuss_client *client = open_client();
+    struct percuss_request *request = question(client, "al-rod-1", 0.3);
+    struct looker looker = {0, 3};
+    struct percuss_reply reply;
+    pthread_t thread;
+    (void)state;
+    request->options.contact_model = PERCUSS_CONTACT_COMPLETE_FE;
+    request->options.tolerance = 1e-4;
+    percuss_client_watch(client, look_on, &looker);
+    assert_int_equal(percuss_solve(client, request, 600.0, &reply), PERCUSS_RESULT_CANCELLED);
+    assert_int_equal(looker.asked, 3);
+    assert_non_null(strstr(percuss_error_text(), "given up"));
+    /* a batch as a whole; what was submitted stays */
+    looker.asked = 0;
+    assert_int_equal(percuss_solve_batch(client, request, 1, 600.0, &reply),
+                     PERCUSS_RESULT_CANCELLED);
+    looker.asked = 0;
+    assert_int_equal(percuss_submit(client, request, NULL), PERCUSS_RESULT_OK);
+    assert_int_equal(percuss_wait(client, 0, 600.0, &reply), PERCUSS_RESULT_CANCELLED);
+    assert_int_equal(percuss_wait(client, 0, 0.0, &reply), PERCUSS_RESULT_TIMEOUT);
+    /* not what another thread asks, nor anything once nobody watches */
+    looker.asked = 0;
+    assert_int_equal(pthread_create(&thread, NULL, solve_unwatched, client), 0);
+    pthread_join(thread, NULL);
+    percuss_client_watch(client, NULL, NULL);
+    assert_int_equal(percuss_solve(client, request, 0.5, &reply), PERCUSS_RESULT_TIMEOUT);
+    assert_int_equal(looker.asked, 0);
+    free(request);
+    percuss_client_free(client);
+}
+
 static void test_a_state_is_the_same_for_whoever_names_it(void **state)
 {
     struct percuss_client *one = open_client(), *other = open_client();
@@ -230,6 +286,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_is_wrong_is_named),
         cmocka_unit_test(test_outstanding_questions_are_solved_by_who_waits),
+        cmocka_unit_test(test_whoever_watches_gives_up_what_takes_long),
         cmocka_unit_test(test_a_batch_answers_as_single_questions_do),
         cmocka_unit_test(test_a_state_is_the_same_for_whoever_names_it),
         cmocka_unit_test(test_threads_share_a_client),

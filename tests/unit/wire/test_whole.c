@@ -128,12 +128,13 @@ static void damaged_samples_pass_only_where_dds_stays_inside(void **state)
     assert_true(passed > 1000); /* most words are numbers */
 }
 
-/* A request may end before its last member, the server, but not before or in its options. */
+/* A request may end before its last members, the server and that it is cancelled, but not before or
+ * in its options. */
 static void a_missing_struct_is_refused(void **state)
 {
     (void)state;
     struct any_bytes bytes = any_sample(&percuss_v1_Request_desc, false);
-    size_t whole = bytes.size, server = 16;
+    size_t whole = bytes.size, server = 16 + 1;
     any_put(bytes.data, whole - server - 4, false);
     assert_true(passes(&percuss_v1_Request_desc, &bytes, whole - server, false));
     for (size_t size = 4; size < whole - server; size++) {
