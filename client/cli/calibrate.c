@@ -13,6 +13,7 @@
 #include "measured_file.h"
 #include "quantity.h"
 #include "twins.h"
+#include "waiting.h"
 
 enum { KEY_FIT = OPTION_OWN, KEY_NOISE };
 
@@ -207,6 +208,7 @@ static int run_calibration(struct run *run)
         return explain(run, &calibration);
     /* what is to be said of the twins is said of those that came out best */
     int code = twins_code(&run->twins, fitting_ask(&run->fitting, calibration.fit.x, 1.0));
+    waiting_end();
     if (code != EXIT_ANSWERED)
         complain("asked once more with the values that came out, the model did not answer: what it "
                  "warns of there is not known");

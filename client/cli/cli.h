@@ -86,6 +86,9 @@ void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* That memory has run out; returns the exit code for it. */
 int complain_memory(void);
 
+/* That the user has ended it; returns the exit code for it. */
+int complain_interrupted(void);
+
 /* Prints the library's error of a call and returns its exit code. */
 int complain_result(enum percuss_result result);
 

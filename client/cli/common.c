@@ -14,6 +14,7 @@
 #include "others.h"
 #include "percuss/habits.h"
 #include "quantity.h"
+#include "waiting.h"
 
 enum { HIGHEST_DOMAIN = 230 };
 static const double DEFAULT_TIMEOUT = 30.0; /* s */
@@ -177,6 +178,7 @@ bool common_names_server(const struct common *common)
 void complain(const char *format, ...)
 {
     va_list arguments;
+    waiting_clear();
     va_start(arguments, format);
     fputs("percuss: ", stderr);
     vfprintf(stderr, format, arguments);
@@ -190,10 +192,18 @@ int complain_memory(void)
     return EXIT_FAILURE;
 }
 
+int complain_interrupted(void)
+{
+    complain("interrupted");
+    return waiting_exit_code();
+}
+
 int complain_result(enum percuss_result result)
 {
     if (result == PERCUSS_RESULT_OK)
         return EXIT_ANSWERED;
+    if (result == PERCUSS_RESULT_CANCELLED)
+        return complain_interrupted();
     complain("%s%s", percuss_error_text(),
              result == PERCUSS_RESULT_TIMEOUT ? "; --timeout S waits longer" : "");
     switch (result) {

@@ -9,6 +9,7 @@
 
 #include "cli.h"
 #include "measured_file.h"
+#include "waiting.h"
 
 enum { KEY_CSV = OPTION_OWN, KEY_PERMUTATIONS, KEY_SEED };
 enum { DEFAULT_PERMUTATIONS = 1999, MOST_PERMUTATIONS = 1000000, MOST_SEED = 1u << 31 };
@@ -118,6 +119,7 @@ static int run(const struct compare *compare, struct twins *twins, struct measur
         .scene = &compare->scene, .set = set, .twins = list, .warnings = &twins->warnings};
     int code = list ? twins_ask(twins, set, &(struct twin_changes){.faster = 1.0}, list)
                     : complain_memory();
+    waiting_end();
     if (code == EXIT_ANSWERED)
         code = twins_complete(twins, set, list);
     if (code == EXIT_ANSWERED)

@@ -16,6 +16,7 @@
 #include "request_json.h"
 #include "scene.h"
 #include "spread.h"
+#include "waiting.h"
 
 enum {
     KEY_SPEED = OPTION_OWN,
@@ -261,6 +262,7 @@ static int ask(struct asking *asking, struct impact_run *run, double speed)
     double timeout = common_timeout(query->common);
     /* histories only where something is made of them */
     bool traced = query->trace || plot_wanted(&query->plot);
+    waiting_begin(query->common, asking->client, NULL);
     enum percuss_result result =
         traced
             ? percuss_solve_traced(asking->client, &run->request, timeout, &run->reply, &run->trace)
@@ -272,6 +274,7 @@ static int ask(struct asking *asking, struct impact_run *run, double speed)
     if (spreads)
         result =
             spread_ask(asking->client, &run->request, speed, query->speed_sigma, timeout, &spread);
+    waiting_end();
     query_output_add(&asking->output, run, speed, spreads && !result ? &spread : NULL);
     if (spreads && !result && !query->common->json)
         spread_print(query->speed_sigma, &spread);

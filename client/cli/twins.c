@@ -5,6 +5,8 @@
 
 #include <stdio.h>
 
+#include "waiting.h"
+
 int twins_open(struct twins *twins, const struct common *common, const struct scene *scene)
 {
     *twins = (struct twins){.scene = scene, .warnings.unit = "twins"};
@@ -14,13 +16,16 @@ int twins_open(struct twins *twins, const struct common *common, const struct sc
         code = scene_find_bodies(scene, common, client, &twins->bodies);
     twins->question =
         (struct twin_question){client, twins->bodies.pair, scene->options, common_timeout(common)};
-    if (code != EXIT_ANSWERED)
+    if (code == EXIT_ANSWERED)
+        waiting_begin(common, client, "impacts");
+    else
         twins_close(twins);
     return code;
 }
 
 void twins_close(struct twins *twins)
 {
+    waiting_end();
     percuss_body_list_free(&twins->bodies.list);
     if (twins->question.client)
         percuss_client_free(twins->question.client);
@@ -51,6 +56,8 @@ static bool take(void *context, const struct percuss_request *request,
     twins->code = judge(twins, request, reply);
     if (twins->code == EXIT_ANSWERED && !tally_take(&twins->warnings, reply, place))
         twins->code = complain_memory();
+    if (!waiting_count(1) && twins->code == EXIT_ANSWERED)
+        twins->code = complain_interrupted();
     return twins->code == EXIT_ANSWERED;
 }
 
