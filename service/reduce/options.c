@@ -52,7 +52,8 @@ static const struct argp_option list[] = {
     {"density", DENSITY, "R", 0, "and density in kg/m^3, or such as 2.7g/cm^3", 1},
     {NULL, 0, NULL, 0, "How it is computed:", 2},
     {"unit", 'u', "UNIT", 0, "Of lengths in FILE: m (default), cm, mm, um, in, ft", 2},
-    {"size", SIZE, "H", 0, "Of the elements that Gmsh makes of a shape, in the unit", 2},
+    {"size", SIZE, "H", 0, "Of the elements that Gmsh makes of a shape, in the unit or such as 4mm",
+     2},
     {"max-frequency", 'f', "F", 0,
      "All modes below it, in Hz or such as 20kHz; default: as far as the mesh is good, at most 300 "
      "modes",
@@ -62,7 +63,8 @@ static const struct argp_option list[] = {
     {"stiffness", STIFFNESS, "K", 0, "Take it from a file (.mtx, .sti), with", 2},
     {"mass", MASS, "M", 0, "the mass (.mtx, .mas)", 2},
     {"freedoms", FREEDOMS, "DOF", 0, "and which row is which direction (.dof)", 2},
-    {"site", SITE, "X,Y,Z", 0, "A place that will be hit, in the unit (as often as needed)", 2},
+    {"site", SITE, "X,Y,Z", 0,
+     "A place that will be hit, in the unit or such as 0,20mm,45mm (as often as needed)", 2},
     {NULL, 0, NULL, 0, "What is told:", 3},
     {"vtk", VTK, "FILE.vtu", 0, "Also write mesh and modes for ParaView", 3},
     {"json", JSON, NULL, 0, "The report as one JSON object", 3},
@@ -112,15 +114,51 @@ static void add_part(struct argp_state *state, struct options *options, char *te
     options->parts[options->part_count++] = (struct part_option){text, equals + 1};
 }
 
-static void add_site(struct argp_state *state, struct options *options, const char *text)
+/* The first `length` characters as a length in the mesh's unit: a number alone is in it already.
+ * False: it is none. */
+static bool read_length(const char *text, size_t length, double unit, double *number)
 {
-    double *site = options->sites[options->site_count];
-    int read = 0;
-    check_room(state, "site", options->site_count);
-    if (sscanf(text, "%lf,%lf,%lf%n", &site[0], &site[1], &site[2], &read) != 3 || text[read] ||
-        !isfinite(site[0] + site[1] + site[2]))
-        argp_error(state, "--site: %s: must be three numbers, X,Y,Z", text);
-    options->site_count++;
+    char copy[64];
+    if (length >= sizeof copy)
+        return false;
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    if (units_read(copy, QUANTITY_LENGTH, number))
+        return false;
+    const char *rest = units_number_end(copy);
+    if (rest[strspn(rest, " ")])
+        *number /= unit;
+    return true;
+}
+
+static void read_site(struct argp_state *state, struct options *options, size_t i)
+{
+    double *site = options->sites[i];
+    const char *at = options->site_texts[i];
+    for (int k = 0; k < 3; k++) {
+        size_t length = strcspn(at, ",");
+        bool last = k == 2;
+        if ((at[length] == '\0') != last || !read_length(at, length, options->unit, &site[k]))
+            argp_error(state,
+                       "--site: %s: must be three numbers, X,Y,Z, in the unit of the mesh or with "
+                       "their own, such as 8mm",
+                       options->site_texts[i]);
+        at += length + !last;
+    }
+}
+
+/* When the unit of the mesh is known. */
+static void read_lengths(struct argp_state *state, struct options *options)
+{
+    const char *size = options->size_text;
+    if (size && !(read_length(size, strlen(size), options->unit, &options->size) &&
+                  options->size >= 1e-9 && options->size <= 1e9))
+        argp_error(state,
+                   "--size: %s: must be a number, 1e-09 to 1e+09, in the unit of the mesh, or a "
+                   "length with its own, such as 8mm",
+                   size);
+    for (size_t i = 0; i < options->site_count; i++)
+        read_site(state, options, i);
 }
 
 static error_t parse_material(int key, char *text, struct argp_state *state)
@@ -181,7 +219,7 @@ static error_t parse_method(int key, char *text, struct argp_state *state)
             argp_error(state, "--unit: %s: must be m, cm, mm, um, in or ft", text);
         return 0;
     case SIZE:
-        options->size = parse_number(state, "size", text, 1e-9, 1e9);
+        options->size_text = text;
         return 0;
     /* which modes */
     case 'f':
@@ -196,7 +234,8 @@ static error_t parse_method(int key, char *text, struct argp_state *state)
         options->fixed[options->fixed_count++] = text;
         return 0;
     case SITE:
-        add_site(state, options, text);
+        check_room(state, "site", options->site_count);
+        options->site_texts[options->site_count++] = text;
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -245,6 +284,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         options->file = text;
         return 0;
     case ARGP_KEY_END:
+        read_lengths(state, options);
         check(state, options);
         return 0;
     /* what it is made of, and how */

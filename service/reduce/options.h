@@ -29,6 +29,7 @@ struct options {
     double sites[OPTIONS_MOST][3]; /* in the unit of the mesh */
     double progress;               /* s between its lines; 0: not given */
     bool json;
+    const char *size_text, *site_texts[OPTIONS_MOST]; /* size and sites as they were given */
 };
 
 /* Ends the program for --help, --version and, with exit code 2, wrong usage. */

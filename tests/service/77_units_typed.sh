@@ -111,5 +111,19 @@ expect 2 "$bin/percuss-tables" --catalogue "$work/catalogue.yaml" --folder "$wor
 says "--speed: 3mm/us: must be a speed"
 expect 2 "$bin/percuss-reduce" body.msh -o body.h5 --progress 2d
 says "--progress: 2d: must be a time, 0.1 to 86400 s, or with a unit, such as 20 ms"
+expect 2 "$bin/percuss-reduce" body.msh -o body.h5 --unit mm --size 2kg
+says "--size: 2kg: must be a number, 1e-09 to 1e+09, in the unit of the mesh, or a length with its own, such as 8mm"
+for site in 1,2 1,2,3,4 1,2kg,3 1,,3; do
+    expect 2 "$bin/percuss-reduce" body.msh -o body.h5 --site "$site"
+    says "--site: $site: must be three numbers, X,Y,Z, in the unit of the mesh or with their own, such as 8mm"
+done
+# off the surface of a block by as much, in whatever unit that is said; the unit of the mesh may come last
+. "$here/block_deck.sh"
+block 4 1 1 >"$work/block.inp"
+for site in 10,2.5,9 10mm,0.25cm,9 "10 mm,2.5 mm,0.009 m"; do
+    expect 1 "$bin/percuss-reduce" "$work/block.inp" -o "$work/block.h5" --young 210GPa --poisson 0.3 \
+        --density 7.8g/cm^3 --site "$site" --unit mm
+    says "--site: 10,2.5,9: is 4 mm off the surface"
+done
 expect 2 "$bin/percuss-ros2" --timeout 1mm
 says "--timeout: '1mm': a time > 0 is needed, in s or with a unit, such as 20 ms"
