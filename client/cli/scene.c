@@ -3,6 +3,7 @@
 
 #include "scene.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -25,7 +26,9 @@ enum scene_key {
 static const struct argp_option scene_options[] = {
     {"a", KEY_A, "ID", 0, "the moving body", 10},
     {"b", KEY_B, "ID", 0, "the body at rest; percuss bodies lists them", 10},
-    {"at", KEY_AT, "S", 0, "place of the impact along a beam, 0..1 (default 0.5)", 10},
+    {"at", KEY_AT, "S", 0,
+     "place of the impact along a beam, 0..1 (default 0.5), or from its end at -x, such as 250mm",
+     10},
     {"at-a", KEY_AT_A, "NAME", 0, "place of the impact on the moving body: a site's name", 10},
     {"at-b", KEY_AT_B, "NAME", 0, "the same on the body at rest (default: its first site)", 10},
     {"tolerance", KEY_TOLERANCE, "T", 0, "wanted accuracy of the restitution (default 1e-3)", 20},
@@ -55,10 +58,23 @@ static unsigned parse_choice(const char *option, const char *text, unsigned coun
 
 static void parse_site(const char *text, struct scene *scene, struct argp_state *state)
 {
-    scene->at = parse_number("at", text, state);
+    struct quantity_fault fault;
+    size_t length = strlen(text);
+    /* a number alone is no length */
+    bool good = quantity_read(text, length, QUANTITY_NUMBER, &scene->at, &fault);
+    if (good) {
+        good = scene->at >= 0.0 && scene->at <= 1.0;
+        scene->at_length = NAN;
+    } else {
+        good = quantity_read(text, length, QUANTITY_LENGTH, &scene->at_length, &fault) &&
+               scene->at_length >= 0.0;
+    }
     scene->at_given = true;
-    if (scene->at < 0.0 || scene->at > 1.0)
-        argp_error(state, "--at: '%s': a fraction 0..1 is needed", text);
+    if (!good)
+        argp_error(state,
+                   "--at: '%s': a fraction of the length, 0..1, or a length from the end at -x, "
+                   "such as 250mm, is needed",
+                   text);
 }
 
 static void parse_b(char *text, struct scene *scene, struct argp_state *state)
@@ -156,7 +172,7 @@ const struct argp scene_argp = {.options = scene_options, .parser = parse_scene}
 
 struct scene scene_default(void)
 {
-    return (struct scene){.at = 0.5, .options = percuss_options_default()};
+    return (struct scene){.at = 0.5, .at_length = NAN, .options = percuss_options_default()};
 }
 
 /* The body of that id, or the stranger made to look like a point. */
@@ -169,6 +185,19 @@ static const struct percuss_body *find_or_invent(const struct percuss_body_list 
     *stranger = (struct percuss_body){.shape = "sphere"};
     snprintf(stranger->id, sizeof stranger->id, "%s", id);
     return stranger;
+}
+
+/* From a length along a beam to the fraction of it. */
+static int place_length(const struct scene *scene, const struct percuss_body *beam, double *at)
+{
+    double whole = 2.0 * beam->half_extents[0];
+    if (strcmp(beam->shape, "beam") != 0 || scene->at_length <= whole) {
+        *at = whole > 0.0 ? fmin(1.0, scene->at_length / whole) : *at;
+        return EXIT_ANSWERED;
+    }
+    complain("--at: %g m from its end is beyond %s, which is %g m long", scene->at_length, beam->id,
+             whole);
+    return EXIT_USAGE;
 }
 
 int scene_find_bodies(const struct scene *scene, const struct common *common,
@@ -187,8 +216,11 @@ int scene_find_bodies(const struct scene *scene, const struct common *common,
     bool b_is_beam = !strcmp(bodies->pair.b->shape, "beam");
     if (scene->at_given && !b_is_beam && strcmp(bodies->pair.a->shape, "beam") != 0)
         complain("--at has no effect: neither body is a beam");
-    *(b_is_beam ? &bodies->pair.at_b : &bodies->pair.at_a) = scene->at;
-    return EXIT_ANSWERED;
+    double *at = b_is_beam ? &bodies->pair.at_b : &bodies->pair.at_a;
+    *at = scene->at;
+    return isnan(scene->at_length)
+               ? EXIT_ANSWERED
+               : place_length(scene, b_is_beam ? bodies->pair.b : bodies->pair.a, at);
 }
 
 int scene_request(const struct scene *scene, const struct scene_bodies *bodies, double speed,

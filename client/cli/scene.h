@@ -15,7 +15,7 @@ struct scene {
     const char *all_b[SCENE_CHOICES];
     enum percuss_contact_model models[SCENE_CHOICES];
     size_t b_count, model_count;
-    double at;
+    double at, at_length; /* along a beam: fraction, or m from its end at -x (NAN: not given) */
     bool at_given;
     const char *at_a, *at_b; /* names of sites; NULL: not given */
     bool given;              /* any flag */

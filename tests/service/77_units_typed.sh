@@ -34,6 +34,8 @@ say "speeds and times, of every command that takes them"
     same --speed=0.3 "--speed=30 cm/s" query $pair --json
     same --speed=0.009 --speed=9mm/s query $pair --json
     same --speed=0.25 "--speed=0.9 km/h" query $pair --json
+    same --at=0.25 --at=250mm query $pair --speed 0.3 --json
+    same --at=1 --at=1m query $pair --speed 0.3 --json
     same --horizon=0.02 --horizon=20ms query $pair --speed 0.3 --json
     same --speed-sigma=0.01 --speed-sigma=10mm/s query $pair --speed 0.3
     same --timeout=60 --timeout=1min query $pair --speed 0.3 --json
@@ -43,6 +45,10 @@ say "speeds and times, of every command that takes them"
     same --deadline=50 --deadline=50000ms ensemble $pair --speed uniform:0.1:0.4 --samples 32 --json
     same --timeout=50 --timeout=50s ensemble $pair --speed uniform:0.1:0.4 --samples 32 --json
 }
+
+# shellcheck disable=SC2086
+expect 2 percuss query $pair --speed 0.3 --at 1.2m
+says "--at: 1.2 m from its end is beyond al-beam, which is 1 m long"
 
 say "uncertain moduli, lengths and densities; where a calibration starts"
 for inputs in "young@al-beam=normal:70e9:1e9 young@al-beam=normal:70GPa:1GPa" \
@@ -87,7 +93,10 @@ say "what does not fit is refused with the option, the value and what is allowed
         query $pair --speed 0.3 --horizon 20mm
     refused "--timeout: '1 Hz': a time is needed, in s or with a unit, such as 20 ms; Hz is no time" \
         query $pair --speed 0.3 --timeout "1 Hz"
-    refused "--at: '0.2 m' is not a finite number" query $pair --speed 0.3 --at "0.2 m"
+    refused "--at: '0.2 s': a fraction of the length, 0..1, or a length from the end at -x, such as 250mm, is needed" \
+        query $pair --speed 0.3 --at "0.2 s"
+    refused "--at: '1.5': a fraction of the length" query $pair --speed 0.3 --at 1.5
+    refused "--at: '-1mm': a fraction of the length" query $pair --speed 0.3 --at=-1mm
     refused "--tolerance: '1 mm': a number is needed, without a unit" query $pair --speed 0.3 --tolerance "1 mm"
     refused "--speed: '0.1:0.4m:31': LO:HI:N: a speed is needed, in m/s or with a unit, such as 300 mm/s; m is no" \
         sweep $pair --speed 0.1:0.4m:31
