@@ -39,10 +39,14 @@ int heading_kind(const struct table_source *source, const char *heading, bool *w
 
 size_t heading_matches(const struct table_source *source, const struct cells *cells)
 {
+    bool named[COLUMN_KINDS] = {false}, whole;
     size_t matches = 0;
-    bool whole;
-    for (size_t i = 0; i < cells->all; i++)
-        matches += heading_kind(source, cells->list[i], &whole) >= 0;
+    for (size_t i = 0; i < cells->all; i++) {
+        int kind = heading_kind(source, cells->list[i], &whole);
+        matches += kind >= 0 && !named[kind];
+        if (kind >= 0)
+            named[kind] = true;
+    }
     return matches;
 }
 

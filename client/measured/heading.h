@@ -14,7 +14,7 @@ const char *heading_wanted(const struct table_source *source, size_t kind);
  * unit. */
 int heading_kind(const struct table_source *source, const char *heading, bool *whole);
 
-/* How many of the cells name a column. */
+/* How many columns the cells name. */
 size_t heading_matches(const struct table_source *source, const struct cells *cells);
 
 /* The column of each kind that its number was given for, counted from 0; -1: not chosen so. */

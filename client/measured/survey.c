@@ -58,32 +58,40 @@ static bool row_fits(const struct table_source *source, const struct text_lines 
     return fits;
 }
 
-/* Tries to take line `i` for that of the headings. */
-static bool try_headings(struct layout *layout, const struct text_lines *lines, size_t i,
-                         char separator)
+/* How much speaks for line `i` as that of the headings; 0: it cannot be. The columns that it names
+ * count, and among equals whether the row below fits: a line about the rig may have one of the
+ * words, too. */
+static size_t weigh(const struct table_source *source, const struct text_lines *lines, size_t i,
+                    char separator)
 {
-    const struct text_line *line = &lines->list[i];
-    if (!cells_divide(line, separator, &layout->titles))
-        return false;
-    bool doubtful = separator == ' ' || layout->titles.all == 1 || line_is_comment(line);
-    if (heading_matches(layout->source, &layout->titles) > 0 &&
-        (!doubtful || row_fits(layout->source, lines, i, &layout->titles, separator))) {
-        layout->separator = separator;
-        layout->line = line->number;
-        layout->first = i + 1;
-        return true;
-    }
-    cells_free(&layout->titles);
-    return false;
+    struct cells titles;
+    if (!cells_divide(&lines->list[i], separator, &titles))
+        return 0;
+    bool doubtful = separator == ' ' || titles.all == 1 || line_is_comment(&lines->list[i]);
+    size_t named = heading_matches(source, &titles);
+    bool fits = named > 0 && row_fits(source, lines, i, &titles, separator);
+    cells_free(&titles);
+    return doubtful && !fits ? 0 : 2 * named + fits;
 }
 
+/* The line with the greatest weight, the first of equals. */
 static bool find_headings(struct layout *layout, const struct text_lines *lines)
 {
+    size_t most = 0, best = 0;
     for (size_t i = 0; i < lines->count && i < MOST_PREAMBLE; i++)
-        for (const char *separator = DIVIDE_SEPARATORS; *separator; separator++)
-            if (try_headings(layout, lines, i, *separator))
-                return true;
-    return false;
+        for (const char *separator = DIVIDE_SEPARATORS; *separator; separator++) {
+            size_t weight = weigh(layout->source, lines, i, *separator);
+            if (weight <= most)
+                continue;
+            most = weight;
+            best = i;
+            layout->separator = *separator;
+        }
+    if (most == 0 || !cells_divide(&lines->list[best], layout->separator, &layout->titles))
+        return false;
+    layout->line = lines->list[best].number;
+    layout->first = best + 1;
+    return true;
 }
 
 /* Whether all columns that were chosen by number are there and begin with numbers. */

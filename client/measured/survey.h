@@ -7,8 +7,8 @@
 
 #include "layout.h"
 
-/* The headings stand in the first line that names a column; a comment, a line that blanks divide
- * and a single word count only where what is below them fits. Without such a line columns are
+/* The headings stand in the line that names most columns; a comment, a line that blanks divide and
+ * a single word count only where what is below them fits. Without such a line columns are
  * chosen by their numbers. A line of units may follow. False with all that is wrong. Release with
  * layout_free. */
 bool survey_layout(const struct table_source *source, const struct text_lines *lines,

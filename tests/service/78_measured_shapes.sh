@@ -51,7 +51,7 @@ same windows.csv
 
 say "a measuring program: lines about the rig, tabs, units in the headings, a column that rows may lack"
 {
-    printf 'LabVIEW Measurement\t\nWriter_Version\t2\nOperator\tJ. Doe\n***End_of_Header***\t\n\n'
+    printf 'LabVIEW Measurement\t\nWriter_Version\t2\nOperator\tJ. Doe\nSpeed\t0.1 to 0.4 m/s\n***End_of_Header***\t\n\n'
     printf 'SPEED (mm/s)\tRESTITUTION (%%)\tSUB_IMPACTS\tFIRST_IMPULSE [g m/s]\tFIRST_DURATION / us\t'
     printf 'SECOND_START in ms\tComment\n'
     rows "$number"'
@@ -59,7 +59,7 @@ say "a measuring program: lines about the rig, tabs, units in the headings, a co
         function line(v, e, n, p, d, s) { return v "\t" number(e, 100) "\t" n "\t" p "\t" d "\t" s }'
 } >rig.lvm
 same rig.lvm
-says "rig.lvm: what stands above the headings in line 6 is not read"
+says "rig.lvm: what stands above the headings in line 7 is not read"
 
 say "numpy.savetxt: blanks, the headings in a comment"
 {

@@ -61,6 +61,11 @@ static void reads_the_shapes_of_rigs(void **state)
                "speed [mm/s]\trestitution (%)\tsub impacts\tfirst_impulse / (g m/s)\n"
                "200\t50\t1\t25\n250\t51\t1\t31.5\n300\t52\t\t37.8\n",
                "");
+    /* words about the rig that are names of columns as well */
+    is_the_set("Speed;200 to 300 mm/s\nHistory;none\nSub-Impacts;Restitution\n1;0,5\n"
+               "speed;restitution;sub_impacts;first_impulse\n0,2;0,5;1;0,025\n"
+               "0,25;0,51;1;0,0315\n0,3;0,52;;0,0378\n",
+               "");
     /* numpy.savetxt with a header */
     is_the_set("# speed restitution sub_impacts first_impulse\n2.0e-01 5.0e-01 1.0e+00 2.5e-02\n"
                "2.5e-01 5.1e-01 1.0e+00 3.15e-02\n3.0e-01 5.2e-01 nan 3.78e-02\n",
