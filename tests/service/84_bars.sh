@@ -4,7 +4,7 @@
 # Who waits at a terminal sees how long and how far it is; whoever reads a file does not.
 . "$(dirname "$0")/lib.sh"
 command -v script >/dev/null || {
-    echo "NOT TRIED: script(1), which makes a terminal, is not here" >&2
+    say "script (Debian: bsdutils), which makes a terminal, is not installed: skipped"
     exit 77
 }
 cat >"$work/impacts.csv" <<EOF
