@@ -9,7 +9,7 @@
 interpose=$build/tests/libinterpose.so
 [ -e "$interpose" ] || fail "no $interpose"
 # a sanitizer must be loaded first
-if grep -q '^PERCUSS_SANITIZE:[A-Z]*=.' "$build/CMakeCache.txt"; then
+if is_sanitized; then
     echo "built with a sanitizer"
     exit 77
 fi

@@ -13,11 +13,12 @@ in_process() {
     "$bin/percuss" "$command" --local --config "$work/percussd.yaml" "$@"
 }
 
-# asked HOW COMMAND [ARGUMENT...]: what it says and writes, without what differs from one asking to the next
+# asked HOW COMMAND [ARGUMENT...]: what it says and writes, without what differs from one asking to the next;
+# however long it takes
 asked() {
     rm -f "$work/file.csv"
     code=0
-    "$@" >"$out" 2>"$err" 9>&- || code=$?
+    "$@" --timeout 600 >"$out" 2>"$err" 9>&- || code=$?
     shift
     echo "== $* -> $code"
     numbers "$out" | sed -e '/"client":/d' -e '/"server":/d' -e '/"queue":/d' -e '/"solve":/d' -e '/^ *server /d'
@@ -120,8 +121,12 @@ says "bodies.al-rod.radius"
 
 say "a plugin loads and unloads it, threads and all"
 library=$build/client/libpercuss-local.so.0
-expect 0 "$peers/unload_local" "$library" "$work/catalogue.yaml"
-shows "100 times loaded and unloaded"
+if is_sanitized; then
+    say "  not looked at: a sanitizer keeps it"
+else
+    expect 0 "$peers/unload_local" "$library" "$work/catalogue.yaml"
+    shows "100 times loaded and unloaded"
+fi
 
 say "it links no DDS, and shows its own functions alone"
 ldd "$library" >"$out"

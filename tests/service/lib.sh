@@ -24,6 +24,16 @@ while :; do
     flock -n 9 && break
 done
 
+# whether what is tested was built with a sanitizer: it must be loaded first, and keeps what is unloaded
+is_sanitized() {
+    grep -q '^PERCUSS_SANITIZE:[A-Z]*=.' "$build/CMakeCache.txt" 2>/dev/null
+}
+# its dlopen does not look where the program would
+if is_sanitized; then
+    LD_LIBRARY_PATH=$build/client${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+    export LD_LIBRARY_PATH
+fi
+
 say() {
     echo "- $*"
 }
