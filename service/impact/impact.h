@@ -12,6 +12,11 @@
 #include "impact/result.h"
 #include "impact/track.h"
 
+/* How careful a solution must be for its accuracy: as later sub-impacts amplify what steps leave of
+ * the first ones; as for a single blow, where they do not; or as for a solution that only says how
+ * far another one may be off. */
+enum impact_care { IMPACT_CARE_SEQUENCE, IMPACT_CARE_SINGLE, IMPACT_CARE_ROUGH, IMPACT_CARES };
+
 struct impact_settings {
     double accuracy; /* relative error of an impulse that the time steps may cause */
     double horizon;  /* s from the stated instant */
@@ -19,6 +24,7 @@ struct impact_settings {
                         each feels)^2 + 2 contacts^2 + 6 contacts */
     struct force_log *log; /* takes the contact forces down; NULL: nobody asks. Only impact_modal */
     struct pace *pace;     /* NULL: nothing stops it; otherwise the status may be PERCUSS_TIMEOUT */
+    enum impact_care care; /* of impact_modal's steps */
 };
 
 /* Everything here lives in the arena given to impact_create. */

@@ -5,6 +5,7 @@
 #ifndef PERCUSS_IMPACT_STEP_LIMITS_H
 #define PERCUSS_IMPACT_STEP_LIMITS_H
 
+#include "impact/impact.h"
 #include "impact/impact_scale.h"
 
 struct step_limits {
@@ -23,7 +24,7 @@ struct step_limits {
     double coupling;
 };
 
-struct step_limits step_limits_make(double accuracy);
+struct step_limits step_limits_make(double accuracy, enum impact_care care);
 
 /* The longest step of a contact of that scale, s, that pumps no mode. A mode that the step does not
  * resolve sees the law at four instants only and can be pumped by it. Its coupling to the contact

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "impact/impact_scale.h"
+
 /* Most of a second by the modal method, whose steps cost some 20 ns of that each; CVODE's
  * right-hand sides are many more and cheaper. */
 static const double MAX_WORK = 3e7;
@@ -30,8 +32,9 @@ double attempt_horizon(const struct problem *problem, const struct scene *scene)
     return asked > 0.0 ? asked : fmax(SOLVE_HORIZON, 2.0 * scene_longest_period(scene));
 }
 
-static enum percuss_status run(struct attempt_context *context, struct attempt *attempt,
-                               const struct scene *scene, struct force_log *log)
+/* Once, with the attempt's care. */
+static enum percuss_status run_once(struct attempt_context *context, struct attempt *attempt,
+                                    const struct scene *scene, struct force_log *log)
 {
     struct impact_settings settings = {
         .accuracy = attempt->accuracy,
@@ -39,6 +42,7 @@ static enum percuss_status run(struct attempt_context *context, struct attempt *
         .max_work = context->work,
         .log = log,
         .pace = context->pace,
+        .care = attempt->care,
     };
     attempt->log = log;
     if (!impact_create(&attempt->outcome, scene, context->arena))
@@ -56,23 +60,77 @@ static enum percuss_status run(struct attempt_context *context, struct attempt *
     return status;
 }
 
+/* Share of the approach's energy that the work of acceleration on the contact may be for one that
+ * is a single blow: what steps lose is a share of both. */
+static const double PRESSED = 0.1;
+
+/* Whether acceleration moves the only contact as much as its approach does. */
+static bool is_pressed(const struct scene *scene)
+{
+    double acceleration = fabs(scene->gap_acceleration[0]);
+    double speed = fabs(scene->gap_rate[0]);
+    if (acceleration == 0.0)
+        return false;
+    struct impact_scale scale = impact_scale_of(scene, 0, speed);
+    return !(2.0 * acceleration * scale.indentation <= PRESSED * speed * speed);
+}
+
+static bool yields(const struct scene *scene)
+{
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (scene->laws[c].operations->curve)
+            return true;
+    return false;
+}
+
+/* Longer steps than a sequence's are for laws that do not yield, as e depends on the largest force
+ * else, which they miss; and a single blow's for what can be one. */
+static void choose_care(struct attempt *attempt, const struct scene *scene)
+{
+    bool single = attempt->care == IMPACT_CARE_SINGLE;
+    if (yields(scene) || (single && (scene->contacts > 1 || is_pressed(scene))))
+        attempt->care = IMPACT_CARE_SEQUENCE;
+}
+
+/* Whether what was solved with a single blow's care is none: it closes again, or does not open. */
+static bool is_careless(const struct attempt *attempt)
+{
+    if (attempt->care != IMPACT_CARE_SINGLE || attempt->outcome.always_overlapped)
+        return false;
+    return attempt->outcome.tracks[0].count > 1 ||
+           attempt->outcome.end_reason == PERCUSS_END_IN_CONTACT;
+}
+
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
                                 const struct scene *scene)
 {
-    return run(context, attempt, scene, NULL);
+    choose_care(attempt, scene);
+    enum percuss_status status = run_once(context, attempt, scene, NULL);
+    if (status || !is_careless(attempt))
+        return status;
+    attempt->care = IMPACT_CARE_SEQUENCE;
+    return run_once(context, attempt, scene, NULL);
 }
 
 enum percuss_status attempt_run_logged(struct attempt_context *context, struct attempt *attempt,
                                        const struct scene *scene)
 {
     if (scene->contacts > 1)
-        return run(context, attempt, scene, NULL);
+        return attempt_run(context, attempt, scene);
+    /* a single blow asks for none */
+    choose_care(attempt, scene);
+    if (attempt->care == IMPACT_CARE_SINGLE) {
+        enum percuss_status status = run_once(context, attempt, scene, NULL);
+        if (status || !is_careless(attempt))
+            return status;
+        attempt->care = IMPACT_CARE_SEQUENCE;
+    }
     struct force_log *log = arena_take(context->arena, 1, sizeof *log);
     if (!log)
         return PERCUSS_INTERNAL;
     *log = force_log_make(context->arena, scene->contacts);
     log->most = MOST_LOGGED;
-    return run(context, attempt, scene, log);
+    return run_once(context, attempt, scene, log);
 }
 
 enum percuss_status attempt_assemble(struct attempt_context *context, struct attempt *attempt)

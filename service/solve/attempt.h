@@ -25,12 +25,15 @@ struct attempt {
     struct assembly *assembly;
     struct impact_outcome outcome;
     const struct force_log *log; /* of that outcome; NULL: it was not taken down */
+    enum impact_care care;       /* of the time steps; a sequence's where one was found */
 };
 
 /* Until when a scene is watched: the request's horizon, or the default, s. */
 double attempt_horizon(const struct problem *problem, const struct scene *scene);
 
-/* Solves a scene by the request's method: the attempt's own, or one derived from it. */
+/* Solves a scene by the request's method: the attempt's own, or one derived from it. What was to be
+ * a single blow and is none is solved with a sequence's care: from the beginning where several
+ * contacts, a law that yields or acceleration tell so, or else again. */
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
                                 const struct scene *scene);
 

@@ -181,7 +181,8 @@ static enum percuss_status solve_beside(struct beside *beside, const struct scen
     allowed = by_finite_elements(beside->margin->problem) ? left : fmin(left, allowed);
     bool modal = beside->margin->problem->request->options.method == PERCUSS_METHOD_MODAL;
     *attempt = (struct attempt){.accuracy = fmax(solution->step_accuracy, modal ? LONGEST : 0.0),
-                                .assembly = solution->assembly};
+                                .assembly = solution->assembly,
+                                .care = IMPACT_CARE_ROUGH};
     beside->context.work = allowed;
     enum percuss_status status = attempt_run(&beside->context, attempt, scene);
     beside->context.work += left - allowed;

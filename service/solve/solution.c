@@ -96,6 +96,7 @@ static void conclude(const struct attempt_context *context, const struct attempt
     solution->outcome = best->outcome;
     solution->log = attempt_is_followed(context, best) ? best->log : NULL;
     solution->step_accuracy = best->accuracy;
+    solution->step_care = best->care;
     /* what is cut off for its effort takes all that was left, but for a step */
     double allowed = attempt_work_allowed(context->problem->request->options.method);
     solution->spent = context->work < SPENT * allowed;
@@ -118,12 +119,13 @@ static void conclude(const struct attempt_context *context, const struct attempt
 static enum percuss_status search(struct attempt_context *context, struct solution *solution)
 {
     const struct problem *problem = context->problem;
+    bool sequence = mode_search_expects_sequence(problem);
     memset(solution, 0, sizeof *solution);
     solution->restitution_by_speed = NAN;
     /* steps as the tolerance asks for to begin with, and as many modes */
-    struct attempt best = {
-        .accuracy = step_search_first_accuracy(
-            problem->tolerance, mode_search_expects_sequence(problem), problem->contact_count > 1)};
+    struct attempt best = {.accuracy = step_search_first_accuracy(problem->tolerance, sequence,
+                                                                  problem->contact_count > 1),
+                           .care = sequence ? IMPACT_CARE_SEQUENCE : IMPACT_CARE_SINGLE};
     enum percuss_status status = mode_search(context, &best, &solution->modes);
     if (status)
         return status;
@@ -157,7 +159,9 @@ static bool make_scene(const struct problem *problem, const struct solution_mode
 static enum percuss_status run(struct attempt_context *context, const struct solution_model *model,
                                struct solution *solution)
 {
-    struct attempt attempt = {.accuracy = model->accuracy};
+    bool sequence = mode_search_expects_sequence(context->problem);
+    struct attempt attempt = {.accuracy = model->accuracy,
+                              .care = sequence ? IMPACT_CARE_SEQUENCE : IMPACT_CARE_SINGLE};
     if (!solution->scene && !make_scene(context->problem, model, solution))
         return PERCUSS_INTERNAL;
     enum percuss_status status = attempt_run(context, &attempt, solution->scene);

@@ -25,6 +25,7 @@ struct solution {
     struct assembly *assembly;     /* of the scene */
     const struct force_log *log;   /* of the answer where first order says something of it; NULL */
     double step_accuracy;          /* that it was solved with, see impact_settings */
+    enum impact_care step_care;    /* the same */
     struct mode_error modes;
     struct step_error steps;
     struct nearby nearby;        /* the answer, and those that it was compared with */

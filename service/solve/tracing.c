@@ -140,7 +140,8 @@ enum percuss_status tracing_make(const struct problem *problem, const struct sol
                                        .horizon = attempt_horizon(problem, scene),
                                        .max_work = work_of(solution),
                                        .log = &log,
-                                       .pace = pace};
+                                       .pace = pace,
+                                       .care = solution->step_care};
     /* the closed form of a rigid pair is exact */
     if (impact_is_rigid_pair(scene))
         settings.accuracy = fmin(settings.accuracy, CLOSED_FORM);
