@@ -31,8 +31,11 @@ bool flight_create(struct flight *flight, const struct scene *scene, struct aren
     flight->bend = arena_take(arena, pairs, sizeof *flight->bend);
     flight->bound = arena_take(arena, scene->contacts, sizeof *flight->bound);
     flight->followed = arena_take(arena, scene->groups, sizeof *flight->followed);
-    if (!flight->reach || !flight->bend || !flight->bound || !flight->followed)
+    flight->swing = arena_reserve(arena, scene->groups, sizeof *flight->swing);
+    if (!flight->reach || !flight->bend || !flight->bound || !flight->followed || !flight->swing)
         return false;
+    for (size_t g = 0; g < scene->groups; g++)
+        flight->swing[g] = sqrt(1.0 - scene->group[g].set->most_damping);
     /* the bounds of the modes at each contact that they are seen by */
     for (size_t i = 0; i < pairs; i++) {
         const struct scene_group *group = &scene->group[i / scene->contacts];
@@ -92,27 +95,29 @@ static void look_closer(const struct flight *flight, const struct scene *scene,
     outlook->fast = 0.0;
     outlook->rest = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {
-        struct flight_modes modes = flight_modes_of(&scene->group[g], c, now->q[g], now->v[g]);
-        if (!modes.phi)
-            continue;
         const double *reach = flight->reach[g * scene->contacts + c];
         const double *bend = flight->bend[g * scene->contacts + c];
+        if (!reach)
+            continue;
         size_t first = flight->followed[g];
         size_t last = first;
-        while (last < modes.length / LANES &&
+        while (last < scene->group[g].stride / LANES &&
                (bend[last + 1] - bend[last]) * share <= reach[last] - reach[last + 1])
             last++;
         outlook->fast += reach[last];
-        outlook->rest += bend[last] * share / sqrt(1.0 - scene->group[g].set->most_damping);
+        outlook->rest += bend[last] * share / flight->swing[g];
         if (last == first)
             continue;
         /* the lanes from the first new one on */
+        struct flight_modes modes = flight_modes_of(&scene->group[g], c, now->q[g], now->v[g]);
         flight->followed[g] = last;
         modes.length = (last - first) * LANES;
         modes.omega += first * LANES;
         modes.phi += first * LANES;
         modes.q += first * LANES;
         modes.v += first * LANES;
+        if (modes.damping)
+            modes.damping += first * LANES;
         flight_kernel_derivatives(&modes, outlook->derivative);
     }
 }

@@ -25,6 +25,7 @@ struct flight {
     double **reach, **bend;  /* [group][contact]: see flight_kernel_bounds */
     double *bound;           /* [contact]: sum of participation times amplitude */
     size_t *followed;        /* [group]: lanes of modes that are, in the interval looked at */
+    double *swing;           /* [group]: sqrt(1 - the largest damping) */
     bool damped;             /* amplitudes decay */
     unsigned long intervals; /* examined, since creation */
     struct pace *pace;       /* asked whether to go on; NULL (as created): nobody */

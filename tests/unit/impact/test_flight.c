@@ -153,7 +153,8 @@ static void samples_never_contradict(void **state)
 }
 
 /* Two bodies with up to 40 modes each at up to three contacts, frequencies over three decades,
- * amplitudes that fall with a random power of them, some damped, some pressed together. */
+ * amplitudes that fall with a random power of them, some damped, all alike or each mode by itself,
+ * some pressed together. */
 enum { MANY = 40, SCENES = 400 };
 
 static void make_many(struct toy *toy, uint64_t *seed)
@@ -175,7 +176,16 @@ static void make_many(struct toy *toy, uint64_t *seed)
         }
         for (size_t i = 0; i < count * contacts; i++)
             shape[i] = uniform(seed, -1.0, 1.0);
-        toy_ring(toy, toy_add(toy, g, count, omega, damping, shape), q, v);
+        struct scene_group *group = toy_add(toy, g, count, omega, damping, shape);
+        if (damping > 0.1) {
+            double each[MANY];
+            for (size_t k = 0; k < count; k++)
+                each[k] = k % 8 < 4 ? damping : 1e-3 * damping;
+            oscillators_free(group->set);
+            group->set = oscillators_create_each(count, omega, each);
+            assert_non_null(group->set);
+        }
+        toy_ring(toy, group, q, v);
     }
     for (size_t c = 0; c < contacts; c++) {
         toy->gap[c] = uniform(seed, 0.0, 3e-4);
