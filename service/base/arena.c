@@ -24,15 +24,20 @@ static struct arena_block *block_create(size_t at_least)
     return block;
 }
 
-/* The next block with room, old ones first. */
-static struct arena_block *block_with_room(struct arena *arena, size_t bytes)
+static bool has_room(const struct arena_block *block, size_t bytes)
 {
-    while (arena->current && arena->current->size - arena->current->used < bytes &&
-           arena->current->next) {
+    return block && block->size - block->used >= bytes;
+}
+
+/* The next block with room, old ones first; seldom, and kept out of what is often. */
+static __attribute__((noinline)) struct arena_block *block_with_room(struct arena *arena,
+                                                                     size_t bytes)
+{
+    while (arena->current && !has_room(arena->current, bytes) && arena->current->next) {
         arena->current = arena->current->next;
         arena->current->used = 0;
     }
-    if (arena->current && arena->current->size - arena->current->used >= bytes)
+    if (has_room(arena->current, bytes))
         return arena->current;
     struct arena_block *block = block_create(bytes);
     if (!block)
@@ -48,10 +53,11 @@ static struct arena_block *block_with_room(struct arena *arena, size_t bytes)
 void *arena_reserve(struct arena *arena, size_t count, size_t size)
 {
     size_t bytes;
-    bool possible =
-        !__builtin_mul_overflow(count, size, &bytes) && bytes <= SIZE_MAX - 2 * ALIGNMENT;
-    bytes = (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    struct arena_block *block = possible ? block_with_room(arena, bytes) : NULL;
+    struct arena_block *block = NULL;
+    if (!__builtin_mul_overflow(count, size, &bytes) && bytes <= SIZE_MAX - 2 * ALIGNMENT) {
+        bytes = (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+        block = has_room(arena->current, bytes) ? arena->current : block_with_room(arena, bytes);
+    }
     if (!block) {
         arena->lacks = true;
         return NULL;

@@ -62,7 +62,14 @@ static double damping_towards(const struct scene_group *group, size_t mode, doub
     return time < 0.0 ? 0.0 : group->set->damping[mode];
 }
 
-static void move(struct motion *motion, const struct scene *scene, double time)
+/* Whether flight_kernel_turn takes a group's modes so far. */
+static bool turns_at_once(const struct scene_group *group, double time)
+{
+    return time >= 0.0 && group->count > 0 &&
+           group->set->omega[group->count - 1] * time <= FLIGHT_TURN_ANGLE;
+}
+
+static void move_gaps(struct motion *motion, const struct scene *scene, double time)
 {
     motion->time += time;
     for (size_t c = 0; c < scene->contacts; c++) {
@@ -70,12 +77,35 @@ static void move(struct motion *motion, const struct scene *scene, double time)
         motion->gap[c] += time * (motion->gap_rate[c] + 0.5 * a * time);
         motion->gap_rate[c] += a * time;
     }
+}
+
+/* Mode by mode. */
+static void move_modes(struct motion *motion, const struct scene *scene, size_t g, double time)
+{
+    const struct scene_group *group = &scene->group[g];
+    for (size_t k = 0; k < group->count; k++)
+        if (motion->q[g][k] != 0.0 || motion->v[g][k] != 0.0)
+            oscillator_advance(group->set->omega[k], damping_towards(group, k, time), time,
+                               &motion->q[g][k], &motion->v[g][k]);
+}
+
+static void move(struct motion *motion, const struct scene *scene, double time)
+{
+    move_gaps(motion, scene, time);
+    for (size_t g = 0; g < scene->groups; g++)
+        move_modes(motion, scene, g, time);
+}
+
+void motion_turn(struct motion *motion, const struct scene *scene, double time)
+{
+    move_gaps(motion, scene, time);
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
-        for (size_t k = 0; k < group->count; k++)
-            if (motion->q[g][k] != 0.0 || motion->v[g][k] != 0.0)
-                oscillator_advance(group->set->omega[k], damping_towards(group, k, time), time,
-                                   &motion->q[g][k], &motion->v[g][k]);
+        struct flight_modes modes = flight_modes_of(group, 0, motion->q[g], motion->v[g]);
+        if (turns_at_once(group, time))
+            flight_kernel_turn(&modes, time, motion->q[g], motion->v[g]);
+        else
+            move_modes(motion, scene, g, time);
     }
 }
 
@@ -213,7 +243,7 @@ double motion_free_loss(const struct motion *motion, const struct scene *scene, 
         const struct flight_modes modes = flight_modes_of(group, 0, motion->q[g], motion->v[g]);
         if (!group->count || !modes.damping)
             continue;
-        if (modes.omega[group->count - 1] * time <= FLIGHT_TURN_ANGLE) {
+        if (turns_at_once(group, time)) {
             sum += flight_kernel_loss(&modes, time);
             continue;
         }

@@ -28,6 +28,10 @@ void motion_copy(struct motion *to, const struct motion *from, const struct scen
 /* Free motion over `time` >= 0. */
 void motion_advance(struct motion *motion, const struct scene *scene, double time);
 
+/* The same for time >= 0, as exact but to other bits: all modes of a group at once where that goes
+ * (FLIGHT_TURN_ANGLE). */
+void motion_turn(struct motion *motion, const struct scene *scene, double time);
+
 /* Free motion back over `time` >= 0, as if nothing were damped: damping run backward would blow the
  * rounding of fast modes up without bound. The vibration's energy stays what it is. */
 void motion_rewind(struct motion *motion, const struct scene *scene, double time);

@@ -190,16 +190,11 @@ static inline bool presses(const double force[NODES], const double stiffness[NOD
     return any;
 }
 
-/* One contact's change beside the others' forces as they are. An open contact follows from those.
- */
-static bool change_apart(const struct node_problem *problem, size_t contact, const double d[NODES],
-                         const double stiffness[NODES], double change[NODES])
+bool node_solve_linear(const double (*m)[NODES], const double stiffness[NODES],
+                       const double b[NODES], double x[NODES])
 {
     static const double none[NODES];
-    const double(*m)[NODES] = coupling_own(problem->coupling, problem->level, contact)->by;
     struct row matrix[NODES];
-    double excess[NODES];
-    find_excess(problem, contact, d, excess);
     row_of(m[0], none, stiffness, &matrix[0]);
     row_of(m[1], none, stiffness, &matrix[1]);
     row_of(m[2], none, stiffness, &matrix[2]);
@@ -208,7 +203,18 @@ static bool change_apart(const struct node_problem *problem, size_t contact, con
     matrix[1].low += (pair){0.0, 1.0};
     matrix[2].high += (pair){1.0, 0.0};
     matrix[3].high += (pair){0.0, 1.0};
-    return eliminate(matrix, excess, change);
+    return eliminate(matrix, b, x);
+}
+
+/* One contact's change beside the others' forces as they are. An open contact follows from those.
+ */
+static bool change_apart(const struct node_problem *problem, size_t contact, const double d[NODES],
+                         const double stiffness[NODES], double change[NODES])
+{
+    const double(*m)[NODES] = coupling_own(problem->coupling, problem->level, contact)->by;
+    double excess[NODES];
+    find_excess(problem, contact, d, excess);
+    return node_solve_linear(m, stiffness, excess, change);
 }
 
 /* Contacts that are open, and stay so, set no scale and need no accuracy. */

@@ -48,4 +48,10 @@ bool node_solve_together(const struct node_problem *problem, double *matrix,
                          double (*indentation)[NODES], double (*force)[NODES],
                          double (*stiffness)[NODES], unsigned long *iterations);
 
+/* One contact's linear equations: (1 + m K) x = b with its own coupling m and the law's stiffnesses
+ * K at the nodes. False: m K is too large for elimination in the order of the nodes, and x of no
+ * use. */
+bool node_solve_linear(const double (*m)[NODES], const double stiffness[NODES],
+                       const double b[NODES], double x[NODES]);
+
 #endif

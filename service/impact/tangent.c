@@ -7,18 +7,16 @@
 
 #include "impact/carrier.h"
 #include "impact/kernel.h"
+#include "impact/node_solver.h"
 #include "impact/step_cost.h"
 
 /* An opening shorter than this share of the step after it is rounding of the time. */
 static const double NO_FLIGHT = 1e-3;
 
-/* The nodes of a step. */
-typedef double quad __attribute__((vector_size(NODES * sizeof(double)), aligned(16)));
-
-/* What forces do to approaches on a step of a level: column j by the force at node j. */
+/* What forces do to approaches on a step of a level: row i at node i. */
 struct level_table {
-    quad coupling[NODES]; /* as contact_step's */
-    quad own[NODES];      /* the source's */
+    double coupling[STEP_POINTS][NODES]; /* as contact_step's */
+    double own[NODES][NODES];            /* the source's */
 };
 
 struct follower {
@@ -30,6 +28,7 @@ struct follower {
     double force[1][NODES];                  /* the change of the forces on this step */
     struct arena *arena;
     double total, change; /* impulse of the sub-impact under way, and its change */
+    bool lost;            /* a step could not be followed */
 };
 
 static bool create(struct follower *follower, const struct scene *scene)
@@ -85,19 +84,17 @@ static double find_own(const struct tangent_source *source, double h, double m, 
 /* The table of a level. NULL: out of memory. */
 static const struct level_table *find_table(struct follower *follower, int level)
 {
-    double m[STEP_POINTS][NODES] = {{0.0}};
     struct level_table *table = follower->tables[level];
     if (table)
         return table;
     table = arena_take(follower->arena, 1, sizeof *table);
     if (!table)
         return NULL;
-    find_coupling(&follower->scene, level, m);
+    find_coupling(&follower->scene, level, table->coupling);
     for (int i = 0; i < NODES; i++)
-        for (int j = 0; j < NODES; j++) {
-            table->coupling[j][i] = m[i][j];
-            table->own[j][i] = find_own(follower->source, step_length(level), m[i][j], i, j);
-        }
+        for (int j = 0; j < NODES; j++)
+            table->own[i][j] =
+                find_own(follower->source, step_length(level), table->coupling[i][j], i, j);
     return follower->tables[level] = table;
 }
 
@@ -112,24 +109,6 @@ static void find_approaches(struct follower *follower, int level, double approac
         approach[i] = -(motion->gap[0] + collocation.node[i] * travel) - sums[0][i];
 }
 
-/* Gauss's elimination by columns, without exchange of rows: 1 + M K is near 1. */
-static void eliminate(quad column[NODES], quad *b)
-{
-    static const quad BELOW[NODES] = {{0.0, 1.0, 1.0, 1.0}, {0.0, 0.0, 1.0, 1.0}, {0, 0, 0, 1.0}};
-    static const quad ABOVE[NODES] = {{0}, {1.0}, {1.0, 1.0}, {1.0, 1.0, 1.0}};
-    for (int c = 0; c < NODES; c++) {
-        quad factor = column[c] * (1.0 / column[c][c]) * BELOW[c];
-        for (int k = c + 1; k < NODES; k++)
-            column[k] -= factor * column[k][c];
-        *b -= factor * (*b)[c];
-    }
-    for (int i = NODES - 1; i >= 0; i--) {
-        double x = (*b)[i] / column[i][i];
-        *b -= ABOVE[i] * column[i] * x;
-        (*b)[i] = x;
-    }
-}
-
 /* With the law's stiffness K at the nodes, the coupling M and what the source does by itself, f to
  * the forces F and G F to the approach, (1 + M K) d = approach - G F, and F changes by K d + f. */
 static void solve_step(struct follower *follower, const struct level_table *table,
@@ -137,16 +116,17 @@ static void solve_step(struct follower *follower, const struct level_table *tabl
 {
     double stiffness[NODES];
     double same[NODES];
+    double right[NODES];
+    double d[NODES];
     const double *force = step->force[0];
-    quad matrix[NODES];
-    quad d = {approach[0], approach[1], approach[2], approach[3]};
     contact_law_forces(&follower->scene.laws[0], step->indentation[0], same, stiffness);
-    for (int j = 0; j < NODES; j++) {
-        d -= table->own[j] * force[j];
-        matrix[j] = table->coupling[j] * stiffness[j];
-        matrix[j][j] += 1.0;
+    for (int i = 0; i < NODES; i++) {
+        const double *own = table->own[i];
+        right[i] = approach[i] - ((own[0] * force[0] + own[1] * force[1]) +
+                                  (own[2] * force[2] + own[3] * force[3]));
     }
-    eliminate(matrix, &d);
+    if (!node_solve_linear((const double(*)[NODES])table->coupling, stiffness, right, d))
+        follower->lost = true;
     for (int i = 0; i < NODES; i++)
         follower->force[0][i] = stiffness[i] * d[i] + follower->source->force * force[i];
 }
@@ -201,7 +181,7 @@ enum percuss_status tangent_follow(const struct scene *scene, const struct force
         if (step->start - end > NO_FLIGHT * h) {
             close_part(follower, tangent);
             carrier_leave(&follower->carrier, &follower->scene, &follower->motion);
-            motion_advance(&follower->motion, &follower->scene, step->start - end);
+            motion_turn(&follower->motion, &follower->scene, step->start - end);
         }
         if (!take_step(follower, step))
             return PERCUSS_INTERNAL;
@@ -209,5 +189,7 @@ enum percuss_status tangent_follow(const struct scene *scene, const struct force
     }
     if (log->count > 0)
         close_part(follower, tangent);
+    if (follower->lost)
+        tangent->strain = INFINITY;
     return PERCUSS_OK;
 }

@@ -24,7 +24,7 @@ struct tangent {
     double impulse; /* to the contact's, N s */
     double largest; /* the largest of what that is after each sub-impact */
     double strain;  /* largest change of a sub-impact's impulse over that impulse: first order is
-                       enough where it is far below 1 */
+                       enough where it is far below 1; INFINITY: it could not be followed */
 };
 
 /* Follows the source along the log of a solution of the scene by impact_modal: one contact, which

@@ -11,8 +11,11 @@
 /* Integrals over an elastic collision, see make_demand: of K' F', and of F'^2 against it. */
 static const double HERTZ_INERTIA = 1.78;
 static const double HERTZ_VISCOSITY = 0.9;
-/* Modes that are asked for at first. */
-enum { FIRST_MODES = 32 };
+/* Modes that are asked for at first, and shapes at a time. */
+enum { FIRST_MODES = 32, SHAPES = 8 };
+/* No stand-in is faster than sqrt(3) times the first mode that it stands for
+ * (modal_remainder_frequency): the square, with rounding. */
+static const double FASTEST = 3.001;
 
 /* One contact that may excite the family. */
 struct demand {
@@ -69,6 +72,38 @@ static bool suffices(const struct body *body, const struct modal_family *modes, 
     return true;
 }
 
+/* Whether they matter for their inertia alone: most modes are told by that. */
+static bool falls_short(const struct modal_family *modes, size_t first,
+                        const struct demand *demands, size_t count, double allowed)
+{
+    double fastest = FASTEST * allowed * modes->omega[first] * modes->omega[first];
+    for (size_t i = 0; i < count; i++)
+        if (demands[i].left * demands[i].weight > fastest)
+            return true;
+    return false;
+}
+
+/* Shapes of the next modes of a family at the contacts' loads. */
+struct shapes {
+    const struct body *body;
+    size_t loads, first, count;
+    double of[PERCUSS_MAX_CONTACTS][SHAPES];
+};
+
+static void find_shapes(struct shapes *shapes, const struct prepared_family *known, size_t k,
+                        const struct demand *demands)
+{
+    size_t which[SHAPES];
+    size_t left = known->modes->count - k;
+    shapes->first = k;
+    shapes->count = left < SHAPES ? left : SHAPES;
+    for (size_t i = 0; i < shapes->count; i++)
+        which[i] = k + i;
+    for (size_t i = 0; i < shapes->loads; i++)
+        participations_get(known->participations, shapes->body, known->modes, which, shapes->count,
+                           demands[i].load, shapes->of[i]);
+}
+
 /* Of a family of so many modes and no more: all at once, what those from each on do being sums from
  * the last back. */
 static size_t count_of_few(const struct mode_choice *choice, const struct problem *problem,
@@ -116,6 +151,7 @@ size_t mode_choice_count(const struct mode_choice *choice, const struct problem 
 {
     /* what the contacts ask of the family */
     struct demand demands[PERCUSS_MAX_CONTACTS];
+    struct shapes shapes;
     const struct body *owner = problem->bodies[body];
     size_t loads = find_demands(problem, scene, body, family, demands);
     if (modal_family_most(owner, family) <= MODE_CHOICE_MOST) {
@@ -125,6 +161,9 @@ size_t mode_choice_count(const struct mode_choice *choice, const struct problem 
                    : MODE_CHOICE_MOST + 1;
     }
     /* mode after mode, until the others do not matter */
+    shapes.body = owner;
+    shapes.loads = loads;
+    shapes.first = shapes.count = 0;
     const struct prepared_family *known = NULL;
     const struct modal_family *modes = NULL;
     for (size_t k = 0; k < choice->most; k++) {
@@ -136,12 +175,14 @@ size_t mode_choice_count(const struct mode_choice *choice, const struct problem 
             modes = known->modes;
         }
         if (modes->omega[k] > choice->cut ||
-            suffices(owner, modes, k, demands, loads, choice->allowed))
+            (!falls_short(modes, k, demands, loads, choice->allowed) &&
+             suffices(owner, modes, k, demands, loads, choice->allowed)))
             return k;
         /* compliance left to those */
+        if (k >= shapes.first + shapes.count)
+            find_shapes(&shapes, known, k, demands);
         for (size_t i = 0; i < loads; i++) {
-            double shape;
-            participations_get(known->participations, owner, modes, &k, 1, demands[i].load, &shape);
+            double shape = shapes.of[i][k - shapes.first];
             demands[i].left -= shape * shape / (modes->omega[k] * modes->omega[k]);
         }
     }

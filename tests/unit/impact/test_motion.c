@@ -85,6 +85,32 @@ static void moves_exactly(void **state)
     toy_free(&toy);
 }
 
+/* All at once to rounding; modes that turn too often for that as one by one. */
+static void turns_alike(void **state)
+{
+    (void)state;
+    static const double times[] = {0.0, 1.3e-3, 0.7, 1e6};
+    struct toy toy;
+    struct motion motion, start;
+    make(&toy, 0.03);
+    assert_true(motion_create(&motion, &toy.scene, &toy.arena));
+    assert_true(motion_create(&start, &toy.scene, &toy.arena));
+    for (size_t i = 0; i < COUNT(times); i++) {
+        motion_start(&start, &toy.scene);
+        motion_copy(&motion, &start, &toy.scene);
+        motion_advance(&start, &toy.scene, times[i]);
+        motion_turn(&motion, &toy.scene, times[i]);
+        near(motion.time, start.time, 0.0);
+        near(motion.gap[1], start.gap[1], 0.0);
+        near(motion.gap_rate[0], start.gap_rate[0], 0.0);
+        for (int k = 0; k < 3; k++) {
+            near(motion.q[0][k], start.q[0][k], 1e-13 * fabs(q0[k]));
+            near(motion.v[0][k], start.v[0][k], 1e-13 * fabs(q0[k]) * omegas[k]);
+        }
+    }
+    toy_free(&toy);
+}
+
 /* Back along the rigid motion and undamped vibration: the energy stays, undamped it is the inverse.
  */
 static void rewinds_without_blowing_up(void **state)
@@ -133,6 +159,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(starts_as_stated),
         cmocka_unit_test(moves_exactly),
+        cmocka_unit_test(turns_alike),
         cmocka_unit_test(rewinds_without_blowing_up),
         cmocka_unit_test(a_scene_without_modes_has_no_frequency),
     };

@@ -137,12 +137,36 @@ static void an_accuracy_is_kept(void **state)
     toy_free(&made.toy);
 }
 
+/* (1 + m K) x = b, and no answer where a pivot vanishes. */
+static void linear_equations_are_solved(void **state)
+{
+    (void)state;
+    static const double stiffness[NODES] = {0.5, 2.0, 0.0, 1.0};
+    static const double expected[NODES] = {1.0, -2.0, 3.0, 0.5};
+    double m[NODES][NODES];
+    double b[NODES];
+    double x[NODES];
+    for (int i = 0; i < NODES; i++) {
+        b[i] = expected[i];
+        for (int j = 0; j < NODES; j++) {
+            m[i][j] = 0.3 * sin(1.0 + 1.7 * (i * NODES + j));
+            b[i] += m[i][j] * stiffness[j] * expected[j];
+        }
+    }
+    assert_true(node_solve_linear((const double(*)[NODES])m, stiffness, b, x));
+    for (int i = 0; i < NODES; i++)
+        near(x[i], expected[i], 1e-14);
+    m[0][0] = -1.0 / stiffness[0];
+    assert_false(node_solve_linear((const double(*)[NODES])m, stiffness, b, x));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_ways_agree),
         cmocka_unit_test(close_neighbours_need_both),
         cmocka_unit_test(an_accuracy_is_kept),
+        cmocka_unit_test(linear_equations_are_solved),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
