@@ -92,7 +92,7 @@ if [ "$record" = yes ]; then
 fi
 
 # three contacts at once against one: thirty groups on a beam and their ninety contacts one by one. The
-# aim is 400 %; counted it is 586 %: twice the steps and more, as each contact opens with fine ones of its own, while
+# aim is 400 %; counted it is 595 %: twice the steps and more, as each contact opens with fine ones of its own, while
 # one contact alone begins and ends with long ones; at about twice the cost.
 if [ -n "$often" ] && [ "$record" = no ]; then
     program=$often
