@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli.h"
 #include "measured_file.h"
@@ -21,7 +20,7 @@
 
 enum { MOST_POINTS = 1000000 };
 enum { KEY_SPEED = OPTION_OWN, KEY_CSV, KEY_RESUME, KEY_MEASURED };
-enum { MOST_CURVES = SCENE_CHOICES * SCENE_CHOICES, MOST_MEASURED = 8 };
+enum { MOST_CURVES = SCENE_CHOICES * SCENE_CHOICES };
 
 struct sweep {
     struct common *common;
@@ -31,9 +30,7 @@ struct sweep {
     bool csv;
     const char *resume; /* file that is gone on with; NULL: none */
     struct plot_output plot;
-    struct sweep_measured measured[MOST_MEASURED];
-    size_t measured_count;
-    struct column_map columns; /* of these */
+    struct sweep_measurements measured; /* laid over the picture */
 };
 
 static const struct argp_option options[] = {
@@ -74,20 +71,6 @@ static void parse_speeds(const char *text, struct sweep *sweep, struct argp_stat
     sweep->count = (unsigned)points;
 }
 
-/* Measured on a body that is asked for. */
-static void check_measured(const struct sweep *sweep, const struct sweep_measured *measured,
-                           struct argp_state *state)
-{
-    const struct scene *scene = &sweep->scene;
-    size_t b = 0;
-    while (measured->b && b < scene->b_count && strcmp(scene->all_b[b], measured->b) != 0)
-        b++;
-    if (measured->b && b == scene->b_count)
-        argp_error(state,
-                   "--measured: '%s=%s': a body that --b names is needed before the =", measured->b,
-                   measured->file);
-}
-
 static void check(const struct sweep *sweep, struct argp_state *state)
 {
     const struct scene_need speeds = {"--speed LO:HI:N", sweep->count > 0};
@@ -97,42 +80,6 @@ static void check(const struct sweep *sweep, struct argp_state *state)
     if (sweep->resume && (sweep->csv || sweep->common->json))
         argp_error(state,
                    "--resume writes comma-separated values into its file: no --csv or --json");
-    for (size_t k = 0; k < sweep->measured_count; k++)
-        check_measured(sweep, &sweep->measured[k], state);
-    if (sweep->measured_count > 0 && !plot_wanted(&sweep->plot))
-        argp_error(state, "--measured is laid over a picture: --plot FILE is needed");
-    if (sweep->columns.count > 0 && sweep->measured_count == 0)
-        argp_error(state, "--column is of a file that is measured: --measured FILE is needed");
-}
-
-static void add_measured(const char *file, struct sweep *sweep, struct argp_state *state)
-{
-    if (sweep->measured_count == MOST_MEASURED)
-        argp_error(state, "--measured: '%s': at most %d files", file, MOST_MEASURED);
-    struct sweep_measured *measured = &sweep->measured[sweep->measured_count];
-    const char *equals = strchr(file, '=');
-    *measured = (struct sweep_measured){.file = file};
-    /* a file's name may have one too */
-    if (equals && access(file, F_OK) != 0) {
-        measured->b = strndup(file, (size_t)(equals - file));
-        measured->file = equals + 1;
-        if (!measured->b)
-            exit(complain_memory());
-    }
-    sweep->measured_count++;
-}
-
-/* Once all is known that is said of their columns. */
-static void read_measured(struct sweep *sweep, struct argp_state *state)
-{
-    for (size_t i = 0; i < sweep->measured_count; i++) {
-        struct measured_remarks remarks = {0};
-        struct sweep_measured *measured = &sweep->measured[i];
-        bool good = measured_read(measured->file, &sweep->columns, &measured->set, &remarks);
-        measured_file_complain("--measured: ", &remarks);
-        if (!good)
-            argp_error(state, "--measured: '%s' is not read", measured->file);
-    }
 }
 
 static error_t parse(int key, char *text, struct argp_state *state)
@@ -144,7 +91,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         state->child_inputs[0] = &sweep->scene;
         state->child_inputs[1] = sweep->common;
         state->child_inputs[2] = &sweep->plot;
-        state->child_inputs[3] = &sweep->columns;
+        state->child_inputs[3] = &sweep->measured.columns;
         return 0;
     /* what is swept */
     case KEY_SPEED:
@@ -159,12 +106,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
         sweep->resume = text;
         return 0;
     case KEY_MEASURED:
-        add_measured(text, sweep, state);
+        sweep_measured_add(&sweep->measured, text, state);
         return 0;
     /* all are read */
     case ARGP_KEY_END:
         check(sweep, state);
-        read_measured(sweep, state);
+        sweep_measured_read(&sweep->measured, &sweep->scene, plot_wanted(&sweep->plot), state);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -350,8 +297,8 @@ static bool list_curves(struct work *work, struct percuss_client *client)
                                          count,
                                          work->curves,
                                          &work->tally,
-                                         sweep->measured_count,
-                                         sweep->measured,
+                                         sweep->measured.count,
+                                         sweep->measured.list,
                                          sweep->common->units};
     return good;
 }
@@ -403,9 +350,6 @@ int command_sweep(int argc, char **argv, struct common *common)
         return code;
     code = run_sweep(&sweep, client);
     percuss_client_free(client);
-    for (size_t k = 0; k < sweep.measured_count; k++) {
-        measured_set_free(&sweep.measured[k].set);
-        free(sweep.measured[k].b);
-    }
+    sweep_measured_free(&sweep.measured);
     return code;
 }

@@ -10,8 +10,8 @@
 #include <percuss/reply.h>
 #include <stdio.h>
 
-#include "impact.h"
 #include "plot.h"
+#include "sweep_measured.h"
 #include "tally_output.h"
 
 /* NAN where undefined. */
@@ -28,13 +28,6 @@ struct sweep_curve {
     struct sweep_row *rows;              /* one a speed */
     const struct percuss_reply *replies; /* likewise; empty where the row was read from a file */
     unsigned done;                       /* rows that are there, from the first on */
-};
-
-/* Measured restitutions, laid over the picture. */
-struct sweep_measured {
-    const char *file;
-    char *b; /* on this body; NULL: on any */
-    struct measured_set set;
 };
 
 struct sweep_points {
