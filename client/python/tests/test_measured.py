@@ -5,9 +5,6 @@
 import csv
 import json
 import math
-import os
-import subprocess
-import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
@@ -18,40 +15,20 @@ import pandas
 import percuss
 from percuss import measured
 
-DOMAIN = int(os.environ["PERCUSS_DOMAIN"])
-PROGRAM = Path(os.environ["PERCUSS_BUILD"]) / "bin" / "percuss"
-SOURCE = Path(os.environ["PERCUSS_SOURCE"])
+from beside import SOURCE, Beside, program
+
 DATA = SOURCE / "client" / "examples" / "measured"
-SETTINGS = Path(tempfile.mkdtemp()) / "percussd.yaml"
-SETTINGS.write_text(f"catalogue: {SOURCE / 'config' / 'catalogue.yaml'}\n")
 PAIR = ("--a", "steel-sphere", "--b", "al-beam")
 TOLD = ("restitution", "impulse", "sub_impacts", "first_impulse", "first_duration", "second_start")
 
 
-def program(*arguments: str) -> Any:
-    command = [str(PROGRAM), *arguments, *PAIR, "--domain", str(DOMAIN), "--json"]
-    done = subprocess.run(command, capture_output=True, text=True)
-    return json.loads(done.stdout)
+def told(*arguments: str) -> Any:
+    return json.loads(program(*arguments, *PAIR, "--json", check=False))
 
 
 def known(number: float) -> float | None:
     """As in JSON."""
     return number if math.isfinite(number) else None
-
-
-class Beside(unittest.TestCase):
-    client: percuss.Client
-    local: percuss.Local
-
-    @classmethod
-    def setUpClass(cls) -> None:
-        cls.client = percuss.connect(DOMAIN, timeout=10.0)
-        cls.local = percuss.Local(settings=SETTINGS)
-
-    @classmethod
-    def tearDownClass(cls) -> None:
-        cls.client.close()
-        cls.local.close()
 
 
 class Compare(Beside):
@@ -78,7 +55,7 @@ class Compare(Beside):
 
     def test_as_the_program(self) -> None:
         for file in ("beam.csv", "histories.csv"):
-            expected = program("compare", str(DATA / file), "--seed", "7", "--permutations", "999")
+            expected = told("compare", str(DATA / file), "--seed", "7", "--permutations", "999")
             for client in (self.client, self.local):
                 ours = measured.compare(
                     DATA / file, "steel-sphere", "al-beam", client, permutations=999, seed=7, timeout=60.0
@@ -90,7 +67,7 @@ class Compare(Beside):
         lines = [line for line in (DATA / "beam.csv").read_text().splitlines() if not line.startswith("#")]
         rows = list(csv.DictReader(lines))
         columns = {name: [float(row[name] or "nan") for row in rows] for name in rows[0]}
-        expected = program("compare", str(DATA / "beam.csv"), "--tolerance", "1e-4")
+        expected = told("compare", str(DATA / "beam.csv"), "--tolerance", "1e-4")
         bodies = self.local.bodies()
         options = percuss.Options(tolerance=1e-4)
         for source in (columns, pandas.DataFrame(columns)):
@@ -107,7 +84,7 @@ class Compare(Beside):
         same = measured.compare({**columns, "at": [0.3, 0.3]}, "steel-sphere", "al-beam", self.local)
         self.assertEqual(ours.simulated.restitution.tolist(), same.simulated.restitution.tolist())
         Path("two.csv").write_text("speed,restitution\n0.2,0.5\n0.3,0.5\n")
-        self.assert_as(ours, program("compare", "two.csv", "--at", "0.3"))
+        self.assert_as(ours, told("compare", "two.csv", "--at", "0.3"))
 
     def test_a_file_of_a_rig(self) -> None:
         """Another separator, names and units of its own, a row without a reading; all that is wrong at once."""
@@ -178,7 +155,7 @@ class Calibrate(Beside):
 
     def test_as_the_program(self) -> None:
         file = str(DATA / "beam.csv")
-        expected = program("calibrate", file, "--fit", "young:al-beam")
+        expected = told("calibrate", file, "--fit", "young:al-beam")
         for client in (self.client, self.local):
             ours = measured.calibrate(file, "steel-sphere", "al-beam", client, fit=["young:al-beam"])
             self.assert_as(ours, expected)
@@ -190,7 +167,7 @@ class Calibrate(Beside):
 
     def test_several_and_starts(self) -> None:
         file = str(DATA / "beam.csv")
-        expected = program("calibrate", file, "--fit", "young:al-beam=71e9", "--fit", "damping:al-beam", "--noise", "0.02")
+        expected = told("calibrate", file, "--fit", "young:al-beam=71e9", "--fit", "damping:al-beam", "--noise", "0.02")
         fit = {"young:al-beam": 71e9, "damping:al-beam": None}
         self.assert_as(measured.calibrate(file, "steel-sphere", "al-beam", self.local, fit=fit, noise=0.02), expected)
 

@@ -4,10 +4,7 @@
 
 import csv
 import io
-import os
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
@@ -18,14 +15,9 @@ import pandas
 
 import percuss
 
-DOMAIN = int(os.environ["PERCUSS_DOMAIN"])
-PROGRAM = Path(os.environ["PERCUSS_BUILD"]) / "bin" / "percuss"
-CATALOGUE = Path(os.environ["PERCUSS_SOURCE"]) / "config" / "catalogue.yaml"
-SETTINGS = Path(tempfile.mkdtemp()) / "percussd.yaml"
-SETTINGS.write_text(f"catalogue: {CATALOGUE}\n")
+from beside import DOMAIN, Beside, program
+
 SPEEDS = np.linspace(0.1, 0.4, 7)
-
-
 TEXTS, COUNTS = ("b", "contact_model", "status"), ("sub_impacts", "significant")
 
 
@@ -34,26 +26,6 @@ def written(text: str) -> Any:
     rows = list(csv.DictReader(io.StringIO(text)))
     kinds = {name: str if name in TEXTS else int if name in COUNTS else float for name in rows[0]}
     return pandas.DataFrame({name: [kind(row[name]) for row in rows] for name, kind in kinds.items()})
-
-
-def program(*arguments: str) -> str:
-    command = [str(PROGRAM), *arguments, "--domain", str(DOMAIN)]
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
-
-
-class Beside(unittest.TestCase):
-    client: percuss.Client
-    local: percuss.Local
-
-    @classmethod
-    def setUpClass(cls) -> None:
-        cls.client = percuss.connect(DOMAIN, timeout=10.0)
-        cls.local = percuss.Local(settings=SETTINGS)
-
-    @classmethod
-    def tearDownClass(cls) -> None:
-        cls.client.close()
-        cls.local.close()
 
 
 class Sweeps(Beside):

@@ -3,46 +3,24 @@
 """percuss.trace: of a daemon and in process, beside what the program writes."""
 
 import dataclasses
-import os
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
 import percuss
 
-DOMAIN = int(os.environ["PERCUSS_DOMAIN"])
-PROGRAM = Path(os.environ["PERCUSS_BUILD"]) / "bin" / "percuss"
-CATALOGUE = Path(os.environ["PERCUSS_SOURCE"]) / "config" / "catalogue.yaml"
-SETTINGS = Path(tempfile.mkdtemp()) / "percussd.yaml"
-SETTINGS.write_text(f"catalogue: {CATALOGUE}\n")
+from beside import DOMAIN, Beside, program
 
 
-class Beside(unittest.TestCase):
-    client: percuss.Client
-    local: percuss.Local
-
-    @classmethod
-    def setUpClass(cls) -> None:
-        cls.client = percuss.connect(DOMAIN, timeout=10.0)
-        cls.local = percuss.Local(settings=SETTINGS)
-
-    @classmethod
-    def tearDownClass(cls) -> None:
-        cls.client.close()
-        cls.local.close()
-
+class Beam(Beside):
     def question(self) -> percuss.Request:
         bodies = self.local.bodies()
         return percuss.contact_pair(bodies["steel-sphere"], bodies["al-beam"], 0.2)
 
 
-class Traces(Beside):
+class Traces(Beam):
     def test_as_the_program_writes_it(self) -> None:
-        command = [str(PROGRAM), "query", "--a", "steel-sphere", "--b", "al-beam", "--speed", "0.2"]
-        subprocess.run([*command, "--domain", str(DOMAIN), "--trace", "trace.csv"], check=True, capture_output=True)
+        program("query", "--a", "steel-sphere", "--b", "al-beam", "--speed", "0.2", "--trace", "trace.csv")
         written = np.genfromtxt("trace.csv", delimiter=",", names=True)
         for client in (self.client, self.local):
             traced = percuss.trace(self.question(), client, timeout=60.0)
@@ -80,7 +58,7 @@ class Traces(Beside):
         self.assertTrue(np.isnan(contact.velocity_a).all() and np.isfinite(contact.gap_rate).all())
 
 
-class Names(Beside):
+class Names(Beam):
     def test_ids_are_text(self) -> None:
         reply = self.client.solve(self.question())
         (server,) = self.client.servers()
