@@ -3,6 +3,7 @@
 
 #include "similar.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 static unsigned least(unsigned a, unsigned b)
@@ -12,21 +13,25 @@ static unsigned least(unsigned a, unsigned b)
 
 unsigned similar_distance(const char *one, const char *other)
 {
-    /* row[j]: distance between what was read of `one` and the first j letters of `other` */
-    unsigned row[PERCUSS_ID_SIZE];
-    size_t rows = strnlen(one, PERCUSS_ID_SIZE - 1), columns = strnlen(other, PERCUSS_ID_SIZE - 1);
-    for (size_t j = 0; j <= columns; j++)
-        row[j] = (unsigned)j;
-    for (size_t i = 1; i <= rows; i++) {
-        unsigned diagonal = row[0];
+    /* rows[i % 3][j]: distance between the first i letters of `one` and the first j of `other` */
+    unsigned rows[3][PERCUSS_ID_SIZE];
+    size_t height = strnlen(one, PERCUSS_ID_SIZE - 1), width = strnlen(other, PERCUSS_ID_SIZE - 1);
+    for (size_t j = 0; j <= width; j++)
+        rows[0][j] = (unsigned)j;
+    for (size_t i = 1; i <= height; i++) {
+        const unsigned *last = rows[(i - 1) % 3], *before = rows[(i + 1) % 3];
+        unsigned *row = rows[i % 3];
         row[0] = (unsigned)i;
-        for (size_t j = 1; j <= columns; j++) {
-            unsigned replaced = diagonal + (one[i - 1] != other[j - 1]);
-            diagonal = row[j];
-            row[j] = least(replaced, 1 + least(row[j], row[j - 1]));
+        for (size_t j = 1; j <= width; j++) {
+            unsigned replaced = last[j - 1] + (one[i - 1] != other[j - 1]);
+            row[j] = least(replaced, 1 + least(last[j], row[j - 1]));
+            bool swapped =
+                i > 1 && j > 1 && one[i - 1] == other[j - 2] && one[i - 2] == other[j - 1];
+            if (swapped)
+                row[j] = least(row[j], before[j - 2] + 1);
         }
     }
-    return row[columns];
+    return rows[height % 3][width];
 }
 
 const struct percuss_body *similar_body(const struct percuss_body_list *list, const char *id)

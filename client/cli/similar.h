@@ -6,8 +6,9 @@
 
 #include <percuss/server.h>
 
-/* Letters to insert, delete or replace to get from one text to the other (Levenshtein); texts
- * longer than an id are compared up to its length. */
+/* Letters to insert, delete, replace or swap with the next to get from one text to the other, each
+ * of them once at most (optimal string alignment; Damerau, 1964); texts longer than an id are
+ * compared up to its length. */
 unsigned similar_distance(const char *one, const char *other);
 
 /* The body whose id is nearest, if less than half of it is wrong; NULL: none. */

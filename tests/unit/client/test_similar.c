@@ -16,6 +16,11 @@ static void measures_the_distance(void **state)
     assert_int_equal(similar_distance("rod", ""), 3);
     assert_int_equal(similar_distance("kitten", "sitting"), 3);
     assert_int_equal(similar_distance("al-rod", "al-rod-1"), 2);
+    /* swapped letters are one mistake; what stands between them is not passed over */
+    assert_int_equal(similar_distance("cvs", "csv"), 1);
+    assert_int_equal(similar_distance("ab", "ba"), 1);
+    assert_int_equal(similar_distance("qurey", "query"), 1);
+    assert_int_equal(similar_distance("ca", "abc"), 3);
 }
 
 static void finds_what_was_meant(void **state)
