@@ -146,16 +146,18 @@ bool source_pair(const struct source *source, const struct shared *shared, doubl
     return true;
 }
 
-/* The first warning, or that the answer is not a whole one. */
-static void take_warning(const struct percuss_reply *reply, char warning[SOURCE_MESSAGE_SIZE])
+/* That the answer is not a whole one, and all that it warns of, a line each. */
+static void take_warnings(const struct percuss_reply *reply, char warning[SOURCE_MESSAGE_SIZE])
 {
+    size_t length = 0;
     warning[0] = '\0';
     if (!reply->complete)
-        snprintf(warning, SOURCE_MESSAGE_SIZE,
-                 "the impact was not over when its solution ended (%s)",
-                 percuss_end_reason_name(reply->end_reason));
-    else if (reply->warning_count > 0)
-        snprintf(warning, SOURCE_MESSAGE_SIZE, "%s", reply->warnings[0]);
+        length = (size_t)snprintf(warning, SOURCE_MESSAGE_SIZE,
+                                  "the impact was not over when its solution ended (%s)",
+                                  percuss_end_reason_name(reply->end_reason));
+    for (size_t i = 0; i < reply->warning_count && length < SOURCE_MESSAGE_SIZE; i++)
+        length += (size_t)snprintf(warning + length, SOURCE_MESSAGE_SIZE - length, "%s%s",
+                                   length > 0 ? "\n" : "", reply->warnings[i]);
 }
 
 bool source_ask(const struct source *source, const struct percuss_request *request,
@@ -181,7 +183,7 @@ bool source_ask(const struct source *source, const struct percuss_request *reque
         impact->error = reply.error.restitution_time + reply.error.restitution_modes;
         impact->total_error = reply.error.restitution_total;
         impact->inverse_effective_mass = contact->inverse_effective_mass;
-        take_warning(&reply, warning);
+        take_warnings(&reply, warning);
     } else
         snprintf(message, SOURCE_MESSAGE_SIZE, "%s: %s", percuss_status_name(reply.status),
                  reply.message);

@@ -31,8 +31,8 @@ bool source_find(const struct source *source, const struct shared *shared,
 bool source_pair(const struct source *source, const struct shared *shared, double speed,
                  struct percuss_request *request, char message[SOURCE_MESSAGE_SIZE]);
 
-/* Answers a request of one contact. `warning` is empty, or says what is to be known of the answer.
- * False with a message. */
+/* Answers a request of one contact. `warning` is empty, or has what is to be known of the answer,
+ * a line each. False with a message. */
 bool source_ask(const struct source *source, const struct percuss_request *request,
                 struct impact *impact, char warning[SOURCE_MESSAGE_SIZE],
                 char message[SOURCE_MESSAGE_SIZE]);

@@ -161,6 +161,13 @@ def check_errors(unpacked):
     fmu.doStep(currentCommunicationPoint=0.0, communicationStepSize=0.2)
     assert any("steel-sphere on al-beam-pinned at 1.4007" in text for text in unpacked.said), unpacked.said
     fmu.freeInstance()
+    # from 2 km it comes so fast that several things are to be said
+    fmu = unpacked.instance(start={"height": 2000.0})
+    fmu.setDebugLogging(True, ["logImpacts"])
+    fmu.doStep(currentCommunicationPoint=0.0, communicationStepSize=20.5)
+    reply = query(PERCUSS, math.sqrt(2 * GRAVITY * 2000.0), "--a", "steel-sphere", "--b", "al-beam-pinned")
+    assert len(reply["warnings"]) > 1 and "\n".join(reply["warnings"]) in unpacked.said, unpacked.said
+    fmu.freeInstance()
 
 
 def check_casadi():
