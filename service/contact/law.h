@@ -64,6 +64,7 @@ struct contact_law_operations {
                                const struct material *b);
 
     const char *title; /* for people */
+    bool three_halves; /* its force is d^(3/2) throughout times what has derivatives where d = 0 */
     bool elliptic;     /* takes elliptic contacts as they are; else by the sphere as stiff */
     /* Force (N) at an indentation (m), 0 where indentation <= 0; *stiffness becomes its slope. */
     double (*force)(const struct contact_law *law, double indentation, double *stiffness);

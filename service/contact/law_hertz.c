@@ -56,6 +56,7 @@ const struct contact_law_operations contact_law_HERTZ = {
     .effort = CONTACT_EFFORT_LEAST,
     .make = make,
     .title = "elastic Hertz contact",
+    .three_halves = true,
     .elliptic = true,
     .force = hertz_force,
     .forces = hertz_forces,

@@ -4,11 +4,11 @@
 /* The modal method: in a contact phase the forces at four Gauss nodes of a step are the only
  * unknowns, and the modes follow them exactly. */
 #include <math.h>
-#include <string.h>
 
 #include "contact/plastic.h"
 #include "impact/contact_step.h"
 #include "impact/march.h"
+#include "impact/step_ends.h"
 #include "impact/step_limits.h"
 #include "impact/step_values.h"
 #include "impact/yielding.h"
@@ -22,6 +22,7 @@ struct modal_run {
     struct contact_start *now;   /* [contact], local */
     struct impact_scale *scales; /* [contact], of the sub-impact under way */
     double *longest;             /* [contact], stable step, s */
+    bool projects;               /* the contact's forces where it begins and ends, step_ends.h */
     int finest;                  /* level that events and grading of the closed contacts need */
 };
 
@@ -104,6 +105,7 @@ static void open_contact(struct modal_run *run, size_t contact, double time, dou
 {
     struct march *march = &run->march;
     run->scales[contact] = impact_scale_of(&march->scene, contact, rate);
+    step_limits_open(&run->limits, &march->scene, run->scales);
     run->longest[contact] =
         step_limits_stable(&march->scene, contact, &run->scales[contact], run->limits.coupling);
     march_open(march, contact, time, march->outcome->motion.gap_rate[contact]);
@@ -121,21 +123,13 @@ static void close_contact(struct modal_run *run, size_t contact, double time)
     find_finest(run);
 }
 
-/* When a closed contact would open as it moves now, along a parabola; INFINITY: never. */
-static double time_to_opening(const struct contact_start *now)
-{
-    double square = now->rate * now->rate - 2.0 * now->curvature * now->indentation;
-    double fall = square >= 0.0 ? sqrt(square) - now->rate : 0.0;
-    return fall > 0.0 && now->indentation > 0.0 ? 2.0 * now->indentation / fall : INFINITY;
-}
-
 /* A step must not jump over a contact's end, nor pump a mode, nor pass the horizon. */
 static int limit_level(const struct modal_run *run, int level, int finest)
 {
     for (size_t c = 0; c < run->march.scene.contacts; c++) {
         if (!run->march.closed[c])
             continue;
-        double left = smaller(run->longest[c], SHARE_TO_OPENING * time_to_opening(&run->now[c]));
+        double left = smaller(run->longest[c], SHARE_TO_OPENING * step_values_opens(run->now + c));
         while (level < finest && step_length(level) > left)
             level++;
     }
@@ -220,9 +214,22 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
     if (run->march.closed[c]) {
         track_step(&run->march.outcome->tracks[c], start, h, &values);
         if (end <= 0.0)
-            close_contact(run, c, start + h * step_values_release(&step));
+            close_contact(run, c, start + h * step_ends_release(&step));
     }
     run->now[c] = after;
+}
+
+/* The forces of the only contact where it begins or ends. */
+static void project_ends(struct modal_run *run, int level)
+{
+    const struct scene *scene = &run->march.scene;
+    const struct step_end step = {
+        &scene->laws[0],
+        scene->residual[0],
+        {run->now[0].indentation, run->step.end_indentation[0], run->step.indentation[0]}};
+    if (step_ends_project(&step, run->step.force[0]))
+        run->step.loss =
+            contact_step_loss(scene, &run->march.outcome->motion, level, run->step.force);
 }
 
 /* Makes the step just solved the present. */
@@ -230,6 +237,8 @@ static void accept(struct modal_run *run, int level)
 {
     struct impact_outcome *outcome = run->march.outcome;
     double start = outcome->motion.time;
+    if (run->projects)
+        project_ends(run, level);
     if (run->settings->log)
         force_log_add(run->settings->log, start, level, run->step.force, run->step.indentation);
     contact_step_take(&run->step, &run->march.scene, &outcome->motion);
@@ -304,7 +313,6 @@ static enum percuss_end_reason go_through(struct modal_run *run)
         double time = march->outcome->motion.time;
         if (time + h == time || march->horizon - time < step_length(deepest))
             return PERCUSS_END_IN_CONTACT;
-
         /* one that has no solution or is too coarse is tried again with half its length */
         enum contact_step_end end = solve_step(run, level);
         if (end == STEP_MEMORY)
@@ -373,6 +381,7 @@ static bool run_create(struct modal_run *run, struct arena *arena)
         !yielding_create(&run->yielding, arena))
         return false;
     run->step.pace = run->march.pace;
+    run->projects = step_limits_project(&run->limits, scene, run->settings);
     return true;
 }
 

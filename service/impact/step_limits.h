@@ -5,6 +5,8 @@
 #ifndef PERCUSS_IMPACT_STEP_LIMITS_H
 #define PERCUSS_IMPACT_STEP_LIMITS_H
 
+#include <stdbool.h>
+
 #include "impact/impact.h"
 #include "impact/impact_scale.h"
 
@@ -19,12 +21,24 @@ struct step_limits {
     /* The one in which it begins: the nodes begin with it, and its force like t^(3/2), which they
      * follow to a hundredth of their largest. */
     double opening_share;
+    /* Both without and with projected ends (step_ends.h); event first. The latter 0: never. */
+    double plain[2], projected[2];
     /* See step_limits_stable. 0.5 still closes the audit to 1e-5 over 20 wave passages, 2 does
      * not; 0.02 closes it to 1e-11. */
     double coupling;
 };
 
 struct step_limits step_limits_make(double accuracy, enum impact_care care);
+
+/* Whether a scene is one contact whose forces where it begins and ends are to be projected
+ * (step_ends.h): these steps may then be longer. */
+bool step_limits_project(struct step_limits *limits, const struct scene *scene,
+                         const struct impact_settings *settings);
+
+/* A contact of such a scene begins, with that scale: chooses the shares. What acceleration presses
+ * is back soon after its end, which a long step would not see. */
+void step_limits_open(struct step_limits *limits, const struct scene *scene,
+                      const struct impact_scale *scale);
 
 /* The longest step of a contact of that scale, s, that pumps no mode. A mode that the step does not
  * resolve sees the law at four instants only and can be pumped by it. Its coupling to the contact

@@ -3,6 +3,8 @@
 
 #include "impact/step_values.h"
 
+#include <math.h>
+
 double step_values_closing(const struct step_values *values)
 {
     double before = values->start;
@@ -45,4 +47,11 @@ struct contact_start step_values_after(const struct step_values *values, double 
     }
     return (struct contact_start){values->end, slope[1] * r, 2.0 * slope[2] * (r * r),
                                   6.0 * slope[3] * (r * r * r)};
+}
+
+double step_values_opens(const struct contact_start *now)
+{
+    double square = now->rate * now->rate - 2.0 * now->curvature * now->indentation;
+    double fall = square >= 0.0 ? sqrt(square) - now->rate : 0.0;
+    return fall > 0.0 && now->indentation > 0.0 ? 2.0 * now->indentation / fall : INFINITY;
 }

@@ -20,4 +20,7 @@ double step_values_release(const struct step_values *values);
 /* At the end of a step of length h: derivatives of the cubic through its nodes. */
 struct contact_start step_values_after(const struct step_values *values, double h);
 
+/* When a closed contact would open as it moves now, along a parabola; INFINITY: never. */
+double step_values_opens(const struct contact_start *now);
+
 #endif

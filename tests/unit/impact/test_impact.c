@@ -155,7 +155,8 @@ static void the_closed_form_of_a_rigid_pair_agrees(void **state)
         measured("compression end", b->compression_end, a->compression_end, 1e-4 * lasts);
         measured("indentation", b->max_indentation, a->max_indentation, 1e-7 * a->max_indentation);
         measured("force", b->peak_force, a->peak_force, 1e-6 * a->peak_force);
-        measured("window", modal.window, closed.window, 1e-4 * lasts);
+        /* the last step, of 4 accuracy^(3/10), ends after the contact */
+        measured("window", modal.window, closed.window, 4e-3 * lasts);
         measured("available", modal.energy.available, closed.energy.available, 0.0);
         toy_free(&toy);
     }

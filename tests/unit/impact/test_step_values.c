@@ -48,11 +48,25 @@ static void a_cubic_goes_on(void **state)
     near(after.bend, 6.0 * c[3], 1e-13 / (h * h * h));
 }
 
+/* d = 2 + v t - t^2 opens at the root of it; one that rises ever faster does not. */
+static void a_parabola_opens(void **state)
+{
+    (void)state;
+    for (double v = -1.0; v < 1.5; v += 0.5) {
+        const struct contact_start now = {2.0, v, -2.0, 0.0};
+        double t = step_values_opens(&now);
+        near(2.0 + t * (v - t), 0.0, 1e-14);
+    }
+    const struct contact_start rising = {2.0, 1.0, 3.0, 0.0};
+    assert_true(isinf(step_values_opens(&rising)));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_begin_and_end_where_they_are_zero),
         cmocka_unit_test(a_cubic_goes_on),
+        cmocka_unit_test(a_parabola_opens),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

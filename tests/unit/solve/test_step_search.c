@@ -23,15 +23,15 @@ static void begins_below_the_tolerance(void **state)
     near_relative(step_search_first_accuracy(1e-17, false, false), ATTEMPT_FINEST, 0.0);
 }
 
-/* From steps that are too long to those that meet the tolerance: from 3e-1 down by hundreds. */
+/* From steps that are too long to those that meet the tolerance: by hundreds. */
 static void shortens_steps_until_they_do(void **state)
 {
     (void)state;
     struct search *search = search_create();
-    struct solve_request request = search_on_rod("rod", 1e-5);
+    struct solve_request request = search_on_rod("rod", 2e-6);
     struct attempt_context *context = search_begin(search, &request);
     struct attempt reference = search_attempt(search, MODES, FINE);
-    struct attempt best = search_attempt(search, MODES, 0.2);
+    struct attempt best = search_attempt(search, MODES, 2e-3);
     double crude = search_error(search, &best, &reference);
     struct step_error error;
     nearby_begin(context->nearby, context->problem, &best.outcome);
@@ -39,7 +39,7 @@ static void shortens_steps_until_they_do(void **state)
     assert_int_equal(step_search(context, &best, &(struct mode_error){0}, &error), PERCUSS_OK);
     double left = search_error(search, &best, &reference);
     assert_true(crude > 0.3 * request.options.tolerance);
-    assert_true(best.accuracy <= 0.2 / ATTEMPT_LONGER * 1.0001);
+    assert_true(best.accuracy <= 2e-3 / ATTEMPT_LONGER * 1.0001);
     assert_true(context->work < allowed);
     assert_true(error.energy_closes && !error.unchecked);
     assert_true(error.restitution <= SEQUENCE_STEPS_SHARE * request.options.tolerance);

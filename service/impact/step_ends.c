@@ -1,0 +1,157 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "impact/step_ends.h"
+
+#include <math.h>
+
+/* Gauss-Jacobi quadrature of x^(3/2) times polynomials up to the seventh degree on 0..1, the
+ * weights over x^(3/2); all numbers to 20 digits from the moments. */
+enum { POINTS = 4 };
+static const double PLACE[POINTS] = {0.1728253493870498751, 0.45170067797074107415,
+                                     0.74371463856681432048, 0.94754880775960525659};
+static const double WEIGHT[POINTS] = {0.23787837491065878419, 0.30319276806623797758,
+                                      0.26331982728830153484, 0.13224647234779446794};
+
+/* The product of the nodes: that of (s - node_j) at both ends of the step. */
+static const double PRODUCT = 1.0 / 70.0;
+
+/* The secant rule from the straight line between two nodes, which is within 1e-2 of the step: to
+ * the last change whose square is rounding, or a billionth of the step. */
+enum { RELEASE_ROUNDS = 4 };
+static const double SMALL_CHANGE = 1e-6;
+
+/* A polynomial of degree five by its values at the nodes, at the start and at the end of a step:
+ *
+ *   p(s) = sum_j value_j L_j(s) + (low + (high - low) s) prod_j (s - node_j). */
+struct quintic {
+    const double *nodes;
+    double low, high;
+};
+
+static struct quintic quintic_through(double start, const double nodes[NODES], double end)
+{
+    double at_start = 0.0;
+    double at_end = 0.0;
+    for (int j = 0; j < NODES; j++) {
+        at_start += nodes[j] * collocation.monomial[j][0];
+        at_end += nodes[j] * collocation.end[0][j];
+    }
+    return (struct quintic){nodes, (start - at_start) / PRODUCT, (end - at_end) / PRODUCT};
+}
+
+/* Lagrange's polynomials of the nodes at s, and the product. */
+struct basis {
+    double s, product;
+    double by[NODES];
+};
+
+static struct basis basis_at(double s)
+{
+    struct basis basis = {.s = s, .product = 1.0};
+    for (int j = 0; j < NODES; j++) {
+        const double *c = collocation.monomial[j];
+        basis.by[j] = ((c[3] * s + c[2]) * s + c[1]) * s + c[0];
+        basis.product *= s - collocation.node[j];
+    }
+    return basis;
+}
+
+static double quintic_value(const struct quintic *quintic, const struct basis *basis)
+{
+    double sum = (quintic->low + (quintic->high - quintic->low) * basis->s) * basis->product;
+    for (int j = 0; j < NODES; j++)
+        sum += quintic->nodes[j] * basis->by[j];
+    return sum;
+}
+
+/* The slope of the straight line between the nodes, or the ends of the step, around s. */
+static double slope_around(const struct step_values *values, double s)
+{
+    int j = 0;
+    while (j < NODES && collocation.node[j] < s)
+        j++;
+    double from = j > 0 ? collocation.node[j - 1] : 0.0;
+    double to = j < NODES ? collocation.node[j] : 1.0;
+    return ((j < NODES ? values->nodes[j] : values->end) -
+            (j > 0 ? values->nodes[j - 1] : values->start)) /
+           (to - from);
+}
+
+double step_ends_release(const struct step_values *values)
+{
+    const struct quintic quintic = quintic_through(values->start, values->nodes, values->end);
+    const double straight = step_values_release(values);
+    double slope = slope_around(values, straight);
+    double s = straight;
+    double change = 0.0;
+    double before = 0.0;
+    for (int round = 0; round < RELEASE_ROUNDS && slope < 0.0; round++) {
+        const struct basis basis = basis_at(s);
+        double value = quintic_value(&quintic, &basis);
+        if (round > 0)
+            slope = (value - before) / change;
+        before = value;
+        change = -value / slope;
+        s += change;
+        if (fabs(change) < SMALL_CHANGE)
+            break;
+    }
+    return s > 0.0 && s < 1.0 ? s : straight;
+}
+
+/* With the force F at the places s_q, weights w_q and Gauss's weights W_j of the nodes, whose
+ * Lagrange polynomials are orthogonal: force_j = sum_q w_q F_q L_j(s_q)/W_j. The indentation d is
+ * that of the approach, d + c F, which is as smooth as a motion; d itself is not where c is large.
+ */
+static void project(const struct step_end *step, double from, double length, double force[NODES])
+{
+    const double *nodes = step->values.nodes;
+    double c = step->compliance;
+    double stiffness;
+    double approach[NODES];
+    double moment[NODES] = {0.0};
+    for (int j = 0; j < NODES; j++)
+        approach[j] = nodes[j] + c * force[j];
+    const double start = step->values.start;
+    const double end = step->values.end;
+    const struct quintic local = quintic_through(start, nodes, end);
+    const struct quintic whole =
+        quintic_through(start + c * contact_law_force(step->law, start, &stiffness), approach,
+                        end + c * contact_law_force(step->law, end, &stiffness));
+    for (int q = 0; q < POINTS; q++) {
+        const struct basis basis = basis_at(from + length * PLACE[q]);
+        double d = quintic_value(&local, &basis);
+        double f = contact_law_force(step->law, d, &stiffness);
+        /* once by Newton's method */
+        f -= stiffness * (d + c * f - quintic_value(&whole, &basis)) / (1.0 + c * stiffness);
+        f *= fabs(length) * WEIGHT[q];
+        for (int j = 0; j < NODES; j++)
+            moment[j] += f * basis.by[j];
+    }
+    for (int j = 0; j < NODES; j++)
+        force[j] = moment[j] / collocation.weight[j];
+}
+
+/* Whether the contact is closed at the nodes between two shares of the step. */
+static bool closed_within(const double nodes[NODES], double from, double to)
+{
+    for (int j = 0; j < NODES; j++)
+        if (collocation.node[j] > from && collocation.node[j] < to && !(nodes[j] > 0.0))
+            return false;
+    return true;
+}
+
+bool step_ends_project(const struct step_end *step, double force[NODES])
+{
+    const struct step_values *values = &step->values;
+    if (values->start == 0.0 && values->end > 0.0 && closed_within(values->nodes, 0.0, 1.0)) {
+        project(step, 0.0, 1.0, force);
+        return true;
+    }
+    double release = values->start > 0.0 && !(values->end > 0.0) ? step_ends_release(values) : 0.0;
+    if (!(release > 0.0) || !closed_within(values->nodes, 0.0, release))
+        return false;
+    project(step, release, -release, force);
+    return true;
+}

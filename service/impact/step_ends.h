@@ -1,0 +1,31 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The steps in which a contact begins or ends. Its force is there as the 3/2 power of the time from
+ * the touch, or to the release, and what the four nodes see of it has neither its impulse (7e-5 of
+ * a step's are missed where it begins, 1e-3 where it ends) nor what it does to the modes. The
+ * indentation has no such kink, as the force acts on it by its double integral: the law's force
+ * along it tells what the nodes miss. */
+#ifndef PERCUSS_IMPACT_STEP_ENDS_H
+#define PERCUSS_IMPACT_STEP_ENDS_H
+
+#include "contact/law.h"
+#include "impact/step_values.h"
+
+/* One contact on such a step. */
+struct step_end {
+    const struct contact_law *law;
+    double compliance;         /* in series with it, m/N */
+    struct step_values values; /* as they were solved for */
+};
+
+/* Share of the step after which the contact is open: the last zero of the polynomial of degree five
+ * through the values, of which the last is not positive. */
+double step_ends_release(const struct step_values *values);
+
+/* Where the contact begins on a step, with an indentation of zero, or ends on it, the forces at its
+ * nodes become those of the cubic with the moments, up to the third, of the law's force along the
+ * indentation. False: it does neither, or both, or opens in between: they stay as they are. */
+bool step_ends_project(const struct step_end *step, double force[NODES]);
+
+#endif
