@@ -127,20 +127,27 @@ static void look_closer(const struct flight *flight, const struct scene *scene,
  * s^7, which belongs to the last coefficient. */
 static bool stays_open(const struct outlook *outlook, double h)
 {
-    /* n! binomial(7, n), and 8! */
-    static const double SCALE[SCAN_TERMS] = {1.0,         1.0 / 7.0,    1.0 / 42.0,   1.0 / 210.0,
-                                             1.0 / 840.0, 1.0 / 2520.0, 1.0 / 5040.0, 1.0 / 5040.0};
+    /* 1/n!, and 1/binomial(7, n) */
+    static const double FACTORIAL[SCAN_TERMS] = {
+        1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0};
+    static const double BINOMIAL[SCAN_TERMS] = {1.0,        1.0 / 7.0,  1.0 / 21.0, 1.0 / 35.0,
+                                                1.0 / 35.0, 1.0 / 21.0, 1.0 / 7.0,  1.0};
     double b[SCAN_TERMS];
     b[0] = outlook->derivative[0] - outlook->fast;
     if (b[0] < 0.0)
         return false;
-    /* the power series in s */
+    /* the power series in s; at its end most of those that do not stay open are not */
     double power = h;
+    double end = b[0];
 #pragma GCC unroll 8
     for (int n = 1; n < SCAN_TERMS; n++) {
-        b[n] = outlook->derivative[n] * power * SCALE[n];
+        b[n] = outlook->derivative[n] * (power * FACTORIAL[n]);
+        end += b[n];
+        b[n] *= BINOMIAL[n];
         power *= h;
     }
+    if (end < outlook->rest)
+        return false;
     b[SCAN_TERMS - 1] -= outlook->rest;
     /* Bernstein's coefficients, by repeated sums of neighbours */
 #pragma GCC unroll 8
