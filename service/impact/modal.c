@@ -38,8 +38,7 @@ static const double SHARE_TO_OPENING = 0.85;
 static const double SHARE_OF_GROUP = 0.01;
 
 /* Half a step has an eighth of the roughness, whose coefficient falls with the third power. A step
- * is thrown away from nearly the geometric middle of the two on: the next ones are shorter anyway.
- */
+ * is thrown away from nearly the geometric middle of the two on: the next are shorter anyway. */
 static const double LONGER_ROUGHER = 8.0;
 static const double TOO_ROUGH = 3.0;
 
@@ -105,7 +104,7 @@ static void open_contact(struct modal_run *run, size_t contact, double time, dou
 {
     struct march *march = &run->march;
     run->scales[contact] = impact_scale_of(&march->scene, contact, rate);
-    step_limits_open(&run->limits, &march->scene, run->scales);
+    run->projects = step_limits_open(&run->limits, &march->scene, run->scales);
     run->longest[contact] =
         step_limits_stable(&march->scene, contact, &run->scales[contact], run->limits.coupling);
     march_open(march, contact, time, march->outcome->motion.gap_rate[contact]);
@@ -116,10 +115,9 @@ static void open_contact(struct modal_run *run, size_t contact, double time, dou
 static void close_contact(struct modal_run *run, size_t contact, double time)
 {
     struct march *march = &run->march;
-    double late = march->outcome->motion.time - time;
-    march_close(march, contact, time,
-                march->outcome->motion.gap_rate[contact] -
-                    march->scene.gap_acceleration[contact] * late);
+    const struct motion *motion = &march->outcome->motion;
+    double since = march->scene.gap_acceleration[contact] * (motion->time - time);
+    march_close(march, contact, time, motion->gap_rate[contact] - since);
     find_finest(run);
 }
 
@@ -214,7 +212,9 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
     if (run->march.closed[c]) {
         track_step(&run->march.outcome->tracks[c], start, h, &values);
         if (end <= 0.0)
-            close_contact(run, c, start + h * step_ends_release(&step));
+            close_contact(run, c,
+                          start +
+                              h * (run->projects ? step_ends_release : step_values_release)(&step));
     }
     run->now[c] = after;
 }
@@ -262,7 +262,7 @@ static void begin_phase(struct modal_run *run, size_t contact)
     }
 }
 
-/* Whether the step just solved is too long: rough, or the only contact ends within it. */
+/* Too long: rough, or the only contact ends within it. */
 static bool is_coarse(const struct modal_run *run, double roughness)
 {
     return roughness > TOO_ROUGH * run->limits.roughness || has_event(run);
@@ -381,7 +381,7 @@ static bool run_create(struct modal_run *run, struct arena *arena)
         !yielding_create(&run->yielding, arena))
         return false;
     run->step.pace = run->march.pace;
-    run->projects = step_limits_project(&run->limits, scene, run->settings);
+    step_limits_project(&run->limits, scene, run->settings);
     return true;
 }
 

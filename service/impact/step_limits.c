@@ -58,19 +58,18 @@ static const struct {
     [IMPACT_CARE_ROUGH] = {12.6, 0.4, 0.7},
 };
 
-bool step_limits_project(struct step_limits *limits, const struct scene *scene,
+void step_limits_project(struct step_limits *limits, const struct scene *scene,
                          const struct impact_settings *settings)
 {
     enum impact_care care = settings->care;
     if (scene->contacts != 1 || !scene->laws[0].operations->three_halves)
-        return false;
+        return;
     double share = projected[care].end * pow(settings->accuracy, 0.3);
     limits->plain[0] = limits->event_share;
     limits->plain[1] = limits->opening_share;
     limits->projected[0] = fmax(limits->event_share, fmin(projected[care].longest_event, share));
     limits->projected[1] =
         fmax(limits->opening_share, fmin(projected[care].longest_opening, share));
-    return true;
 }
 
 /* Work of the acceleration on the way to the scale's indentation, over the approach's energy: from
@@ -78,16 +77,17 @@ bool step_limits_project(struct step_limits *limits, const struct scene *scene,
  * back 2 speed/acceleration after its end: here after 40 durations. */
 static const double PRESSED = 0.1;
 
-void step_limits_open(struct step_limits *limits, const struct scene *scene,
+bool step_limits_open(struct step_limits *limits, const struct scene *scene,
                       const struct impact_scale *scale)
 {
     if (!(limits->projected[0] > 0.0))
-        return;
+        return false;
     double pressing = 2.0 * fabs(scene->gap_acceleration[0]) * scale->duration * scale->duration;
-    const double *share =
-        pressing <= PRESSED * scale->indentation ? limits->projected : limits->plain;
+    bool projects = pressing <= PRESSED * scale->indentation;
+    const double *share = projects ? limits->projected : limits->plain;
     limits->event_share = share[0];
     limits->opening_share = share[1];
+    return projects;
 }
 
 double step_limits_stable(const struct scene *scene, size_t contact,
