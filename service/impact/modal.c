@@ -395,6 +395,6 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
                                       .most = impact_max_steps(scene, settings),
                                       .pace = settings->pace},
                             .settings = settings,
-                            .limits = step_limits_make(settings->accuracy, settings->care)};
+                            .limits = step_limits_make(scene, settings->accuracy, settings->care)};
     return run_create(&run, arena) ? march_run(&run.march, &method, &run, arena) : PERCUSS_INTERNAL;
 }

@@ -32,9 +32,26 @@ static const struct care_limits cares[IMPACT_CARES] = {
     [IMPACT_CARE_ROUGH] = {0.6, 20.0, 40.0, 0.1, 0.3, 0.7},
 };
 
-struct step_limits step_limits_make(double accuracy, enum impact_care care)
+/* Of several contacts with a sequence's care, which open and close all the time: a step that misses
+ * the beginning or the end of a force like t^(3/2) leaves little beside the others. Of 400 random
+ * groups on beams and as many rows of spheres, at accuracies of 1e-4 to 1e-9, these leave as much
+ * as a sequence's, by two thirds to four fifths of the steps. */
+static const struct care_limits several = {0.6, 30.0, 30.0, 0.02, 0.1, 0.1};
+
+/* The largest force, on which all depends that flows, takes more care. */
+static bool is_elastic_group(const struct scene *scene)
 {
-    const struct care_limits *limits = &cares[care];
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (scene->laws[c].operations->curve)
+            return false;
+    return scene->contacts > 1;
+}
+
+struct step_limits step_limits_make(const struct scene *scene, double accuracy,
+                                    enum impact_care care)
+{
+    bool together = care == IMPACT_CARE_SEQUENCE && is_elastic_group(scene);
+    const struct care_limits *limits = together ? &several : &cares[care];
     double root = pow(accuracy, 0.2);
     double half = sqrt(accuracy);
     return (struct step_limits){
@@ -90,6 +107,34 @@ bool step_limits_open(struct step_limits *limits, const struct scene *scene,
     return projects;
 }
 
+/* Of one contact, as if the strongest mode of a body were the slowest that its steps do not
+ * resolve: a sequence's comparison with longer steps bears no longer ones. */
+static double stable_alone(const struct scene_group *group, const double *phi, double stiffness,
+                           double coupling)
+{
+    double largest = 0.0;
+    for (size_t k = 0; k < group->count; k++)
+        largest = phi[k] * phi[k] > largest ? phi[k] * phi[k] : largest;
+    /* phi^2 (dF/dd) h/omega <= coupling with omega = RESOLVED/h; or a step that resolves all */
+    double coupled = sqrt(RESOLVED * coupling / (largest * stiffness));
+    return fmax(coupled, RESOLVED / group->set->omega[group->count - 1]);
+}
+
+/* Of a contact among several, mode by mode: omega h <= RESOLVED or phi^2 (dF/dd) h/omega <=
+ * coupling. What stands for all omitted modes of a body at once is strong and far away. */
+static double stable_beside(const struct scene_group *group, const double *phi, double stiffness,
+                            double coupling)
+{
+    double longest = INFINITY;
+    for (size_t k = 0; k < group->count; k++) {
+        double omega = group->set->omega[k];
+        double pumped = phi[k] * phi[k] * stiffness;
+        if (omega * longest > RESOLVED && pumped * longest > coupling * omega)
+            longest = fmax(RESOLVED / omega, coupling * omega / pumped);
+    }
+    return longest;
+}
+
 double step_limits_stable(const struct scene *scene, size_t contact,
                           const struct impact_scale *scale, double coupling)
 {
@@ -101,14 +146,9 @@ double step_limits_stable(const struct scene *scene, size_t contact,
         const double *phi = group->participation[contact];
         if (!phi || !group->count)
             continue;
-        /* the strongest mode of the body, as if it were the slowest */
-        double largest = 0.0;
-        for (size_t k = 0; k < group->count; k++)
-            largest = phi[k] * phi[k] > largest ? phi[k] * phi[k] : largest;
-        /* phi^2 (dF/dd) h/omega <= coupling with omega = RESOLVED/h; or a step that resolves all */
-        double coupled = sqrt(RESOLVED * coupling / (largest * stiffness));
-        double resolved = RESOLVED / group->set->omega[group->count - 1];
-        longest = fmin(longest, fmax(coupled, resolved));
+        double of_group = scene->contacts > 1 ? stable_beside(group, phi, stiffness, coupling)
+                                              : stable_alone(group, phi, stiffness, coupling);
+        longest = fmin(longest, of_group);
     }
     return longest;
 }

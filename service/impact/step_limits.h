@@ -28,7 +28,8 @@ struct step_limits {
     double coupling;
 };
 
-struct step_limits step_limits_make(double accuracy, enum impact_care care);
+struct step_limits step_limits_make(const struct scene *scene, double accuracy,
+                                    enum impact_care care);
 
 /* Longer first and last steps where a scene is one contact whose forces there may be projected
  * (step_ends.h). */
@@ -42,9 +43,8 @@ bool step_limits_open(struct step_limits *limits, const struct scene *scene,
 
 /* The longest step of a contact of that scale, s, that pumps no mode. A mode that the step does not
  * resolve sees the law at four instants only and can be pumped by it. Its coupling to the contact
- * within a step, phi^2 (dF/dd) h / omega, must then stay small; the strongest unresolved mode is
- * the slowest one. Long contacts on light bodies need this (hundreds of steps); an ordinary impact
- * takes such steps anyway. */
+ * within a step, phi^2 (dF/dd) h / omega, must then stay small. Long contacts on light bodies need
+ * this (hundreds of steps); an ordinary impact takes such steps anyway. */
 double step_limits_stable(const struct scene *scene, size_t contact,
                           const struct impact_scale *scale, double coupling);
 

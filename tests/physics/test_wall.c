@@ -228,13 +228,13 @@ static void a_crowd_is_answered_without_waves(void **state)
     for (size_t c = 0; c < 20; c++)
         lost = fmax(lost, 1.0 - result.contacts[c].restitution);
     assert_true(lost > 0.03);
-    solve_crowd(lab, 40, &result);
+    solve_crowd(lab, 60, &result);
     assert_int_equal(result.status, PERCUSS_OK);
     assert_false(result.tolerance_met);
     assert_true(strstr(result.warnings[0], "left out") != NULL);
     /* more neighbours take more */
     assert_true(result.restitution_modes > lost && result.restitution_modes < 1.0);
-    for (size_t c = 0; c < 40; c++)
+    for (size_t c = 0; c < 60; c++)
         measured("e", result.contacts[c].restitution, 1.0, 1e-4);
     lab_free(lab);
 }
