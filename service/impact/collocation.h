@@ -28,4 +28,11 @@ extern const struct collocation collocation;
 double collocation_value(const double values[NODES], double s);
 double collocation_integral(const double values[NODES], double s);
 
+/* The polynomial at the step's end. */
+static inline double collocation_last(const double values[NODES])
+{
+    const double *at = collocation.end[0];
+    return (at[0] * values[0] + at[1] * values[1]) + (at[2] * values[2] + at[3] * values[3]);
+}
+
 #endif

@@ -275,7 +275,7 @@ static void find_approaches(struct contact_step *step, const struct scene *scene
                                                       (m[2] * force[2] + m[3] * force[3]));
         return;
     }
-    coupling_take(&step->coupling, scene, level, step->force, step->taken);
+    coupling_take_end(&step->coupling, scene, level, step->force, step->taken);
     for (size_t c = 0; c < scene->contacts; c++)
         step->approach[c] = step->target[c][NODES] - step->taken[c][NODES];
 }
@@ -284,12 +284,8 @@ static void find_approaches(struct contact_step *step, const struct scene *scene
 static bool find_end(struct contact_step *step, const struct scene *scene, int level)
 {
     find_approaches(step, scene, level);
-    for (size_t c = 0; c < scene->contacts; c++) {
-        const double *at_end = collocation.end[0];
-        const double *d = step->indentation[c];
-        step->end_indentation[c] =
-            (at_end[0] * d[0] + at_end[1] * d[1]) + (at_end[2] * d[2] + at_end[3] * d[3]);
-    }
+    for (size_t c = 0; c < scene->contacts; c++)
+        step->end_indentation[c] = collocation_last(step->indentation[c]);
     if (scene->contacts == 1 &&
         local_of_one(&scene->laws[0], scene->residual[0], step->approach[0], step->last_change,
                      step->end_indentation, step->end_force))

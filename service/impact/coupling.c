@@ -260,3 +260,26 @@ void coupling_take(const struct coupling *coupling, const struct scene *scene, i
     for (size_t g = 0; g < scene->groups; g++)
         take_by_modes(coupling, scene, &scene->group[g], level, force, taken);
 }
+
+/* The rows of the end alone. */
+static void end_by_blocks(const struct coupling *coupling, size_t contacts, int level,
+                          double (*const force)[NODES], double (*taken)[STEP_POINTS])
+{
+    for (size_t a = 0; a < contacts; a++)
+        taken[a][NODES] = 0.0;
+    for (size_t a = 0; a < contacts; a++)
+        for (size_t p = coupling->first[a]; p < coupling->first[a + 1]; p++) {
+            const double *m = coupling->level[level][p].by[NODES];
+            const double *f = force[coupling->pairs[p].other];
+            taken[a][NODES] += (m[0] * f[0] + m[1] * f[1]) + (m[2] * f[2] + m[3] * f[3]);
+        }
+}
+
+void coupling_take_end(const struct coupling *coupling, const struct scene *scene, int level,
+                       double (*const force)[NODES], double (*taken)[STEP_POINTS])
+{
+    if (coupling->by_modes)
+        coupling_take(coupling, scene, level, force, taken);
+    else
+        end_by_blocks(coupling, scene->contacts, level, force, taken);
+}

@@ -57,4 +57,8 @@ void coupling_between(const struct scene *scene, int level, size_t a, size_t b,
 void coupling_take(const struct coupling *coupling, const struct scene *scene, int level,
                    double (*const force)[NODES], double (*taken)[STEP_POINTS]);
 
+/* The same for the end alone: what it leaves at the nodes is of no use. */
+void coupling_take_end(const struct coupling *coupling, const struct scene *scene, int level,
+                       double (*const force)[NODES], double (*taken)[STEP_POINTS]);
+
 #endif

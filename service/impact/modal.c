@@ -168,7 +168,7 @@ static double step_roughness(const struct modal_run *run)
         double highest = 0.0;
         for (int j = 0; j < NODES; j++)
             highest += collocation.highest[j] * force[j];
-        double off = contacts > 1 ? run->step.end_force[c] - collocation_value(force, 1.0) : 0.0;
+        double off = contacts > 1 ? run->step.end_force[c] - collocation_last(force) : 0.0;
         worst = larger(worst, larger(fabs(highest), fabs(off)) / force_scale(run, c, group));
     }
     return worst;

@@ -55,7 +55,8 @@ static void sums_are_those_of_blocks(void **state)
     static const size_t contacts[] = {1, 2, 5, 7, 8, 12};
     for (size_t i = 0; i < 2 * COUNT(contacts); i++) {
         size_t n = contacts[i / 2];
-        double force[TOY_CONTACTS][NODES] = {{0}}, taken[TOY_CONTACTS][STEP_POINTS];
+        double force[TOY_CONTACTS][NODES] = {{0}};
+        double taken[TOY_CONTACTS][STEP_POINTS], end[TOY_CONTACTS][STEP_POINTS];
         struct toy toy;
         make(&toy, n, i % 2 ? 0.1 : 0.0);
         struct coupling coupling = prepared(&toy, LEVEL);
@@ -63,6 +64,7 @@ static void sums_are_those_of_blocks(void **state)
             for (size_t j = 0; c % 3 != 1 && j < NODES; j++)
                 force[c][j] = 1.0 + number(c * NODES + j);
         coupling_take(&coupling, &toy.scene, LEVEL, force, taken);
+        coupling_take_end(&coupling, &toy.scene, LEVEL, force, end);
         for (size_t a = 0; a < n; a++) {
             double expected[STEP_POINTS] = {0.0}, scale = 0.0;
             for (size_t b = 0; b < n; b++) {
@@ -77,6 +79,7 @@ static void sums_are_those_of_blocks(void **state)
             /* sums of at most 48 terms in another order */
             for (int p = 0; p < STEP_POINTS; p++)
                 near_scaled(taken[a][p], expected[p], scale, 48 * 2.3e-16);
+            near_scaled(end[a][NODES], expected[NODES], scale, 48 * 2.3e-16);
         }
         toy_free(&toy);
     }
