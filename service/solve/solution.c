@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "solve/attempt.h"
+#include "solve/contact_model.h"
 #include "solve/formulation.h"
 
 /* Less of the effort allowed than a step costs at most. */
@@ -115,6 +116,14 @@ static void conclude(const struct attempt_context *context, const struct attempt
     bound(range, compression, &solution->modes.restitution, &solution->modes.impulse);
 }
 
+static double first_accuracy(const struct problem *problem, bool sequence)
+{
+    bool group = problem->contact_count > 1;
+    bool table = contact_model_used(problem)->tables == CONTACT_TABLES_ONLY;
+    return table ? step_search_first_of_table(problem->tolerance, sequence, group)
+                 : step_search_first_accuracy(problem->tolerance, sequence, group);
+}
+
 /* By as many modes and as short steps as the tolerance asks for. */
 static enum percuss_status search(struct attempt_context *context, struct solution *solution)
 {
@@ -123,8 +132,7 @@ static enum percuss_status search(struct attempt_context *context, struct soluti
     memset(solution, 0, sizeof *solution);
     solution->restitution_by_speed = NAN;
     /* steps as the tolerance asks for to begin with, and as many modes */
-    struct attempt best = {.accuracy = step_search_first_accuracy(problem->tolerance, sequence,
-                                                                  problem->contact_count > 1),
+    struct attempt best = {.accuracy = first_accuracy(problem, sequence),
                            .care = sequence ? IMPACT_CARE_SEQUENCE : IMPACT_CARE_SINGLE};
     enum percuss_status status = mode_search(context, &best, &solution->modes);
     if (status)

@@ -44,6 +44,19 @@ double step_search_first_accuracy(double tolerance, bool sequence, bool group)
     return fmax(fmin(share * tolerance, most), ATTEMPT_FINEST);
 }
 
+/* Steps pass most of a table's joints, where its second derivative jumps: what that leaves goes
+ * with the root of their accuracy, some 4e-3 times it of the paper's rod. The accuracy that leaves
+ * a good half of what the tolerance allows, over the tolerance's square. */
+static const double SHARE_TABLE = 300.0;
+
+/* Where they are compared with longer ones these shall leave no more. */
+double step_search_first_of_table(double tolerance, bool sequence, bool group)
+{
+    double smooth = step_search_first_accuracy(tolerance, sequence, group);
+    double share = tolerance < COMPARE_BELOW ? SHARE_TABLE / ATTEMPT_LONGER : SHARE_TABLE;
+    return fmax(fmin(smooth, share * tolerance * tolerance), ATTEMPT_FINEST);
+}
+
 /* Least restitution that an elastic contact's rebound is taken for: what it gives to vibration
  * leaves it with speed. */
 static const double ELASTIC_REBOUND = 0.1;
