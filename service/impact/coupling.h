@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/watch.h"
+#include "impact/response.h"
 #include "impact/scene.h"
 
 /* Approach at node i, then at the end, that a unit force at node j takes away, m/N. */
@@ -30,6 +31,7 @@ struct coupling {
     size_t blocks;               /* of a level */
     size_t *own;                 /* [contact]: which block is its own */
     struct coupling_block *level[STEP_LEVELS]; /* NULL: not yet */
+    struct response **kept; /* [block][group], of few contacts; NULL, or an item: worked out anew */
     double *thrust, *answer; /* [stride][NODES], [STEP_POINTS][stride]: scratch, of a group */
 };
 

@@ -48,6 +48,8 @@ struct step_table {
     double *middle;           /* undamped only: LANES modes together, LANES numbers of each term */
 };
 
+struct responses;
+
 /* A set of oscillators with its tables. */
 struct oscillators {
     size_t count, stride;                   /* stride: count rounded up to lanes */
@@ -57,6 +59,7 @@ struct oscillators {
     struct step_table *tables[STEP_LEVELS]; /* made on first use, */
     size_t filled[STEP_LEVELS];             /* for so many of the first oscillators */
     double *turns[STEP_LEVELS];             /* made on first use, see flight_table.h */
+    struct responses *responses;            /* made on first use, see response.h */
     struct oscillators *undamped;           /* the same frequencies; NULL: not asked for yet */
     struct oscillators *whole;              /* those that these are a part of; NULL: of none */
     size_t *which;                          /* [count] of a part: index among the whole's */

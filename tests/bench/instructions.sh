@@ -4,7 +4,7 @@
 #
 # Counts the instructions of warm solves and compares them with the recorded ones: more than 10 %
 # above them fails.
-# A sample of an ensemble is told beside them.
+# A sample of an ensemble is told beside them, and a blow at a place that nothing is kept of.
 # usage: instructions.sh [--record] PROGRAM [OFTEN]    (build/tests/bench/solve_once, solve_often)
 #
 # What is counted is the work of this project's own code: callgrind books instructions by the object
@@ -83,6 +83,9 @@ for scene in rod beam; do
 done
 samples=$(count beam 1e-3 samples | cut -d ' ' -f 1)
 echo "a sample of an ensemble on the beam at 1e-3: $((samples / 100)) instructions"
+fresh=$(count beam 1e-3 sites | cut -d ' ' -f 1)
+again=$(count beam 1e-3 sites-again | cut -d ' ' -f 1)
+echo "a blow on the beam at 1e-3 where none was before: $((fresh / 100)) instructions, there again: $((again / 100))"
 if [ "$record" = yes ]; then
     {
         echo "# instructions of one warm solve: scene, tolerance, instructions, library calls (instructions.sh --record)"

@@ -41,7 +41,7 @@ enum percuss_status counted_sample(struct repeat *repeat, const struct solve_mea
     return repeat_solve(repeat, means, request, 0, model, true, outcome, &fault);
 }
 
-enum { STRIKERS = 3, GROUPS = 30, SAMPLES = 100 };
+enum { STRIKERS = 3, GROUPS = 30, SAMPLES = 100, SITES = 100 };
 
 /* Repeatable numbers in [0, 1). */
 static double next_number(uint64_t *seed)
@@ -121,9 +121,30 @@ static enum percuss_status solve_samples(const struct solve_means *means,
     return status;
 }
 
-/* solve_once rod|beam TOLERANCE [groups|singles|samples]: the scene; or thirty groups of three
- * strikers on its body; or each of their contacts by itself; or a hundred samples of an ensemble.
- */
+/* Blows at sites that were never asked before, on a body that is warm: counted, or asked once more
+ * and then counted. */
+static enum percuss_status solve_sites(struct solve_workspace *workspace,
+                                       const struct solve_means *means,
+                                       const struct solve_request *request, bool again,
+                                       struct solve_result *result)
+{
+    enum percuss_status status = PERCUSS_OK;
+    uint64_t seed = 5;
+    for (int i = 0; !status && i < 2 * SITES; i++) {
+        struct solve_request site = *request;
+        site.bodies[0].position[0] = site.contacts[0].point[0] = 0.9 * next_number(&seed) - 0.45;
+        /* the first half makes the tables */
+        if (i < SITES || again)
+            status = solve(workspace, means, &site, result);
+        if (!status && i >= SITES)
+            status = counted_solve(workspace, means, &site, result);
+    }
+    return status;
+}
+
+/* solve_once rod|beam TOLERANCE [groups|singles|samples|sites|sites-again]: the scene; or thirty
+ * groups of three strikers on its body; or each of their contacts by itself; or a hundred samples
+ * of an ensemble; or a hundred sites along it that are new, or asked of again. */
 int main(int argc, char **argv)
 {
     static struct bench_catalogue catalogue;
@@ -133,8 +154,11 @@ int main(int argc, char **argv)
     bool groups = argc == 4 && strcmp(argv[3], "groups") == 0;
     bool singles = argc == 4 && strcmp(argv[3], "singles") == 0;
     bool samples = argc == 4 && strcmp(argv[3], "samples") == 0;
-    if (!scene || !(tolerance > 0.0) || (argc != 3 && !groups && !singles && !samples)) {
-        fprintf(stderr, "usage: solve_once SCENE TOLERANCE [groups|singles|samples]\n");
+    bool again = argc == 4 && strcmp(argv[3], "sites-again") == 0;
+    bool sites = again || (argc == 4 && strcmp(argv[3], "sites") == 0);
+    if (!scene || !(tolerance > 0.0) || (argc != 3 && !groups && !singles && !samples && !sites)) {
+        fprintf(stderr, "usage: solve_once SCENE TOLERANCE "
+                        "[groups|singles|samples|sites|sites-again]\n");
         return 2;
     }
     const struct solve_means means = {.catalogue = &catalogue.set};
@@ -146,6 +170,8 @@ int main(int argc, char **argv)
         status = solve_warm(workspace, &means, &request, &result);
     else if (samples && catalogue.set.count)
         status = solve_samples(&means, &request, &result);
+    else if (sites && catalogue.set.count)
+        status = solve_sites(workspace, &means, &request, again, &result);
     for (int i = 0; (groups || singles) && catalogue.set.count && i < GROUPS; i++) {
         struct solve_request group = request;
         make_group(&group, &seed);
