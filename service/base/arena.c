@@ -9,11 +9,19 @@
 
 enum { ALIGNMENT = 32, BLOCK_SIZE = 1 << 18 };
 
+/* A few pieces that small are cleared faster than by a call. */
+enum { SMALL = 4 * ALIGNMENT };
+
 struct arena_block {
     struct arena_block *next;
-    size_t size, used;
+    size_t size;
     _Alignas(ALIGNMENT) unsigned char bytes[];
 };
+
+static size_t aligned(size_t bytes)
+{
+    return (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+}
 
 static struct arena_block *block_create(size_t at_least)
 {
@@ -24,61 +32,85 @@ static struct arena_block *block_create(size_t at_least)
     return block;
 }
 
-static bool has_room(const struct arena_block *block, size_t bytes)
+static void use(struct arena *arena, struct arena_block *block)
 {
-    return block && block->size - block->used >= bytes;
+    arena->current = block;
+    arena->next = block ? block->bytes : NULL;
+    arena->left = block ? block->size : 0;
 }
 
-/* The next block with room, old ones first; seldom, and kept out of what is often. */
-static __attribute__((noinline)) struct arena_block *block_with_room(struct arena *arena,
-                                                                     size_t bytes)
+/* Goes on to the next block with more room than that, old ones first. False: out of memory. */
+static bool make_room(struct arena *arena, size_t bytes)
 {
-    while (arena->current && !has_room(arena->current, bytes) && arena->current->next) {
-        arena->current = arena->current->next;
-        arena->current->used = 0;
-    }
-    if (has_room(arena->current, bytes))
-        return arena->current;
-    struct arena_block *block = block_create(bytes);
+    if (bytes > SIZE_MAX - 4 * ALIGNMENT)
+        return false;
+    while (arena->left <= bytes && arena->current && arena->current->next)
+        use(arena, arena->current->next);
+    if (arena->left > bytes)
+        return true;
+    struct arena_block *block = block_create(aligned(bytes + 1));
     if (!block)
-        return NULL;
+        return false;
     if (arena->current)
         arena->current->next = block;
     else
         arena->first = block;
-    arena->current = block;
-    return block;
+    use(arena, block);
+    return true;
+}
+
+/* What is left are whole units, and more than what is asked for: there is room for its last one. */
+static inline void *reserve(struct arena *arena, size_t bytes)
+{
+    void *memory = arena->next;
+    arena->next += aligned(bytes);
+    arena->left -= aligned(bytes);
+    return memory;
+}
+
+/* Where the current block has no room; seldom, and kept out of what is often. */
+static __attribute__((noinline)) void *reserve_elsewhere(struct arena *arena, size_t count,
+                                                         size_t size)
+{
+    size_t bytes;
+    if (!__builtin_mul_overflow(count, size, &bytes) && make_room(arena, bytes))
+        return reserve(arena, bytes);
+    arena->lacks = true;
+    return NULL;
+}
+
+static __attribute__((noinline)) void *take_elsewhere(struct arena *arena, size_t count,
+                                                      size_t size)
+{
+    void *memory = reserve_elsewhere(arena, count, size);
+    return memory ? memset(memory, 0, count * size) : NULL;
 }
 
 void *arena_reserve(struct arena *arena, size_t count, size_t size)
 {
     size_t bytes;
-    struct arena_block *block = NULL;
-    if (!__builtin_mul_overflow(count, size, &bytes) && bytes <= SIZE_MAX - 2 * ALIGNMENT) {
-        bytes = (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-        block = has_room(arena->current, bytes) ? arena->current : block_with_room(arena, bytes);
-    }
-    if (!block) {
-        arena->lacks = true;
-        return NULL;
-    }
-    void *memory = block->bytes + block->used;
-    block->used += bytes;
-    return memory;
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes >= arena->left)
+        return reserve_elsewhere(arena, count, size);
+    return reserve(arena, bytes);
 }
 
 void *arena_take(struct arena *arena, size_t count, size_t size)
 {
-    void *memory = arena_reserve(arena, count, size);
-    return memory ? memset(memory, 0, count * size) : NULL;
+    size_t bytes;
+    if (__builtin_mul_overflow(count, size, &bytes) || bytes >= arena->left)
+        return take_elsewhere(arena, count, size);
+    unsigned char *memory = reserve(arena, bytes);
+    if (bytes > SMALL)
+        return memset(memory, 0, bytes);
+    for (unsigned char *unit = memory; unit < memory + bytes; unit += ALIGNMENT)
+        memset(unit, 0, ALIGNMENT);
+    return memory;
 }
 
 void arena_reset(struct arena *arena)
 {
     arena->lacks = false;
-    arena->current = arena->first;
-    if (arena->current)
-        arena->current->used = 0;
+    use(arena, arena->first);
 }
 
 void arena_release(struct arena *arena)

@@ -13,7 +13,9 @@ struct arena_block;
 struct arena {
     struct arena_block *first; /* all blocks, kept for reuse */
     struct arena_block *current;
-    bool lacks; /* since the last reset memory was out: what was made of it is not whole */
+    unsigned char *next; /* of the current block what is free, */
+    size_t left;         /* a multiple of the alignment */
+    bool lacks;          /* since the last reset memory was out: what was made of it is not whole */
 };
 
 /* 32-byte aligned, zeroed memory for `count` items of `size` bytes; NULL: out of memory, which
