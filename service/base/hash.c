@@ -3,6 +3,7 @@
 
 #include "base/hash.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 static const uint64_t MULTIPLIER_FIRST = 0x87c37b91114253d5u;
@@ -20,7 +21,7 @@ static uint64_t finish(uint64_t x)
     return x ^ x >> 33;
 }
 
-static void mix(struct hasher *hasher, uint64_t first, uint64_t second)
+static inline void mix(struct hasher *hasher, uint64_t first, uint64_t second)
 {
     hasher->first ^= rotate(first * MULTIPLIER_FIRST, 31) * MULTIPLIER_SECOND;
     hasher->first = (rotate(hasher->first, 27) + hasher->second) * 5 + 0x52dce729;
@@ -28,18 +29,34 @@ static void mix(struct hasher *hasher, uint64_t first, uint64_t second)
     hasher->second = (rotate(hasher->second, 31) + hasher->first) * 5 + 0x38495ab5;
 }
 
+static inline void mix_number(struct hasher *hasher, uint64_t number)
+{
+    mix(hasher, number, ++hasher->length);
+}
+
+/* What goes in are words of 8 bytes, two at a time and zeros behind the last; lengths that are
+ * known here cost no call. */
 void hash_bytes(struct hasher *hasher, const void *data, size_t size)
 {
+    enum { WORD = sizeof(uint64_t) };
     const unsigned char *at = data;
-    hash_number(hasher, size);
-    while (size > 0) {
-        uint64_t words[2] = {0};
-        size_t part = size < sizeof words ? size : sizeof words;
-        memcpy(words, at, part);
-        mix(hasher, words[0], words[1]);
-        at += part;
-        size -= part;
+    struct hasher mixed = *hasher;
+    mix_number(&mixed, size);
+    for (; size >= 2 * WORD; size -= 2 * WORD, at += 2 * WORD) {
+        uint64_t words[2];
+        memcpy(words, at, sizeof words);
+        mix(&mixed, words[0], words[1]);
     }
+    if (size > 0) {
+        uint64_t words[2] = {0};
+        bool whole = size >= WORD;
+        if (whole)
+            memcpy(words, at, WORD);
+        if (size % WORD)
+            memcpy(words + whole, at + whole * WORD, size % WORD);
+        mix(&mixed, words[0], words[1]);
+    }
+    *hasher = mixed;
 }
 
 void hash_text(struct hasher *hasher, const char *text)
@@ -49,7 +66,7 @@ void hash_text(struct hasher *hasher, const char *text)
 
 void hash_number(struct hasher *hasher, uint64_t number)
 {
-    mix(hasher, number, ++hasher->length);
+    mix_number(hasher, number);
 }
 
 struct digest hash_digest(const struct hasher *hasher)
