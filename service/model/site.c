@@ -29,40 +29,44 @@ static const struct face *best_face(const struct face *faces, int count, const d
 }
 
 static enum percuss_status off_surface(const struct body *body, const struct face *faces, int count,
-                                       double allowed, const char *field, struct fault *fault)
+                                       double allowed, size_t contact, struct fault *fault)
 {
     double nearest = INFINITY;
     for (int i = 0; i < count; i++)
         nearest = fmin(nearest, fmax(fabs(faces[i].distance), faces[i].beyond));
-    return fault_set(fault, PERCUSS_BAD_REQUEST,
-                     "%s.point: lies %.3g m off the surface of %s: at most %.3g m (10 %% of the "
-                     "smallest radius) is allowed",
-                     field, nearest, body->id, allowed);
+    return fault_set(
+        fault, PERCUSS_BAD_REQUEST,
+        "contacts[%zu].point: lies %.3g m off the surface of %s: at most %.3g m (10 %% of the "
+        "smallest radius) is allowed",
+        contact, nearest, body->id, allowed);
 }
 
 static enum percuss_status askew(const struct body *body, const struct face *face,
-                                 const double outward[3], bool edge, const char *field,
+                                 const double outward[3], bool edge, size_t contact,
                                  struct fault *fault)
 {
     double angle = angle_degrees(face->outward, outward);
     if (edge && angle < 95.0)
-        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
-                         "%s.point: on an edge of %s: only a point contact of two smooth surfaces "
-                         "is supported",
-                         field, body->id);
+        return fault_set(
+            fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+            "contacts[%zu].point: on an edge of %s: only a point contact of two smooth surfaces "
+            "is supported",
+            contact, body->id);
     if (angle > 135.0)
-        return fault_set(fault, PERCUSS_BAD_REQUEST,
-                         "%s.normal: points from a to b at %s: must be the unit vector from b to a",
-                         field, body->id);
-    return fault_set(fault, PERCUSS_BAD_REQUEST,
-                     "%s.normal: %.3g degrees off the surface's normal of %s: at most %g degrees "
-                     "are allowed",
-                     field, angle, body->id, SITE_MAX_ANGLE_DEGREES);
+        return fault_set(
+            fault, PERCUSS_BAD_REQUEST,
+            "contacts[%zu].normal: points from a to b at %s: must be the unit vector from b to a",
+            contact, body->id);
+    return fault_set(
+        fault, PERCUSS_BAD_REQUEST,
+        "contacts[%zu].normal: %.3g degrees off the surface's normal of %s: at most %g degrees "
+        "are allowed",
+        contact, angle, body->id, SITE_MAX_ANGLE_DEGREES);
 }
 
 enum percuss_status site_locate(const struct body *body, const struct pose *pose,
                                 const double point[3], const double outward[3], double allowed,
-                                const char *field, struct site *site, struct fault *fault)
+                                size_t contact, struct site *site, struct fault *fault)
 {
     struct face faces[BODY_MOST_FACES];
     double from_centre[3];
@@ -75,20 +79,21 @@ enum percuss_status site_locate(const struct body *body, const struct pose *pose
     int count = body->kind->faces(body, site->point, faces);
     const struct face *face = best_face(faces, count, direction, allowed);
     if (!face)
-        return off_surface(body, faces, count, allowed, field, fault);
+        return off_surface(body, faces, count, allowed, contact, fault);
 
     int near = 0;
     for (int i = 0; i < count; i++)
         near += fabs(faces[i].distance) <= allowed && faces[i].beyond <= allowed;
     if (angle_degrees(face->outward, direction) > SITE_MAX_ANGLE_DEGREES)
-        return askew(body, face, direction, near > 1, field, fault);
+        return askew(body, face, direction, near > 1, contact, fault);
 
     /* past the edge by more than rounding: no smooth surface there */
     if (face->beyond > 1e-9 * body_smallest_radius(body))
-        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
-                         "%s.point: %.3g m beyond the edge of the face of %s: only a point contact "
-                         "of two smooth surfaces is supported",
-                         field, face->beyond, body->id);
+        return fault_set(
+            fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+            "contacts[%zu].point: %.3g m beyond the edge of the face of %s: only a point contact "
+            "of two smooth surfaces is supported",
+            contact, face->beyond, body->id);
     site->face = face->kind;
     memcpy(site->outward, face->outward, sizeof site->outward);
     memcpy(site->curvature, face->curvature, sizeof site->curvature);
@@ -98,14 +103,14 @@ enum percuss_status site_locate(const struct body *body, const struct pose *pose
 
     const char *why = body->kind->why_not ? body->kind->why_not(body, site) : NULL;
     if (why && site->spot.on_mesh)
-        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
-                         "%s.point: on %s %s, %.3g m from an edge, where elements are %.3g m long: "
-                         "%s",
-                         field, body->kind->name, body->id, site->spot.edge, site->spot.element,
-                         why);
+        return fault_set(
+            fault, PERCUSS_UNSUPPORTED_GEOMETRY,
+            "contacts[%zu].point: on %s %s, %.3g m from an edge, where elements are %.3g m long: "
+            "%s",
+            contact, body->kind->name, body->id, site->spot.edge, site->spot.element, why);
     if (why)
-        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY, "%s.point: on %s %s: %s", field,
-                         body->kind->name, body->id, why);
+        return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY, "contacts[%zu].point: on %s %s: %s",
+                         contact, body->kind->name, body->id, why);
     return PERCUSS_OK;
 }
 

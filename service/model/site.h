@@ -29,12 +29,12 @@ struct site {
 };
 
 /* Finds the face of `body` that has `point` (world) within `allowed` metres and the surface normal
- * within SITE_MAX_ANGLE_DEGREES of `outward` (world, unit). `field` names the contact in messages
- * ("contacts[0]"), body->id the body. PERCUSS_BAD_REQUEST: point off the surface or normal askew;
+ * within SITE_MAX_ANGLE_DEGREES of `outward` (world, unit). Messages name the contact by its
+ * index and the body by its id. PERCUSS_BAD_REQUEST: point off the surface or normal askew;
  * PERCUSS_UNSUPPORTED_GEOMETRY: an edge, the side of a rod, a held end. */
 enum percuss_status site_locate(const struct body *body, const struct pose *pose,
                                 const double point[3], const double outward[3], double allowed,
-                                const char *field, struct site *site, struct fault *fault);
+                                size_t contact, struct site *site, struct fault *fault);
 
 /* Curvatures (1/m, > 0 where convex) of both surfaces in the direction in which their sum is least;
  * as below. */

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/text.h"
 #include "model/rigid.h"
 #include "model/vector.h"
 #include "numeric/lcp.h"
@@ -89,16 +88,11 @@ static enum percuss_status place_side(struct problem *problem, const struct solv
     /* the force pushes a along +n and b along -n; outward normals are the opposite */
     double push[3];
     double outward[3];
-    char field[32];
     scale3(which == 0 ? 1.0 : -1.0, contact->normal, push);
     scale3(-1.0, push, outward);
-    struct text name = text_begin(field, sizeof field);
-    text_add(&name, "contacts[");
-    text_add_count(&name, index);
-    text_add(&name, "]");
     /* the point on the body, and how it loads the modes */
     enum percuss_status status =
-        site_locate(body, pose, contact->point, outward, allowed, field, &side->site, fault);
+        site_locate(body, pose, contact->point, outward, allowed, index, &side->site, fault);
     if (status)
         return status;
     side->material = body_material_at(body, &side->site);
@@ -137,7 +131,8 @@ static enum percuss_status refuse_shape(const struct problem *problem, size_t in
                            : "along a ring about it, which is not supported");
 }
 
-static enum percuss_status place_contact(struct problem *problem, size_t index, struct fault *fault)
+/* On both surfaces, and as an ellipse. */
+static enum percuss_status find_place(struct problem *problem, size_t index, struct fault *fault)
 {
     const struct solve_contact *contact = &problem->request->contacts[index];
     const struct body *a = problem->bodies[contact->a];
@@ -168,6 +163,29 @@ static enum percuss_status place_contact(struct problem *problem, size_t index, 
                                                      problem_material(problem, index, 1)),
                              curvature);
     return PERCUSS_OK;
+}
+
+/* The same, or as it is kept. */
+static enum percuss_status place_contact(struct problem *problem, size_t index, struct fault *fault)
+{
+    const struct solve_contact *contact = &problem->request->contacts[index];
+    const struct placed_key key = {
+        .bodies = {problem->bodies[contact->a], problem->bodies[contact->b]},
+        .poses = {&problem->poses[contact->a], &problem->poses[contact->b]},
+        .point = contact->point,
+        .normal = contact->normal,
+    };
+    struct contact_side *sides = problem->sides[index];
+    struct placed *room;
+    if (placed_find(prepared_places(problem->cache), &key, sides, &problem->hertz[index], &room)) {
+        sides[0].body = contact->a;
+        sides[1].body = contact->b;
+        return PERCUSS_OK;
+    }
+    enum percuss_status status = find_place(problem, index, fault);
+    if (!status && room)
+        placed_keep(room, &key, sides, &problem->hertz[index]);
+    return status;
 }
 
 /* Whether the curvatures make a point as far as a mesh's fit knows them. */

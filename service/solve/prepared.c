@@ -56,6 +56,7 @@ struct prepared_cache {
     struct prepared_family *retired; /* outgrown, but a scene may still point at them */
     size_t varied;                   /* entries of varied bodies */
     struct prepared_parts parts;
+    struct placed_store *places;
 };
 
 static void family_free(struct prepared_family *family)
@@ -119,7 +120,15 @@ static struct prepared_family *family_create(const struct body *body, size_t whi
 
 struct prepared_cache *prepared_cache_create(void)
 {
-    return calloc(1, sizeof(struct prepared_cache));
+    struct prepared_cache *cache = calloc(1, sizeof *cache);
+    if (!cache)
+        return NULL;
+    cache->places = placed_store_create();
+    if (!cache->places) {
+        free(cache);
+        return NULL;
+    }
+    return cache;
 }
 
 static void remainders_free(struct remainder *list)
@@ -185,6 +194,7 @@ void prepared_cache_free(struct prepared_cache *cache)
         return;
     free_retired(cache);
     forget(cache, false);
+    placed_store_free(cache->places);
     free(cache);
 }
 
@@ -323,6 +333,11 @@ struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double e
         known->curvature[1] != curvature[1])
         *known = hertz_contact_make(effective_modulus, curvature[0], curvature[1]);
     return *known;
+}
+
+struct placed_store *prepared_places(struct prepared_cache *cache)
+{
+    return cache->places;
 }
 
 /* Asks for the compliance at an octave. False: out of memory. */

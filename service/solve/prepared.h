@@ -10,6 +10,7 @@
 #include "contact/hertz.h"
 #include "model/modal_basis.h"
 #include "solve/participation.h"
+#include "solve/placed.h"
 #include "solve/prepared_part.h"
 
 struct prepared_family {
@@ -62,6 +63,9 @@ struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const s
 /* hertz_contact_make; of the last ones what an ellipse takes to find is kept. */
 struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double effective_modulus,
                                           const double curvature[2]);
+
+/* How contacts lie on their bodies. */
+struct placed_store *prepared_places(struct prepared_cache *cache);
 
 /* matched_compliance of a sphere, or of a rod's or cylinder's end, with the contact radius `patch`
  * (m). It takes milliseconds when first asked for. A sphere's is linear in the logarithm of the

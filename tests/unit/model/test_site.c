@@ -57,7 +57,7 @@ static enum percuss_status locate(struct body *body, const double point[3], cons
     rotate3(pose.rotation, point, world);
     add_scaled3(1.0, pose.position, world);
     rotate3(pose.rotation, outward, normal);
-    return site_locate(body, &pose, world, normal, 0.001, "contacts[2]", site, fault);
+    return site_locate(body, &pose, world, normal, 0.001, 2, site, fault);
 }
 
 /* Curvature along a direction, t.C t. */
@@ -215,11 +215,9 @@ static void relative_curvatures_of_crossed_cylinders(void **state)
         assert_int_equal(body_complete(&thick, NULL) | body_complete(&thin, NULL), PERCUSS_OK);
         rotation_matrix((double[]){cos(0.5 * angle), 0.0, 0.0, sin(0.5 * angle)}, upper.rotation);
         rotation_matrix((double[]){1.0, 0.0, 0.0, 0.0}, lower.rotation);
-        assert_int_equal(
-            site_locate(&thick, &upper, origin, down, 0.001, "contacts[0]", &a, &fault),
-            PERCUSS_OK);
-        assert_int_equal(site_locate(&thin, &lower, origin, up, 0.001, "contacts[0]", &b, &fault),
+        assert_int_equal(site_locate(&thick, &upper, origin, down, 0.001, 0, &a, &fault),
                          PERCUSS_OK);
+        assert_int_equal(site_locate(&thin, &lower, origin, up, 0.001, 0, &b, &fault), PERCUSS_OK);
         site_relative_curvature(&a, &upper, &b, &lower, up, curvature);
         double p = 1.0 / 0.03, q = 100.0;
         near(curvature[0] + curvature[1], 0.5 * (p + q), 1e-12);

@@ -198,6 +198,55 @@ static void refuses_matrices(void **state)
     lab_free(lab);
 }
 
+/* A place that is kept has the bits of one that is found, whichever body comes first in a request;
+ * what differs between requests is each one's own. */
+static void a_kept_place_is_the_same(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    struct arena arena = {0};
+    struct fault fault = {""};
+    struct prepared_cache *cache = prepared_cache_create();
+    struct solve_request request = ball_on_beam();
+    struct problem *first = find(lab, &request, &arena);
+    for (int i = 0; i < 5; i++) {
+        struct solve_request again = request;
+        if (i % 2) {
+            again.bodies[0] = request.bodies[1];
+            again.bodies[1] = request.bodies[0];
+            again.contacts[0].a = request.contacts[0].b;
+            again.contacts[0].b = request.contacts[0].a;
+        }
+        again.bodies[i % 2].velocity[2] = -0.3;
+        struct problem *problem = problem_create(&again, cache, &arena);
+        assert_non_null(problem);
+        assert_int_equal(placement_find(problem, &lab->set, &fault), PERCUSS_OK);
+        assert_memory_equal(problem->hertz, first->hertz, sizeof *problem->hertz);
+        assert_true(problem->w[0] == first->w[0]);
+        assert_true(problem->gap_rate[0] == -0.3);
+        for (int which = 0; which < 2; which++) {
+            const struct contact_side *mine = &problem->sides[0][which];
+            const struct contact_side *other = &first->sides[0][which];
+            assert_int_equal(mine->body, i % 2 ? 1 - other->body : other->body);
+            assert_int_equal(mine->site.face, other->site.face);
+            assert_memory_equal(mine->site.point, other->site.point, sizeof mine->site.point);
+            assert_memory_equal(mine->site.curvature, other->site.curvature,
+                                sizeof mine->site.curvature);
+            assert_memory_equal(mine->direction, other->direction, sizeof mine->direction);
+            assert_true(mine->material.young == other->material.young);
+            for (size_t f = 0; f < BODY_MOST_FAMILIES; f++) {
+                const struct beam_load *load = &mine->load.family[f].bar;
+                assert_int_equal(mine->load.family[f].acts, other->load.family[f].acts);
+                assert_true(load->x == other->load.family[f].bar.x &&
+                            load->force == other->load.family[f].bar.force);
+            }
+        }
+    }
+    prepared_cache_free(cache);
+    arena_release(&arena);
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -207,6 +256,7 @@ int main(void)
         cmocka_unit_test(refuses_bodies_and_contacts),
         cmocka_unit_test(refuses_motions),
         cmocka_unit_test(refuses_matrices),
+        cmocka_unit_test(a_kept_place_is_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
