@@ -64,8 +64,14 @@ struct impact_scale impact_scale_of(const struct scene *scene, size_t contact, d
     const struct contact_law *law = &scene->laws[contact];
     double speed = fmax(fabs(rate), LEAST_SPEED);
     struct impact_scale scale = {.duration = INFINITY};
+    double felt = NAN;
     for (int round = 0; round < MASS_ROUNDS; round++) {
-        double energy = 0.5 * speed * speed / felt_inverse_mass(scene, contact, scale.duration);
+        /* the same mass has the same scales */
+        double before = felt;
+        felt = felt_inverse_mass(scene, contact, scale.duration);
+        if (felt == before)
+            break;
+        double energy = 0.5 * speed * speed / felt;
         scale.indentation = indentation_of_energy(law, energy);
         scale.duration = scale.indentation / speed;
     }
