@@ -129,7 +129,9 @@ static enum percuss_status search(struct attempt_context *context, struct soluti
 {
     const struct problem *problem = context->problem;
     bool sequence = mode_search_expects_sequence(problem);
-    memset(solution, 0, sizeof *solution);
+    /* but for the lists of those nearby, which the first solution begins */
+    memset(solution, 0, offsetof(struct solution, nearby));
+    solution->nearby.solutions = 0;
     solution->restitution_by_speed = NAN;
     /* steps as the tolerance asks for to begin with, and as many modes */
     struct attempt best = {.accuracy = first_accuracy(problem, sequence),

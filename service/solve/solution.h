@@ -28,11 +28,11 @@ struct solution {
     enum impact_care step_care;    /* the same */
     struct mode_error modes;
     struct step_error steps;
-    struct nearby nearby;        /* the answer, and those that it was compared with */
     double restitution_by_speed; /* NAN unless asked for */
     bool tolerance_met;
-    bool spent;  /* the effort allowed ended the search */
-    double work; /* that it left of it (impact.h) */
+    bool spent;           /* the effort allowed ended the search */
+    double work;          /* that it left of it (impact.h) */
+    struct nearby nearby; /* the answer, and those that it was compared with */
 };
 
 /* Solves until the estimated error fits the tolerance or the effort allowed is spent, or once by a
