@@ -9,6 +9,7 @@
 
 #include "impact/oscillator.h"
 #include "impact/oscillator_loss.h"
+#include "impact/oscillator_series.h"
 #include "impact/response.h"
 
 /* Frequencies and ratios of 0. */
@@ -131,28 +132,66 @@ static struct step_table *table_allocate(size_t stride, bool damped)
     return table;
 }
 
-/* A turn of the mode over a time, see middle_term. */
-static void fill_turn(double *term, double omega, double time)
+/* Cosine and sine of an angle. */
+struct angle {
+    double cosine, sine;
+};
+
+static struct angle angle_of(double radians)
 {
-    double sine = sin(omega * time);
-    term[0] = cos(omega * time);
-    term[LANES] = sine / omega;
-    term[2 * LANES] = -omega * sine;
+    return (struct angle){cos(radians), sin(radians)};
+}
+
+static struct angle sum_of(struct angle a, struct angle b)
+{
+    return (struct angle){a.cosine * b.cosine - a.sine * b.sine,
+                          a.sine * b.cosine + a.cosine * b.sine};
+}
+
+static struct angle difference_of(struct angle a, struct angle b)
+{
+    return (struct angle){a.cosine * b.cosine + a.sine * b.sine,
+                          a.sine * b.cosine - a.cosine * b.sine};
+}
+
+/* What undamped modes are carried by: half a step, the nodes from its middle, and the turns to
+ * other middles. */
+struct swing {
+    struct angle half, pair[NODES / 2], whole, shorter, longer;
+};
+
+static struct swing swing_of(double angle)
+{
+    struct angle half = angle_of(0.5 * angle);
+    struct angle whole = sum_of(half, half);
+    return (struct swing){half,
+                          {angle_of((0.5 - collocation.node[0]) * angle),
+                           angle_of((0.5 - collocation.node[1]) * angle)},
+                          whole,
+                          sum_of(half, angle_of(0.25 * angle)),
+                          sum_of(half, whole)};
+}
+
+/* A turn of the mode, see middle_term. */
+static void fill_turn(double *term, double omega, struct angle angle)
+{
+    term[0] = angle.cosine;
+    term[LANES] = angle.sine / omega;
+    term[2 * LANES] = -omega * angle.sine;
 }
 
 /* The terms of an undamped mode whose forces' effect at the end is known. */
-static void fill_middle(struct step_table *table, double omega, double h, size_t k)
+static void fill_middle(struct step_table *table, double omega, const struct swing *swing, size_t k)
 {
     double *term = table->middle + k / LANES * LANES * MIDDLE_TERMS + k % LANES;
-    fill_turn(term + TURN_HALF * LANES, omega, 0.5 * h);
-    fill_turn(term + TURN_WHOLE * LANES, omega, h);
-    fill_turn(term + TURN_SHORTER * LANES, omega, 0.75 * h);
-    fill_turn(term + TURN_LONGER * LANES, omega, 1.5 * h);
+    fill_turn(term + TURN_HALF * LANES, omega, swing->half);
+    fill_turn(term + TURN_WHOLE * LANES, omega, swing->whole);
+    fill_turn(term + TURN_SHORTER * LANES, omega, swing->shorter);
+    fill_turn(term + TURN_LONGER * LANES, omega, swing->longer);
     const double *half = term + TURN_HALF * LANES;
     for (int pair = 0; pair < NODES / 2; pair++) {
-        double x = (0.5 - collocation.node[pair]) * h;
-        term[(MIDDLE_COSINE + pair) * LANES] = cos(omega * x);
-        term[(MIDDLE_SINE + pair) * LANES] = sin(omega * x) / omega;
+        term[(MIDDLE_COSINE + pair) * LANES] = swing->pair[pair].cosine;
+        term[(MIDDLE_SINE + pair) * LANES] = swing->pair[pair].sine / omega;
         /* what the forces of the pair do until the end, turned back by half a step; of the sum only
          * the even part is left, of the difference the odd one */
         double q[2];
@@ -169,6 +208,30 @@ static void fill_middle(struct step_table *table, double omega, double h, size_t
     }
 }
 
+/* An undamped mode on a step that is short for it: the nodes lie in pairs around the middle. */
+static void fill_short(struct step_table *table, double omega, double h, size_t k)
+{
+    double by[SERIES_ROWS][NODES];
+    struct swing swing = swing_of(omega * h);
+    oscillator_series_response(omega * h, h, by);
+    for (int i = 0; i < NODES; i++) {
+        struct angle at = i < NODES / 2 ? difference_of(swing.half, swing.pair[i])
+                                        : sum_of(swing.half, swing.pair[NODES - 1 - i]);
+        table->node_q[i][k] = at.cosine;
+        table->node_v[i][k] = at.sine / omega;
+    }
+    table->end_qq[k] = table->end_vv[k] = swing.whole.cosine;
+    table->end_qv[k] = swing.whole.sine / omega;
+    table->end_vq[k] = -omega * swing.whole.sine;
+    memcpy(table->response + k * RESPONSE_TERMS, by, RESPONSE_TERMS * sizeof(double));
+    for (int j = 0; j < NODES; j++) {
+        table->force_q[j][k] = by[NODES][j];
+        table->force_v[j][k] = by[STEP_POINTS][j];
+    }
+    fill_middle(table, omega, &swing, k);
+}
+
+/* Any mode on any step. */
 static void fill_mode(struct step_table *table, const struct oscillators *set, double h, size_t k)
 {
     double to_q[NODES + 2];
@@ -201,7 +264,21 @@ static void fill_mode(struct step_table *table, const struct oscillators *set, d
             for (int s = 0; s <= r; s++, term++)
                 table->loss[term][k] = form[r][s];
     } else {
-        fill_middle(table, set->omega[k], h, k);
+        struct swing swing = swing_of(set->omega[k] * h);
+        fill_middle(table, set->omega[k], &swing, k);
+    }
+}
+
+/* The oscillators from `first` to `count` of a level's table. */
+static void fill(struct step_table *table, const struct oscillators *set, int level,
+                 const size_t range[2])
+{
+    double h = step_length(level);
+    for (size_t k = range[0]; k < range[1]; k++) {
+        if (set->most_damping == 0.0 && oscillator_series_reaches(set->omega[k] * h))
+            fill_short(table, set->omega[k], h, k);
+        else
+            fill_mode(table, set, h, k);
     }
 }
 
@@ -232,8 +309,10 @@ static void gather(struct step_table *table, const struct oscillators *part, int
                RESPONSE_TERMS * sizeof(double));
         if (table->middle && whole->middle)
             gather_middle(table->middle, i, whole->middle, k);
-        else if (table->middle)
-            fill_middle(table, part->omega[i], step_length(level), i);
+        else if (table->middle) {
+            struct swing swing = swing_of(part->omega[i] * step_length(level));
+            fill_middle(table, part->omega[i], &swing, i);
+        }
     }
 }
 
@@ -251,9 +330,9 @@ static const struct step_table *table_of_first(struct oscillators *set, size_t c
         if (!table_of_first(set->whole, set->which[count - 1] + 1, level))
             return NULL;
         gather(table, set, level, range);
+    } else {
+        fill(table, set, level, range);
     }
-    for (size_t k = range[0]; !set->whole && k < count; k++)
-        fill_mode(table, set, step_length(level), k);
     set->filled[level] = count;
     return table;
 }
