@@ -2,7 +2,7 @@
 # Copyright 2026 The percuss authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# What a warm solve costs by its parts, in instructions, beside what its arithmetic alone would cost, what the
+# What a warm solve and a first one cost by their parts, in instructions, beside what its arithmetic alone would cost, what the
 # daemon adds, and how a step's cost grows with modes and contacts: writes the tables of docs/performance.md
 # between its marks, and its figure.
 # usage: performance.sh BUILD [FOLDER]    a Release build with tests/bench/solve_once, fixed_part and growth;
@@ -64,6 +64,14 @@ solve_purposes() {
 the answer and its modes|mode_search|sequence_compare
 estimate of its error|sequence_compare step_search|
 the models' error|model_error_find|
+PARTS
+}
+
+# what the first solve of a body adds, and what it shares with any other
+first_parts() {
+    cat <<'PARTS'
+frequencies and shapes|modal_family_create|
+tables of contact steps|table_of_first|
 PARTS
 }
 
@@ -157,6 +165,11 @@ for scene in rod beam; do
         scenes="$scenes $scene-$tolerance"
     done
 done
+first=
+for scene in rod beam; do
+    profile "first-$scene" counted_solve "$build/tests/bench/solve_once" "$scene" 1e-3 first
+    first="$first first-$scene"
+done
 for scene in sphere-sphere rod-1e-4 beam-1e-3; do
     profile "answer-$scene" counted_answer "$build/tests/bench/fixed_part" --once "$scene"
 done
@@ -183,6 +196,9 @@ tables() {
         echo
         head "how often" $scenes
         counts $scenes
+        echo
+        head "the first solve, 1e-3" rod beam
+        table first_parts counted_solve $first
     }
     echo
     head instructions sphere-sphere "rod 1e-4" "beam 1e-3, 0.2 m/s"

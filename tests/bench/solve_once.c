@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Warm solves of the rod and the beam, of groups of contacts, and of an ensemble's samples, for
- * counting instructions: instructions.sh. */
+/* Warm solves of the rod and the beam, their first ones, groups of contacts, and an ensemble's
+ * samples, for counting instructions: instructions.sh, performance.sh. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -142,23 +142,26 @@ static enum percuss_status solve_sites(struct solve_workspace *workspace,
     return status;
 }
 
-/* solve_once rod|beam TOLERANCE [groups|singles|samples|sites|sites-again]: the scene; or thirty
- * groups of three strikers on its body; or each of their contacts by itself; or a hundred samples
- * of an ensemble; or a hundred sites along it that are new, or asked of again. */
+/* solve_once rod|beam TOLERANCE [first|groups|singles|samples|sites|sites-again]: the scene, warm;
+ * or when nothing is known of its bodies; or thirty groups of three strikers on its body; or each
+ * of their contacts by itself; or a hundred samples of an ensemble; or a hundred sites along it
+ * that are new, or asked of again. */
 int main(int argc, char **argv)
 {
     static struct bench_catalogue catalogue;
     static struct solve_result result;
     const struct bench_scene *scene = argc >= 3 ? bench_scene_find(argv[1]) : NULL;
     double tolerance = argc >= 3 ? strtod(argv[2], NULL) : 0.0;
+    bool first = argc == 4 && strcmp(argv[3], "first") == 0;
     bool groups = argc == 4 && strcmp(argv[3], "groups") == 0;
     bool singles = argc == 4 && strcmp(argv[3], "singles") == 0;
     bool samples = argc == 4 && strcmp(argv[3], "samples") == 0;
     bool again = argc == 4 && strcmp(argv[3], "sites-again") == 0;
     bool sites = again || (argc == 4 && strcmp(argv[3], "sites") == 0);
-    if (!scene || !(tolerance > 0.0) || (argc != 3 && !groups && !singles && !samples && !sites)) {
+    bool known = first || groups || singles || samples || sites;
+    if (!scene || !(tolerance > 0.0) || (argc != 3 && !known)) {
         fprintf(stderr, "usage: solve_once SCENE TOLERANCE "
-                        "[groups|singles|samples|sites|sites-again]\n");
+                        "[first|groups|singles|samples|sites|sites-again]\n");
         return 2;
     }
     const struct solve_means means = {.catalogue = &catalogue.set};
@@ -168,6 +171,8 @@ int main(int argc, char **argv)
     uint64_t seed = 3;
     if (workspace && bench_catalogue_make(&catalogue, 0) && argc == 3)
         status = solve_warm(workspace, &means, &request, &result);
+    else if (first && catalogue.set.count)
+        status = counted_solve(workspace, &means, &request, &result);
     else if (samples && catalogue.set.count)
         status = solve_samples(&means, &request, &result);
     else if (sites && catalogue.set.count)
