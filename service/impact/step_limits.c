@@ -22,12 +22,12 @@ struct care_limits {
 };
 
 /* With these the steps of a contact leave some 0.1 accuracy^0.8 in the restitution
- * (docs/accuracy.md, error.restitution_time). A sequence's contact has some ten steps at least, of
- * which the last is a sixtieth of it; with the steps of a single blow, some six at least, sequences
- * would be met and wrong three times as often. Rough solutions of sequences of three were within
- * 3e-3 of careful ones. */
+ * (docs/accuracy.md, error.restitution_time). Of a sequence's contact the steps between tell: those
+ * that begin and end it may be twice as long before e changes as much. With the steps of a single
+ * blow sequences would be met and wrong three times as often. Rough solutions of sequences of three
+ * were within 3e-3 of careful ones. */
 static const struct care_limits cares[IMPACT_CARES] = {
-    [IMPACT_CARE_SEQUENCE] = {0.6, 1.5, 4.0, 0.02, 0.05, 0.5},
+    [IMPACT_CARE_SEQUENCE] = {0.6, 4.0, 10.0, 0.02, 0.05, 0.5},
     [IMPACT_CARE_SINGLE] = {0.8, 17.0, 42.0, 0.05, 0.2, 0.7},
     [IMPACT_CARE_ROUGH] = {0.6, 20.0, 40.0, 0.1, 0.3, 0.7},
 };
