@@ -13,6 +13,9 @@
  * five- to twentyfold as a rule. */
 static const double FEWER_SEQUENCE = 1e-4;
 
+/* The same of first order along a sequence, which is compared with nothing. */
+static const double FEWER_FIRST_ORDER = 1e-3;
+
 /* Leaves out the highest modes, whose inertia and viscosity would change no contact's impulse by
  * more than `allowed` of that of compression, as the answer's forces tell (mode_search.c); their
  * static compliance goes into `fewer->residual`. Modes in motion at the beginning stay. Arrays come

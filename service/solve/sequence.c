@@ -8,6 +8,7 @@
 #include "impact/tangent.h"
 #include "solve/assemble.h"
 #include "solve/fewer.h"
+#include "solve/first_steps.h"
 #include "solve/nearby.h"
 
 /* A change that is so many times what was left out is that of a sequence that amplifies; 10 times
@@ -28,10 +29,11 @@ static const double STRAIN = 0.1;
 /* True error over what first order says of the omitted modes: below 2 for 98 of 100 random
  * sequences. */
 static const double FIRST_ORDER_FACTOR = 2.5;
-/* Steps of the first accuracy have been seen to leave up to 9e-5 of e of sequences whose omitted
- * modes did not tell (docs/accuracy.md), and what part of the tolerance is little enough of it. */
-static const double STRAY = 6e-5;
-static const double STRAY_SHARE = 0.1;
+/* What steps leave of e of sequences whose omitted modes do not tell is below this for 98 of 100
+ * random ones (docs/accuracy.md): with the first accuracy of coarse tolerances, and of finer ones.
+ */
+static const double STRAY_COARSE = 6e-5;
+static const double STRAY_FINE = 4e-5;
 
 static void widen(struct mode_error *error, double factor, struct outcome_difference change)
 {
@@ -88,15 +90,17 @@ static enum percuss_status compare_again(struct attempt_context *context, struct
     return compare_fewer_modes(context, best, error);
 }
 
-/* Whether first order is asked: steps of this accuracy leave little of the tolerance, and the
+/* Whether first order is asked: steps of the first accuracy leave little of the tolerance, and the
  * bodies do not ring already, when forces would not be slow. */
 static bool is_followed(const struct attempt_context *context, const struct attempt *best)
 {
     for (size_t b = 0; b < context->problem->body_count; b++)
         if (context->problem->states[b])
             return false;
+    double tolerance = context->problem->tolerance;
+    bool fine = best->accuracy <= first_steps_accuracy(tolerance, true, false);
     return context->nearby->solutions == 1 && attempt_is_followed(context, best) &&
-           STRAY <= STRAY_SHARE * context->problem->tolerance;
+           (tolerance >= FIRST_STEPS_FOLLOWED || (fine && tolerance >= FIRST_STEPS_FOLLOWED_FINE));
 }
 
 /* What inertia and viscosity of the omitted modes do, followed along the answer with fewer modes.
@@ -108,7 +112,7 @@ static enum percuss_status follow(struct attempt_context *context, const struct 
     const struct omitted *omitted = &best->assembly->omitted[0];
     const struct tangent_source source = {.viscosity = omitted->viscosity,
                                           .inertia = omitted->inertia};
-    if (!fewer_modes(context->problem, &best->assembly->scene, &best->outcome, FEWER_SEQUENCE,
+    if (!fewer_modes(context->problem, &best->assembly->scene, &best->outcome, FEWER_FIRST_ORDER,
                      &scene))
         return PERCUSS_INTERNAL;
     return tangent_follow(&scene, best->log, &source, context->arena, context->pace, tangent);
@@ -130,18 +134,21 @@ static enum percuss_status by_first_order(struct attempt_context *context,
     double slow = error->restitution;
     double compression = problem_largest_compression(context->problem);
     double change = tangent.largest / compression;
-    error->amplified = change / slow;
+    error->strained = tangent.strain / slow;
     if (!(tangent.strain <= STRAIN) ||
         change > STRONG * fmax(slow, NOTHING * context->problem->tolerance))
         return PERCUSS_OK;
     /* what the steps leave of one blow is amplified alike */
     double modes = FIRST_ORDER_FACTOR * change;
-    double steps = fmax(attempt_steps_leave(best->accuracy) * fmax(1.0, change / slow), STRAY);
-    double allowed = BOTH_SHARE * context->problem->tolerance;
-    *known = modes > allowed || modes + steps <= allowed;
+    double tolerance = context->problem->tolerance;
+    double stray = tolerance >= FIRST_STEPS_FOLLOWED ? STRAY_COARSE : STRAY_FINE;
+    double steps = fmax(attempt_steps_leave(best->accuracy) * fmax(1.0, change / slow), stray);
+    double allowed = BOTH_SHARE * tolerance;
+    double both = hypot(modes, steps); /* nothing makes the one follow the other */
+    *known = modes > allowed || both <= allowed;
     if (!*known)
         return PERCUSS_OK;
-    error->restitution = modes + steps;
+    error->restitution = both;
     error->impulse = error->restitution * compression;
     error->covers_steps = modes <= allowed;
     return PERCUSS_OK;
@@ -197,19 +204,19 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
     /* good where they agree, unless that may be chance */
     struct outcome_difference change =
         outcome_compare(context->problem, &best->outcome, &both.outcome);
-    double amplified = change.restitution / slow.restitution;
+    double strained = change.restitution / slow.restitution;
     bool is_long =
         attempt_is_long(best) ||
         change.restitution > STRONG * fmax(slow.restitution, NOTHING * context->problem->tolerance);
     widen(error, SEQUENCE_FACTOR, change);
-    error->amplified = amplified;
+    error->strained = strained;
     error->covers_steps =
         first && !is_long && error->restitution <= BOTH_SHARE * context->problem->tolerance;
     if (error->covers_steps)
         return PERCUSS_OK;
     /* otherwise which of the two makes the difference */
     *error = slow;
-    error->amplified = amplified;
+    error->strained = strained;
     status = tell_apart(context, best, &both, error);
     if (status || error->unchecked || error->by_steps ||
         error->restitution > SEQUENCE_MODES_SHARE * context->problem->tolerance)

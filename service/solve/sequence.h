@@ -13,7 +13,8 @@ struct mode_error {
     double restitution, impulse;
     bool covers_steps; /* what longer time steps do to a sequence is in it */
     bool by_steps;     /* it is too large, and longer time steps do more */
-    double amplified;  /* change of e over what was changed of one blow's; 0: not known */
+    double strained;   /* change of a sub-impact's impulse, over itself, or of e where only that is
+                          known, over what was changed of one blow's e; 0: neither is known */
     bool unchecked;    /* the effort did not suffice to find it out */
     const struct attempt
         *longer; /* solved with longer time steps; NULL: not needed. In the arena */

@@ -8,6 +8,7 @@
 
 #include "solve/attempt.h"
 #include "solve/contact_model.h"
+#include "solve/first_steps.h"
 #include "solve/formulation.h"
 
 /* Less of the effort allowed than a step costs at most. */
@@ -120,8 +121,8 @@ static double first_accuracy(const struct problem *problem, bool sequence)
 {
     bool group = problem->contact_count > 1;
     bool table = contact_model_used(problem)->tables == CONTACT_TABLES_ONLY;
-    return table ? step_search_first_of_table(problem->tolerance, sequence, group)
-                 : step_search_first_accuracy(problem->tolerance, sequence, group);
+    return table ? first_steps_of_table(problem->tolerance, sequence, group)
+                 : first_steps_accuracy(problem->tolerance, sequence, group);
 }
 
 /* By as many modes and as short steps as the tolerance asks for. */

@@ -5,22 +5,13 @@
 
 #include <math.h>
 
+#include "solve/first_steps.h"
 #include "solve/nearby.h"
 
 /* Each takes a hundredth: six digits in all. */
 enum { MAX_TIGHTENINGS = 3 };
-/* Share of the tolerance that the accuracy of the first steps is: of a single contact, of a
- * sequence, and where contacts open and close within steps or the audit is to close. */
-static const double SHARE_SINGLE = 0.1;
-static const double SHARE_SEQUENCE = 0.01;
-static const double SHARE_FINE = 1e-3;
-/* And what it is at most. */
-static const double MOST_SINGLE = 1.0;
-static const double MOST_SEQUENCE = 1e-5;
-static const double MOST_GROUP = 1e-6;
-/* A tolerance that asks for the audit to close, and how closely; otherwise as CLOSURE tolerances.
- */
-static const double AUDITED = 1e-8;
+/* How closely the audit must close where the tolerance asks for it; otherwise as CLOSURE
+ * tolerances. */
 static const double AUDIT = 1e-9;
 static const double CLOSURE = 10.0;
 /* The energy's defect counts so many times, to be safe. */
@@ -29,33 +20,8 @@ static const double SAFETY = 4.0;
 static const double ALMOST = 0.99;
 /* Of the effort allowed: for shorter steps where those that it sufficed for lose the energy. */
 static const double LAST_EFFORT = 0.5;
-/* From here down longer steps are tried for comparison, for sequences always. */
-static const double COMPARE_BELOW = 1e-5;
 /* Of a long one, or a group, another solution is asked for. */
 static const double SLIGHTLY_LONGER = 10.0;
-
-/* The audit must close to 1e-9 where the tolerance is 1e-8 or less. In groups contacts open and
- * close within steps. Longer steps for comparison than those of 2e-4 do not exist. */
-double step_search_first_accuracy(double tolerance, bool sequence, bool group)
-{
-    bool fine = tolerance <= AUDITED || group;
-    double share = fine ? SHARE_FINE : sequence ? SHARE_SEQUENCE : SHARE_SINGLE;
-    double most = group ? MOST_GROUP : sequence ? MOST_SEQUENCE : MOST_SINGLE;
-    return fmax(fmin(share * tolerance, most), ATTEMPT_FINEST);
-}
-
-/* Steps pass most of a table's joints, where its second derivative jumps: what that leaves goes
- * with the root of their accuracy, some 4e-3 times it of the paper's rod. The accuracy that leaves
- * a good half of what the tolerance allows, over the tolerance's square. */
-static const double SHARE_TABLE = 300.0;
-
-/* Where they are compared with longer ones these shall leave no more. */
-double step_search_first_of_table(double tolerance, bool sequence, bool group)
-{
-    double smooth = step_search_first_accuracy(tolerance, sequence, group);
-    double share = tolerance < COMPARE_BELOW ? SHARE_TABLE / ATTEMPT_LONGER : SHARE_TABLE;
-    return fmax(fmin(smooth, share * tolerance * tolerance), ATTEMPT_FINEST);
-}
 
 /* Least restitution that an elastic contact's rebound is taken for: what it gives to vibration
  * leaves it with speed. */
@@ -125,7 +91,7 @@ static enum percuss_status estimate(struct attempt_context *context, const struc
 {
     bool sequence = attempt_is_sequence(best);
     *error = estimate_alone(context, best);
-    if (compared || (!sequence && context->problem->tolerance >= COMPARE_BELOW))
+    if (compared || (!sequence && context->problem->tolerance >= FIRST_STEPS_COMPARED))
         return PERCUSS_OK;
     enum percuss_status status = compare(context, best, ATTEMPT_LONGER, coarse, error);
     bool again = sequence && (attempt_is_long(best) || context->problem->contact_count > 1);
@@ -142,7 +108,7 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
     double tolerance = context->problem->tolerance;
     enum percuss_method method = context->problem->request->options.method;
     double closure_allowed =
-        tolerance <= AUDITED ? AUDIT : fmin(CLOSURE * tolerance, OUTCOME_WORST_DEFECT);
+        tolerance <= FIRST_STEPS_AUDITED ? AUDIT : fmin(CLOSURE * tolerance, OUTCOME_WORST_DEFECT);
     const struct attempt *coarse = modes->longer;
     struct attempt before;
     for (int i = 0;; i++) {

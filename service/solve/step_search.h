@@ -15,13 +15,6 @@ struct step_error {
     bool unchecked;       /* of a sequence: the effort did not suffice to find it out */
 };
 
-/* Accuracy of the time steps to begin with; a sequence of sub-impacts is expected to amplify their
- * error. */
-double step_search_first_accuracy(double tolerance, bool sequence, bool group);
-
-/* The same where the law is interpolated. */
-double step_search_first_of_table(double tolerance, bool sequence, bool group);
-
 /* Solves the attempt's scene again with shorter steps if its error is too large. `modes`: what is
  * known of the attempt already, as longer steps than its own are. PERCUSS_OK, PERCUSS_INTERNAL or
  * PERCUSS_TIMEOUT. */

@@ -1,33 +1,13 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/step_search.c: where it begins, how far it goes, and that the error it
+/* Mirrors service/solve/step_search.c: how far it goes, and that the error it
  * states is no less than the distance from a solution with far shorter steps. */
 #include "solve/step_search.h"
 #include "unit/solve/search_lab.h"
 
 enum { MODES = 12 };
 static const double FINE = 1e-13;
-
-/* A tenth of the tolerance; a hundredth of what a sequence amplifies tenfold, a thousandth in
- * groups and of the smallest tolerances; and never less than is tried. */
-static void begins_below_the_tolerance(void **state)
-{
-    (void)state;
-    near_relative(step_search_first_accuracy(1e-3, false, false), 1e-4, 1e-12);
-    near_relative(step_search_first_accuracy(1e-4, true, false), 1e-6, 1e-12);
-    near_relative(step_search_first_accuracy(1e-4, true, true), 1e-7, 1e-12);
-    near_relative(step_search_first_accuracy(1e-8, false, false), 1e-11, 1e-12);
-    near_relative(step_search_first_accuracy(0.5, true, false), 1e-5, 1e-12);
-    near_relative(step_search_first_accuracy(0.5, true, true), 1e-6, 1e-12);
-    near_relative(step_search_first_accuracy(1e-17, false, false), ATTEMPT_FINEST, 0.0);
-    /* a table's joints: the tolerance's square, of the longer steps that these are compared with */
-    near_relative(step_search_first_of_table(1e-3, false, false), 1e-4, 1e-12);
-    near_relative(step_search_first_of_table(1e-5, false, false), 3e-8, 1e-12);
-    near_relative(step_search_first_of_table(1e-6, false, false), 3e-12, 1e-12);
-    near_relative(step_search_first_of_table(1e-3, true, true), 1e-6, 1e-12);
-    near_relative(step_search_first_of_table(1e-12, false, false), ATTEMPT_FINEST, 0.0);
-}
 
 /* From steps that are too long to those that meet the tolerance: by hundreds. */
 static void shortens_steps_until_they_do(void **state)
@@ -97,7 +77,6 @@ static void a_rigid_pair_has_hardly_any_error(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(begins_below_the_tolerance),
         cmocka_unit_test(shortens_steps_until_they_do),
         cmocka_unit_test(believes_what_covers_it),
         cmocka_unit_test(a_rigid_pair_has_hardly_any_error),
