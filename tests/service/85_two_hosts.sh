@@ -306,5 +306,28 @@ waiting=$started
 expect 0 strike
 impacts_are bar 4
 
+say "the interface of the one that answers is gone: it can be told to end, and the other one takes over"
+ip -n "$space-$from" link set eth0 down
+sleep 2
 ends "$answering"
+take_turns
+expect 0 strike
+impacts_are bar 5
+
+say "so it can, later, where the configuration gives each socket a thread, which Cyclone DDS does not end then"
+ip -n "$space-$to" link set eth0 up
+ends "$answering"
+network -e 's|<AllowMulticast>false|<AllowMulticast>true|' -e '/<Peers>/,/<\/Peers>/d' -e '/<Internal>/,/<\/Internal>/d'
+start_on left
+answering=$started
+is_ready left
+waits right
+waiting=$started
+expect 0 strike
+ip -n "$space-left" link set eth0 down
+ends "$answering" 1
+expect_told left "DDS does not end within"
+is_ready right
+expect 0 strike
+impacts_are bar 7
 ends "$waiting"
