@@ -103,13 +103,25 @@ static void reload(struct service *service, const struct notifier *notifier)
     notify(notifier, "READY=1");
 }
 
+/* Ends the daemon where its place is another one's, which may answer already. */
+static void look_at_place(const char *standby)
+{
+    if (!standby[0] || standby_is_held(standby))
+        return;
+    log_line(LEVEL_ERROR, "standby: %s: its lock is not this process's any more: ends at once",
+             standby);
+    _exit(EXIT_FAILURE);
+}
+
 /* Until somebody asks for the end. */
-static void serve(struct service *service, const sigset_t *signals, const struct notifier *notifier)
+static void serve(struct service *service, const sigset_t *signals, const struct notifier *notifier,
+                  const char *standby)
 {
     /* signs of life are due more often than the manager looks for them */
     double period = notifier->watchdog > 0.0 ? fmin(1.0, 0.25 * notifier->watchdog) : 1.0;
     notify(notifier, "READY=1");
     for (;;) {
+        look_at_place(standby);
         report(service, notifier);
         int signal_number = wait_for_signal(signals, period);
         if (signal_number == SIGHUP)
@@ -201,7 +213,7 @@ int main(int argc, char **argv)
         return EXIT_FAILURE;
     }
     /* until a signal, and then what is still queued */
-    serve(service, &signals, &notifier);
+    serve(service, &signals, &notifier, settings.standby);
     if (!drain(service, &signals, settings.drain_seconds, &notifier)) {
         /* a thread still works, so nothing is taken apart */
         log_line(LEVEL_ERROR, "ends with requests unanswered");

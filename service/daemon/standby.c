@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "catalogue/catalogue.h"
@@ -17,6 +18,9 @@
 
 /* 32 hexadecimal digits and the end of the line. */
 enum { LINE_SIZE = 33 };
+
+/* The file whose lock this process has, or -1. The lock is the process's, and so is this. */
+static int held = -1;
 
 /* Between two looks at whether the place is free: far below the lease of a killed daemon. */
 static const struct timespec TURN = {.tv_nsec = 50000000};
@@ -92,7 +96,18 @@ enum percuss_status standby_take(const char *path, uint8_t server[16], struct fa
     /* left open where it is locked, to the end of the process */
     if (status)
         close(file);
+    else
+        held = file;
     return status;
+}
+
+bool standby_is_held(const char *path)
+{
+    struct fault fault;
+    struct stat locked, named;
+    return held >= 0 && lock(held, path, &fault) == PERCUSS_OK && fstat(held, &locked) == 0 &&
+           stat(path, &named) == 0 && locked.st_dev == named.st_dev &&
+           locked.st_ino == named.st_ino;
 }
 
 /* Whether the catalogue could be served: better said now than when it is needed. */

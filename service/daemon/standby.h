@@ -9,6 +9,7 @@
 #define PERCUSS_DAEMON_STANDBY_H
 
 #include <signal.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base/fault.h"
@@ -20,6 +21,10 @@
  * used. The same file must not be opened elsewhere in the process: closing it there would give the
  * lock away. */
 enum percuss_status standby_take(const char *path, uint8_t server[16], struct fault *fault);
+
+/* Whether the place is still this process's, and the file the one of that name: a network's file
+ * system takes the lock from a machine that was cut off, and somebody may delete the file. */
+bool standby_is_held(const char *path);
 
 /* What a standby's wait comes to. */
 enum standby_end { STANDBY_TAKEN, STANDBY_STOPPED, STANDBY_FAILED };

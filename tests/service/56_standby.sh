@@ -204,3 +204,16 @@ sed "/^standby/d" "$work/percussd.yaml" >"$work/second.yaml"
 expect 1 "$bin/percussd" --config "$work/second.yaml" --domain "$domain"
 says "specimens.db: is in use by another process"
 stop_daemon
+
+say "the lock's file is deleted: the daemon whose it was ends, and the next one may come"
+start_daemon
+rm "$work/standby.lock"
+wait_for 20 is_gone "$daemon" || fail "it goes on"
+code=0
+wait "$daemon" || code=$?
+[ "$code" -eq 1 ] || fail "it ended with $code"
+logged "standby.lock: its lock is not this process's any more: ends at once" || fail "the log does not say why"
+start_daemon
+expect 0 percuss dents --specimen bar-1 --json
+[ "$(field impacts)" = 3 ] || fail "$(cat "$out")"
+stop_daemon

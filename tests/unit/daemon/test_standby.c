@@ -1,10 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* daemon/standby: one process at a time has the place, under one id, until it ends; and what a file
- * must be for that. */
+/* daemon/standby: one process at a time has the place, under one id, until it ends or loses it; and
+ * what a file must be for that. */
 #include "daemon/standby.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -90,6 +91,36 @@ static void test_one_at_a_time(void **state)
     assert_memory_not_equal(first, second, sizeof first);
 }
 
+/* This process's until another one has the lock, or the file has another name. */
+static void test_lost(void **state)
+{
+    (void)state;
+    unlink("lock");
+    uint8_t server[16], other[16];
+    struct fault fault;
+    pid_t orphan;
+    assert_false(standby_is_held("lock"));
+    assert_int_equal(standby_take("lock", server, &fault), PERCUSS_OK);
+    assert_true(standby_is_held("lock"));
+    assert_int_equal(take_elsewhere(other), PERCUSS_BUSY);
+    /* the system gives away all locks of a process on a file when it closes any of its openings */
+    int again = open("lock", O_RDONLY);
+    assert_true(again >= 0);
+    close(again);
+    pid_t holder = hold(other, &orphan);
+    assert_memory_equal(server, other, sizeof server);
+    assert_false(standby_is_held("lock"));
+    kill(orphan, SIGKILL);
+    kill(holder, SIGKILL);
+    assert_int_equal(waitpid(holder, NULL, 0), holder);
+    assert_true(standby_is_held("lock"));
+    /* deleted, and replaced */
+    assert_int_equal(unlink("lock"), 0);
+    assert_false(standby_is_held("lock"));
+    assert_int_equal(take_elsewhere(other), PERCUSS_OK);
+    assert_false(standby_is_held("lock"));
+}
+
 static void write_lock(const char *text)
 {
     FILE *file = fopen("lock", "w");
@@ -130,6 +161,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_at_a_time),
         cmocka_unit_test(test_files),
+        cmocka_unit_test(test_lost),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
