@@ -45,6 +45,9 @@ for program in $programs; do
     done
 done
 
+say "no page breaks a word at its hyphen: it would be printed with a space"
+! grep -n '[a-z]-$' "$source_dir"/client/man/* || fail "a line ends with a hyphen"
+
 say "a mistyped command is known again, a word that no command takes is named"
 for typed in "qury query" "Sweep sweep" "emsemble ensemble" "stat status" "calib calibrate" "statsu status"; do
     expect 2 "$bin/percuss" "${typed% *}"
