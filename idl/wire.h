@@ -43,8 +43,9 @@ bool wire_is_configured(void);
 const char *wire_participant_problem(dds_return_t code);
 
 /* A topic whose readers drop every sample that is not a whole one of its type (wire_whole.h) before
- * DDS decodes it. `descriptor`: of an @appendable type with a key. Returns the entity, a child of
- * the participant, or a negative DDS return code. */
+ * DDS decodes it. `descriptor`: of an @appendable type with a key, which goes as XCDR2, or of a
+ * @final one without, which goes as XCDR1. Returns the entity, a child of the participant, or a
+ * negative DDS return code. */
 dds_entity_t wire_topic_create(dds_entity_t participant, const dds_topic_descriptor_t *descriptor,
                                const char *name);
 

@@ -16,11 +16,16 @@
 
 enum { ENCAPSULATION = 4, LARGEST_HEAD = 512 };
 
-/* Those of Cyclone DDS for keyed types in XCDR2, with a check in front of what comes from the
- * network. */
-static struct ddsi_serdata_ops sample_operations;
+/* Those of Cyclone DDS for keyed types in XCDR2 and for keyless ones in XCDR1, with a check in
+ * front of what comes from the network. */
+static struct ddsi_serdata_ops keyed_operations, keyless_operations;
 static struct ddsi_sertype_ops type_operations;
 static pthread_once_t operations_once = PTHREAD_ONCE_INIT;
+
+static const struct ddsi_serdata_ops *behind_check(const struct ddsi_sertype *type)
+{
+    return type->typekind_no_key ? &ddsi_serdata_ops_cdr_nokey : &ddsi_serdata_ops_xcdr2;
+}
 
 /* Whether DDS may look at a sample: `size` bytes from the encapsulation header on. */
 static bool may_pass(const struct ddsi_sertype *type, const uint8_t *data, size_t size)
@@ -28,15 +33,19 @@ static bool may_pass(const struct ddsi_sertype *type, const uint8_t *data, size_
     const struct ddsi_sertype_default *own = (const struct ddsi_sertype_default *)type;
     if (size < ENCAPSULATION || data[0] != 0)
         return false;
-    /* delimited XCDR2, of a big or a little machine */
-    const uint8_t big = 8, little = 9;
-    if (data[1] != big && data[1] != little)
+    /* each for a big machine; plus one for a little one. DDS takes plain XCDR2 where it is told of
+     * XCDR1 */
+    const uint8_t xcdr1 = 0, plain = 6, delimited = 8;
+    const uint8_t representation = data[1] & 0xfe;
+    if (type->typekind_no_key ? representation != xcdr1 && representation != plain
+                              : representation != delimited)
         return false;
     /* DDS takes only this bit of the padding's size */
     size_t padding = data[3] & 2;
-    bool swapped = (data[1] == big) == (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
-    return size - ENCAPSULATION >= padding && wire_whole(own->type.ops.ops, data + ENCAPSULATION,
-                                                         size - ENCAPSULATION - padding, swapped);
+    bool swapped = (data[1] == representation) == (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
+    return size - ENCAPSULATION >= padding &&
+           wire_whole_in(representation == xcdr1 ? 1 : 2, own->type.ops.ops, data + ENCAPSULATION,
+                         size - ENCAPSULATION - padding, swapped);
 }
 
 static struct ddsi_serdata *take_bytes(const struct ddsi_sertype *type, void *data, size_t size)
@@ -44,7 +53,7 @@ static struct ddsi_serdata *take_bytes(const struct ddsi_sertype *type, void *da
     if (!may_pass(type, data, size))
         return NULL;
     ddsrt_iovec_t whole = {.iov_base = data, .iov_len = size};
-    return ddsi_serdata_ops_xcdr2.from_ser_iov(type, SDK_DATA, 1, &whole, size);
+    return behind_check(type)->from_ser_iov(type, SDK_DATA, 1, &whole, size);
 }
 
 static const unsigned char *fragment_data(const struct nn_rdata *fragment)
@@ -81,7 +90,7 @@ static struct ddsi_serdata *from_network(const struct ddsi_sertype *type,
         return take_fragments(type, fragments, size);
     if (kind == SDK_DATA && !may_pass(type, fragment_data(fragments), fragments->maxp1))
         return NULL;
-    return ddsi_serdata_ops_xcdr2.from_ser(type, kind, fragments, size);
+    return behind_check(type)->from_ser(type, kind, fragments, size);
 }
 
 /* What the security plugins have decrypted, and what comes from this process in another type. */
@@ -90,7 +99,7 @@ static struct ddsi_serdata *from_pieces(const struct ddsi_sertype *type,
                                         const ddsrt_iovec_t *pieces, size_t size)
 {
     if (kind != SDK_DATA)
-        return ddsi_serdata_ops_xcdr2.from_ser_iov(type, kind, count, pieces, size);
+        return behind_check(type)->from_ser_iov(type, kind, count, pieces, size);
     size_t filled = 0;
     uint8_t *data = malloc(size);
     for (size_t i = 0; data && i < (size_t)count && pieces[i].iov_len <= size - filled; i++) {
@@ -117,16 +126,23 @@ static struct ddsi_serdata *to_key(const struct ddsi_serdata *sample)
         abort();
     memcpy(&head, sample, size);
     ddsi_serdata_to_ser_unref(held, &header);
-    head.common.ops = &ddsi_serdata_ops_xcdr2;
-    return ddsi_serdata_ops_xcdr2.to_untyped(&head.common);
+    head.common.ops = behind_check(sample->type);
+    return head.common.ops->to_untyped(&head.common);
+}
+
+static void put_check(struct ddsi_serdata_ops *operations)
+{
+    operations->from_ser = from_network;
+    operations->from_ser_iov = from_pieces;
+    operations->to_untyped = to_key;
 }
 
 static void prepare_operations(void)
 {
-    sample_operations = ddsi_serdata_ops_xcdr2;
-    sample_operations.from_ser = from_network;
-    sample_operations.from_ser_iov = from_pieces;
-    sample_operations.to_untyped = to_key;
+    keyed_operations = ddsi_serdata_ops_xcdr2;
+    keyless_operations = ddsi_serdata_ops_cdr_nokey;
+    put_check(&keyed_operations);
+    put_check(&keyless_operations);
     type_operations = ddsi_sertype_ops_default;
     /* there is no other representation to derive a type for */
     type_operations.derive_sertype = NULL;
@@ -137,15 +153,17 @@ static struct ddsi_sertype_default *create_type(const dds_topic_descriptor_t *de
 {
     struct ddsi_sertype_default *type = dds_alloc(sizeof *type);
     memset(type, 0, sizeof *type);
-    ddsi_sertype_init(&type->c, descriptor->m_typename, &type_operations, &sample_operations,
-                      false);
-    /* written as delimited XCDR2 alone */
-    type->c.allowed_data_representation = DDS_DATA_REPRESENTATION_FLAG_XCDR2;
+    const bool keyless = descriptor->m_nkeys == 0;
+    ddsi_sertype_init(&type->c, descriptor->m_typename, &type_operations,
+                      keyless ? &keyless_operations : &keyed_operations, keyless);
+    /* written as delimited XCDR2 alone, or as XCDR1 */
+    type->c.allowed_data_representation =
+        keyless ? DDS_DATA_REPRESENTATION_RESTRICT_DEFAULT : DDS_DATA_REPRESENTATION_FLAG_XCDR2;
 #ifdef DDS_HAS_SHM
     type->c.iox_size = descriptor->m_size;
 #endif
-    type->encoding_format = CDR_ENC_FORMAT_DELIMITED;
-    type->write_encoding_version = CDR_ENC_VERSION_2;
+    type->encoding_format = keyless ? CDR_ENC_FORMAT_PLAIN : CDR_ENC_FORMAT_DELIMITED;
+    type->write_encoding_version = keyless ? CDR_ENC_VERSION_1 : CDR_ENC_VERSION_2;
     /* the sample in memory, and its keys */
     type->type.size = descriptor->m_size;
     type->type.align = descriptor->m_align;
@@ -168,7 +186,7 @@ dds_entity_t wire_topic_create_typed(dds_entity_t participant,
                                      const dds_topic_descriptor_t *descriptor, const char *name,
                                      const struct ddsi_sertype **type)
 {
-    if (descriptor->m_nkeys == 0 || descriptor->m_ops[0] != DDS_OP_DLC)
+    if ((descriptor->m_nkeys == 0) == (descriptor->m_ops[0] == DDS_OP_DLC))
         return DDS_RETCODE_BAD_PARAMETER;
     pthread_once(&operations_once, prepare_operations);
     /* registered with the domain, or exchanged for an equal one that is */

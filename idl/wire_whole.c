@@ -14,13 +14,14 @@ static const uint32_t largest_list = 64 << 20; /* bytes */
 struct cursor {
     const uint8_t *data;
     size_t at, end;
+    bool first; /* XCDR1 */
     bool swapped;
 };
 
 /* Past `count` numbers of `size` bytes each. In XCDR2 nothing is aligned to more than 4. */
 static bool skip(struct cursor *cursor, size_t size, size_t count)
 {
-    size_t alignment = size < 4 ? size : 4;
+    size_t alignment = size < 4 || cursor->first ? size : 4;
     size_t at = (cursor->at + alignment - 1) & ~(alignment - 1);
     if (at > cursor->end || count > (cursor->end - at) / size)
         return false;
@@ -38,11 +39,14 @@ static bool read_number(struct cursor *cursor, uint32_t *number)
     return true;
 }
 
-/* Into what has its size in front: an @appendable struct, a list of anything but numbers. */
+/* Into what has its size in front: an @appendable struct, a list of anything but numbers. In XCDR1
+ * nothing has. */
 static bool enter(const struct cursor *outer, struct cursor *inner)
 {
     uint32_t size;
     *inner = *outer;
+    if (outer->first)
+        return true;
     if (!read_number(inner, &size) || size > inner->end - inner->at)
         return false;
     inner->end = inner->at + size;
@@ -123,8 +127,9 @@ static bool check_list(const uint32_t *ops, struct cursor *cursor)
     /* numbers take what they take on the wire, and DDS counts bytes with 32 bits */
     if (count > (number ? UINT32_MAX : largest_list) / list.size)
         return false;
-    bool good = number ? count == 0 || skip(&inner, number, count)
-                       : check_elements(&list, count, &inner) && inner.at == inner.end;
+    bool good =
+        number ? count == 0 || skip(&inner, number, count)
+               : check_elements(&list, count, &inner) && (cursor->first || inner.at == inner.end);
     cursor->at = inner.at;
     return good;
 }
@@ -186,7 +191,7 @@ static bool check_struct(const uint32_t *ops, struct cursor *cursor)
 {
     struct cursor inner = *cursor;
     bool appendable = DDS_OP(*ops) == DDS_OP_DLC;
-    if (appendable && !enter(cursor, &inner))
+    if (appendable && (cursor->first || !enter(cursor, &inner)))
         return false;
     for (ops += appendable; *ops != DDS_OP_RTS; ops = next_member(ops)) {
         bool missing = appendable && inner.at == inner.end;
@@ -198,8 +203,13 @@ static bool check_struct(const uint32_t *ops, struct cursor *cursor)
     return true;
 }
 
+bool wire_whole_in(int version, const uint32_t *ops, const void *data, size_t size, bool swapped)
+{
+    struct cursor cursor = {.data = data, .end = size, .first = version == 1, .swapped = swapped};
+    return check_struct(ops, &cursor);
+}
+
 bool wire_whole(const uint32_t *ops, const void *data, size_t size, bool swapped)
 {
-    struct cursor cursor = {.data = data, .end = size, .swapped = swapped};
-    return check_struct(ops, &cursor);
+    return wire_whole_in(2, ops, data, size, swapped);
 }

@@ -23,4 +23,7 @@
  * `swapped`: not in this machine's byte order. */
 bool wire_whole(const uint32_t *ops, const void *data, size_t size, bool swapped);
 
+/* The same in XCDR of that version: 1 (of @final structs alone, as ROS 2 has them) or 2. */
+bool wire_whole_in(int version, const uint32_t *ops, const void *data, size_t size, bool swapped);
+
 #endif

@@ -95,7 +95,7 @@ static dds_entity_t create_end(struct bridge *bridge, const dds_topic_descriptor
     char topic_name[BRIDGE_NAME_SIZE + 32];
     bool reads = strstr(name, "equest") != NULL;
     snprintf(topic_name, sizeof topic_name, "%s/%s/%s", kind, bridge->config.prefix, name);
-    dds_entity_t topic = dds_create_topic(bridge->participant, type, topic_name, NULL, NULL);
+    dds_entity_t topic = wire_topic_create(bridge->participant, type, topic_name);
     dds_entity_t end = topic;
     if (topic > 0)
         end = reads ? dds_create_reader(bridge->participant, topic, qos, NULL)

@@ -63,6 +63,16 @@ shows "0: -1 2 bodies[1].id has 70 bytes, at most 63 are allowed"
 expect 0 "$peers/ros2_peer" "$domain" topic -0.1 1
 shows "0: -1 3 "
 
+say "questions that are cut or changed: it goes on"
+expect 0 "$peers/ros2_damaged" "$domain" "${PERCUSS_DAMAGED:-3000}"
+cat "$out"
+kill -0 "$bridge" || fail "the bridge has ended: $(cat "$work/bridge.log")"
+for way in topic service; do
+    expect 0 "$peers/ros2_peer" "$domain" "$way" 0.1 3
+    cp "$out" "$work/$way"
+    agree "$work/$way" 0.1 0.2 0.3
+done
+
 say "without a daemon: said so; with another one: answered"
 stop_daemon
 expect 0 "$peers/ros2_peer" "$domain" topic 0.1 1

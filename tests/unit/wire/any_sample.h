@@ -12,7 +12,7 @@
 
 #include "wire.h"
 
-enum { XCDR2 = 2 };
+enum { XCDR1 = 1, XCDR2 = 2 };
 
 static const struct {
     const dds_topic_descriptor_t *type;
@@ -115,16 +115,22 @@ struct any_bytes {
     size_t size;
 };
 
-static inline struct any_bytes any_bytes_of(const void *sample, const uint32_t *ops, bool swapped)
+static inline struct any_bytes any_bytes_in(uint32_t version, const void *sample,
+                                            const uint32_t *ops, bool swapped)
 {
     dds_ostream_t stream;
-    dds_ostream_init(&stream, 0, XCDR2);
+    dds_ostream_init(&stream, 0, version);
     bool big = swapped == (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
     dds_stream_write_with_byte_order(&stream, sample, ops, big ? DDSRT_BOSEL_BE : DDSRT_BOSEL_LE);
     struct any_bytes bytes = {malloc(stream.m_index), stream.m_index};
     memcpy(bytes.data, stream.m_buffer, bytes.size);
     dds_ostream_fini(&stream);
     return bytes;
+}
+
+static inline struct any_bytes any_bytes_of(const void *sample, const uint32_t *ops, bool swapped)
+{
+    return any_bytes_in(XCDR2, sample, ops, swapped);
 }
 
 /* One sample in this machine's byte order and in the other or the same, without the encapsulation

@@ -8,6 +8,7 @@
 #include "any_sample.h"
 #include "check.h"
 #include "domain.h"
+#include "percuss_msgs.h"
 #include "wire_topic.h"
 
 static dds_entity_t participant;
@@ -133,6 +134,54 @@ static void a_disposed_instance_keeps_its_key(void **state)
     dds_return_loan(reader, samples, 2);
 }
 
+/* What ended the bridge of ROS 2: a sample that says XCDR2, and ends in half of its list. */
+static void a_question_of_ros_with_half_of_its_delassus_is_dropped(void **state)
+{
+    (void)state;
+    static uint8_t data[4 + 1100];
+    const dds_topic_descriptor_t *descriptor = &percuss_msgs_msg_dds__Request__desc;
+    const struct ddsi_sertype *type = NULL;
+    assert_true(wire_topic_create_typed(participant, descriptor, "rt/request", &type) > 0);
+    for (int swapped = 0; swapped < 2; swapped++) {
+        /* after client, number, no bodies and no contacts, each with its size */
+        const size_t delassus = 4 + 16 + 8 + 8 + 8;
+        bool big = swapped == (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
+        data[1] = big ? 6 : 7;
+        any_put(data + 4 + 16 + 8, 4, swapped);
+        any_put(data + 4 + 16 + 8 + 8, 4, swapped);
+        any_put(data + delassus, (sizeof data - delassus - 4) / 4, swapped);
+        ddsrt_iovec_t piece = {data, sizeof data};
+        assert_null(ddsi_serdata_from_ser_iov(type, SDK_DATA, 1, &piece, sizeof data));
+    }
+}
+
+/* Both versions, plain, as DDS takes them itself. */
+static void headers_of_questions_of_ros(void **state)
+{
+    (void)state;
+    const dds_topic_descriptor_t *descriptor = &percuss_msgs_srv_dds__Impact_Request__desc;
+    const struct ddsi_sertype *type = NULL;
+    assert_true(wire_topic_create_typed(participant, descriptor, "rq/impact", &type) > 0);
+    void *sample = dds_alloc(descriptor->m_size);
+    memset(sample, 0, descriptor->m_size);
+    any_fill_struct(descriptor->m_ops, sample);
+    for (uint32_t version = XCDR1; version <= XCDR2; version++) {
+        struct any_bytes bytes = any_bytes_in(version, sample, descriptor->m_ops, false);
+        const int little = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
+        for (int second = 0; second < 256; second++) {
+            uint8_t header[4] = {0, (uint8_t)second, 0, 0};
+            ddsrt_iovec_t pieces[2] = {{header, sizeof header}, {bytes.data, bytes.size}};
+            struct ddsi_serdata *taken =
+                ddsi_serdata_from_ser_iov(type, SDK_DATA, 2, pieces, sizeof header + bytes.size);
+            assert_int_equal(taken != NULL, second == (version == XCDR1 ? 0 : 6) + little);
+            if (taken)
+                ddsi_serdata_unref(taken);
+        }
+        free(bytes.data);
+    }
+    dds_sample_free(sample, descriptor, DDS_FREE_ALL);
+}
+
 static void types_without_a_size_in_front_are_refused(void **state)
 {
     (void)state;
@@ -149,6 +198,8 @@ int main(void)
         cmocka_unit_test(a_request_with_half_of_its_delassus_is_dropped),
         cmocka_unit_test(headers_of_other_representations_are_dropped),
         cmocka_unit_test(a_disposed_instance_keeps_its_key),
+        cmocka_unit_test(a_question_of_ros_with_half_of_its_delassus_is_dropped),
+        cmocka_unit_test(headers_of_questions_of_ros),
         cmocka_unit_test(types_without_a_size_in_front_are_refused),
     };
     return cmocka_run_group_tests(tests, open_domain, close_domain);
