@@ -15,7 +15,7 @@ sh deploy/dependencies.sh ci || command -v clang >/dev/null
 cmake -S . -B build-fuzz -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang -DPERCUSS_FUZZ=ON \
     -DPERCUSS_SANITIZE=fuzzer-no-link,address,undefined >/dev/null
 cmake --build build-fuzz --parallel "$(nproc)" --target fuzzers >/dev/null
-[ $# -gt 0 ] || set -- $(cd tests/fuzz && sed -n 's/^percuss_fuzz(\([a-z_]*\) .*/\1/p' CMakeLists.txt)
+[ $# -gt 0 ] || set -- $(cd tests/fuzz && sed -n 's/^percuss_fuzz(\([a-z_0-9]*\) .*/\1/p' CMakeLists.txt)
 
 # no memory is an answer that callers handle; what counts is the memory that is touched
 export ASAN_OPTIONS=allocator_may_return_null=1

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { ID_SIZE = 128, MOST_CLIENTS = 256, TRIES = 100 };
+enum { MOST_CLIENTS = 256, TRIES = 100 };
 static const char CLIENT[] = "clientid=";
 
 void service_name(dds_entity_t participant, dds_qos_t *qos)
@@ -22,22 +22,30 @@ void service_name(dds_entity_t participant, dds_qos_t *qos)
     dds_qset_userdata(qos, text, length);
 }
 
-/* "clientid=...;" of an endpoint's user data; false: there is none. */
-static bool client_id(const dds_builtintopic_endpoint_t *endpoint, char id[ID_SIZE])
+bool service_client_id(const void *data, size_t size, char id[SERVICE_ID_SIZE])
 {
-    void *data = NULL;
-    size_t size = 0;
     id[0] = '\0';
-    if (!endpoint || !dds_qget_userdata(endpoint->qos, &data, &size) || !data)
+    const char *start = size ? memmem(data, size, CLIENT, strlen(CLIENT)) : NULL;
+    if (!start)
         return false;
-    const char *start = memmem(data, size, CLIENT, strlen(CLIENT));
-    const char *end = start ? memchr(start, ';', size - (size_t)(start - (char *)data)) : NULL;
-    if (end && (size_t)(end - start) < ID_SIZE) {
+    start += strlen(CLIENT);
+    const char *end = memchr(start, ';', size - (size_t)(start - (const char *)data));
+    if (end && (size_t)(end - start) < SERVICE_ID_SIZE) {
         memcpy(id, start, (size_t)(end - start));
         id[end - start] = '\0';
     }
-    dds_free(data);
     return id[0] != '\0';
+}
+
+/* That of an endpoint's user data. */
+static bool endpoint_id(const dds_builtintopic_endpoint_t *endpoint, char id[SERVICE_ID_SIZE])
+{
+    void *data = NULL;
+    size_t size = 0;
+    bool has = endpoint && dds_qget_userdata(endpoint->qos, &data, &size) && data &&
+               service_client_id(data, size, id);
+    dds_free(data);
+    return has;
 }
 
 static bool is_matched(dds_entity_t replies, const char *wanted)
@@ -46,10 +54,10 @@ static bool is_matched(dds_entity_t replies, const char *wanted)
     dds_return_t count = dds_get_matched_subscriptions(replies, readers, MOST_CLIENTS);
     bool found = false;
     for (dds_return_t i = 0; i < count && i < MOST_CLIENTS && !found; i++) {
-        char id[ID_SIZE];
+        char id[SERVICE_ID_SIZE];
         dds_builtintopic_endpoint_t *reader =
             dds_get_matched_subscription_data(replies, readers[i]);
-        found = client_id(reader, id) && strcmp(id, wanted) == 0;
+        found = endpoint_id(reader, id) && strcmp(id, wanted) == 0;
         if (reader)
             dds_builtintopic_free_endpoint(reader);
     }
@@ -58,9 +66,9 @@ static bool is_matched(dds_entity_t replies, const char *wanted)
 
 void service_await(dds_entity_t requests, dds_entity_t replies, dds_instance_handle_t client)
 {
-    char id[ID_SIZE];
+    char id[SERVICE_ID_SIZE];
     dds_builtintopic_endpoint_t *writer = dds_get_matched_publication_data(requests, client);
-    bool known = client_id(writer, id);
+    bool known = endpoint_id(writer, id);
     if (writer)
         dds_builtintopic_free_endpoint(writer);
     for (int i = 0; known && i < TRIES && !is_matched(replies, id); i++)

@@ -9,8 +9,14 @@
 #include <dds/dds.h>
 #include <stdbool.h>
 
+enum { SERVICE_ID_SIZE = 128 };
+
 /* "serviceid=<this participant's guid>;" for the reader of requests and the writer of replies. */
 void service_name(dds_entity_t participant, dds_qos_t *qos);
+
+/* The id in "clientid=...;" of a peer's user data, up to a zero octet. False, and empty: there is
+ * none, or a longer one. */
+bool service_client_id(const void *data, size_t size, char id[SERVICE_ID_SIZE]);
 
 /* Waits up to 0.1 s until the replies' reader of the client whose request writer is `client` is
  * matched: a reply that is written before is lost. At once where the client does not say which. */
