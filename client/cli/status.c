@@ -163,7 +163,9 @@ int command_status(int argc, char **argv, struct common *common)
     struct look looks = {.common = common};
     argp_parse(&status_argp, argc, argv, 0, NULL, &looks);
     int code = make_client(common, NULL, &client);
-    if (code == EXIT_ANSWERED && !percuss_client_observes(client))
+    if (code != EXIT_ANSWERED)
+        return code;
+    if (!percuss_client_observes(client))
         code = connect_client(common, client);
     /* what a server announces that does not answer is of interest, too; who watches may wait for
      * one */
