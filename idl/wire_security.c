@@ -120,6 +120,19 @@ bool wire_security_check(const char *folder, char *problem, size_t size)
     return dates_fit(folder, problem, size);
 }
 
+bool wire_security_remark(const char *folder, const struct wire_validity *validity, time_t then,
+                          char *remark, size_t size)
+{
+    char words[128];
+    if (!wire_validity_holds(validity, then, words, sizeof words))
+        snprintf(remark, size, "security: %s/%s", folder, words);
+    else if (wire_validity_ends_soon(validity, then, words, sizeof words))
+        snprintf(remark, size, "security: %s/%s: make the folder anew before", folder, words);
+    else
+        return false;
+    return true;
+}
+
 void wire_security_set(const char *folder, dds_qos_t *qos)
 {
     char name[PATH_MAX + sizeof "file:"];

@@ -8,12 +8,21 @@
 #include <dds/dds.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <time.h>
+
+#include "wire_validity.h"
 
 /* Whether the folder has every file that an identity needs, readable, a private key that nobody but
- * its owner can read and that is the certificate's, and certificates and permissions that hold today
- * (wire_validity.h). False: `problem` says which file is wrong and what it must be, or when it ended.
- * What else stands in the files DDS checks when a participant is made. */
+ * its owner can read and that is the certificate's, and certificates and permissions that hold
+ * today (wire_validity.h). False: `problem` says which file is wrong and what it must be, or when
+ * it ended. What else stands in the files DDS checks when a participant is made. */
 bool wire_security_check(const char *folder, char *problem, size_t size);
+
+/* Whether whoever uses the folder is to be told of its dates: that it ends within 30 days from
+ * then, or does not hold. True: `remark` says "security: DIR/cert.pem: ends in 3 days, on
+ * 2026-11-20: make the folder anew before". */
+bool wire_security_remark(const char *folder, const struct wire_validity *validity, time_t then,
+                          char *remark, size_t size);
 
 /* Properties of a participant that uses the folder, which wire_security_check has found good. */
 void wire_security_set(const char *folder, dds_qos_t *qos);

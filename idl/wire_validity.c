@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DAY = 86400, WARNED_DAYS = 30, MOST_OCTETS = 1024 * 1024 };
+enum { DAY = 86400, WARNED_DAYS = 30, MOMENT = 2 /* s */, MOST_OCTETS = 1024 * 1024 };
 
 static const char *const CERTIFICATES[] = {"cert.pem", "identity_ca.pem", "permissions_ca.pem"};
 static const char PERMISSIONS[] = "permissions.p7s";
@@ -142,6 +142,11 @@ bool wire_validity_holds(const struct wire_validity *validity, time_t then, char
         return true;
     }
     return false;
+}
+
+bool wire_validity_is_over(const struct wire_validity *validity, time_t then)
+{
+    return validity->ends && then >= validity->end - MOMENT;
 }
 
 bool wire_validity_ends_soon(const struct wire_validity *validity, time_t then, char *words,

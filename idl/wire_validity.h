@@ -24,6 +24,10 @@ const char *wire_validity_read(const char *folder, struct wire_validity *validit
 bool wire_validity_holds(const struct wire_validity *validity, time_t then, char *words,
                          size_t size);
 
+/* Whether it has ended, or does so within two seconds: at the end DDS takes the participant away,
+ * and a program that makes something in it then is ended. */
+bool wire_validity_is_over(const struct wire_validity *validity, time_t then);
+
 /* Whether it ends within 30 days from then. True: `words` says "cert.pem: ends in 3 days, on ...".
  */
 bool wire_validity_ends_soon(const struct wire_validity *validity, time_t then, char *words,

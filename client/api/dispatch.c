@@ -37,6 +37,11 @@ bool percuss_client_observes(const struct percuss_client *client)
     return operations_of(client)->observes(client);
 }
 
+bool percuss_client_warning(const struct percuss_client *client, char text[PERCUSS_WARNING_SIZE])
+{
+    return operations_of(client)->warning(client, text);
+}
+
 bool percuss_client_server(struct percuss_client *client, uint8_t server[16])
 {
     return operations_of(client)->server(client, server);

@@ -48,6 +48,7 @@ struct client_operations {
     enum percuss_result (*clear_specimen)(struct percuss_client *client, const char *name,
                                           double timeout);
     void (*watch)(struct percuss_client *client, percuss_watch_function *watch, void *context);
+    bool (*warning)(const struct percuss_client *client, char text[PERCUSS_WARNING_SIZE]);
 };
 
 #endif

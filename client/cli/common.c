@@ -218,6 +218,16 @@ int complain_result(enum percuss_result result)
     }
 }
 
+/* Of its identity, however many clients a command makes. */
+static void warn_once(const struct percuss_client *client)
+{
+    static bool warned;
+    char text[PERCUSS_WARNING_SIZE];
+    if (!warned && percuss_client_warning(client, text))
+        complain("warning: %s", text);
+    warned = true;
+}
+
 int make_client(const struct common *common, const uint8_t *id, struct percuss_client **client)
 {
     if (common->local)
@@ -233,8 +243,11 @@ int make_client(const struct common *common, const uint8_t *id, struct percuss_c
     memcpy(config.server, common->server, sizeof config.server);
     if (id)
         memcpy(config.id, id, sizeof config.id);
-    return complain_result(
+    int code = complain_result(
         percuss_client_create_in(&config, common->partition, common->security, client));
+    if (code == EXIT_ANSWERED)
+        warn_once(*client);
+    return code;
 }
 
 int connect_client(const struct common *common, struct percuss_client *client)

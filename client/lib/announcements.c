@@ -64,9 +64,9 @@ enum percuss_result announcements_read(struct percuss_client *client, dds_entity
 enum percuss_result announcements_open(struct percuss_client *client, dds_entity_t *slot,
                                        const dds_topic_descriptor_t *descriptor, const char *topic)
 {
-    enum percuss_result result = PERCUSS_RESULT_OK;
+    enum percuss_result result = client_check_identity(client);
     pthread_mutex_lock(&client->lock);
-    if (!*slot) {
+    if (result == PERCUSS_RESULT_OK && !*slot) {
         dds_entity_t reader = client_reader_create(client, descriptor, topic,
                                                    wire_qos_announcement(client->partition));
         if (reader < 0)

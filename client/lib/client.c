@@ -299,6 +299,10 @@ enum percuss_result percuss_client_create_in(const struct percuss_client_config 
     create_lock(created);
     created->domain = chosen.domain;
     created->secured = identity != NULL;
+    /* as DDS, which reads it once, too */
+    created->identity = identity ? strdup(identity) : NULL;
+    if (identity)
+        wire_validity_read(identity, &created->validity);
     created->next_sequence = chosen.first_sequence;
     created->pending.window = chosen.window;
     created->least_loaded = is_least_loaded(&chosen);
@@ -328,6 +332,7 @@ void client_free(struct percuss_client *client)
         dds_sample_free(&client->taken[i], &percuss_v1_Reply_desc, DDS_FREE_CONTENTS);
     pthread_cond_destroy(&client->changed);
     pthread_mutex_destroy(&client->lock);
+    free(client->identity);
     free(client);
 }
 
@@ -339,6 +344,22 @@ void client_id(const struct percuss_client *client, uint8_t id[16])
 bool client_observes(const struct percuss_client *client)
 {
     return client->observes;
+}
+
+bool client_warning(const struct percuss_client *client, char text[PERCUSS_WARNING_SIZE])
+{
+    text[0] = '\0';
+    return client->identity && wire_security_remark(client->identity, &client->validity, time(NULL),
+                                                    text, PERCUSS_WARNING_SIZE);
+}
+
+enum percuss_result client_check_identity(const struct percuss_client *client)
+{
+    char remark[PERCUSS_WARNING_SIZE];
+    if (!client->identity || !wire_validity_is_over(&client->validity, time(NULL)))
+        return PERCUSS_RESULT_OK;
+    client_warning(client, remark);
+    return error_set(PERCUSS_RESULT_NO_SERVER, "%s", remark);
 }
 
 bool client_server(struct percuss_client *client, uint8_t server[16])

@@ -13,6 +13,7 @@
 #include "pending.h"
 #include "watching.h"
 #include "wire.h"
+#include "wire_validity.h"
 
 enum {
     CLIENT_TAKE_AT_ONCE = 4,
@@ -35,6 +36,8 @@ struct percuss_client {
     uint32_t domain;
     char partition[WIRE_PARTITION_SIZE]; /* of the servers; empty: none */
     bool secured;                        /* by DDS Security */
+    char *identity;                      /* its folder; NULL: none */
+    struct wire_validity validity;       /* of its files as they were */
     bool observes;                       /* its permissions let it only see what servers announce */
     char wanted[PERCUSS_SERVER_ID_SIZE]; /* what the id of the server begins with; empty: any */
     bool least_loaded;                   /* of all: the one that has least to do */
@@ -75,6 +78,10 @@ struct percuss_client {
     struct watching watching;
     int announcement_room; /* of the largest read so far, see announcements.c */
 };
+
+/* NO_SERVER, in words, where its identity has ended since it was made: it must not make anything
+ * then, and nobody answers it. */
+enum percuss_result client_check_identity(const struct percuss_client *client);
 
 /* A reader or writer, which goes with the client. `qos` is released. A negative return is a DDS
  * code. */

@@ -272,6 +272,8 @@ enum percuss_result connect_find(struct percuss_client *client, double timeout)
     if (client->observes)
         return failure_dds("asking a server", DDS_RETCODE_NOT_ALLOWED_BY_SECURITY);
     if (result == PERCUSS_RESULT_OK)
+        result = client_check_identity(client);
+    if (result == PERCUSS_RESULT_OK)
         result = servers_open(client);
     if (result != PERCUSS_RESULT_OK)
         return result;
@@ -284,7 +286,9 @@ enum percuss_result connect_find(struct percuss_client *client, double timeout)
     do {
         percuss_server_list_free(&search.announced);
         bool late = moment_now() >= search.deadline;
-        result = ping_all(&search);
+        result = client_check_identity(client);
+        if (result == PERCUSS_RESULT_OK)
+            result = ping_all(&search);
         if (result == PERCUSS_RESULT_OK)
             result = servers_look(client, &search.announced);
         if (result == PERCUSS_RESULT_OK)

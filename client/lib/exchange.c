@@ -18,6 +18,9 @@
 
 enum percuss_result exchange_check_connected(const struct percuss_client *client)
 {
+    enum percuss_result result = client_check_identity(client);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
     if (client->connected)
         return client->lost ? failure_lost(client->server_name) : PERCUSS_RESULT_OK;
     return error_set(PERCUSS_RESULT_NO_SERVER, "not connected: call percuss_client_connect first");

@@ -26,4 +26,5 @@ const struct client_operations LIBRARY_OPERATIONS = {
     .specimens = specimens_list,
     .clear_specimen = specimens_clear,
     .watch = client_watch,
+    .warning = client_warning,
 };

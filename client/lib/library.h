@@ -12,6 +12,7 @@ extern const struct client_operations LIBRARY_OPERATIONS;
 void client_free(struct percuss_client *client);
 void client_id(const struct percuss_client *client, uint8_t id[16]);
 bool client_observes(const struct percuss_client *client);
+bool client_warning(const struct percuss_client *client, char text[PERCUSS_WARNING_SIZE]);
 bool client_server(struct percuss_client *client, uint8_t server[16]);
 enum percuss_result connect_find(struct percuss_client *client, double timeout);
 enum percuss_result connect_ping(struct percuss_client *client, double timeout, double *round_trip);

@@ -7,10 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/queue.h>
+#include <time.h>
+
+#include "wire_validity.h"
 
 struct shared_participant {
     uint32_t domain;
     char *security; /* empty: none */
+    struct wire_validity validity;
     dds_entity_t entity;
     unsigned holders;
     LIST_ENTRY(shared_participant) others;
@@ -20,11 +24,13 @@ struct shared_participant {
 static LIST_HEAD(, shared_participant) all = LIST_HEAD_INITIALIZER(all);
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* of all */
 
+/* Not one whose identity has ended: its folder may have been made anew since. */
 static struct shared_participant *find(uint32_t domain, const char *security)
 {
     struct shared_participant *shared;
     LIST_FOREACH(shared, &all, others)
-    if (shared->domain == domain && strcmp(shared->security, security) == 0)
+    if (shared->domain == domain && strcmp(shared->security, security) == 0 &&
+        !wire_validity_is_over(&shared->validity, time(NULL)))
         return shared;
     return NULL;
 }
@@ -41,6 +47,8 @@ static struct shared_participant *create(uint32_t domain, const char *security)
     }
     shared->domain = domain;
     shared->security = copy;
+    if (*security)
+        wire_validity_read(security, &shared->validity);
     LIST_INSERT_HEAD(&all, shared, others);
     return shared;
 }

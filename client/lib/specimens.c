@@ -99,6 +99,9 @@ static enum percuss_result find(struct percuss_client *client, const char *name,
 /* The writer of requests to clear, made when first needed. */
 static enum percuss_result open_writer(struct percuss_client *client, double deadline)
 {
+    enum percuss_result result = client_check_identity(client);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
     pthread_mutex_lock(&client->lock);
     if (client->dents_writer <= 0)
         client->dents_writer =

@@ -26,4 +26,5 @@ const struct client_operations LIBRARY_OPERATIONS = {
     .specimens = local_specimens,
     .clear_specimen = local_clear_specimen,
     .watch = local_watch,
+    .warning = local_warning,
 };

@@ -12,6 +12,7 @@ extern const struct client_operations LIBRARY_OPERATIONS;
 void local_free(struct percuss_client *client);
 void local_id(const struct percuss_client *client, uint8_t id[16]);
 bool local_observes(const struct percuss_client *client);
+bool local_warning(const struct percuss_client *client, char text[PERCUSS_WARNING_SIZE]);
 bool local_server(struct percuss_client *client, uint8_t server[16]);
 enum percuss_result local_connect(struct percuss_client *client, double timeout);
 enum percuss_result local_ping(struct percuss_client *client, double timeout, double *round_trip);

@@ -27,6 +27,13 @@ bool local_observes(const struct percuss_client *client)
     return false;
 }
 
+bool local_warning(const struct percuss_client *client, char text[PERCUSS_WARNING_SIZE])
+{
+    (void)client;
+    text[0] = '\0';
+    return false;
+}
+
 bool local_server(struct percuss_client *client, uint8_t server[16])
 {
     (void)client;

@@ -133,10 +133,13 @@ bool bridge_open(struct bridge *bridge, const struct bridge_config *config)
         .config = *config, .line = {.domain = config->client.domain, .timeout = config->timeout}};
     pthread_mutex_init(&bridge->line.lock, NULL);
     /* percussd's side first: where both are in one domain, its participant makes it */
+    char warning[PERCUSS_WARNING_SIZE];
     if (percuss_client_create(&config->client, &bridge->line.client) != PERCUSS_RESULT_OK) {
         say("%s", percuss_error_text());
         return false;
     }
+    if (percuss_client_warning(bridge->line.client, warning))
+        say("warning: %s", warning);
     bridge->participant = config->network ? dds_create_participant(config->ros_domain, NULL, NULL)
                                           : wire_participant_create(config->ros_domain);
     if (bridge->participant < 0) {

@@ -19,7 +19,7 @@
 #include "store/schema.h"
 #include "store/table_store.h"
 #include "wire.h"
-#include "wire_validity.h"
+#include "wire_security.h"
 
 static void say(const struct fault *fault)
 {
@@ -143,23 +143,27 @@ static bool check_store(const struct settings *settings)
     return false;
 }
 
-static bool check_security(const struct settings *settings)
-{
-    struct fault fault;
-    if (!settings->security[0] || endpoint_check_security(settings->security, &fault))
-        return true;
-    fprintf(stderr, "percussd: %s\n", fault.text);
-    return false;
-}
-
 /* An identity that is good, but not for long. */
 static void remark_identity(const char *folder)
 {
     struct wire_validity validity;
-    char words[128];
-    if (*folder && !wire_validity_read(folder, &validity) &&
-        wire_validity_ends_soon(&validity, time(NULL), words, sizeof words))
-        fprintf(stderr, "percussd: warning: security: %s/%s\n", folder, words);
+    char remark[512];
+    if (!wire_validity_read(folder, &validity) &&
+        wire_security_remark(folder, &validity, time(NULL), remark, sizeof remark))
+        fprintf(stderr, "percussd: warning: %s\n", remark);
+}
+
+static bool check_security(const struct settings *settings)
+{
+    struct fault fault;
+    if (!settings->security[0])
+        return true;
+    if (!endpoint_check_security(settings->security, &fault)) {
+        fprintf(stderr, "percussd: %s\n", fault.text);
+        return false;
+    }
+    remark_identity(settings->security);
+    return true;
 }
 
 /* The file whose lock is waited for: one to write to, or one that can be made. */
@@ -211,7 +215,6 @@ bool check_config(const struct settings *settings)
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         good = checks[i](settings) && good;
     good = check_security(settings) && check_domain(settings) && good;
-    remark_identity(settings->security);
     remark_file("metrics", settings->metrics);
     remark_file("backup", settings->backup);
     if (good)

@@ -133,10 +133,37 @@ grep -q "warning: security: $keys/short-lived/[a-z_.7]*: ends in [0-9]* days, on
 start_daemon
 logged "warning security: $keys/short-lived/.*: ends in [0-9]* days" || fail "the log does not say so"
 expect 0 as asks ping
+grep -q "ends in" "$err" && fail "it warns of what holds for years"
 wait_for 10 test -s "$work/percuss.prom" || fail "no metrics"
 left=$(($(sed -n 's/^percuss_identity_end_seconds //p' "$work/percuss.prom") - $(date +%s)))
 [ $left -gt $((19 * 86400)) ] && [ $left -le $((20 * 86400)) ] || fail "$left s are left"
+PERCUSS_KEY_DAYS=20
+export PERCUSS_KEY_DAYS
+expect 0 make_keys add "$keys" short-client asks
+unset PERCUSS_KEY_DAYS
+# on standard error, once for each command, and what is on standard output stays JSON
+for arguments in ping "query -a steel-sphere -b al-beam --speed 0.3 --json" \
+    "sweep -a steel-sphere -b al-beam --speed 0.1:0.3:3 --csv"; do
+    expect 0 as short-client $arguments
+    [ "$(grep -c 'percuss: warning: security: .*short-client/[a-z_.7]*: ends in [0-9]* days, on 20' "$err")" -eq 1 ] ||
+        fail "not told once by $arguments"
+    grep -q 'ends in' "$out" && fail "told on standard output"
+done
 stop_daemon
+
+# DDS takes the participant away then; whoever makes a reader in it is ended
+say "one that ends while a client is looking for a server is told then, not as a time-out"
+cp -r "$keys/asks" "$keys/ending"
+certify ending "$(date -u -d '-1 day' +%Y%m%d%H%M%SZ)" "$(date -u -d '+8 seconds' +%Y%m%d%H%M%SZ)"
+expect 3 as ending ping --timeout 60
+grep -q "warning: security: $keys/ending/cert.pem: ends in less than a day" "$err" || fail "it does not warn"
+[ "$(grep -c "security: $keys/ending/cert.pem: end[a-z]* " "$err")" -eq 2 ] || fail "its end is not told"
+certify ending 22000101000000Z 22010101000000Z
+expect 2 as ending ping
+says "security: $keys/ending/cert.pem: begins in "
+expect 2 as ending status --watch
+says "security: $keys/ending/cert.pem: begins in "
+
 settings "security: $keys/serves"
 expect 0 "$bin/percussd" --config "$work/percussd.yaml" --check-config
 grep -q "ends in" "$err" && fail "it warns of what holds for years"

@@ -263,6 +263,7 @@ STRUCTS: dict[str, type[ctypes.Structure]] = {
 library = load()
 _Client = c_void_p
 
+WARNING_SIZE = 512
 WATCH = CFUNCTYPE(c_bool, c_void_p)
 _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("client_config_default", ClientConfig, []),
@@ -273,6 +274,7 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("client_id", None, [_Client, _Octets]),
     ("client_server", c_bool, [_Client, _Octets]),
     ("client_observes", c_bool, [_Client]),
+    ("client_warning", c_bool, [_Client, c_char_p]),
     ("client_watch", None, [_Client, WATCH, c_void_p]),
     ("solve", c_int, [_Client, POINTER(Request), c_double, POINTER(Reply)]),
     ("solve_traced", c_int, [_Client, POINTER(Request), c_double, POINTER(Reply), POINTER(Trace)]),

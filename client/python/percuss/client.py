@@ -4,6 +4,7 @@
 
 import ctypes
 import os
+import warnings
 from collections.abc import Sequence
 from types import TracebackType
 
@@ -82,6 +83,9 @@ class Client:
                 ctypes.byref(config), among, folder, ctypes.byref(self._handle)
             )
         )
+        remark = self.warning
+        if remark:
+            warnings.warn(remark, stacklevel=2)
 
     def close(self) -> None:
         """Forgets what is outstanding and leaves the domain; may be called again."""
@@ -151,6 +155,12 @@ class Client:
     def observes(self) -> bool:
         """Whether the permissions of its identity let it only see what servers announce: it cannot be connected."""
         return bool(_library.percuss_client_observes(self._open))
+
+    @property
+    def warning(self) -> str | None:
+        """That its identity ends within 30 days, or has ended meanwhile; None: it does not, or there is none."""
+        text = ctypes.create_string_buffer(_abi.WARNING_SIZE)
+        return os.fsdecode(text.value) if _library.percuss_client_warning(self._handle, text) else None
 
     def connect(self, timeout: float = 3.0) -> None:
         """Waits until a server answers and stays with it; of several found within a moment, with the one

@@ -184,6 +184,9 @@ class Announced(Beside):
         self.assertEqual((server.server, server.state), (reply.server, "ready"))
         self.assertEqual((server.bodies, server.catalogue_revision), (len(self.bodies), reply.catalogue_revision))
 
+    def test_no_identity_no_warning(self) -> None:
+        self.assertIsNone(self.client.warning)
+
     def test_no_specimens(self) -> None:
         self.assertEqual(self.client.specimens(), {})
         with self.assertRaisesRegex(percuss.InvalidArgument, "bar-1"):

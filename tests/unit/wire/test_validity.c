@@ -184,6 +184,17 @@ static void the_last_thirty_days_are_told(void **state)
     assert_false(wire_validity_ends_soon(&YEAR, last + 1, words, sizeof words));
 }
 
+/* Two seconds early: DDS may look at the clock a moment later than whoever asks. */
+static void it_is_over_a_moment_before_its_end(void **state)
+{
+    (void)state;
+    const time_t last = START + 365 * DAY;
+    assert_false(wire_validity_is_over(&YEAR, last - 3));
+    assert_true(wire_validity_is_over(&YEAR, last - 2));
+    assert_true(wire_validity_is_over(&YEAR, last + DAY));
+    assert_false(wire_validity_is_over(&(struct wire_validity){.begins = NULL}, last));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -193,6 +204,7 @@ int main(void)
         cmocka_unit_test(what_is_no_certificate_is_named),
         cmocka_unit_test(whoever_is_late_or_early_is_told_by_how_much),
         cmocka_unit_test(the_last_thirty_days_are_told),
+        cmocka_unit_test(it_is_over_a_moment_before_its_end),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }
