@@ -212,7 +212,7 @@ int command_bodies(int argc, char **argv, struct common *common)
     struct percuss_body_list list;
     struct bodies_options chosen = {.common = common};
     argp_parse(&bodies_argp, argc, argv, 0, NULL, &chosen);
-    int code = open_client(common, NULL, &client);
+    int code = open_onlooker(common, &client);
     if (code != EXIT_ANSWERED)
         return code;
     enum percuss_result result = percuss_bodies(client, common_timeout(common), &list);

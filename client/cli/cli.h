@@ -112,6 +112,10 @@ int connect_client(const struct common *common, struct percuss_client *client);
 /* Both. Warns of servers that answer beside the one it stays with. */
 int open_client(const struct common *common, const uint8_t *id, struct percuss_client **client);
 
+/* The same for what servers announce to everybody: not connected where its identity may only see
+ * that. */
+int open_onlooker(const struct common *common, struct percuss_client **client);
+
 /* The exit code of a reply. */
 int status_exit_code(enum percuss_status status);
 

@@ -261,11 +261,9 @@ int connect_client(const struct common *common, struct percuss_client *client)
     return EXIT_NO_SERVER;
 }
 
-int open_client(const struct common *common, const uint8_t *id, struct percuss_client **client)
+static int settle(const struct common *common, struct percuss_client **client)
 {
-    int code = make_client(common, id, client);
-    if (code == EXIT_ANSWERED)
-        code = connect_client(common, *client);
+    int code = connect_client(common, *client);
     if (code == EXIT_ANSWERED)
         code = others_settle(common, *client);
     if (code == EXIT_ANSWERED)
@@ -273,6 +271,19 @@ int open_client(const struct common *common, const uint8_t *id, struct percuss_c
     percuss_client_free(*client);
     *client = NULL;
     return code;
+}
+
+int open_client(const struct common *common, const uint8_t *id, struct percuss_client **client)
+{
+    int code = make_client(common, id, client);
+    return code == EXIT_ANSWERED ? settle(common, client) : code;
+}
+
+int open_onlooker(const struct common *common, struct percuss_client **client)
+{
+    int code = make_client(common, NULL, client);
+    return code == EXIT_ANSWERED && !percuss_client_observes(*client) ? settle(common, client)
+                                                                      : code;
 }
 
 int status_exit_code(enum percuss_status status)

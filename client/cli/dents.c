@@ -141,7 +141,7 @@ int command_dents(int argc, char **argv, struct common *common)
     struct percuss_client *client;
     struct dents dents = {.common = common};
     argp_parse(&dents_argp, argc, argv, 0, NULL, &dents);
-    int code = open_client(common, NULL, &client);
+    int code = open_onlooker(common, &client);
     if (code != EXIT_ANSWERED)
         return code;
     code = show_or_clear(&dents, client);

@@ -30,7 +30,8 @@ void announcements_release(struct announcements *all);
 /* The id of the connected server; false when there is none, or it has gone. */
 bool announcements_server(struct percuss_client *client, uint8_t server[16]);
 
-/* What the connected server announces of itself. */
+/* What the connected server announces of itself; or, to a client that only observes, the one up
+ * longest of those that it may mean. */
 enum percuss_result announcements_connected(struct percuss_client *client, double timeout,
                                             struct percuss_server *server);
 

@@ -99,14 +99,6 @@ struct search {
     struct percuss_server_list announced;
 };
 
-static bool is_wanted(const struct percuss_client *client, const uint8_t id[16])
-{
-    char text[PERCUSS_SERVER_ID_SIZE];
-    for (int i = 0; i < 16; i++)
-        snprintf(text + 2 * i, 3, "%02x", id[i]);
-    return strncmp(text, client->wanted, strlen(client->wanted)) == 0;
-}
-
 /* What there is when the time is over and no server has been chosen. */
 static enum percuss_result explain(const struct search *search)
 {
@@ -118,7 +110,7 @@ static enum percuss_result explain(const struct search *search)
     for (size_t i = 0; i < announced->count; i++) {
         const struct percuss_server *server = &announced->servers[i];
         servers_describe(server->server, server, name);
-        if (is_wanted(client, server->server))
+        if (servers_is_wanted(client, server->server))
             return unanswered(name, search->start);
         if (length < sizeof others)
             length += (size_t)snprintf(others + length, sizeof others - length, "%s%s",
@@ -178,7 +170,7 @@ static enum percuss_result find_wanted(const struct search *search,
 {
     *found = NULL;
     for (size_t k = 0; k < search->count; k++) {
-        if (!is_wanted(search->client, search->answering[k].id))
+        if (!servers_is_wanted(search->client, search->answering[k].id))
             continue;
         if (*found)
             return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
@@ -270,7 +262,10 @@ enum percuss_result connect_find(struct percuss_client *client, double timeout)
     struct search search = {.client = client, .start = moment_now(), .heard = INFINITY};
     enum percuss_result result = moment_deadline(timeout, &search.deadline);
     if (client->observes)
-        return failure_dds("asking a server", DDS_RETCODE_NOT_ALLOWED_BY_SECURITY);
+        return error_set(PERCUSS_RESULT_TRANSPORT,
+                         "asking a server: our permissions do not allow it: the identity in %s may "
+                         "only see what servers announce",
+                         client->identity);
     if (result == PERCUSS_RESULT_OK)
         result = client_check_identity(client);
     if (result == PERCUSS_RESULT_OK)

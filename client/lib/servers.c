@@ -156,12 +156,52 @@ enum percuss_result servers_list(struct percuss_client *client, double timeout,
     return result;
 }
 
+bool servers_is_wanted(const struct percuss_client *client, const uint8_t id[16])
+{
+    char text[PERCUSS_SERVER_ID_SIZE];
+    for (int i = 0; i < 16; i++)
+        snprintf(text + 2 * i, 3, "%02x", id[i]);
+    return strncmp(text, client->wanted, strlen(client->wanted)) == 0;
+}
+
+/* Who may only look has no connected server: the first of those that he could mean. */
+static enum percuss_result find_observed(struct percuss_client *client, double timeout,
+                                         struct percuss_server *server)
+{
+    struct percuss_server_list servers;
+    enum percuss_result result = servers_list(client, timeout, &servers);
+    if (result != PERCUSS_RESULT_OK)
+        return result;
+    const struct percuss_server *found = NULL;
+    for (size_t i = 0; i < servers.count && !found; i++)
+        if (servers_is_wanted(client, servers.servers[i].server))
+            found = &servers.servers[i];
+    if (found) {
+        *server = *found;
+        pthread_mutex_lock(&client->lock);
+        servers_describe(found->server, found, client->server_name);
+        pthread_mutex_unlock(&client->lock);
+    }
+    /* its tasks go with the list */
+    server->tasks = NULL;
+    server->task_count = 0;
+    percuss_server_list_free(&servers);
+    return found
+               ? PERCUSS_RESULT_OK
+               : error_set(PERCUSS_RESULT_NO_SERVER,
+                           "no percussd in DDS domain %u announces itself to us%s%s",
+                           client->domain, client->wanted[0] ? " with an id that begins with " : "",
+                           client->wanted);
+}
+
 enum percuss_result announcements_connected(struct percuss_client *client, double timeout,
                                             struct percuss_server *server)
 {
     struct percuss_server_list servers;
     uint8_t id[16];
     char name[SERVERS_NAME_SIZE];
+    if (client->observes)
+        return find_observed(client, timeout, server);
     const bool connected = announcements_server(client, id);
     pthread_mutex_lock(&client->lock);
     enum percuss_result result = exchange_check_connected(client);

@@ -21,6 +21,9 @@ enum percuss_result servers_look(struct percuss_client *client, struct percuss_s
 void servers_describe(const uint8_t id[16], const struct percuss_server *server,
                       char text[SERVERS_NAME_SIZE]);
 
+/* Whether its id begins as the configuration says. */
+bool servers_is_wanted(const struct percuss_client *client, const uint8_t id[16]);
+
 /* The one of that id; NULL: it is not in the list. */
 const struct percuss_server *servers_find(const struct percuss_server_list *list,
                                           const uint8_t id[16]);

@@ -138,6 +138,10 @@ bool bridge_open(struct bridge *bridge, const struct bridge_config *config)
         say("%s", percuss_error_text());
         return false;
     }
+    if (percuss_client_observes(bridge->line.client)) {
+        say("PERCUSS_SECURITY: the permissions of that identity do not allow asking");
+        return false;
+    }
     if (percuss_client_warning(bridge->line.client, warning))
         say("warning: %s", warning);
     bridge->participant = config->network ? dds_create_participant(config->ros_domain, NULL, NULL)

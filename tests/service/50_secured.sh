@@ -176,6 +176,10 @@ expect 0 ask_as asks
 grep -v "^  server" "$out" >"$work/secured"
 expect 0 as asks bodies
 expect 0 strike asks
+expect 0 as observes dents
+shows "bar-1"
+expect 3 as observes dents --specimen bar-1 --clear
+says "our permissions do not allow it"
 expect 3 as asks dents --specimen bar-1 --clear
 says "our permissions do not allow it"
 expect 0 as asks dents --specimen bar-1
@@ -183,6 +187,15 @@ expect 0 strike administers
 expect 0 as administers dents --specimen bar-1 --clear
 expect 5 as asks dents --specimen bar-1
 expect 0 as observes status
+expect 0 as observes bodies
+shows "al-beam"
+cp "$out" "$work/bodies"
+expect 0 as asks bodies
+cmp "$out" "$work/bodies" || fail "who observes sees other bodies"
+expect 3 as observes bodies --server 0123456789
+says "with an id that begins with 0123456789"
+expect 1 env PERCUSS_SECURITY="$keys/observes" "$bin/percuss-ros2" --domain "$domain" --ros-domain "$domain"
+says "do not allow asking"
 expect 3 ask_as observes
 says "our permissions do not allow it"
 expect 3 as observes ping

@@ -79,7 +79,8 @@ PERCUSS_API enum percuss_result percuss_ping(struct percuss_client *client, doub
 PERCUSS_API enum percuss_result percuss_servers(struct percuss_client *client, double timeout,
                                                 struct percuss_server_list *list);
 
-/* The catalogue of the connected server, for percuss_body_list_free. */
+/* The catalogue of the connected server, for percuss_body_list_free; to a client that only
+ * observes, of the server up longest, or of the one that its configuration names. */
 PERCUSS_API enum percuss_result percuss_bodies(struct percuss_client *client, double timeout,
                                                struct percuss_body_list *list);
 
