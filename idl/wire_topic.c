@@ -8,6 +8,7 @@
 #include <dds/ddsi/ddsi_serdata_default.h>
 #include <dds/ddsi/q_radmin.h>
 #include <pthread.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -124,7 +125,11 @@ static struct ddsi_serdata *to_key(const struct ddsi_serdata *sample)
     size_t size = (size_t)((uint8_t *)header.iov_base - (const uint8_t *)sample) + ENCAPSULATION;
     if (size > sizeof head)
         abort();
-    memcpy(&head, sample, size);
+    /* all but the count of those who hold it, which they change meanwhile */
+    const size_t count = offsetof(struct ddsi_serdata, refc), rest = count + sizeof sample->refc;
+    memcpy(&head, sample, count);
+    ddsrt_atomic_st32(&head.common.refc, 1);
+    memcpy(head.bytes + rest, (const uint8_t *)sample + rest, size - rest);
     ddsi_serdata_to_ser_unref(held, &header);
     head.common.ops = behind_check(sample->type);
     return head.common.ops->to_untyped(&head.common);

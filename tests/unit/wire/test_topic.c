@@ -3,6 +3,7 @@
 
 /* idl/wire_topic.c: what its types take from the network, in a domain of its own on loopback. */
 #include <dds/ddsi/ddsi_serdata.h>
+#include <pthread.h>
 #include <string.h>
 
 #include "any_sample.h"
@@ -182,6 +183,38 @@ static void headers_of_questions_of_ros(void **state)
     dds_sample_free(sample, descriptor, DDS_FREE_ALL);
 }
 
+enum { HOLDS = 2000 };
+
+static void *hold_and_let_go(void *sample)
+{
+    for (int i = 0; i < HOLDS; i++)
+        ddsi_serdata_unref(ddsi_serdata_ref(sample));
+    return NULL;
+}
+
+/* Who asks for the key is not the only one who holds a sample: the thread sanitizer watches. */
+static void the_key_of_a_sample_that_others_hold(void **state)
+{
+    (void)state;
+    const struct ddsi_sertype *type = type_of(0);
+    struct any_bytes bytes = any_sample(any_types[0].type, false);
+    struct ddsi_serdata *sample = take(type, &bytes, bytes.size, false);
+    struct ddsi_serdata *first = ddsi_serdata_to_untyped(sample);
+    pthread_t other;
+    assert_int_equal(pthread_create(&other, NULL, hold_and_let_go, sample), 0);
+    for (int i = 0; i < HOLDS; i++) {
+        struct ddsi_serdata *key = ddsi_serdata_to_untyped(sample);
+        assert_true(ddsi_serdata_eqkey(key, first));
+        assert_int_equal(key->hash, sample->hash);
+        ddsi_serdata_unref(key);
+    }
+    assert_int_equal(pthread_join(other, NULL), 0);
+    assert_int_equal(ddsrt_atomic_ld32(&sample->refc), 1);
+    ddsi_serdata_unref(first);
+    ddsi_serdata_unref(sample);
+    free(bytes.data);
+}
+
 static void types_without_a_size_in_front_are_refused(void **state)
 {
     (void)state;
@@ -200,6 +233,7 @@ int main(void)
         cmocka_unit_test(a_disposed_instance_keeps_its_key),
         cmocka_unit_test(a_question_of_ros_with_half_of_its_delassus_is_dropped),
         cmocka_unit_test(headers_of_questions_of_ros),
+        cmocka_unit_test(the_key_of_a_sample_that_others_hold),
         cmocka_unit_test(types_without_a_size_in_front_are_refused),
     };
     return cmocka_run_group_tests(tests, open_domain, close_domain);
