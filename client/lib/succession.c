@@ -25,10 +25,13 @@ static bool was_draining(const struct percuss_client *client)
     dds_sample_info_t info;
     memcpy(status.server, client->server.id, sizeof status.server);
     dds_instance_handle_t server = dds_lookup_instance(client->server_reader, &status);
-    /* what it announced stays readable when it has gone; all of a status is in the struct */
-    return server != DDS_HANDLE_NIL &&
-           dds_read_instance(client->server_reader, samples, &info, 1, 1, server) == 1 &&
-           info.valid_data && strcmp(status.state, "ready") != 0;
+    /* what it announced stays readable when it has gone */
+    bool draining = server != DDS_HANDLE_NIL &&
+                    dds_read_instance(client->server_reader, samples, &info, 1, 1, server) == 1 &&
+                    info.valid_data && strcmp(status.state, "ready") != 0;
+    /* the tasks that it had are beside the struct */
+    dds_sample_free(&status, &percuss_v1_ServerStatus_desc, DDS_FREE_CONTENTS);
+    return draining;
 }
 
 static bool is_followed(const struct percuss_client *client, const void *subject)
