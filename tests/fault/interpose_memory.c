@@ -11,11 +11,17 @@
 
 #include "fault/interpose.h"
 
-/* glibc's own, which need no search for them */
-void *__libc_malloc(size_t size);
-void *__libc_calloc(size_t count, size_t size);
-void *__libc_realloc(void *old, size_t size);
-void *__libc_memalign(size_t alignment, size_t size);
+/* what there is underneath: glibc's own, which need no search for them, or the address sanitizer's
+ */
+#ifdef PERCUSS_ADDRESS_SANITIZER
+#define REAL(name) __interceptor_##name
+#else
+#define REAL(name) __libc_##name
+#endif
+void *REAL(malloc)(size_t size);
+void *REAL(calloc)(size_t count, size_t size);
+void *REAL(realloc)(void *old, size_t size);
+void *REAL(memalign)(size_t alignment, size_t size);
 
 enum { RANGES = 32 };
 
@@ -79,27 +85,27 @@ static bool fails(const void *caller)
 
 void *malloc(size_t size)
 {
-    return fails(CALLER) ? NULL : __libc_malloc(size);
+    return fails(CALLER) ? NULL : REAL(malloc)(size);
 }
 
 void *calloc(size_t count, size_t size)
 {
-    return fails(CALLER) ? NULL : __libc_calloc(count, size);
+    return fails(CALLER) ? NULL : REAL(calloc)(count, size);
 }
 
 void *realloc(void *old, size_t size)
 {
-    return fails(CALLER) ? NULL : __libc_realloc(old, size);
+    return fails(CALLER) ? NULL : REAL(realloc)(old, size);
 }
 
 void *aligned_alloc(size_t alignment, size_t size)
 {
-    return fails(CALLER) ? NULL : __libc_memalign(alignment, size);
+    return fails(CALLER) ? NULL : REAL(memalign)(alignment, size);
 }
 
 int posix_memalign(void **to, size_t alignment, size_t size)
 {
-    void *piece = fails(CALLER) ? NULL : __libc_memalign(alignment, size);
+    void *piece = fails(CALLER) ? NULL : REAL(memalign)(alignment, size);
     if (!piece)
         return ENOMEM;
     *to = piece;
@@ -109,7 +115,7 @@ int posix_memalign(void **to, size_t alignment, size_t size)
 char *strndup(const char *text, size_t most)
 {
     size_t length = strnlen(text, most);
-    char *copy = fails(CALLER) ? NULL : __libc_malloc(length + 1);
+    char *copy = fails(CALLER) ? NULL : REAL(malloc)(length + 1);
     if (!copy)
         return NULL;
     copy[length] = '\0';
@@ -119,6 +125,6 @@ char *strndup(const char *text, size_t most)
 char *strdup(const char *text)
 {
     size_t size = strlen(text) + 1;
-    char *copy = fails(CALLER) ? NULL : __libc_malloc(size);
+    char *copy = fails(CALLER) ? NULL : REAL(malloc)(size);
     return copy ? memcpy(copy, text, size) : NULL;
 }

@@ -99,7 +99,9 @@ no_proc() {
 }
 expect 1 no_proc "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain"
 says "its sockets cannot be closed to other machines"
-expect 3 no_proc "$bin/percuss" ping --domain "$domain"
+# at its end the address sanitizer looks for leaks by /proc
+if is_sanitized address; then code=1; else code=3; fi
+expect "$code" no_proc "$bin/percuss" ping --domain "$domain"
 says "its sockets cannot be closed to other machines"
 
 say "whoever brings a configuration may be reached from elsewhere"

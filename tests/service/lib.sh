@@ -24,15 +24,20 @@ while :; do
     flock -n 9 && break
 done
 
-# whether what is tested was built with a sanitizer: it must be loaded first, and keeps what is unloaded
+# is_sanitized [WHICH]: whether what is tested was built with a sanitizer, which keeps what is unloaded
 is_sanitized() {
-    grep -q '^PERCUSS_SANITIZE:[A-Z]*=.' "$build/CMakeCache.txt" 2>/dev/null
+    grep -q "^PERCUSS_SANITIZE:[A-Z]*=.*${1:-.}" "$build/CMakeCache.txt" 2>/dev/null
 }
-# its dlopen does not look where the program would
+# its dlopen does not look where the program would, and it bears what preload puts in front of it
 if is_sanitized; then
     LD_LIBRARY_PATH=$build/client${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
-    export LD_LIBRARY_PATH
+    ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0
+    export LD_LIBRARY_PATH ASAN_OPTIONS
 fi
+# preload LIBRARY: what LD_PRELOAD is for it; the address sanitizer has to come before the C library as well
+preload() {
+    echo "$1$(ldd "$bin/percuss" | awk '/libasan/ { print ":" $3 }')"
+}
 
 say() {
     echo "- $*"
