@@ -42,6 +42,12 @@ struct beam_mode {
  * whose frequencies differ by a relative gap mix with an error of some 1e-16/gap per half-wave. */
 void beam_modes(const struct beam_plane *plane, size_t count, struct beam_mode *modes);
 
+/* The same by parts: a walk (beam_roots.h) is started, and then gives the next `count` modes. */
+struct beam_root_walk;
+void beam_modes_start(const struct beam_plane *plane, struct beam_root_walk *walk);
+void beam_modes_next(const struct beam_plane *plane, struct beam_root_walk *walk, size_t count,
+                     struct beam_mode *modes);
+
 /* Deflection w and rotation psi of the section at x (m) for unit modal coordinate. For
  * Euler-Bernoulli psi = dw/dx. Sign: psi = +dw/dx where shear vanishes. */
 void beam_mode_at(const struct beam_plane *plane, const struct beam_mode *mode, double x, double *w,

@@ -5,6 +5,7 @@
 
 #include "model/bar.h"
 #include "model/beam.h"
+#include "model/beam_roots.h"
 #include "model/torsion.h"
 
 static int plane_number(size_t family)
@@ -16,9 +17,12 @@ static void find_bending(const struct body *body, struct modal_family *modes)
 {
     struct beam_plane plane = beam_plane_of(body, plane_number(modes->family));
     struct beam_mode *shapes = modes->shapes;
-    beam_modes(&plane, modes->count, shapes);
+    size_t known = modes->known;
+    if (known == 0)
+        beam_modes_start(&plane, modes->walk);
+    beam_modes_next(&plane, modes->walk, modes->count - known, shapes + known);
     bool alike = plane.supports[0] == plane.supports[1];
-    for (size_t k = 0; k < modes->count; k++) {
+    for (size_t k = known; k < modes->count; k++) {
         modes->omega[k] = shapes[k].omega;
         modes->odd[k] = alike && shapes[k].even[0] == 0.0 && shapes[k].even[1] == 0.0;
     }
@@ -48,6 +52,7 @@ static double bending_compliance(const struct body *body, size_t family,
 const struct mode_family beam_bending_family = {
     .bends = true,
     .shape_size = sizeof(struct beam_mode),
+    .walk_size = sizeof(struct beam_root_walk),
     .find = find_bending,
     .participations = bending_participations,
     .compliance = bending_compliance,

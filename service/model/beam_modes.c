@@ -223,17 +223,38 @@ static struct beam_mode mode_of(const struct beam_plane *plane, const struct bea
     };
 }
 
-void beam_modes(const struct beam_plane *plane, size_t count, struct beam_mode *modes)
+/* The roots are walked with the tighter support on the left. */
+static bool is_mirrored(const struct beam_plane *plane)
+{
+    return plane->supports[0] < plane->supports[1];
+}
+
+void beam_modes_start(const struct beam_plane *plane, struct beam_root_walk *walk)
 {
     struct beam_ratios ratios = ratios_of(plane);
-    /* the roots are walked with the tighter support on the left */
-    bool mirrored = plane->supports[0] < plane->supports[1];
+    bool mirrored = is_mirrored(plane);
     enum support supports[2] = {plane->supports[mirrored], plane->supports[!mirrored]};
+
+    beam_root_walk_start(walk, &ratios, supports);
+}
+
+void beam_modes(const struct beam_plane *plane, size_t count, struct beam_mode *modes)
+{
     struct beam_root_walk walk;
 
-    beam_root_walk_start(&walk, &ratios, supports);
+    beam_modes_start(plane, &walk);
+    beam_modes_next(plane, &walk, count, modes);
+}
+
+void beam_modes_next(const struct beam_plane *plane, struct beam_root_walk *walk, size_t count,
+                     struct beam_mode *modes)
+{
+    struct beam_ratios ratios = ratios_of(plane);
+    bool mirrored = is_mirrored(plane);
+    enum support supports[2] = {plane->supports[mirrored], plane->supports[!mirrored]};
+
     for (size_t k = 0; k < count; k++) {
-        struct beam_root root = beam_root_walk_next(&walk);
+        struct beam_root root = beam_root_walk_next(walk);
         struct beam_wave wave = beam_wave_at(&ratios, root.b);
         double amplitudes[4];
 

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct site_load site_load_make(const struct body *body, const struct site *site,
                                 const double direction[3])
@@ -16,9 +17,8 @@ struct site_load site_load_make(const struct body *body, const struct site *site
     return load;
 }
 
-struct modal_family *modal_family_create(const struct body *body, size_t family, size_t count)
+static struct modal_family *allocate(const struct mode_family *kind, size_t family, size_t count)
 {
-    const struct mode_family *kind = body->kind->families[family];
     struct modal_family *modes = calloc(1, sizeof *modes);
     if (!modes)
         return NULL;
@@ -29,11 +29,38 @@ struct modal_family *modal_family_create(const struct body *body, size_t family,
     modes->odd = calloc(count + 1, sizeof *modes->odd);
     if (kind->shape_size)
         modes->shapes = calloc(count + 1, kind->shape_size);
-    if (!modes->omega || !modes->odd || (kind->shape_size && !modes->shapes)) {
-        modal_family_free(modes);
+    if (kind->walk_size)
+        modes->walk = calloc(1, kind->walk_size);
+    if (modes->omega && modes->odd && (!kind->shape_size || modes->shapes) &&
+        (!kind->walk_size || modes->walk))
+        return modes;
+    modal_family_free(modes);
+    return NULL;
+}
+
+struct modal_family *modal_family_create(const struct body *body, size_t family, size_t count)
+{
+    const struct mode_family *kind = body->kind->families[family];
+    struct modal_family *modes = allocate(kind, family, count);
+    if (modes)
+        kind->find(body, modes);
+    return modes;
+}
+
+struct modal_family *modal_family_grow(const struct body *body, const struct modal_family *known,
+                                       size_t count)
+{
+    const struct mode_family *kind = body->kind->families[known->family];
+    struct modal_family *modes = allocate(kind, known->family, count);
+    if (!modes)
         return NULL;
+    if (kind->walk_size) {
+        modes->known = known->count;
+        memcpy(modes->omega, known->omega, known->count * sizeof *known->omega);
+        memcpy(modes->odd, known->odd, known->count * sizeof *known->odd);
+        memcpy(modes->shapes, known->shapes, known->count * kind->shape_size);
+        memcpy(modes->walk, known->walk, kind->walk_size);
     }
-    /* the modes themselves */
     kind->find(body, modes);
     return modes;
 }
@@ -45,6 +72,7 @@ void modal_family_free(struct modal_family *modes)
     free(modes->omega);
     free(modes->odd);
     free(modes->shapes);
+    free(modes->walk);
     free(modes);
 }
 

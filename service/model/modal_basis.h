@@ -39,6 +39,11 @@ struct site_load site_load_make(const struct body *body, const struct site *site
 
 /* The first `count` modes of a family; NULL: out of memory. */
 struct modal_family *modal_family_create(const struct body *body, size_t family, size_t count);
+
+/* The same, to the same bits, of a family whose first ones, fewer, are known: they need not be
+ * sought again. */
+struct modal_family *modal_family_grow(const struct body *body, const struct modal_family *known,
+                                       size_t count);
 void modal_family_free(struct modal_family *modes);
 
 /* How many modes a family has at most; SIZE_MAX: any number. */

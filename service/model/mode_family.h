@@ -19,6 +19,8 @@ struct modal_family {
     double *omega;      /* [count], ascending, rad/s */
     unsigned char *odd; /* [count]: shape odd about the middle; all 0 unless supports are alike */
     void *shapes;       /* [count], what else the family keeps of them; NULL: nothing */
+    size_t known;       /* so many are there before the search, which may begin behind them */
+    void *walk;         /* where it got to, then; NULL: nothing is kept of that */
 };
 
 struct mode_family {
@@ -29,8 +31,9 @@ struct mode_family {
     bool returns;
 
     size_t shape_size; /* bytes of modal_family's shapes, each */
+    size_t walk_size;  /* and of its walk */
 
-    /* Fills in the modes. */
+    /* Fills in the modes; those that are known are there already. */
     void (*find)(const struct body *body, struct modal_family *modes);
 
     /* Displacement of the modes which[0 .. count - 1] at a load, along it, for unit modal

@@ -93,12 +93,15 @@ static bool group_create(struct prepared_group *group, const struct body *body,
     return group->set != NULL;
 }
 
-static struct prepared_family *family_create(const struct body *body, size_t which, size_t count)
+/* `known`: the first ones; NULL: none are. */
+static struct prepared_family *family_create(const struct body *body, size_t which, size_t count,
+                                             const struct modal_family *known)
 {
     struct prepared_family *family = calloc(1, sizeof *family);
     if (!family)
         return NULL;
-    family->modes = modal_family_create(body, which, count);
+    family->modes =
+        known ? modal_family_grow(body, known, count) : modal_family_create(body, which, count);
     family->participations = participations_create(count);
     if (!family->modes || !family->participations) {
         family_free(family);
@@ -250,9 +253,10 @@ const struct prepared_family *prepared_family_get(struct prepared_cache *cache,
     struct prepared_family *known = entry->families[family];
     if (known && known->modes->count >= count)
         return known;
-    /* too few: anew, with some to spare */
+    /* too few: more, with some to spare */
     size_t rounded = (count + ROUNDING - 1) / ROUNDING * ROUNDING;
-    struct prepared_family *made = family_create(body, family, rounded ? rounded : ROUNDING);
+    struct prepared_family *made =
+        family_create(body, family, rounded ? rounded : ROUNDING, known ? known->modes : NULL);
     if (!made)
         return NULL;
     /* a scene may still point at the old ones */

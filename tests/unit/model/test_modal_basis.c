@@ -205,6 +205,36 @@ static void planes_and_parities(void **state)
     modal_family_free(thin);
 }
 
+/* By parts and at once: the same bits, whatever the supports. */
+static void families_grow(void **state)
+{
+    (void)state;
+    static const size_t counts[] = {1, 8, 9, 40};
+    const struct family_load load = {.acts = true, .bar = {.x = 0.3, .force = 1.0, .moment = 0.2}};
+    for (int i = 0; i < 9; i++) {
+        struct body beam = bar(&beam_kind, (enum support)(i / 3), (enum support)(i % 3));
+        for (size_t f = 0; f < beam.kind->family_count; f++) {
+            struct modal_family *all = modal_family_create(&beam, f, counts[3]);
+            struct modal_family *some = modal_family_create(&beam, f, counts[0]);
+            assert_true(all && some);
+            for (int n = 1; n < 4; n++) {
+                struct modal_family *more = modal_family_grow(&beam, some, counts[n]);
+                assert_non_null(more);
+                assert_int_equal(more->count, counts[n]);
+                modal_family_free(some);
+                some = more;
+            }
+            for (size_t k = 0; k < counts[3]; k++) {
+                assert_true(some->omega[k] == all->omega[k] && some->odd[k] == all->odd[k]);
+                assert_true(modal_participation(&beam, some, k, &load) ==
+                            modal_participation(&beam, all, k, &load));
+            }
+            modal_family_free(some);
+            modal_family_free(all);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -214,6 +244,7 @@ int main(void)
         cmocka_unit_test(compliances_complete_the_modal_sums),
         cmocka_unit_test(compliances_of_the_notes),
         cmocka_unit_test(planes_and_parities),
+        cmocka_unit_test(families_grow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
