@@ -268,7 +268,12 @@ static bool follow(struct tracer *tracer, const struct force_log *log, double en
             return false;
         phase = tracer->now.time - phase_start;
     }
-    return show_flight(tracer, end, phase);
+    if (!show_flight(tracer, end, phase))
+        return false;
+    /* the last instant is not one that is dropped */
+    tracer->skip = 0;
+    sample(tracer, tracer->none, tracer->none);
+    return true;
 }
 
 enum percuss_status trace_make(const struct trace_task *task, struct arena *arena,
