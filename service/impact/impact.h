@@ -13,9 +13,15 @@
 #include "impact/track.h"
 
 /* How careful a solution must be for its accuracy: as later sub-impacts amplify what steps leave of
- * the first ones; as for a single blow, where they do not; or as for a solution that only says how
- * far another one may be off. */
-enum impact_care { IMPACT_CARE_SEQUENCE, IMPACT_CARE_SINGLE, IMPACT_CARE_ROUGH, IMPACT_CARES };
+ * the first ones; the same by other means, for comparison; as for a single blow, where they do not;
+ * or as for a solution that only says how far another one may be off. */
+enum impact_care {
+    IMPACT_CARE_SEQUENCE,
+    IMPACT_CARE_BESIDE,
+    IMPACT_CARE_SINGLE,
+    IMPACT_CARE_ROUGH,
+    IMPACT_CARES
+};
 
 struct impact_settings {
     double accuracy; /* relative error of an impulse that the time steps may cause */

@@ -61,6 +61,8 @@ static enum percuss_status compare(struct attempt_context *context, const struct
     struct attempt own = *best;
     if (!known) {
         own.accuracy *= longer;
+        if (attempt_is_sequence(best))
+            attempt_differ(&own);
         enum percuss_status status = attempt_run(context, &own, &best->assembly->scene);
         if (status)
             return status;

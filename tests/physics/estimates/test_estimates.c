@@ -123,6 +123,24 @@ static void references_settle_to_known_numbers(void **state)
     lab_free(lab);
 }
 
+/* Sequences whose answers were met and wrong while those beside them ended contacts in the same way
+ * (IMPACT_CARE_BESIDE). */
+static void what_agrees_by_chance_is_not_met(void **state)
+{
+    (void)state;
+    static const struct campaign_settings scenes[] = {
+        {.class = CLASS_HEAVY, .first = 9, .count = 1, .effort = 1e8},
+        {.class = CLASS_HEAVY, .first = 64, .count = 1, .effort = 1e8},
+        {.class = CLASS_ROLLED, .first = 37, .count = 1, .effort = 1e8}};
+    for (size_t i = 0; i < COUNT(scenes); i++) {
+        static struct campaign campaign;
+        campaign_run(&campaign, &scenes[i]);
+        assert_int_equal(campaign.answered, 1);
+        assert_int_equal(campaign.wrong, 0);
+        campaign_release(&campaign);
+    }
+}
+
 /* An honest answer breaks nothing; what is done to it is seen. */
 static void broken_answers_are_seen(void **state)
 {
@@ -155,6 +173,7 @@ int main(void)
         cmocka_unit_test(chance_is_binomial),
         cmocka_unit_test(scenes_are_drawn_again),
         cmocka_unit_test(references_settle_to_known_numbers),
+        cmocka_unit_test(what_agrees_by_chance_is_not_met),
         cmocka_unit_test(broken_answers_are_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
