@@ -38,12 +38,13 @@ check() {
     percussd --config /etc/percuss/percussd.yaml --check-config >"$said" 2>&1
 }
 
-# serve: as the unit would, in its folder, by a user who may write nowhere else
+# serve [SETTINGS]: as the unit would, in its folder, by a user who may write nowhere else
 serve() {
+    settings=${1:-/etc/percuss/percussd.yaml}
     log=$(mktemp)
     chmod 666 "$log"
     setpriv --reuid 65534 --regid 65534 --clear-groups --no-new-privs \
-        percussd --config /etc/percuss/percussd.yaml --log-format json 2>"$log" 9>&- &
+        percussd --config "$settings" --log-format json 2>"$log" 9>&- &
     daemon=$!
     waited=0
     until grep -q '"message":"ready: domain ' "$log"; do
@@ -91,6 +92,30 @@ percuss query --local --a steel-sphere --b al-beam --speed 0.2 >"$said" 2>&1 || 
 grep -q '^  restitution  0\.' "$said" || fail "no answer in process"
 man=$(find /usr/share/man -name 'percuss*.gz' | wc -l)
 [ "$man" -eq 7 ] || fail "$man manual pages"
+
+echo "- secured, by the keys' script and the settings that docs/security.md names"
+apt install openssl
+keys=$(mktemp -d)
+chmod 755 "$keys"
+for add in "daemon serves" "rig asks" "dashboard observes"; do
+    [ -d "$keys/keys" ] || sh /usr/share/percuss/security/percuss-keys.sh create "$keys/keys" >"$said" 2>&1 || fail "an authority"
+    # shellcheck disable=SC2086
+    sh /usr/share/percuss/security/percuss-keys.sh add "$keys/keys" $add >"$said" 2>&1 || fail "an identity"
+done
+chmod 755 "$keys/keys"
+chown -R 65534:65534 "$keys/keys/daemon"
+sed -E 's#^(catalogue|tables): *([^/])#\1: /etc/percuss/\2#' /etc/percuss/percussd.yaml >"$keys/percussd.yaml"
+echo "security: $keys/keys/daemon" >>"$keys/percussd.yaml"
+chmod 644 "$keys/percussd.yaml"
+serve "$keys/percussd.yaml"
+percuss query --security "$keys/keys/rig" --a steel-sphere --b al-beam --speed 0.2 >"$said" 2>&1 || fail "a secured query"
+grep -q '^  restitution  0\.' "$said" || fail "no answer to an identity"
+percuss dents --security "$keys/keys/dashboard" >"$said" 2>&1 || fail "a secured percuss dents"
+grep -q '^rig-beam' "$said" || fail "who observes sees no specimen"
+! percuss query --security "$keys/keys/dashboard" --a steel-sphere --b al-beam --speed 0.2 >"$said" 2>&1 ||
+    fail "who observes is answered"
+! percuss ping --timeout 5 >"$said" 2>&1 || fail "a stranger is answered"
+end
 
 echo "- upgraded: edited settings and the specimens' dents stay, a disabled unit stays disabled"
 echo 'queue_capacity: 77' >>/etc/percuss/percussd.yaml
