@@ -125,13 +125,17 @@ is_busy() {
     percuss status >"$out" 2>"$err" && grep -q '^activity' "$out"
 }
 wait_for 20 is_busy || fail "nobody says that he is busy"
-for i in 1 2 3; do
+# who has heard of the elder alone 0.2 s after it, as may be on a busy machine, asks that; by chance one of twelve or
+# none would be asked so three times in a thousand
+asked=0
+for i in 1 2 3 4 5 6; do
     expect 0 query --json --server least-loaded
-    [ "$(field server)" != "$elder" ] || fail "the busy one was asked"
+    [ "$(field server)" != "$elder" ] || asked=$((asked + 1))
     expect 0 env PERCUSS_SERVER=least-loaded "$bin/percuss" query --domain "$domain" --partition gears \
         --a steel-sphere --b al-beam --speed 0.3 --json
-    [ "$(field server)" != "$elder" ] || fail "the busy one was asked"
+    [ "$(field server)" != "$elder" ] || asked=$((asked + 1))
 done
+[ "$asked" -le 1 ] || fail "the busy one was asked $asked times of 12"
 expect 0 env PERCUSS_SERVER="$elder" "$bin/percuss" query --domain "$domain" --partition gears \
     --a steel-sphere --b al-beam --speed 0.3 --json
 [ "$(field server)" = "$elder" ] || fail "answered by $(field server)"
