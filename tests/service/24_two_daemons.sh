@@ -14,6 +14,7 @@ cp "$out" "$work/elder"
 
 # start_foreign MODE, stop_foreign: another server, as tests/service/wire_foreign.c says
 start_foreign() {
+    : >"$work/foreign"
     "$peers/wire_foreign" "$domain" "$1" >"$work/foreign" 2>&1 9>&- &
     others=$!
     wait_for 20 grep -q there "$work/foreign" || fail "$(cat "$work/foreign")"
@@ -55,6 +56,7 @@ stop_foreign
 # start_second CATALOGUE: beside the first one, in a log of its own
 start_second() {
     sed "s|catalogue.yaml|$1|" "$work/percussd.yaml" >"$work/second.yaml"
+    : >"$work/second.log"
     "$bin/percussd" --config "$work/second.yaml" --domain "$domain" 2>"$work/second.log" 9>&- &
     others=$!
     wait_for 20 grep -q 'ready: domain' "$work/second.log" || fail "$(cat "$work/second.log")"

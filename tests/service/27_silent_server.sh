@@ -6,6 +6,7 @@
 
 # start_silent MODE, stop_silent: a server that answers nobody
 start_silent() {
+    : >"$work/silent"
     "$peers/wire_silent" "$domain" "$1" >"$work/silent" 2>&1 9>&- &
     others=$!
     wait_for 20 grep -q there "$work/silent" || fail "$(cat "$work/silent")"

@@ -10,6 +10,8 @@ start_daemon
 
 # start_standby: beside the one that answers, with a log of its own
 start_standby() {
+    # emptied first: the shell that opens it may come to that after who looks for the line has looked
+    : >"$work/standby.log"
     "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain" 2>"$work/standby.log" 9>&- &
     others=$!
     wait_for 20 grep -q "waits until it ends" "$work/standby.log" || fail "$(cat "$work/standby.log")"

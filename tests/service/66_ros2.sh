@@ -7,6 +7,7 @@
 
 # start_bridge: the daemon's domain is ROS 2's too
 start_bridge() {
+    : >"$work/bridge.log"
     "$bin/percuss-ros2" --domain "$domain" --ros-domain "$domain" "$@" 2>"$work/bridge.log" 9>&- &
     others=$!
     bridge=$!

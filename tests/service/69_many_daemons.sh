@@ -11,6 +11,7 @@ others=
 # start_in PARTITION CATALOGUE NAME: a daemon with its own log; its process in $started
 start_in() {
     printf '%s\n' "catalogue: $work/$2" "partition: $1" "workers: 2" "store: $3.db" >"$work/$3.yaml"
+    : >"$work/$3.log"
     "$bin/percussd" --config "$work/$3.yaml" --domain "$domain" 2>"$work/$3.log" 9>&- &
     started=$!
     others="$others $started"

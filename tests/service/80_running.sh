@@ -20,6 +20,8 @@ age() {
 
 # ask ARGUMENT...: a long question, in the background; its process is $others
 ask() {
+    : >"$work/answer"
+    : >"$work/complaint"
     "$bin/percuss" "$@" --domain "$domain" --timeout 100 >"$work/answer" 2>"$work/complaint" 9>&- &
     others=$!
 }
