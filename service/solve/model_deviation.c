@@ -160,6 +160,12 @@ double model_blow_stiffness(const struct model_blow *blow)
     return blow->indentation > 0.0 ? STIFFNESS * blow->force / blow->indentation : 0.0;
 }
 
+double model_deviation_stiffness(const struct model_deviation *deviation,
+                                 const struct model_blow *blow)
+{
+    return hypot(deviation->force, deviation->compliance * model_blow_stiffness(blow));
+}
+
 struct model_deviation model_deviation_of(const struct problem *problem, size_t contact,
                                           const struct model_blow *blow)
 {

@@ -43,6 +43,10 @@ struct model_deviation model_deviation_of(const struct problem *problem, size_t 
 /* Share of the stiffness that a compliance in series with a contact changes, per m/N. */
 double model_blow_stiffness(const struct model_blow *blow);
 
+/* Deviation of the stiffness, as a share: of the law's force and the compliance together. */
+double model_deviation_stiffness(const struct model_deviation *deviation,
+                                 const struct model_blow *blow);
+
 /* What a body that is taken as rigid keeps as vibration of its own, as a part of the restitution.
  */
 double model_deviation_ringing(const struct problem *problem, size_t contact,

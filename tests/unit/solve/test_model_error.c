@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/solve/model_error.c and model_deviation.c: what complete finite elements and
- * three-dimensional meshes find lies within the total that is stated, and that is no wider than it
- * needs to be. */
+/* Mirrors service/solve/model_error.c, model_deviation.c and model_perturbed.c: what complete
+ * finite elements and three-dimensional meshes find lies within the total that is stated, and that
+ * is no wider than it needs to be. */
 #include "physics/support.h"
 
 static struct solve_result result;

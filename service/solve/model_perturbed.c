@@ -1,0 +1,185 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/model_perturbed.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "contact/plastic.h"
+#include "solve/attempt.h"
+#include "solve/contact_model.h"
+#include "solve/fewer.h"
+#include "solve/law_error.h"
+#include "solve/outcome.h"
+
+/* Longest steps of solutions beside a sequence, as accuracy (impact_settings), and of groups, whose
+ * contacts open and close within steps: what they say of e is that of fine steps to 2 % of 7 in 8
+ * random scenes. */
+static const double LONGEST = 1e-3;
+static const double LONGEST_GROUP = 1e-4;
+/* Work that one of them may take, in those of the answer. */
+static const double EFFORT = 3.0;
+/* Change of a sub-impact's impulse up to which the slope and one solution beside say together what
+ * deviations make of e: of 19 in 20 sequences no less than 0.7 of what two solutions say. */
+static const double STRAIN_CURVED = 0.5;
+
+/* Which deviations a solution beside the answer has: all contacts softer or stiffer, every other
+ * one so, or all yielding later or earlier. */
+struct direction {
+    bool alternate, flow;
+    double sign;
+};
+
+/* The point of the deviations where most of the stiffness changes: each by its own share of it. */
+static void deviate(const struct model_margin *margin, const struct direction *direction, size_t c,
+                    struct contact_law *law, double *compliance)
+{
+    const struct model_deviation *deviation = &margin->deviation[c];
+    double sign = direction->alternate && c % 2 ? -direction->sign : direction->sign;
+    if (direction->flow) {
+        double depth = margin->blow[c].history.max_indentation;
+        if (!(deviation->yield > 0.0 && law->operations->curve))
+            return;
+        double yield = law_error_yield(law, depth, deviation->yield);
+        *law = contact_law_rescaled(law, 1.0, sign > 0.0 ? yield : 1.0 / yield);
+        return;
+    }
+    double all = model_deviation_stiffness(deviation, &margin->blow[c]);
+    if (!(all > 0.0))
+        return;
+    double own = deviation->force / all;
+    double other = deviation->compliance * model_blow_stiffness(&margin->blow[c]) / all;
+    *law = contact_law_rescaled(law, exp(sign * own * deviation->force), 1.0);
+    *compliance -= sign * other * deviation->compliance;
+}
+
+static bool make_scene(const struct model_margin *margin, const struct direction *direction,
+                       struct scene *scene)
+{
+    size_t n = margin->problem->contact_count;
+    struct arena *arena = margin->problem->arena;
+    struct contact_law *laws = arena_take(arena, n, sizeof *laws);
+    double *residual = arena_take(arena, n * n, sizeof *residual);
+    if (!laws || !residual)
+        return false;
+    memcpy(laws, scene->laws, n * sizeof *laws);
+    memcpy(residual, scene->residual, n * n * sizeof *residual);
+    for (size_t c = 0; c < n; c++)
+        deviate(margin, direction, c, &laws[c], &residual[c * n + c]);
+    scene->laws = laws;
+    scene->residual = residual;
+    return true;
+}
+
+static bool by_finite_elements(const struct problem *problem)
+{
+    enum percuss_contact_model asked = problem->request->options.contact_model;
+    return contact_law_asked(asked)->method == CONTACT_CONCURRENT;
+}
+
+/* What solutions beside the answer share: what each of them leaves of the effort is the others'. */
+struct beside {
+    const struct model_margin *margin;
+    struct attempt_context context;
+    const struct impact_outcome *answer; /* that they are compared with */
+    struct scene scene;                  /* that they deviate from */
+};
+
+/* Solves a scene, and how far its restitutions are from the answer's; INFINITY: nobody knows. */
+static enum percuss_status solve_beside(struct beside *beside, const struct scene *scene,
+                                        struct attempt *attempt, double *distance)
+{
+    const struct solution *solution = beside->margin->solution;
+    double left = beside->context.work;
+    double allowed = EFFORT * impact_work(solution->scene, &solution->outcome);
+    *distance = INFINITY;
+    if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
+        return PERCUSS_OK;
+    /* no more than a few times the answer's own effort, where that is of the same kind */
+    allowed = by_finite_elements(beside->margin->problem) ? left : fmin(left, allowed);
+    bool modal = beside->margin->problem->request->options.method == PERCUSS_METHOD_MODAL;
+    double longest = scene->contacts > 1 ? LONGEST_GROUP : LONGEST;
+    *attempt = (struct attempt){.accuracy = fmax(solution->step_accuracy, modal ? longest : 0.0),
+                                .assembly = solution->assembly,
+                                .care = IMPACT_CARE_ROUGH};
+    beside->context.work = allowed;
+    enum percuss_status status = attempt_run(&beside->context, attempt, scene);
+    beside->context.work += left - allowed;
+    if (!status && !attempt_is_spent(attempt) && !attempt->outcome.always_overlapped)
+        *distance =
+            outcome_compare(beside->margin->problem, beside->answer, &attempt->outcome).restitution;
+    return status;
+}
+
+/* How far the other solution is from the answer: e on a parabola through both with the slope that
+ * first order says. */
+static double other_distance(const struct beside *beside, const struct model_slope *slope,
+                             const struct attempt *softer)
+{
+    const struct problem *problem = beside->margin->problem;
+    double change = outcome_restitution(problem, &softer->outcome, 0) -
+                    outcome_restitution(problem, beside->answer, 0);
+    return fabs(change + 2.0 * slope->restitution);
+}
+
+/* The larger one of two distances along a direction and against it. */
+static enum percuss_status along(struct beside *beside, bool flow, const struct model_slope *slope,
+                                 double *largest)
+{
+    bool curved = !flow && slope->strain <= STRAIN_CURVED;
+    bool group = beside->margin->problem->contact_count > 1;
+    for (int i = 0; i < 2 && !isinf(*largest); i++) {
+        struct direction direction = {
+            .alternate = group && i, .flow = flow, .sign = i && !group ? 1.0 : -1.0};
+        struct scene scene = beside->scene;
+        struct attempt attempt;
+        double distance;
+        if (!make_scene(beside->margin, &direction, &scene))
+            return PERCUSS_INTERNAL;
+        enum percuss_status status = solve_beside(beside, &scene, &attempt, &distance);
+        if (status)
+            return status;
+        *largest = fmax(*largest, distance);
+        if (curved && isfinite(distance)) {
+            *largest = fmax(*largest, other_distance(beside, slope, &attempt));
+            return PERCUSS_OK;
+        }
+    }
+    return PERCUSS_OK;
+}
+
+enum percuss_status model_perturbed_find(const struct model_margin *margin,
+                                         const struct model_slope *slope, struct pace *pace,
+                                         double *restitution)
+{
+    const struct problem *problem = margin->problem;
+    const struct solution *solution = margin->solution;
+    struct beside beside = {
+        margin,
+        {.problem = problem, .arena = problem->arena, .pace = pace, .work = solution->work},
+        &solution->outcome,
+        {0}};
+    if (!fewer_modes(problem, solution->scene, &solution->outcome, FEWER_SEQUENCE, &beside.scene))
+        return PERCUSS_INTERNAL;
+    enum percuss_status status = PERCUSS_OK;
+    double spring = 0.0;
+    double flow = 0.0;
+    /* by finite elements in the contact: the law's own answer to compare with */
+    struct attempt base;
+    if (by_finite_elements(problem)) {
+        status = solve_beside(&beside, solution->scene, &base, &spring);
+        spring = isinf(spring) ? spring : 0.0;
+        beside.answer = &base.outcome;
+    }
+    /* with other stiffnesses, and where metal flows with other yield stresses */
+    bool flows = false;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        flows = flows || margin->deviation[c].yield > 0.0;
+    if (!status)
+        status = along(&beside, false, slope, &spring);
+    if (!status && flows && !isinf(spring))
+        status = along(&beside, true, slope, &flow);
+    *restitution = fmax(*restitution, MODEL_PERTURBED_BETWEEN * hypot(spring, flow));
+    return status;
+}
