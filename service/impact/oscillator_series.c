@@ -4,6 +4,7 @@
 #include "impact/oscillator_series.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/vector_clones.h"
 
@@ -26,20 +27,9 @@ static const struct {
  *   h^2 sum_k (-angle^2)^k int (c - s)^(2k+1)/(2k+1)! f ds,   int ... s^m ds = c^n m!/n!,
  *
  * n = m + 2k + 2, and v by the cosine h times the same with n = m + 2k + 1. Of Lagrange's
- * polynomials for f: [k][point][j], the last row of v at the end; to 20 digits from exact nodes. */
-_Alignas(32) static const double TERM[TERMS][SERIES_ROWS][NODES] = {
-    {{0.0032305531606773849039, -0.0012501978957195100113, 0.00059911990284166764689,
-      -0.00016908467308653538426},
-     {0.044654739516219931748, 0.01105516112503690081, -0.0015763439131757701414,
-      0.00031957112533586327787},
-     {0.10477319401975273714, 0.10928215124631229915, 0.01105516112503690081,
-      -0.00066685674525687900518},
-     {0.14960613448280714923, 0.19642483580315200379, 0.08371702284510275684,
-      0.0032305531606773849039},
-     {0.16185132086231030665, 0.2184655362953805703, 0.10760704113589250101,
-      0.012076101706416622036},
-     {0.17392742256872692869, 0.32607257743127307131, 0.32607257743127307131,
-      0.17392742256872692869}},
+ * polynomials for f: [k - 1][point][j], the last row of v at the end; to 20 digits from exact
+ * nodes. Those of k = 0 are the collocation's own. */
+_Alignas(32) static const double TERM[TERMS - 1][SERIES_ROWS][NODES] = {
     {{1.3679100329288310001e-6, -6.1179986150319215951e-7, 2.959407760801245367e-7,
       -8.3720558005294148187e-8},
      {0.00052341013886192910768, -0.000054817861442063913605, 0.000036282152681481352839,
@@ -203,17 +193,30 @@ bool oscillator_series_reaches(double angle)
     return angle < LARGEST;
 }
 
+static inline const double *first_term(int row)
+{
+    if (row == STEP_POINTS)
+        return collocation.weight;
+    return row < NODES ? collocation.position[row] : collocation.position_end;
+}
+
 /* Horner's rule on all of them. */
 VECTOR_CLONES static void sum_up(int terms, double square, const double scales[SERIES_ROWS],
                                  double by[SERIES_ROWS][NODES])
 {
     quad sum[SERIES_ROWS];
     for (int row = 0; row < SERIES_ROWS; row++)
-        sum[row] = *(const quad *)TERM[terms - 1][row];
-    for (int k = terms - 2; k >= 0; k--) {
+        sum[row] = *(const quad *)TERM[terms - 2][row];
+    for (int k = terms - 2; k > 0; k--) {
 #pragma GCC unroll 6
         for (int row = 0; row < SERIES_ROWS; row++)
-            sum[row] = *(const quad *)TERM[k][row] - square * sum[row];
+            sum[row] = *(const quad *)TERM[k - 1][row] - square * sum[row];
+    }
+#pragma GCC unroll 6
+    for (int row = 0; row < SERIES_ROWS; row++) {
+        quad first;
+        memcpy(&first, first_term(row), sizeof first);
+        sum[row] = first - square * sum[row];
     }
     for (int row = 0; row < SERIES_ROWS; row++) {
         quad scaled = sum[row] * scales[row];
