@@ -166,6 +166,17 @@ double model_deviation_stiffness(const struct model_deviation *deviation,
     return hypot(deviation->force, deviation->compliance * model_blow_stiffness(blow));
 }
 
+struct model_stiffening model_deviation_stiffening(const struct model_deviation *deviation,
+                                                   const struct model_blow *blow)
+{
+    double all = model_deviation_stiffness(deviation, blow);
+    if (!(all > 0.0))
+        return (struct model_stiffening){0};
+    double other = deviation->compliance * model_blow_stiffness(blow) / all;
+    return (struct model_stiffening){.force = deviation->force / all * deviation->force,
+                                     .compliance = -other * deviation->compliance};
+}
+
 struct model_deviation model_deviation_of(const struct problem *problem, size_t contact,
                                           const struct model_blow *blow)
 {

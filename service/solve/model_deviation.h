@@ -47,6 +47,15 @@ double model_blow_stiffness(const struct model_blow *blow);
 double model_deviation_stiffness(const struct model_deviation *deviation,
                                  const struct model_blow *blow);
 
+/* Where within that the stiffness grows most: force and compliance each by its own share of it. */
+struct model_stiffening {
+    double force;      /* change of its logarithm */
+    double compliance; /* m/N in series, negative */
+};
+
+struct model_stiffening model_deviation_stiffening(const struct model_deviation *deviation,
+                                                   const struct model_blow *blow);
+
 /* What a body that is taken as rigid keeps as vibration of its own, as a part of the restitution.
  */
 double model_deviation_ringing(const struct problem *problem, size_t contact,

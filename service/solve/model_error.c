@@ -23,7 +23,7 @@ static const double SWUNG = 0.2;
 static const double STRAIN = 0.05;
 /* Expected change, by what is left out of the modes, from which on it is not followed: beyond it
  * half of the sequences are too sensitive for that. */
-static const double HOPELESS = 0.7;
+static const double FOLLOWED = 0.7;
 
 /* Change of e by the stiffness's logarithm: by the speed it is known exactly for Hertz's law and
  * bodies that were at rest, twice that by the speed's (k d^1.5 at s times the speed is k sqrt(s)
@@ -60,16 +60,14 @@ static enum percuss_status follow(const struct model_margin *margin, struct pace
 {
     const struct solution *solution = margin->solution;
     const struct model_deviation *deviation = &margin->deviation[0];
-    double all = model_deviation_stiffness(&margin->deviation[0], &margin->blow[0]);
+    double all = model_deviation_stiffness(deviation, &margin->blow[0]);
     struct tangent tangent;
     *slope = (struct model_slope){INFINITY, INFINITY};
-    bool hopeless = solution->modes.strained * sensitivity(margin) * all > HOPELESS;
-    if (!solution->log || !(all > 0.0) || hopeless)
+    bool too_sensitive = solution->modes.strained * sensitivity(margin) * all > FOLLOWED;
+    if (!solution->log || !(all > 0.0) || too_sensitive)
         return PERCUSS_OK;
-    /* as deviate() has it */
-    double other = deviation->compliance * model_blow_stiffness(&margin->blow[0]) / all;
-    const struct tangent_source source = {.force = deviation->force / all * deviation->force,
-                                          .compliance = -other * deviation->compliance};
+    struct model_stiffening stiffer = model_deviation_stiffening(deviation, &margin->blow[0]);
+    const struct tangent_source source = {.force = stiffer.force, .compliance = stiffer.compliance};
     struct scene scene;
     if (!fewer_modes(margin->problem, solution->scene, &solution->outcome, FEWER_FIRST_ORDER,
                      &scene))

@@ -31,7 +31,6 @@ struct direction {
     double sign;
 };
 
-/* The point of the deviations where most of the stiffness changes: each by its own share of it. */
 static void deviate(const struct model_margin *margin, const struct direction *direction, size_t c,
                     struct contact_law *law, double *compliance)
 {
@@ -45,13 +44,9 @@ static void deviate(const struct model_margin *margin, const struct direction *d
         *law = contact_law_rescaled(law, 1.0, sign > 0.0 ? yield : 1.0 / yield);
         return;
     }
-    double all = model_deviation_stiffness(deviation, &margin->blow[c]);
-    if (!(all > 0.0))
-        return;
-    double own = deviation->force / all;
-    double other = deviation->compliance * model_blow_stiffness(&margin->blow[c]) / all;
-    *law = contact_law_rescaled(law, exp(sign * own * deviation->force), 1.0);
-    *compliance -= sign * other * deviation->compliance;
+    struct model_stiffening stiffer = model_deviation_stiffening(deviation, &margin->blow[c]);
+    *law = contact_law_rescaled(law, exp(sign * stiffer.force), 1.0);
+    *compliance += sign * stiffer.compliance;
 }
 
 static bool make_scene(const struct model_margin *margin, const struct direction *direction,
