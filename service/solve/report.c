@@ -227,11 +227,14 @@ static void warn_range(const struct problem *problem, const struct solution *sol
             width = nearby->high[c] - nearby->low[c];
             widest = c;
         }
-    if (width > 0.0)
-        report_warn(result,
-                    "contacts[%zu].restitution: %.9g: solutions near this one span %.9g to %.9g",
-                    widest, outcome_restitution(problem, &solution->outcome, widest),
-                    nearby->low[widest], nearby->high[widest]);
+    if (!(width > 0.0))
+        return;
+    /* of numbers around one, as many digits as tell the ends apart */
+    int digits = (int)fmin(17.0, fmax(9.0, 2.0 - floor(log10(width))));
+    report_warn(result,
+                "contacts[%zu].restitution: %.*g: solutions near this one span %.*g to %.*g",
+                widest, digits, outcome_restitution(problem, &solution->outcome, widest), digits,
+                nearby->low[widest], digits, nearby->high[widest]);
 }
 
 /* Counts that they do not confirm. */

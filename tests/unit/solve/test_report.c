@@ -318,6 +318,26 @@ static void refusals_leave_a_clean_answer(void **state)
     lab_free(lab);
 }
 
+/* Far below the default tolerance they differ in the tenth digit and behind. */
+static void a_range_has_two_ends(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    struct solve_request request =
+        strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.2);
+    request.options.tolerance = 1e-9;
+    lab_solve(lab, &request, &result);
+    double low = NAN, high = NAN;
+    for (size_t i = 0; i < result.warning_count; i++) {
+        const char *range = strstr(result.warnings[i], "span ");
+        if (range)
+            assert_int_equal(sscanf(range, "span %lf to %lf", &low, &high), 2);
+    }
+    assert_true(low < high && high - low < 1e-8);
+    assert_true(low <= result.contacts[0].restitution && result.contacts[0].restitution <= high);
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -331,6 +351,7 @@ int main(void)
         cmocka_unit_test(an_unmet_tolerance_has_its_reason),
         cmocka_unit_test(conditioning_is_a_derivative),
         cmocka_unit_test(refusals_leave_a_clean_answer),
+        cmocka_unit_test(a_range_has_two_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
