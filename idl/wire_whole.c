@@ -3,8 +3,9 @@
 
 #include "wire_whole.h"
 
-#include <dds/dds.h>
 #include <string.h>
+
+#include "wire_ops.h"
 
 /* Elements that have left out their members take a hundred times in memory what they take on the
  * wire. */
@@ -59,55 +60,9 @@ static bool check_string(struct cursor *cursor)
     return read_number(cursor, &size) && skip(cursor, 1, size);
 }
 
-/* Bytes of a number or a boolean; 0: the type is something else. */
-static size_t number_size(enum dds_stream_typecode type)
-{
-    switch (type) {
-    case DDS_OP_VAL_BLN:
-    case DDS_OP_VAL_1BY:
-        return 1;
-    case DDS_OP_VAL_2BY:
-        return 2;
-    case DDS_OP_VAL_4BY:
-        return 4;
-    case DDS_OP_VAL_8BY:
-        return 8;
-    default:
-        return 0;
-    }
-}
-
-/* What the instruction of a sequence says. */
-struct list {
-    enum dds_stream_typecode type;
-    uint32_t bound;                   /* 0: none */
-    size_t size;                      /* of an element in memory; 0: of a kind that we do not use */
-    const uint32_t *elements, *after; /* instructions */
-};
-
-static struct list read_list(const uint32_t *ops)
-{
-    bool bounded = DDS_OP_TYPE(*ops) == DDS_OP_VAL_BSQ;
-    const uint32_t *words = ops + 2 + bounded;
-    struct list list = {
-        .type = DDS_OP_SUBTYPE(*ops), .bound = bounded ? ops[2] : 0, .after = words};
-    list.size = number_size(list.type);
-    if (list.type == DDS_OP_VAL_STR) {
-        list.size = sizeof(char *);
-    } else if (list.type == DDS_OP_VAL_BST) {
-        list.size = words[0];
-        list.after = words + 1;
-    } else if (list.type == DDS_OP_VAL_STU) {
-        list.size = words[0];
-        list.elements = ops + DDS_OP_ADR_JSR(words[1]);
-        list.after = DDS_OP_ADR_JMP(words[1]) ? ops + DDS_OP_ADR_JMP(words[1]) : words + 2;
-    }
-    return list;
-}
-
 static bool check_struct(const uint32_t *ops, struct cursor *cursor);
 
-static bool check_elements(const struct list *list, uint32_t count, struct cursor *cursor)
+static bool check_elements(const struct wire_ops_list *list, uint32_t count, struct cursor *cursor)
 {
     bool good = true;
     for (uint32_t i = 0; good && i < count; i++)
@@ -117,9 +72,9 @@ static bool check_elements(const struct list *list, uint32_t count, struct curso
 
 static bool check_list(const uint32_t *ops, struct cursor *cursor)
 {
-    struct list list = read_list(ops);
+    struct wire_ops_list list = wire_ops_read_list(ops);
     struct cursor inner = *cursor;
-    size_t number = number_size(list.type);
+    size_t number = wire_ops_number_size(list.type);
     uint32_t count;
     if ((number == 0 && !enter(cursor, &inner)) || !read_number(&inner, &count) ||
         (list.bound && count > list.bound))
@@ -134,36 +89,16 @@ static bool check_list(const uint32_t *ops, struct cursor *cursor)
     return good;
 }
 
-static bool is_list(uint32_t instruction)
-{
-    return DDS_OP_TYPE(instruction) == DDS_OP_VAL_SEQ || DDS_OP_TYPE(instruction) == DDS_OP_VAL_BSQ;
-}
-
-/* Whether a member is of a kind that our types have. */
-static bool is_known(const uint32_t *ops)
-{
-    if (DDS_OP(*ops) != DDS_OP_ADR || DDS_OP_TYPE_FLAGS(*ops) ||
-        (DDS_OP_FLAGS(*ops) & (DDS_OP_FLAG_OPT | DDS_OP_FLAG_BASE)))
-        return false;
-    enum dds_stream_typecode type = DDS_OP_TYPE(*ops);
-    if (type == DDS_OP_VAL_ARR)
-        return number_size(DDS_OP_SUBTYPE(*ops)) > 0;
-    if (is_list(*ops))
-        return read_list(ops).size > 0;
-    return number_size(type) || type == DDS_OP_VAL_STR || type == DDS_OP_VAL_BST ||
-           type == DDS_OP_VAL_EXT;
-}
-
 static bool check_member(const uint32_t *ops, struct cursor *cursor)
 {
     enum dds_stream_typecode type = DDS_OP_TYPE(*ops);
-    if (number_size(type))
-        return skip(cursor, number_size(type), 1);
+    if (wire_ops_number_size(type))
+        return skip(cursor, wire_ops_number_size(type), 1);
     if (type == DDS_OP_VAL_ARR)
-        return skip(cursor, number_size(DDS_OP_SUBTYPE(*ops)), ops[2]);
+        return skip(cursor, wire_ops_number_size(DDS_OP_SUBTYPE(*ops)), ops[2]);
     if (type == DDS_OP_VAL_EXT)
         return check_struct(ops + DDS_OP_ADR_JSR(ops[2]), cursor);
-    return is_list(*ops) ? check_list(ops, cursor) : check_string(cursor);
+    return wire_ops_is_list(*ops) ? check_list(ops, cursor) : check_string(cursor);
 }
 
 static bool may_be_missing(uint32_t instruction)
@@ -172,30 +107,16 @@ static bool may_be_missing(uint32_t instruction)
            DDS_OP_TYPE(instruction) != DDS_OP_VAL_EXT;
 }
 
-static const uint32_t *next_member(const uint32_t *ops)
-{
-    if (is_list(*ops))
-        return read_list(ops).after;
-    switch (DDS_OP_TYPE(*ops)) {
-    case DDS_OP_VAL_BST:
-    case DDS_OP_VAL_ARR:
-        return ops + 3;
-    case DDS_OP_VAL_EXT:
-        return ops + (DDS_OP_ADR_JMP(ops[2]) ? DDS_OP_ADR_JMP(ops[2]) : 3);
-    default:
-        return ops + 2;
-    }
-}
-
 static bool check_struct(const uint32_t *ops, struct cursor *cursor)
 {
     struct cursor inner = *cursor;
     bool appendable = DDS_OP(*ops) == DDS_OP_DLC;
     if (appendable && (cursor->first || !enter(cursor, &inner)))
         return false;
-    for (ops += appendable; *ops != DDS_OP_RTS; ops = next_member(ops)) {
+    for (ops += appendable; *ops != DDS_OP_RTS; ops = wire_ops_next(ops)) {
         bool missing = appendable && inner.at == inner.end;
-        if (!is_known(ops) || !(missing ? may_be_missing(*ops) : check_member(ops, &inner)))
+        if (!wire_ops_are_known(ops) ||
+            !(missing ? may_be_missing(*ops) : check_member(ops, &inner)))
             return false;
     }
     /* members that a newer version has appended */
