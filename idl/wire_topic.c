@@ -5,7 +5,6 @@
 
 #include <dds/ddsi/ddsi_cdrstream.h>
 #include <dds/ddsi/ddsi_domaingv.h>
-#include <dds/ddsi/ddsi_serdata_default.h>
 #include <dds/ddsi/q_radmin.h>
 #include <pthread.h>
 #include <stddef.h>
@@ -13,12 +12,13 @@
 #include <string.h>
 
 #include "wire.h"
+#include "wire_sample.h"
 #include "wire_whole.h"
 
 enum { ENCAPSULATION = 4, LARGEST_HEAD = 512 };
 
 /* Those of Cyclone DDS for keyed types in XCDR2 and for keyless ones in XCDR1, with a check in
- * front of what comes from the network. */
+ * front of what comes from the network, and quicker where a type has a plan. */
 static struct ddsi_serdata_ops keyed_operations, keyless_operations;
 static struct ddsi_sertype_ops type_operations;
 static pthread_once_t operations_once = PTHREAD_ONCE_INIT;
@@ -135,8 +135,21 @@ static struct ddsi_serdata *to_key(const struct ddsi_serdata *sample)
     return head.common.ops->to_untyped(&head.common);
 }
 
-static void put_check(struct ddsi_serdata_ops *operations)
+static struct ddsi_serdata *from_sample(const struct ddsi_sertype *type,
+                                        enum ddsi_serdata_kind kind, const void *sample)
 {
+    return wire_sample_write((const struct wire_type *)type, behind_check(type), kind, sample);
+}
+
+static void free_type(struct ddsi_sertype *type)
+{
+    wire_sample_forget((struct wire_type *)type);
+    ddsi_sertype_ops_default.free(type);
+}
+
+static void put_ours(struct ddsi_serdata_ops *operations)
+{
+    operations->from_sample = from_sample;
     operations->from_ser = from_network;
     operations->from_ser_iov = from_pieces;
     operations->to_untyped = to_key;
@@ -146,18 +159,20 @@ static void prepare_operations(void)
 {
     keyed_operations = ddsi_serdata_ops_xcdr2;
     keyless_operations = ddsi_serdata_ops_cdr_nokey;
-    put_check(&keyed_operations);
-    put_check(&keyless_operations);
+    put_ours(&keyed_operations);
+    put_ours(&keyless_operations);
     type_operations = ddsi_sertype_ops_default;
     /* there is no other representation to derive a type for */
     type_operations.derive_sertype = NULL;
+    type_operations.free = free_type;
 }
 
 /* What dds_create_topic makes of a descriptor, with our operations. */
 static struct ddsi_sertype_default *create_type(const dds_topic_descriptor_t *descriptor)
 {
-    struct ddsi_sertype_default *type = dds_alloc(sizeof *type);
-    memset(type, 0, sizeof *type);
+    struct wire_type *whole = dds_alloc(sizeof *whole);
+    memset(whole, 0, sizeof *whole);
+    struct ddsi_sertype_default *type = &whole->common;
     const bool keyless = descriptor->m_nkeys == 0;
     ddsi_sertype_init(&type->c, descriptor->m_typename, &type_operations,
                       keyless ? &keyless_operations : &keyed_operations, keyless);
@@ -205,6 +220,7 @@ dds_entity_t wire_topic_create_typed(dds_entity_t participant,
     const struct ddsi_domaingv *domain = ddsrt_atomic_ldvoidp(&used->gv);
     __atomic_store_n(&((struct ddsi_sertype_default *)used)->serpool, domain->serpool,
                      __ATOMIC_RELEASE);
+    wire_sample_prepare((struct wire_type *)used);
     if (type)
         *type = used;
     return topic;

@@ -183,6 +183,43 @@ static void headers_of_questions_of_ros(void **state)
     dds_sample_free(sample, descriptor, DDS_FREE_ALL);
 }
 
+/* What is written by a plan, or by DDS where there is none, is what is read of the bytes of DDS. */
+static void what_is_written_is_what_dds_reads(void **state)
+{
+    (void)state;
+    for (int i = 0; i < ANY_TYPES; i++) {
+        const dds_topic_descriptor_t *descriptor = any_types[i].type;
+        const struct ddsi_sertype *type = type_of(i);
+        void *sample = dds_alloc(descriptor->m_size);
+        memset(sample, 0, descriptor->m_size);
+        any_fill_struct(descriptor->m_ops, sample);
+        struct any_bytes bytes = any_bytes_of(sample, descriptor->m_ops, false);
+        struct ddsi_serdata *read = take(type, &bytes, bytes.size, false);
+        struct ddsi_serdata *written = ddsi_serdata_from_sample(type, SDK_DATA, sample);
+        assert_non_null(written);
+        assert_true(ddsi_serdata_eqkey(written, read));
+        assert_int_equal(written->hash, read->hash);
+        ddsi_keyhash_t keys[2];
+        ddsi_serdata_get_keyhash(written, &keys[0], false);
+        ddsi_serdata_get_keyhash(read, &keys[1], false);
+        assert_memory_equal(&keys[0], &keys[1], sizeof keys[0]);
+        /* the header tells of the zeros behind, which bring it to a multiple of 4 */
+        const size_t padding = (4 - bytes.size % 4) % 4, size = 4 + bytes.size + padding;
+        assert_int_equal(ddsi_serdata_size(written), size);
+        uint8_t *whole = malloc(size);
+        assert_non_null(whole);
+        ddsi_serdata_to_ser(written, 0, size, whole);
+        assert_int_equal(whole[1], __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? 9 : 8);
+        assert_int_equal(whole[3], padding);
+        assert_memory_equal(whole + 4, bytes.data, bytes.size);
+        free(whole);
+        free(bytes.data);
+        ddsi_serdata_unref(written);
+        ddsi_serdata_unref(read);
+        dds_sample_free(sample, descriptor, DDS_FREE_ALL);
+    }
+}
+
 enum { HOLDS = 2000 };
 
 static void *hold_and_let_go(void *sample)
@@ -233,6 +270,7 @@ int main(void)
         cmocka_unit_test(a_disposed_instance_keeps_its_key),
         cmocka_unit_test(a_question_of_ros_with_half_of_its_delassus_is_dropped),
         cmocka_unit_test(headers_of_questions_of_ros),
+        cmocka_unit_test(what_is_written_is_what_dds_reads),
         cmocka_unit_test(the_key_of_a_sample_that_others_hold),
         cmocka_unit_test(types_without_a_size_in_front_are_refused),
     };
