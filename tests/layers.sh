@@ -54,7 +54,7 @@ for folder in service/*/; do
                 case $layer in exchange | respond | endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
                 continue
                 ;;
-            wire.h | wire_security.h | wire_validity.h | wire_whole.h)
+            wire.h | wire_clock.h | wire_security.h | wire_validity.h | wire_whole.h)
                 case $layer in endpoint | daemon) ;; *) complain "$file includes $include" ;; esac
                 continue
                 ;;

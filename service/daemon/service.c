@@ -26,6 +26,7 @@
 #include "daemon/status.h"
 #include "exchange/clock.h"
 #include "respond/responder.h"
+#include "wire_clock.h"
 
 static const int PATIENT_NICE = 10;
 
@@ -36,6 +37,8 @@ static const size_t READER_MEMORY = 8 * 1024 * 1024;
 static const double FLUSH_SECONDS = 1.0, CUT_SECONDS = 2.0;
 /* A body that is in use looks it, to daemons that begin meanwhile. */
 static const double TIDY_SECONDS = 86400.0;
+/* Steps of the time of day that the log tells. */
+static const double TOLD_SECONDS = 1.0;
 
 struct service {
     struct shared shared;
@@ -48,6 +51,7 @@ struct service {
     struct neighbours neighbours;
     struct reducer reducer;
     struct identity identity;
+    struct wire_clock clock;     /* the main thread's */
     double tidied;               /* the folder of bodies; monotonic, s */
     bool metrics_fail;           /* which the log has said */
     unsigned long long reported; /* of the undelivered replies: those that are in the log */
@@ -192,6 +196,7 @@ struct service *service_create(const struct settings *settings, const uint8_t *s
         return NULL;
     }
     struct shared *shared = &service->shared;
+    service->clock = wire_clock_start();
     reducer_begin(&service->reducer, settings->bodies);
     if (!shared_create(shared, settings, fault) || !open_specimens(shared, fault) ||
         !open_endpoint(service, server, fault) || !start_workers(service, fault) ||
@@ -303,9 +308,23 @@ static void look_at_reducer(struct service *service)
         activity_clear(&shared->reduction, reducer);
 }
 
+/* A time of day that was set back holds up threads of DDS, so that nobody finds us. */
+static void look_at_clock(struct service *service)
+{
+    const double step = wire_clock_step(&service->clock);
+    if (wire_clock_is_back(step))
+        endpoint_rouse(service->shared.endpoint);
+    if (fabs(step) >= TOLD_SECONDS)
+        log_line(step < 0.0 ? LEVEL_WARNING : LEVEL_INFO,
+                 "the time of day of this machine went %s by %.0f s%s",
+                 step < 0.0 ? "back" : "forward", fabs(step),
+                 step < 0.0 ? ": clients may have missed this daemon for a second" : "");
+}
+
 void service_tick(struct service *service)
 {
     struct shared *shared = &service->shared;
+    look_at_clock(service);
     look_at_reducer(service);
     double now = clock_now();
     if (now - service->tidied > TIDY_SECONDS)

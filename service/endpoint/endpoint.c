@@ -10,6 +10,7 @@
 
 #include "endpoint/intake.h"
 #include "exchange/describe.h"
+#include "wire_clock.h"
 #include "wire_security.h"
 
 enum { WRITE_ATTEMPTS = 20 };
@@ -207,6 +208,11 @@ void endpoint_stop(struct endpoint *endpoint)
 void endpoint_nudge(struct endpoint *endpoint)
 {
     dds_set_guardcondition(endpoint->nudge, true);
+}
+
+void endpoint_rouse(struct endpoint *endpoint)
+{
+    wire_clock_rouse(endpoint->status_writer);
 }
 
 enum delivery endpoint_reply(struct endpoint *endpoint, const uint8_t client[16],

@@ -32,6 +32,16 @@ LD_PRELOAD=$interpose PERCUSS_FAULT_CLOCK=$clock "$bin/percussd" --config "$work
 daemon=$!
 wait_for 20 is_up_or_dead || fail "not ready"
 
+say "set back by 50 hours under a daemon that nobody talks to, and nobody leaves: who comes then finds it"
+# threads of DDS wait for what they do every second by then, and have missed the next turn
+sleep 3
+set_clock -180000
+sleep 3
+expect 0 query --json --timeout 10
+logged 'warning the time of day of this machine went back by 180000 s' || fail "the log does not tell"
+set_clock 0
+wait_for 10 logged 'info    the time of day of this machine went forward by 180000 s' || fail "not of this, either"
+
 expect 0 query --json
 cp "$out" "$work/first"
 numbers "$work/first" >"$work/expected"
