@@ -9,9 +9,6 @@
 #include "impact/kernel.h"
 #include "impact/motion.h"
 
-/* Up to so many contacts blocks of pairs are cheaper than the way by the modes. */
-enum { FEW = 7 };
-
 /* Up to so many contacts what modes do is kept with their oscillators: each with itself by way of
  * two bodies, and each pair by way of as many that both touch. A scene must not ask for more than
  * are kept. */
@@ -82,7 +79,7 @@ bool coupling_create(struct coupling *coupling, const struct scene *scene, struc
 {
     size_t n = scene->contacts;
     size_t longest = 0;
-    *coupling = (struct coupling){.by_modes = n > FEW};
+    *coupling = (struct coupling){.by_modes = n > COUPLING_FEW};
     coupling->first = arena_reserve(arena, n + 1, sizeof *coupling->first);
     coupling->own = arena_reserve(arena, n, sizeof *coupling->own);
     coupling->pairs = arena_reserve(arena, n * n, sizeof *coupling->pairs);
@@ -157,6 +154,15 @@ static struct coupling_block *find_block(const struct coupling *coupling,
     return &blocks[p];
 }
 
+const struct coupling_block *coupling_between_two(const struct coupling *coupling, int level,
+                                                  size_t a, size_t b)
+{
+    for (size_t p = coupling->first[a]; p < coupling->first[a + 1]; p++)
+        if (coupling->pairs[p].other == b)
+            return &coupling->level[level][p];
+    return NULL;
+}
+
 static struct response *const *kept_of(const struct coupling *coupling, const struct scene *scene,
                                        size_t block)
 {
@@ -210,7 +216,7 @@ VECTOR_CLONES static void take_by_blocks(const struct coupling *coupling, size_t
                                          int level, double (*const force)[NODES],
                                          double (*taken)[STEP_POINTS])
 {
-    bool bears[FEW];
+    bool bears[COUPLING_FEW];
     for (size_t c = 0; c < contacts; c++)
         bears[c] = motion_bears(force[c]);
     for (size_t a = 0; a < contacts; a++) {

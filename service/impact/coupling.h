@@ -13,6 +13,9 @@
 #include "impact/response.h"
 #include "impact/scene.h"
 
+/* Up to so many contacts blocks of pairs are cheaper than the way by the modes. */
+enum { COUPLING_FEW = 7 };
+
 /* Approach at node i, then at the end, that a unit force at node j takes away, m/N. */
 struct coupling_block {
     double by[STEP_POINTS][NODES];
@@ -50,7 +53,11 @@ static inline const struct coupling_block *coupling_own(const struct coupling *c
     return &coupling->level[level][coupling->own[contact]];
 }
 
-/* Of force of contact b on contact a, worked out anew. */
+/* Of force of contact b on contact a, among few contacts; NULL: they share nothing. */
+const struct coupling_block *coupling_between_two(const struct coupling *coupling, int level,
+                                                  size_t a, size_t b);
+
+/* The same of any contacts, worked out anew. */
 void coupling_between(const struct scene *scene, int level, size_t a, size_t b,
                       double by[STEP_POINTS][NODES]);
 

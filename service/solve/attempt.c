@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "impact/coupling.h"
 #include "impact/impact_scale.h"
 
 /* Most of a second by the modal method, whose steps cost some 20 ns of that each; CVODE's
@@ -17,8 +18,8 @@ static const double MAX_WORK_CVODE = 4e9;
  * wrong. */
 enum { LONG = 10 };
 
-/* Steps that are taken down of a solution, 200 kB: a long sequence has more, and little of it is of
- * first order. */
+/* Steps that are taken down of a solution, times contacts, 200 kB: a long sequence has more, and
+ * little of it is of first order. */
 enum { MOST_LOGGED = 2048 };
 
 double attempt_work_allowed(enum percuss_method method)
@@ -115,7 +116,7 @@ enum percuss_status attempt_run(struct attempt_context *context, struct attempt 
 enum percuss_status attempt_run_logged(struct attempt_context *context, struct attempt *attempt,
                                        const struct scene *scene)
 {
-    if (scene->contacts > 1)
+    if (scene->contacts > COUPLING_FEW)
         return attempt_run(context, attempt, scene);
     /* a single blow asks for none */
     choose_care(attempt, scene);
@@ -129,7 +130,7 @@ enum percuss_status attempt_run_logged(struct attempt_context *context, struct a
     if (!log)
         return PERCUSS_INTERNAL;
     *log = force_log_make(context->arena, scene->contacts);
-    log->most = MOST_LOGGED;
+    log->most = MOST_LOGGED / scene->contacts;
     return run_once(context, attempt, scene, log);
 }
 
@@ -194,5 +195,5 @@ bool attempt_is_followed(const struct attempt_context *context, const struct att
     const struct force_log *log = attempt->log;
     return log && log->complete && log->count > 0 && !attempt_is_long(attempt) &&
            !attempt_is_spent(attempt) && attempt->outcome.plastic == 0.0 &&
-           context->problem->impulse_compression[0] > 0.0;
+           problem_largest_compression(context->problem) > 0.0;
 }

@@ -37,8 +37,8 @@ double attempt_horizon(const struct problem *problem, const struct scene *scene)
 enum percuss_status attempt_run(struct attempt_context *context, struct attempt *attempt,
                                 const struct scene *scene);
 
-/* The same, and takes the forces down where first order can tell what small changes do to them: one
- * contact of the modal method. */
+/* The same, and takes the forces down where first order can tell what small changes do to them: in
+ * sequences of the modal method. */
 enum percuss_status attempt_run_logged(struct attempt_context *context, struct attempt *attempt,
                                        const struct scene *scene);
 

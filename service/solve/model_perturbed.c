@@ -122,8 +122,8 @@ static double other_distance(const struct beside *beside, const struct model_slo
 static enum percuss_status along(struct beside *beside, bool flow, const struct model_slope *slope,
                                  double *largest)
 {
-    bool curved = !flow && slope->strain <= STRAIN_CURVED;
     bool group = beside->margin->problem->contact_count > 1;
+    bool curved = !flow && !group && slope->strain <= STRAIN_CURVED;
     for (int i = 0; i < 2 && !isinf(*largest); i++) {
         struct direction direction = {
             .alternate = group && i, .flow = flow, .sign = i && !group ? 1.0 : -1.0};

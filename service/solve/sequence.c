@@ -91,8 +91,9 @@ static enum percuss_status compare_again(struct attempt_context *context, struct
     return compare_fewer_modes(context, best, error);
 }
 
-/* Whether first order is asked: steps of the first accuracy leave little of the tolerance, and the
- * bodies do not ring already, when forces would not be slow. */
+/* Whether first order is asked: steps of the first accuracy leave little of the tolerance (of a
+ * group at times a hundred times what is left out of the modes, which other steps alone tell), and
+ * the bodies do not ring already, when forces would not be slow. */
 static bool is_followed(const struct attempt_context *context, const struct attempt *best)
 {
     for (size_t b = 0; b < context->problem->body_count; b++)
@@ -100,7 +101,8 @@ static bool is_followed(const struct attempt_context *context, const struct atte
             return false;
     double tolerance = context->problem->tolerance;
     bool fine = best->accuracy <= first_steps_accuracy(tolerance, true, false);
-    return context->nearby->solutions == 1 && attempt_is_followed(context, best) &&
+    bool alone = context->problem->contact_count == 1;
+    return alone && context->nearby->solutions == 1 && attempt_is_followed(context, best) &&
            (tolerance >= FIRST_STEPS_FOLLOWED || (fine && tolerance >= FIRST_STEPS_FOLLOWED_FINE));
 }
 

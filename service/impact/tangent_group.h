@@ -1,0 +1,35 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* As tangent.h, of several contacts (up to COUPLING_FEW), which feel each other: the linearised
+ * equations along the forces of all of them, for small changes of all of them at once. */
+#ifndef PERCUSS_IMPACT_TANGENT_GROUP_H
+#define PERCUSS_IMPACT_TANGENT_GROUP_H
+
+#include "impact/node_linear.h"
+#include "impact/tangent.h"
+
+/* Changes that are followed side by side: what they share is worked out once. */
+enum { TANGENT_GROUP_MOST = NODE_LINEAR_RIGHT };
+
+struct tangent_group_task {
+    const struct scene *scene;
+    const struct force_log *log; /* of a solution of it by impact_modal, in which nothing yielded */
+    size_t count;
+    const struct tangent_source *source[TANGENT_GROUP_MOST]; /* [contact] */
+};
+
+/* What a change does. */
+struct tangent_group {
+    double impulse[PERCUSS_MAX_CONTACTS]; /* to each contact's, N s */
+    /* Largest change of a sub-impact's impulse over that impulse, or over a small share of the
+     * group's largest impulse, since grazes come and go; INFINITY: it could not be followed */
+    double strain;
+};
+
+/* Follows them: tangent, [task->count]. OK, INTERNAL without memory, or TIMEOUT where the pace
+ * stopped it. */
+enum percuss_status tangent_group_follow(const struct tangent_group_task *task, struct arena *arena,
+                                         struct pace *pace, struct tangent_group *tangent);
+
+#endif
