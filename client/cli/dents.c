@@ -114,7 +114,8 @@ static int print_list(const struct dents *dents, const struct percuss_specimen_l
     if (code == EXIT_REJECTED)
         complain("'%s': the server keeps no specimen of that name", dents->specimen);
     else if (list->count == 0)
-        complain("the server keeps no specimens");
+        complain("the server keeps no specimens: no request has named one, or its settings name no "
+                 "store");
     return code;
 }
 

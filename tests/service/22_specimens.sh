@@ -29,7 +29,7 @@ kill_daemon() {
 
 say "none yet"
 expect 0 percuss dents
-says "no specimens"
+says "no specimens: no request has named one"
 expect 5 percuss dents --specimen bar-1
 says "bar-1"
 expect 2 percuss dents --clear
