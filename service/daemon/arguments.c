@@ -32,7 +32,9 @@ static const struct argp_option options[] = {
      "text, json (an object a line) or journal (of systemd); goes before the one in the settings",
      0},
     {"check-config", KEY_CHECK, NULL, 0,
-     "Look at all that a start needs, say ok or everything that is wrong", 0},
+     "Look at all that a start needs, say ok or what is wrong: of settings and catalogue the first "
+     "error of each",
+     0},
     {"check-store", KEY_STORE, "FILE", 0,
      "Look through a store of specimens, or a copy, that no daemon has open", 0},
     {0},
