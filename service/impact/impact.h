@@ -12,13 +12,16 @@
 #include "impact/result.h"
 #include "impact/track.h"
 
-/* How careful a solution must be for its accuracy: as later sub-impacts amplify what steps leave of
- * the first ones; the same by other means, for comparison; as for a single blow, where they do not;
- * or as for a solution that only says how far another one may be off. */
+/* How careful a solution must be for its accuracy. */
 enum impact_care {
+    /* later sub-impacts amplify what steps leave of the first ones */
     IMPACT_CARE_SEQUENCE,
+    /* a sequence that another one is compared with: its contacts begin and end by short steps, not
+     * by projected moments (step_ends.h), so that the two do not miss the same sub-impact */
     IMPACT_CARE_BESIDE,
+    /* one blow, behind which nothing is amplified */
     IMPACT_CARE_SINGLE,
+    /* only says how far another solution may be off */
     IMPACT_CARE_ROUGH,
     IMPACT_CARES
 };
