@@ -3,66 +3,12 @@
 
 /* Bodies that were reduced from meshes: a round bar whose surface, modes and flexibility are given
  * as a mesh's must answer as the built-in bar does, on every path that a request takes. */
-#include "bodies/made_mesh.h"
 #include "fe/matched.h"
-#include "model/mesh_surface.h"
 #include "physics/ensemble_lab.h"
+#include "physics/mesh_twins.h"
 
-enum { MODES = 60, REMOVED = 12 };
 /* Shapes in the file are floats, 6e-8 of them: participations squared hold twice that. */
 static const double FLOATS = 4e-7;
-
-/* A lab with a bar, its mesh under "mesh", and a ball. */
-struct twins {
-    struct lab *lab;
-    const struct body *bar, *mesh;
-    struct mesh_body *surface;
-};
-
-static struct body body_of(struct mesh_body *surface)
-{
-    struct body body = make_body(&mesh_kind, surface->materials[0]);
-    body.mesh = surface;
-    body.scale = 1.0;
-    return body;
-}
-
-static struct twins make_twins(struct body bar, size_t modes, double end_flexibility)
-{
-    struct twins twins = {.lab = lab_create()};
-    lab_add(twins.lab, "ball", make_sphere(STEEL, 0.015));
-    bar.modes = (unsigned)modes;
-    twins.bar = lab_add(twins.lab, "bar", bar);
-    struct made_mesh wanted = {.bar = twins.bar,
-                               .modes = modes,
-                               .removed = REMOVED,
-                               .around = 16,
-                               .along = 40,
-                               .end_flexibility = end_flexibility};
-    twins.surface = made_mesh_bar(&wanted);
-    assert_non_null(twins.surface);
-    assert_true(mesh_surface_prepare(twins.surface));
-    twins.mesh = lab_add(twins.lab, "mesh", body_of(twins.surface));
-    return twins;
-}
-
-static void twins_free(struct twins *twins)
-{
-    lab_free(twins->lab);
-    mesh_body_free(twins->surface);
-}
-
-static double answer(const struct twins *twins, const struct spot *spot, const char *id,
-                     double speed, enum percuss_compliance compliance, struct solve_result *result)
-{
-    struct spot own = *spot;
-    own.id = id;
-    struct solve_request request = strike(sphere_spot("ball", 0.015), own, speed);
-    request.options.tolerance = 1e-6;
-    request.options.compliance = compliance;
-    lab_solve(twins->lab, &request, result);
-    return result->contacts[0].restitution;
-}
 
 /* Hit on an end. */
 static void a_rod_s_mesh_answers_as_the_rod(void **state)
@@ -320,46 +266,6 @@ static void a_rigid_mesh_is_a_rigid_body(void **state)
     twins_free(&twins);
 }
 
-static void edges_are_refused_by_distance(void **state)
-{
-    (void)state;
-    static struct solve_result result;
-    struct twins twins = make_twins(make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0), 20, 0.0);
-    struct solve_request request = strike(sphere_spot("ball", 0.015), end_spot("mesh", 1.0), 0.3);
-    /* both as they are, the rod moved sideways under the ball */
-    double axis[3], rotation[9];
-    rotation_matrix(request.bodies[1].orientation, rotation);
-    rotate3(rotation, (double[3]){0.0, 0.0102, 0.0}, axis);
-    add_scaled3(1.0, axis, request.bodies[1].position);
-    solve(twins.lab->workspace, &twins.lab->means, &request, &result);
-    assert_int_equal(result.status, PERCUSS_UNSUPPORTED_GEOMETRY);
-    twins_free(&twins);
-}
-
-/* By the element that is hit: those of the ends are 5 mm long, those of the side 25 mm. */
-static void an_edge_is_near_by_the_element_there(void **state)
-{
-    (void)state;
-    static struct solve_result result;
-    const double places[] = {0.0, 0.004, 0.0088};
-    struct twins twins = make_twins(make_bar(&rod_kind, ALUMINIUM, 0.010, 1.0), 20, 0.0);
-    assert_true(twins.surface->element_size > 0.02);
-    for (size_t i = 0; i < COUNT(places); i++) {
-        struct solve_request request =
-            strike(sphere_spot("ball", 0.015), end_spot("mesh", 1.0), 0.3);
-        double aside[3], rotation[9];
-        bool near_edge = false;
-        rotation_matrix(request.bodies[1].orientation, rotation);
-        rotate3(rotation, (double[3]){0.0, places[i], 0.0}, aside);
-        add_scaled3(1.0, aside, request.bodies[1].position);
-        lab_solve(twins.lab, &request, &result);
-        for (size_t w = 0; w < result.warning_count; w++)
-            near_edge = near_edge || strstr(result.warnings[w], "whose elements there are 0.00");
-        assert_int_equal(near_edge, i == 2);
-    }
-    twins_free(&twins);
-}
-
 /* Means over uncertain moduli: the same samples of the rod and of its mesh. */
 static void ensembles_vary_it(void **state)
 {
@@ -418,8 +324,6 @@ int main(void)
         cmocka_unit_test(meshes_hit_each_other),
         cmocka_unit_test(a_rigid_mesh_is_a_rigid_body),
         cmocka_unit_test(ensembles_vary_it),
-        cmocka_unit_test(edges_are_refused_by_distance),
-        cmocka_unit_test(an_edge_is_near_by_the_element_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
