@@ -1,54 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests daemon/queue.c: order, turns of clients and batches, refusal when full or closed, draining,
- * threads. */
+/* Tests daemon/queue.c: order, turns of clients and batches, refusal when full or closed, threads.
+ */
 #include <pthread.h>
-#include <time.h>
 
-#include "check.h"
-#include "daemon/queue.h"
-#include "exchange/clock.h"
-#include "exchange/key_map.h"
-#include "exchange/reply_store.h"
-
-/* The queue looks at nothing of a job but how many items it has. */
-static struct job job_of(size_t items)
-{
-    return (struct job){.items = items};
-}
-
-static const struct digest NOBODY = {0, 0};
-
-static struct job job_of_client(uint64_t client)
-{
-    return (struct job){.items = 1, .owner = {client, 0}};
-}
-
-/* All its items, by workers who have been given them. */
-static void finish(struct queue *queue, struct job *job)
-{
-    for (size_t i = 1; i < job->items; i++)
-        queue_done(queue, job->owner, NULL);
-    queue_done(queue, job->owner, job);
-}
-
-/* Without anybody who gives way. */
-static bool put(struct queue *queue, struct job *job)
-{
-    struct job *displaced;
-    bool accepted = queue_put(queue, job, &displaced);
-    assert_null(displaced);
-    return accepted;
-}
-
-/* The next request must be this one. */
-static void takes(struct queue *queue, const struct job *expected, size_t expected_index)
-{
-    size_t index = 999;
-    assert_ptr_equal(queue_take(queue, &index), expected);
-    assert_int_equal(index, expected_index);
-}
+#include "unit/daemon/queued.h"
 
 static void hands_out_in_order_and_refuses_when_full(void **state)
 {
@@ -110,25 +67,6 @@ static void a_closed_queue_gives_what_it_has(void **state)
     assert_null(queue_take(queue, &index));
     assert_null(queue_take(queue, &index));
     finish(queue, &batch);
-    queue_free(queue);
-}
-
-static void is_drained_when_all_is_done(void **state)
-{
-    (void)state;
-    struct job batch = job_of(2);
-    struct queue *queue = queue_create(4, QUEUE_WHOLE);
-    assert_true(queue_drain(queue, 0.0));
-    assert_true(put(queue, &batch));
-    assert_false(queue_drain(queue, 0.0)); /* waits */
-    takes(queue, &batch, 0);
-    takes(queue, &batch, 1);
-    queue_done(queue, NOBODY, NULL);
-    double start = clock_now();
-    assert_false(queue_drain(queue, 0.05)); /* one still runs */
-    assert_true(clock_now() - start >= 0.05);
-    queue_done(queue, NOBODY, &batch);
-    assert_true(queue_drain(queue, 0.0));
     queue_free(queue);
 }
 
@@ -265,12 +203,6 @@ static void cancels_what_waits_and_what_runs(void **state)
     queue_free(queue);
 }
 
-/* A job is called what its arrival in the test says. */
-static bool is_called(struct job *job, const struct request_name *name)
-{
-    return job->items == name->sequence;
-}
-
 static void gives_back_what_is_not_wanted_and_has_not_begun(void **state)
 {
     (void)state;
@@ -309,50 +241,6 @@ static void gives_back_what_is_not_wanted_and_has_not_begun(void **state)
     takes(queue, &last, 1);
     for (int i = 0; i < 5; i++)
         queue_done(queue, last.owner, i == 0 ? &running : i == 1 ? &clear : i == 2 ? &last : NULL);
-    queue_free(queue);
-}
-
-static void a_drained_queue_may_have_lost_its_last_job(void **state)
-{
-    (void)state;
-    static const struct job_kind named = {.withdraw = is_called};
-    static const uint8_t client[16] = {7};
-    struct job job = job_of(1), *withdrawn;
-    size_t item;
-    struct queue *queue = queue_create(1, QUEUE_WHOLE);
-    job.kind = &named;
-    job.owner = digest_of_octets(client);
-    assert_true(put(queue, &job));
-    queue_close(queue);
-    assert_true(
-        queue_withdraw(queue, &(struct request_name){client, EXCHANGE_SINGLE, 1}, &withdrawn));
-    assert_ptr_equal(withdrawn, &job);
-    assert_true(queue_drain(queue, 60.0));
-    assert_null(queue_take(queue, &item));
-    queue_free(queue);
-}
-
-static void *done_later(void *queue)
-{
-    nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
-    queue_done(queue, NOBODY, NULL);
-    return NULL;
-}
-
-static void draining_ends_with_the_last_request(void **state)
-{
-    (void)state;
-    struct job job = job_of(1);
-    pthread_t thread;
-    struct queue *queue = queue_create(1, QUEUE_WHOLE);
-    assert_true(put(queue, &job));
-    takes(queue, &job, 0);
-    assert_int_equal(pthread_create(&thread, NULL, done_later, queue), 0);
-    /* within seconds of a minute: it is woken */
-    double start = clock_now();
-    assert_true(queue_drain(queue, 60.0));
-    assert_true(clock_now() - start < 30.0);
-    pthread_join(thread, NULL);
     queue_free(queue);
 }
 
@@ -406,15 +294,12 @@ int main(void)
         cmocka_unit_test(hands_out_in_order_and_refuses_when_full),
         cmocka_unit_test(a_batch_lets_others_in_between),
         cmocka_unit_test(a_closed_queue_gives_what_it_has),
-        cmocka_unit_test(is_drained_when_all_is_done),
         cmocka_unit_test(clients_take_turns),
         cmocka_unit_test(a_full_queue_has_room_for_who_has_less),
         cmocka_unit_test(what_has_begun_does_not_give_way),
         cmocka_unit_test(a_client_has_his_share_of_workers),
         cmocka_unit_test(cancels_what_waits_and_what_runs),
         cmocka_unit_test(gives_back_what_is_not_wanted_and_has_not_begun),
-        cmocka_unit_test(a_drained_queue_may_have_lost_its_last_job),
-        cmocka_unit_test(draining_ends_with_the_last_request),
         cmocka_unit_test(threads_take_every_request_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
