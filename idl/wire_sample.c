@@ -12,10 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "wire_read.h"
 #include "wire_write.h"
 
-/* Of a sample that is written: most requests and replies; more than what DDS keeps for reuse. */
-enum { FIRST_ROOM = 1536 };
+/* Bytes of a sample that is written: most requests and replies; and the least of one that is taken,
+ * more than what DDS keeps for reuse. */
+enum { FIRST_ROOM = 1536, LEAST_ROOM = 320 };
 
 static const struct wire_plan *plan_of(const struct wire_type *type)
 {
@@ -117,4 +119,46 @@ struct ddsi_serdata *wire_sample_write(const struct wire_type *type,
     const struct wire_plan *plan = kind == SDK_DATA ? plan_of(type) : NULL;
     return plan ? write_planned(type, plan, sample)
                 : otherwise->from_sample(&type->common.c, kind, sample);
+}
+
+struct ddsi_serdata *wire_sample_take(const struct wire_type *type, const uint8_t *data,
+                                      size_t size)
+{
+    const size_t head = offsetof(struct ddsi_serdata_default, data);
+    const uint16_t native =
+        ddsi_sertype_get_native_enc_identifier(CDR_ENC_VERSION_2, type->common.encoding_format);
+    const struct wire_plan *plan = plan_of(type);
+    struct CDRHeader header;
+    if (!plan || size < sizeof header || size > INT32_MAX)
+        return NULL;
+    memcpy(&header, data, sizeof header);
+    /* DDS takes only this bit of the padding's size */
+    const size_t padding = ddsrt_fromBE2u(header.options) & 2, bytes = size - sizeof header;
+    if (header.identifier != native || bytes < padding ||
+        !wire_read_is_complete(plan, data + sizeof header, bytes - padding))
+        return NULL;
+    const size_t room = bytes < LEAST_ROOM ? LEAST_ROOM : bytes;
+    uint8_t *memory = ddsrt_malloc(head + room);
+    struct ddsi_serdata_default *made = begin(type, memory, bytes, room);
+    made->hdr.options = header.options;
+    memcpy(made->data, data + sizeof header, bytes);
+    dds_ostream_t key = key_stream(made);
+    dds_istream_t whole = {.m_buffer = (unsigned char *)made->data,
+                           .m_size = (uint32_t)(bytes - padding),
+                           .m_xcdr_version = CDR_ENC_VERSION_2};
+    if (dds_stream_extract_key_from_data(&whole, &key, &type->common))
+        return finish(made, &key);
+    ddsrt_free(memory);
+    return NULL;
+}
+
+bool wire_sample_read(const struct ddsi_serdata *taken, const struct ddsi_serdata_ops *otherwise,
+                      void *sample, void **buffer, void *limit)
+{
+    const struct ddsi_serdata_default *made = (const struct ddsi_serdata_default *)taken;
+    const struct wire_plan *plan =
+        taken->kind == SDK_DATA ? plan_of((const struct wire_type *)taken->type) : NULL;
+    /* what an older version has written lacks members, for which DDS has defaults */
+    return (plan && wire_read(plan, (const uint8_t *)made->data, made->pos, sample)) ||
+           otherwise->to_sample(taken, sample, buffer, limit);
 }

@@ -25,4 +25,12 @@ struct ddsi_serdata *wire_sample_write(const struct wire_type *type,
                                        const struct ddsi_serdata_ops *otherwise,
                                        enum ddsi_serdata_kind kind, const void *sample);
 
+/* Of `size` bytes from the network, from the encapsulation header on. NULL: they are not a complete
+ * sample of a type with a plan in this machine's byte order; DDS may still take them. */
+struct ddsi_serdata *wire_sample_take(const struct wire_type *type, const uint8_t *data,
+                                      size_t size);
+
+bool wire_sample_read(const struct ddsi_serdata *taken, const struct ddsi_serdata_ops *otherwise,
+                      void *sample, void **buffer, void *limit);
+
 #endif

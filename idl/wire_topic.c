@@ -51,8 +51,9 @@ static bool may_pass(const struct ddsi_sertype *type, const uint8_t *data, size_
 
 static struct ddsi_serdata *take_bytes(const struct ddsi_sertype *type, void *data, size_t size)
 {
-    if (!may_pass(type, data, size))
-        return NULL;
+    struct ddsi_serdata *sample = wire_sample_take((const struct wire_type *)type, data, size);
+    if (sample || !may_pass(type, data, size))
+        return sample;
     ddsrt_iovec_t whole = {.iov_base = data, .iov_len = size};
     return behind_check(type)->from_ser_iov(type, SDK_DATA, 1, &whole, size);
 }
@@ -89,8 +90,12 @@ static struct ddsi_serdata *from_network(const struct ddsi_sertype *type,
     /* keys are octets and strings, and these are checked well */
     if (kind == SDK_DATA && fragments->nextfrag)
         return take_fragments(type, fragments, size);
-    if (kind == SDK_DATA && !may_pass(type, fragment_data(fragments), fragments->maxp1))
-        return NULL;
+    const uint8_t *data = fragment_data(fragments);
+    struct ddsi_serdata *sample =
+        kind == SDK_DATA ? wire_sample_take((const struct wire_type *)type, data, fragments->maxp1)
+                         : NULL;
+    if (sample || (kind == SDK_DATA && !may_pass(type, data, fragments->maxp1)))
+        return sample;
     return behind_check(type)->from_ser(type, kind, fragments, size);
 }
 
@@ -141,6 +146,11 @@ static struct ddsi_serdata *from_sample(const struct ddsi_sertype *type,
     return wire_sample_write((const struct wire_type *)type, behind_check(type), kind, sample);
 }
 
+static bool to_sample(const struct ddsi_serdata *taken, void *sample, void **buffer, void *limit)
+{
+    return wire_sample_read(taken, behind_check(taken->type), sample, buffer, limit);
+}
+
 static void free_type(struct ddsi_sertype *type)
 {
     wire_sample_forget((struct wire_type *)type);
@@ -150,6 +160,7 @@ static void free_type(struct ddsi_sertype *type)
 static void put_ours(struct ddsi_serdata_ops *operations)
 {
     operations->from_sample = from_sample;
+    operations->to_sample = to_sample;
     operations->from_ser = from_network;
     operations->from_ser_iov = from_pieces;
     operations->to_untyped = to_key;
