@@ -13,38 +13,23 @@ static void grow(struct wire_block *block, size_t size)
     block->memory = ddsrt_realloc(block->memory, block->head + block->room);
 }
 
-/* Room for `size` more bytes, and for what aligns them. */
-static inline void reserve(struct wire_block *block, size_t size)
-{
-    size += sizeof(uint32_t);
-    if (block->room - block->size < size)
-        grow(block, size);
-}
-
-static inline uint8_t *end_of(const struct wire_block *block)
-{
-    return block->memory + block->head + block->size;
-}
-
-/* Zeros up to where numbers of that size begin: four at once, for which there is room. */
-static inline void align(struct wire_block *block, size_t size)
+/* Appends so many bytes where numbers of that size begin, and tells where that is. Before them are
+ * zeros: four at once, for which there is room. */
+static inline uint8_t *extend(struct wire_block *block, size_t alignment, size_t size)
 {
     static const uint32_t zeros;
-    memcpy(end_of(block), &zeros, sizeof zeros);
-    block->size = wire_plan_align(block->size, size);
-}
-
-static inline void put_bytes(struct wire_block *block, const void *bytes, size_t size)
-{
-    memcpy(end_of(block), bytes, size);
-    block->size += size;
+    const size_t before = block->size, begin = wire_plan_align(before, alignment);
+    if (block->room - before < size + 2 * sizeof zeros)
+        grow(block, size + 2 * sizeof zeros);
+    uint8_t *data = block->memory + block->head;
+    block->size = begin + size;
+    memcpy(data + before, &zeros, sizeof zeros);
+    return data + begin;
 }
 
 static inline void put_count(struct wire_block *block, uint32_t count)
 {
-    reserve(block, sizeof count);
-    align(block, sizeof count);
-    put_bytes(block, &count, sizeof count);
+    memcpy(extend(block, sizeof count, sizeof count), &count, sizeof count);
 }
 
 /* The size of what begins here, which fill_size() tells. */
@@ -70,15 +55,7 @@ static bool put_numbers(const struct wire_step *step, const void *numbers, size_
     if (count == 0)
         return true;
     const size_t size = step->size * count;
-    reserve(block, size);
-    align(block, step->size);
-    /* most stand alone, and a call costs more than their copy */
-    if (size == sizeof(uint64_t))
-        put_bytes(block, numbers, sizeof(uint64_t));
-    else if (size == sizeof(uint32_t))
-        put_bytes(block, numbers, sizeof(uint32_t));
-    else
-        put_bytes(block, numbers, size);
+    memcpy(extend(block, step->size, size), numbers, size);
     return true;
 }
 
@@ -87,8 +64,7 @@ static void put_text(const char *given, struct wire_block *block)
     const char *text = given ? given : "";
     const size_t size = strlen(text) + 1;
     put_count(block, (uint32_t)size);
-    reserve(block, size);
-    put_bytes(block, text, size);
+    memcpy(extend(block, 1, size), text, size);
 }
 
 static bool put_struct(const struct wire_plan *plan, uint32_t first, const char *data,
@@ -143,8 +119,7 @@ bool wire_write(const struct wire_plan *plan, const void *sample, struct wire_bl
     if (!put_struct(plan, plan->first, sample, block))
         return false;
     size_t written = block->size;
-    reserve(block, 0);
-    align(block, sizeof(uint32_t));
+    extend(block, sizeof(uint32_t), 0);
     *padding = block->size - written;
     return true;
 }
