@@ -97,6 +97,9 @@ struct search {
     struct client_server answering[CLIENT_MOST_SERVERS]; /* a copy */
     size_t count;
     struct percuss_server_list announced;
+    size_t known;     /* servers, by what those say */
+    size_t most_seen; /* of announced */
+    double news;      /* when so many were seen for the first time */
 };
 
 /* What there is when the time is over and no server has been chosen. */
@@ -208,6 +211,28 @@ static bool may_be_more(const struct search *search)
     return more;
 }
 
+/* When one of those that answer is chosen, if nothing else comes. */
+static double settling(const struct search *search)
+{
+    if (!search->client->least_loaded)
+        return search->heard + (may_be_more(search) ? SERVERS_SETTLING : DISCOVERY_SPREAD);
+    /* by their load: all are to be heard of, and to have time to answer */
+    return search->announced.count < search->known
+               ? search->heard + SERVERS_MISSING
+               : fmax(search->heard, search->news) + SERVERS_SETTLING;
+}
+
+/* Looks who has announced himself by now. */
+static enum percuss_result look_around(struct search *search)
+{
+    enum percuss_result result = servers_look(search->client, &search->announced, &search->known);
+    if (search->announced.count > search->most_seen) {
+        search->most_seen = search->announced.count;
+        search->news = moment_now();
+    }
+    return result;
+}
+
 /* PENDING: nobody can be chosen yet. */
 static enum percuss_result choose(struct search *search)
 {
@@ -221,9 +246,7 @@ static enum percuss_result choose(struct search *search)
                                            : PERCUSS_RESULT_PENDING;
     /* others that answer within a moment have a chance as well */
     search->heard = fmin(search->heard, now);
-    bool patient = client->least_loaded || may_be_more(search);
-    double settled = search->heard + (patient ? SERVERS_SETTLING : DISCOVERY_SPREAD);
-    if (now < fmin(settled, search->deadline))
+    if (now < fmin(settling(search), search->deadline))
         return PERCUSS_RESULT_PENDING;
     /* the best of them, or the one that is wanted */
     if (!client->wanted[0]) {
@@ -285,7 +308,7 @@ enum percuss_result connect_find(struct percuss_client *client, double timeout)
         if (result == PERCUSS_RESULT_OK)
             result = ping_all(&search);
         if (result == PERCUSS_RESULT_OK)
-            result = servers_look(client, &search.announced);
+            result = look_around(&search);
         if (result == PERCUSS_RESULT_OK)
             result = choose(&search);
         if (result == PERCUSS_RESULT_PENDING && late)

@@ -73,10 +73,25 @@ static void note_name(struct percuss_client *client, const struct percuss_server
     pthread_mutex_unlock(&client->lock);
 }
 
-enum percuss_result servers_look(struct percuss_client *client, struct percuss_server_list *list)
+/* Servers hear of each other, and say of how many. One of 0.1.0 says nothing. */
+static size_t count_known(const struct announcements *all)
+{
+    size_t known = 0;
+    for (int i = 0; i < all->count; i++) {
+        const percuss_v1_ServerStatus *status = all->samples[i];
+        if (all->infos[i].valid_data && known < 1 + (size_t)status->others)
+            known = 1 + (size_t)status->others;
+    }
+    return known;
+}
+
+enum percuss_result servers_look(struct percuss_client *client, struct percuss_server_list *list,
+                                 size_t *known)
 {
     struct announcements all;
     *list = (struct percuss_server_list){0};
+    if (known)
+        *known = 0;
     enum percuss_result result = announcements_read(client, client->server_reader, &all);
     if (result != PERCUSS_RESULT_OK)
         return result;
@@ -88,6 +103,8 @@ enum percuss_result servers_look(struct percuss_client *client, struct percuss_s
         good = list_sightings(&all, sightings, &list->count);
     for (size_t i = 0; i < list->count; i++)
         list->servers[i] = sightings[i].server;
+    if (known)
+        *known = count_known(&all);
     announcements_release(&all);
     /* out of memory is said, and nothing kept */
     free(sightings);
@@ -140,7 +157,7 @@ enum percuss_result servers_list(struct percuss_client *client, double timeout,
     /* our own server must be among them, if there is one; else any will do */
     const bool connected = announcements_server(client, server);
     while (result == PERCUSS_RESULT_OK) {
-        result = servers_look(client, list);
+        result = servers_look(client, list, NULL);
         bool found = connected ? servers_find(list, server) != NULL : list->count > 0;
         double now = moment_now();
         /* complete when everyone who reads requests has said who he is, or has had time to */

@@ -49,6 +49,7 @@ static void note(void *context, const percuss_v1_ServerStatus *status)
     struct neighbours *neighbours = look->neighbours;
     struct neighbour *neighbour = find(neighbours, status->server);
     bool alike = strcmp(status->catalogue_revision, look->revision) == 0;
+    neighbours->others += memcmp(status->server, look->server, 16) != 0;
     if (!neighbour)
         return;
     /* who it is */
@@ -72,6 +73,7 @@ static void note(void *context, const percuss_v1_ServerStatus *status)
 void neighbours_look(struct neighbours *neighbours, struct endpoint *endpoint, const char *revision)
 {
     struct look look = {neighbours, endpoint_server(endpoint), revision};
+    neighbours->others = 0;
     for (size_t i = 0; i < neighbours->count; i++)
         neighbours->each[i].there = false;
     endpoint_visit_servers(endpoint, note, &look);

@@ -21,6 +21,7 @@ struct neighbour {
 struct neighbours {
     struct neighbour each[NEIGHBOURS_MOST];
     size_t count;
+    uint32_t others; /* of all of them, told of or not, those under other ids than ours */
 };
 
 /* Logs who has come or gone, or changed his catalogue, or differs from ours, `revision`, by now. */

@@ -345,6 +345,7 @@ void service_tick(struct service *service)
     write_metrics(service);
     neighbours_look(&service->neighbours, shared->endpoint,
                     shared->snapshots.current->set->revision);
+    atomic_store(&shared->others, service->neighbours.others);
 }
 
 bool service_is_alive(struct service *service, double patience)

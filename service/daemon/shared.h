@@ -50,8 +50,9 @@ struct shared {
     struct endpoint *endpoint;
     struct specimen_lane *specimens; /* NULL: no store */
 
-    /* the main thread sets it, any thread looks */
+    /* the main thread sets them, any thread looks */
     atomic_bool draining; /* new requests are refused */
+    atomic_uint others;   /* servers beside this one */
 
     /* any thread counts, the main thread looks */
     atomic_ullong answered, refused; /* replies with and without results */

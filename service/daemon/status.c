@@ -75,6 +75,7 @@ void status_announce(struct shared *shared)
         .answered = atomic_load(&shared->answered),
         .refused = atomic_load(&shared->refused),
         .uptime = clock_now() - shared->started,
+        .others = atomic_load(&shared->others),
         .specimens = shared->specimens ? (uint32_t)specimen_lane_count(shared->specimens) : 0,
     };
     /* its texts; what somebody waits for first */

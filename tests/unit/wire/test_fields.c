@@ -14,6 +14,8 @@
 
 #define REPLY(F, L)          PERCUSS_HEAD_FIELDS(F) PERCUSS_REPLY_FIELDS(F, L)
 #define ENSEMBLE_REPLY(F, L) PERCUSS_HEAD_FIELDS(F) PERCUSS_ENSEMBLE_REPLY_FIELDS(F, L)
+/* how many clients are to hear of: no part of what they are told */
+#define SERVER_STATUS(F, L) PERCUSS_SERVER_FIELDS(F, L) F(, others)
 /* who asks whom, about which impact, and that it is enough: no part of the question */
 #define ENSEMBLE_REQUEST(F, L)                                                                     \
     F(, client) F(, sequence) F(, server) F(, scene) F(, cancel) PERCUSS_ENSEMBLE_FIELDS(F, L)
@@ -88,7 +90,7 @@ static void replies(void **state)
 static void announcements(void **state)
 {
     (void)state;
-    expect("ServerStatus", LIST(PERCUSS_SERVER_FIELDS));
+    expect("ServerStatus", LIST(SERVER_STATUS));
     expect("Task", LIST(PERCUSS_TASK_FIELDS));
     expect("Dent", LIST(PERCUSS_DENT_FIELDS));
 }
