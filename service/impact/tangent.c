@@ -19,17 +19,33 @@ struct level_table {
     double own[NODES][NODES];            /* the source's */
 };
 
+/* What the change is in one order: of the motion, of the forces on this step, of the impulse of the
+ * sub-impact under way. */
+struct course {
+    struct motion motion;
+    struct carrier carrier;
+    double force[1][NODES];
+    double impulse;
+};
+
 struct follower {
     const struct tangent_source *source;
-    struct scene scene;   /* at rest, where nothing presses */
-    struct motion motion; /* the change of it */
-    struct carrier carrier;
+    struct scene scene; /* at rest, where nothing presses */
+    struct course first, second;
     struct level_table *tables[STEP_LEVELS]; /* NULL: not yet */
-    double force[1][NODES];                  /* the change of the forces on this step */
     struct arena *arena;
-    double total, change; /* impulse of the sub-impact under way, and its change */
-    bool lost;            /* a step could not be followed */
+    double total; /* impulse of the sub-impact under way */
+    bool lost;    /* a step could not be followed */
 };
+
+static bool create_course(struct course *course, const struct scene *scene, struct arena *arena)
+{
+    if (!motion_create(&course->motion, scene, arena) ||
+        !carrier_create(&course->carrier, scene, arena))
+        return false;
+    motion_start(&course->motion, scene);
+    return true;
+}
 
 static bool create(struct follower *follower, const struct scene *scene)
 {
@@ -44,11 +60,9 @@ static bool create(struct follower *follower, const struct scene *scene)
     follower->scene = *scene;
     follower->scene.group = groups;
     follower->scene.gap = follower->scene.gap_rate = follower->scene.gap_acceleration = none;
-    if (!motion_create(&follower->motion, &follower->scene, follower->arena) ||
-        !carrier_create(&follower->carrier, &follower->scene, follower->arena))
-        return false;
-    motion_start(&follower->motion, &follower->scene);
-    return true;
+    return create_course(&follower->first, &follower->scene, follower->arena) &&
+           (!follower->source->curved ||
+            create_course(&follower->second, &follower->scene, follower->arena));
 }
 
 /* What a unit force at node j does to the approach at node i: rigid bodies, series compliance and
@@ -99,64 +113,115 @@ static const struct level_table *find_table(struct follower *follower, int level
 }
 
 /* Changes of the approaches at the nodes by what was before the step. */
-static void find_approaches(struct follower *follower, int level, double approach[NODES])
+static void find_approaches(const struct scene *scene, struct course *course, int level,
+                            double approach[NODES])
 {
     double sums[1][STEP_POINTS];
-    const struct motion *motion = &follower->motion;
+    const struct motion *motion = &course->motion;
     double travel = step_length(level) * motion->gap_rate[0];
-    carrier_enter(&follower->carrier, &follower->scene, motion, level, sums);
+    carrier_enter(&course->carrier, scene, motion, level, sums);
     for (int i = 0; i < NODES; i++)
         approach[i] = -(motion->gap[0] + collocation.node[i] * travel) - sums[0][i];
 }
 
+/* A row of a table by the forces at the nodes. */
+static inline double row_by(const double row[NODES], const double force[NODES])
+{
+    return (row[0] * force[0] + row[1] * force[1]) + (row[2] * force[2] + row[3] * force[3]);
+}
+
+/* The motion under the forces of the step, and what they add to the impulse. */
+static void move_on(const struct scene *scene, struct course *course, double h)
+{
+    carrier_take(&course->carrier, scene, &course->motion, course->force);
+    course->impulse += h * row_by(collocation.weight, course->force[0]);
+}
+
 /* With the law's stiffness K at the nodes, the coupling M and what the source does by itself, f to
  * the forces F and G F to the approach, (1 + M K) d = approach - G F, and F changes by K d + f. */
-static void solve_step(struct follower *follower, const struct level_table *table,
-                       const struct force_step *step, const double approach[NODES])
+static void solve_first(struct follower *follower, const struct level_table *table,
+                        const struct force_step *step, const double stiffness[NODES],
+                        double d[NODES])
 {
-    double stiffness[NODES];
-    double same[NODES];
+    struct course *course = &follower->first;
     double right[NODES];
-    double d[NODES];
     const double *force = step->force[0];
-    contact_law_forces(&follower->scene.laws[0], step->indentation[0], same, stiffness);
-    for (int i = 0; i < NODES; i++) {
-        const double *own = table->own[i];
-        right[i] = approach[i] - ((own[0] * force[0] + own[1] * force[1]) +
-                                  (own[2] * force[2] + own[3] * force[3]));
-    }
+    find_approaches(&follower->scene, course, step->level, right);
+    for (int i = 0; i < NODES; i++)
+        right[i] -= row_by(table->own[i], force);
     if (!node_solve_linear((const double(*)[NODES])table->coupling, stiffness, right, d))
         follower->lost = true;
     for (int i = 0; i < NODES; i++)
-        follower->force[0][i] = stiffness[i] * d[i] + follower->source->force * force[i];
+        course->force[0][i] = stiffness[i] * d[i] + follower->source->force * force[i];
+    move_on(&follower->scene, course, step_length(step->level));
+}
+
+/* The second derivatives by the size s of the change, of forces exp(s f) F(d) and the approach that
+ * a compliance s c takes: with those that are known, f' and d', and d'' of the indentation,
+ *
+ *   F'' = K d'' + g,  g = K' d'^2 + 2 f F' - f^2 F,  (1 + M K) d'' = approach'' - M g - 2 c F'
+ *
+ * where K' = K/(2 d) by a law like d^(3/2). It has no bound where contacts begin and end, but is
+ * integrable: what the nodes miss of it there is some tenth of a step. */
+static void solve_second(struct follower *follower, const struct level_table *table,
+                         const struct force_step *step, const double stiffness[NODES],
+                         const double d[NODES])
+{
+    struct course *course = &follower->second;
+    double f = follower->source->force;
+    double right[NODES];
+    double bent[NODES];
+    double second[NODES];
+    const double *changed = follower->first.force[0];
+    find_approaches(&follower->scene, course, step->level, right);
+    for (int i = 0; i < NODES; i++) {
+        double depth = step->indentation[0][i];
+        double slope = depth > 0.0 ? stiffness[i] / (2.0 * depth) : 0.0;
+        bent[i] = slope * d[i] * d[i] + f * (2.0 * changed[i] - f * step->force[0][i]);
+    }
+    for (int i = 0; i < NODES; i++)
+        right[i] -=
+            row_by(table->coupling[i], bent) + 2.0 * follower->source->compliance * changed[i];
+    if (!node_solve_linear((const double(*)[NODES])table->coupling, stiffness, right, second))
+        follower->lost = true;
+    for (int i = 0; i < NODES; i++)
+        course->force[0][i] = stiffness[i] * second[i] + bent[i];
+    move_on(&follower->scene, course, step_length(step->level));
 }
 
 static bool take_step(struct follower *follower, const struct force_step *step)
 {
+    double same[NODES];
+    double stiffness[NODES];
     double d[NODES];
-    double h = step_length(step->level);
     const struct level_table *table = find_table(follower, step->level);
     if (!table)
         return false;
-    /* the change of the forces, and the motion under them */
-    find_approaches(follower, step->level, d);
-    solve_step(follower, table, step, d);
-    carrier_take(&follower->carrier, &follower->scene, &follower->motion, follower->force);
-    /* impulses */
-    for (int i = 0; i < NODES; i++) {
-        follower->total += h * collocation.weight[i] * step->force[0][i];
-        follower->change += h * collocation.weight[i] * follower->force[0][i];
-    }
+    contact_law_forces(&follower->scene.laws[0], step->indentation[0], same, stiffness);
+    solve_first(follower, table, step, stiffness, d);
+    if (follower->source->curved)
+        solve_second(follower, table, step, stiffness, d);
+    follower->total += step_length(step->level) * row_by(collocation.weight, step->force[0]);
     return true;
+}
+
+/* Free motion from sub-impact to sub-impact. */
+static void fly(const struct scene *scene, struct course *course, double time)
+{
+    carrier_leave(&course->carrier, scene, &course->motion);
+    motion_turn(&course->motion, scene, time);
 }
 
 /* A sub-impact has ended. */
 static void close_part(struct follower *follower, struct tangent *tangent)
 {
-    tangent->impulse += follower->change;
+    double change = follower->first.impulse;
+    tangent->impulse += change;
+    tangent->curvature += follower->second.impulse;
     tangent->largest = fmax(tangent->largest, fabs(tangent->impulse));
-    tangent->strain = fmax(tangent->strain, fabs(follower->change) / follower->total);
-    follower->total = follower->change = 0.0;
+    double largest = fmax(fabs(change), 0.5 * fabs(follower->second.impulse));
+    tangent->strain = fmax(tangent->strain, largest / follower->total);
+    follower->total = follower->first.impulse = follower->second.impulse = 0.0;
 }
 
 enum percuss_status tangent_follow(const struct scene *scene, const struct force_log *log,
@@ -177,11 +242,11 @@ enum percuss_status tangent_follow(const struct scene *scene, const struct force
         double h = step_length(step->level);
         if (!pace_keeps(pace, cost))
             return PERCUSS_TIMEOUT;
-        /* free motion from sub-impact to sub-impact */
         if (step->start - end > NO_FLIGHT * h) {
             close_part(follower, tangent);
-            carrier_leave(&follower->carrier, &follower->scene, &follower->motion);
-            motion_turn(&follower->motion, &follower->scene, step->start - end);
+            fly(&follower->scene, &follower->first, step->start - end);
+            if (source->curved)
+                fly(&follower->scene, &follower->second, step->start - end);
         }
         if (!take_step(follower, step))
             return PERCUSS_INTERNAL;

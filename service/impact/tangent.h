@@ -1,9 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a small change of a contact does to a solution of it, to first order: the linearised
- * equations along the forces that were taken down, through all of its sub-impacts. Laws begin and
- * end without stiffness, so that the instants of touch and release need no terms of their own. */
+/* What a small change of a contact does to a solution of it, to first order or to second: the
+ * linearised equations along the forces that were taken down, through all of its sub-impacts. Laws
+ * begin and end without stiffness, so that the instants of touch and release need no terms of their
+ * own. */
 #ifndef PERCUSS_IMPACT_TANGENT_H
 #define PERCUSS_IMPACT_TANGENT_H
 
@@ -12,19 +13,22 @@
 
 /* The change. */
 struct tangent_source {
-    double force;      /* of the law, share of its force */
+    double force;      /* logarithm of the law's force */
     double compliance; /* in series, m/N */
     /* what answers a slow force F with a displacement -viscosity F' - inertia F'': m s/N, m s^2/N
      */
     double viscosity, inertia;
+    bool curved; /* to second order, too: of force and compliance, by a law like d^(3/2) */
 };
 
 /* What it does. */
 struct tangent {
-    double impulse; /* to the contact's, N s */
-    double largest; /* the largest of what that is after each sub-impact */
-    double strain;  /* largest change of a sub-impact's impulse over that impulse: first order is
-                       enough where it is far below 1; INFINITY: it could not be followed */
+    double impulse;   /* to the contact's, N s */
+    double curvature; /* its second derivative by the size of the change; 0: not asked for */
+    double largest;   /* the largest of what the first is after each sub-impact */
+    double strain;    /* largest change of a sub-impact's impulse, by either order, over that
+                         impulse: they are enough where it is far below 1; INFINITY: it could not
+                         be followed */
 };
 
 /* Follows the source along the log of a solution of the scene by impact_modal: one contact, which

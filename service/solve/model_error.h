@@ -4,7 +4,8 @@
 /* What the models themselves may be wrong by, beside modes and steps: their deviations
  * (model_deviation.h), as far as the answer is sensitive to them. Of a single contact by the energy
  * that it leaves as vibration; a sequence of sub-impacts, which may amplify them, is followed by
- * first order, or solved again with a softer contact, and a stiffer one where that does not tell.
+ * first and second order, or solved again with a softer contact and a stiffer one where these do
+ * not tell.
  */
 #ifndef PERCUSS_SOLVE_MODEL_ERROR_H
 #define PERCUSS_SOLVE_MODEL_ERROR_H

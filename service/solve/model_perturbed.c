@@ -20,10 +20,6 @@ static const double LONGEST = 1e-3;
 static const double LONGEST_GROUP = 1e-4;
 /* Work that one of them may take, in those of the answer. */
 static const double EFFORT = 3.0;
-/* Change of a sub-impact's impulse up to which the slope and one solution beside say together what
- * deviations make of e: of 19 in 20 sequences no less than 0.7 of what two solutions say. */
-static const double STRAIN_CURVED = 0.5;
-
 /* Which deviations a solution beside the answer has: all contacts softer or stiffer, every other
  * one so, or all yielding later or earlier. */
 struct direction {
@@ -107,23 +103,10 @@ static enum percuss_status solve_beside(struct beside *beside, const struct scen
     return status;
 }
 
-/* How far the other solution is from the answer: e on a parabola through both with the slope that
- * first order says. */
-static double other_distance(const struct beside *beside, const struct model_slope *slope,
-                             const struct attempt *softer)
-{
-    const struct problem *problem = beside->margin->problem;
-    double change = outcome_restitution(problem, &softer->outcome, 0) -
-                    outcome_restitution(problem, beside->answer, 0);
-    return fabs(change + 2.0 * slope->restitution);
-}
-
 /* The larger one of two distances along a direction and against it. */
-static enum percuss_status along(struct beside *beside, bool flow, const struct model_slope *slope,
-                                 double *largest)
+static enum percuss_status along(struct beside *beside, bool flow, double *largest)
 {
     bool group = beside->margin->problem->contact_count > 1;
-    bool curved = !flow && !group && slope->strain <= STRAIN_CURVED;
     for (int i = 0; i < 2 && !isinf(*largest); i++) {
         struct direction direction = {
             .alternate = group && i, .flow = flow, .sign = i && !group ? 1.0 : -1.0};
@@ -136,16 +119,11 @@ static enum percuss_status along(struct beside *beside, bool flow, const struct 
         if (status)
             return status;
         *largest = fmax(*largest, distance);
-        if (curved && isfinite(distance)) {
-            *largest = fmax(*largest, other_distance(beside, slope, &attempt));
-            return PERCUSS_OK;
-        }
     }
     return PERCUSS_OK;
 }
 
-enum percuss_status model_perturbed_find(const struct model_margin *margin,
-                                         const struct model_slope *slope, struct pace *pace,
+enum percuss_status model_perturbed_find(const struct model_margin *margin, struct pace *pace,
                                          double *restitution)
 {
     const struct problem *problem = margin->problem;
@@ -172,9 +150,9 @@ enum percuss_status model_perturbed_find(const struct model_margin *margin,
     for (size_t c = 0; c < problem->contact_count; c++)
         flows = flows || margin->deviation[c].yield > 0.0;
     if (!status)
-        status = along(&beside, false, slope, &spring);
+        status = along(&beside, false, &spring);
     if (!status && flows && !isinf(spring))
-        status = along(&beside, true, slope, &flow);
+        status = along(&beside, true, &flow);
     *restitution = fmax(*restitution, MODEL_PERTURBED_BETWEEN * hypot(spring, flow));
     return status;
 }

@@ -18,20 +18,12 @@ struct model_margin {
     struct model_deviation *deviation; /* [contact] */
 };
 
-/* What first order along the answer says of a single contact that is as much stiffer. */
-struct model_slope {
-    double restitution; /* change of e */
-    double strain;      /* of a sub-impact's impulse; INFINITY: neither is known */
-};
-
 /* Between the answer and those beside it e need not lie between theirs. */
 static const double MODEL_PERTURBED_BETWEEN = 1.5;
 
-/* Widens the error of e to how far such solutions are from the answer, the farthest of them; a
- * known slope stands for every second one. INFINITY: nobody knows. PERCUSS_OK, PERCUSS_INTERNAL or
- * PERCUSS_TIMEOUT. */
-enum percuss_status model_perturbed_find(const struct model_margin *margin,
-                                         const struct model_slope *slope, struct pace *pace,
+/* Widens the error of e to how far such solutions are from the answer, the farthest of them.
+ * INFINITY: nobody knows. PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT. */
+enum percuss_status model_perturbed_find(const struct model_margin *margin, struct pace *pace,
                                          double *restitution);
 
 #endif
