@@ -143,16 +143,22 @@ void motion_push_gaps(struct motion *end, const struct scene *scene, int level, 
                       const double force[NODES])
 {
     double h = step_length(level);
-    double impulse = 0.0;
-    double travel = 0.0;
+    const double *weight = collocation.weight;
+    const double *position = collocation.position_end;
     /* by the force's integral and its double integral */
-    for (int j = 0; j < NODES; j++) {
-        impulse += collocation.weight[j] * force[j];
-        travel += collocation.position_end[j] * force[j];
-    }
+    double impulse =
+        weight[0] * force[0] + weight[1] * force[1] + weight[2] * force[2] + weight[3] * force[3];
+    double travel = position[0] * force[0] + position[1] * force[1] + position[2] * force[2] +
+                    position[3] * force[3];
     impulse *= h;
     travel *= h * h;
     const double *w = scene->w + contact * scene->contacts; /* symmetric */
+    /* the only contact, and several */
+    if (scene->contacts == 1) {
+        end->gap[0] += w[0] * travel;
+        end->gap_rate[0] += w[0] * impulse;
+        return;
+    }
     for (size_t a = 0; a < scene->contacts; a++)
         end->gap[a] += w[a] * travel;
     for (size_t a = 0; a < scene->contacts; a++)
