@@ -65,9 +65,9 @@ static const double ATTEMPT_LONGER = 100.0;
 /* What steps of an accuracy have been seen to leave of one blow's e (docs/accuracy.md). */
 double attempt_steps_leave(double accuracy);
 
-/* An attempt that another one is compared with is solved by other means, so that they do not err
- * alike. */
-static inline void attempt_differ(struct attempt *attempt)
+/* For an attempt that a sequence is compared with: contacts begin and end by other means, so that
+ * the two do not err alike. */
+static inline void attempt_by_other_means(struct attempt *attempt)
 {
     if (attempt->care == IMPACT_CARE_SEQUENCE)
         attempt->care = IMPACT_CARE_BESIDE;

@@ -47,7 +47,7 @@ static enum percuss_status solve_beside(struct attempt_context *context, struct 
                                         const struct scene *scene, struct attempt *other,
                                         struct mode_error *error)
 {
-    attempt_differ(other);
+    attempt_by_other_means(other);
     enum percuss_status status = attempt_run(context, other, scene);
     if (status)
         return status;

@@ -62,7 +62,7 @@ static enum percuss_status compare(struct attempt_context *context, const struct
     if (!known) {
         own.accuracy *= longer;
         if (attempt_is_sequence(best))
-            attempt_differ(&own);
+            attempt_by_other_means(&own);
         enum percuss_status status = attempt_run(context, &own, &best->assembly->scene);
         if (status)
             return status;
