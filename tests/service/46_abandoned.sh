@@ -4,6 +4,9 @@
 # Who waits for one that was killed hears of it, and what nobody waits for any more is given up.
 . "$(dirname "$0")/lib.sh"
 crowd=$build/tests/fault/crowd/crowd
+# the thread sanitizer sleeps for a second at the end of each program unless it is told otherwise; how long a client
+# takes to see that its server has gone is what is looked at
+export TSAN_OPTIONS="${TSAN_OPTIONS:-} atexit_sleep_ms=0"
 
 # now: s
 now() {
