@@ -6,14 +6,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "impact/node_factors.h"
 #include "numeric/linear.h"
 
-/* Two nodes of a contact, wherever they lie: what every vector unit has; the lanes' order of
- * operations is that of scalars. */
-typedef double pair __attribute__((vector_size(2 * sizeof(double)), aligned(8)));
+/* What a comparison of two nodes says. */
 typedef long long pair_mask __attribute__((vector_size(2 * sizeof(long long))));
-#define PAIR(at)       (*(pair *)(at))
-#define CONST_PAIR(at) (*(const pair *)(at))
 
 /* Newton's method takes two or three iterations in an ordinary step; where it takes so many it
  * would take for ever. */
@@ -30,47 +27,12 @@ static const double ROUNDING = 1e-15;
 /* Below this share a change that has stopped falling is rounding too, of sums of many terms. */
 static const double ROUNDING_OF_SUMS = 1e-12;
 
-/* Pivots, 1 where nothing couples, from which on elimination without exchanges loses a digit. */
-static const double LEAST_PIVOT = 0.1;
-
-/* A row's lanes 0, 1 and 2, 3. */
-struct row {
-    pair low, high;
-};
-
-/* Solves a x = b by elimination in the order given; the matrix is the identity plus a small causal
- * one. False: a pivot is too small for that order. */
-static inline bool eliminate(const struct row a[NODES], const double b[NODES], double x[NODES])
+/* Solves a x = b. False: a pivot is too small for that order. */
+static inline bool eliminate(const struct node_row a[NODES], const double b[NODES], double x[NODES])
 {
-    /* forward, without exchanges: a pivot that is too small spoils only what is thrown away */
-    double p0 = 1.0 / a[0].low[0];
-    double f1 = a[1].low[0] * p0;
-    double f2 = a[2].low[0] * p0;
-    double f3 = a[3].low[0] * p0;
-    double a11 = a[1].low[1] - f1 * a[0].low[1];
-    double a21 = a[2].low[1] - f2 * a[0].low[1];
-    double a31 = a[3].low[1] - f3 * a[0].low[1];
-    pair r1 = a[1].high - f1 * a[0].high;
-    pair r2 = a[2].high - f2 * a[0].high;
-    pair r3 = a[3].high - f3 * a[0].high;
-    double b1 = b[1] - f1 * b[0];
-    double p1 = 1.0 / a11;
-    double g2 = a21 * p1;
-    double g3 = a31 * p1;
-    r2 -= g2 * r1;
-    r3 -= g3 * r1;
-    double b2 = b[2] - f2 * b[0] - g2 * b1;
-    double p2 = 1.0 / r2[0];
-    double l3 = r3[0] * p2;
-    double a33 = r3[1] - l3 * r2[1];
-    double b3 = b[3] - f3 * b[0] - g3 * b1 - l3 * b2;
-    /* and back substitution */
-    x[3] = b3 / a33;
-    x[2] = (b2 - r2[1] * x[3]) * p2;
-    x[1] = (b1 - r1[1] * x[3] - r1[0] * x[2]) * p1;
-    x[0] = (b[0] - a[0].high[1] * x[3] - a[0].high[0] * x[2] - a[0].low[1] * x[1]) * p0;
-    return a[0].low[0] > LEAST_PIVOT && a11 > LEAST_PIVOT && r2[0] > LEAST_PIVOT &&
-           a33 > LEAST_PIVOT;
+    const struct node_factors factors = node_factors_make(a);
+    node_factors_solve(&factors, b, x);
+    return factors.sound;
 }
 
 /* What an update changed, against the indentations and against the approaches without force: these
@@ -102,8 +64,9 @@ static inline void follow(double force[NODES], const double stiffness[NODES],
                           const double change[NODES])
 {
     for (int i = 0; i < NODES; i += 2) {
-        pair after = CONST_PAIR(force + i) - CONST_PAIR(stiffness + i) * CONST_PAIR(change + i);
-        PAIR(force + i) = (pair)((pair_mask)after & (after > 0.0));
+        node_pair after = NODE_CONST_PAIR(force + i) -
+                          NODE_CONST_PAIR(stiffness + i) * NODE_CONST_PAIR(change + i);
+        NODE_PAIR(force + i) = (node_pair)((pair_mask)after & (after > 0.0));
     }
 }
 
@@ -114,33 +77,18 @@ static inline double largest_of(const double values[NODES])
     return low > high ? low : high;
 }
 
-/* Row i of the matrix 1 + coupling F' but for the 1, and what the forces take from the approach. */
-static inline double row_of(const double coupling[NODES], const double force[NODES],
-                            const double stiffness[NODES], struct row *row)
-{
-    const pair low = CONST_PAIR(coupling);
-    const pair high = CONST_PAIR(coupling + 2);
-    pair moved = low * CONST_PAIR(force) + high * CONST_PAIR(force + 2);
-    row->low = low * CONST_PAIR(stiffness);
-    row->high = high * CONST_PAIR(stiffness + 2);
-    return moved[0] + moved[1];
-}
-
 /* The excess e, and the matrix. */
 static inline void assemble_one(const struct node_problem *problem, const double d[NODES],
                                 const double force[NODES], const double stiffness[NODES],
-                                struct row a[NODES], double excess[NODES])
+                                struct node_row a[NODES], double excess[NODES])
 {
     const double(*m)[NODES] = coupling_own(problem->coupling, problem->level, 0)->by;
     const double *target = problem->target[0];
-    excess[0] = d[0] - target[0] + row_of(m[0], force, stiffness, &a[0]);
-    excess[1] = d[1] - target[1] + row_of(m[1], force, stiffness, &a[1]);
-    excess[2] = d[2] - target[2] + row_of(m[2], force, stiffness, &a[2]);
-    excess[3] = d[3] - target[3] + row_of(m[3], force, stiffness, &a[3]);
-    a[0].low += (pair){1.0, 0.0};
-    a[1].low += (pair){0.0, 1.0};
-    a[2].high += (pair){1.0, 0.0};
-    a[3].high += (pair){0.0, 1.0};
+    excess[0] = d[0] - target[0] + node_row_of(m[0], force, stiffness, &a[0]);
+    excess[1] = d[1] - target[1] + node_row_of(m[1], force, stiffness, &a[1]);
+    excess[2] = d[2] - target[2] + node_row_of(m[2], force, stiffness, &a[2]);
+    excess[3] = d[3] - target[3] + node_row_of(m[3], force, stiffness, &a[3]);
+    node_rows_add_one(a);
 }
 
 /* One contact: the usual case, without scratch memory. */
@@ -149,7 +97,7 @@ static bool solve_one(const struct node_problem *problem, double d[NODES], doubl
 {
     struct progress progress = {.previous = INFINITY, .target = largest_of(problem->target[0])};
     for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-        struct row matrix[NODES];
+        struct node_row matrix[NODES];
         double excess[NODES];
         double change[NODES];
         contact_law_forces(problem->scene->laws, d, force, stiffness);
@@ -193,16 +141,8 @@ static inline bool presses(const double force[NODES], const double stiffness[NOD
 bool node_solve_linear(const double (*m)[NODES], const double stiffness[NODES],
                        const double b[NODES], double x[NODES])
 {
-    static const double none[NODES];
-    struct row matrix[NODES];
-    row_of(m[0], none, stiffness, &matrix[0]);
-    row_of(m[1], none, stiffness, &matrix[1]);
-    row_of(m[2], none, stiffness, &matrix[2]);
-    row_of(m[3], none, stiffness, &matrix[3]);
-    matrix[0].low += (pair){1.0, 0.0};
-    matrix[1].low += (pair){0.0, 1.0};
-    matrix[2].high += (pair){1.0, 0.0};
-    matrix[3].high += (pair){0.0, 1.0};
+    struct node_row matrix[NODES];
+    node_rows_make(m, stiffness, matrix);
     return eliminate(matrix, b, x);
 }
 

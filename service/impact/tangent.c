@@ -7,7 +7,7 @@
 
 #include "impact/carrier.h"
 #include "impact/kernel.h"
-#include "impact/node_solver.h"
+#include "impact/node_factors.h"
 #include "impact/step_cost.h"
 
 /* An opening shorter than this share of the step after it is rounding of the time. */
@@ -137,10 +137,16 @@ static void move_on(const struct scene *scene, struct course *course, double h)
     course->impulse += h * row_by(collocation.weight, course->force[0]);
 }
 
+/* The law's stiffness K at the nodes of a step, and 1 + M K with the coupling M. */
+struct step_slopes {
+    double stiffness[NODES];
+    struct node_factors factors;
+};
+
 /* With the law's stiffness K at the nodes, the coupling M and what the source does by itself, f to
  * the forces F and G F to the approach, (1 + M K) d = approach - G F, and F changes by K d + f. */
 static void solve_first(struct follower *follower, const struct level_table *table,
-                        const struct force_step *step, const double stiffness[NODES],
+                        const struct force_step *step, const struct step_slopes *slopes,
                         double d[NODES])
 {
     struct course *course = &follower->first;
@@ -149,10 +155,9 @@ static void solve_first(struct follower *follower, const struct level_table *tab
     find_approaches(&follower->scene, course, step->level, right);
     for (int i = 0; i < NODES; i++)
         right[i] -= row_by(table->own[i], force);
-    if (!node_solve_linear((const double(*)[NODES])table->coupling, stiffness, right, d))
-        follower->lost = true;
+    node_factors_solve(&slopes->factors, right, d);
     for (int i = 0; i < NODES; i++)
-        course->force[0][i] = stiffness[i] * d[i] + follower->source->force * force[i];
+        course->force[0][i] = slopes->stiffness[i] * d[i] + follower->source->force * force[i];
     move_on(&follower->scene, course, step_length(step->level));
 }
 
@@ -164,7 +169,7 @@ static void solve_first(struct follower *follower, const struct level_table *tab
  * where K' = K/(2 d) by a law like d^(3/2). It has no bound where contacts begin and end, but is
  * integrable: what the nodes miss of it there is some tenth of a step. */
 static void solve_second(struct follower *follower, const struct level_table *table,
-                         const struct force_step *step, const double stiffness[NODES],
+                         const struct force_step *step, const struct step_slopes *slopes,
                          const double d[NODES])
 {
     struct course *course = &follower->second;
@@ -176,31 +181,34 @@ static void solve_second(struct follower *follower, const struct level_table *ta
     find_approaches(&follower->scene, course, step->level, right);
     for (int i = 0; i < NODES; i++) {
         double depth = step->indentation[0][i];
-        double slope = depth > 0.0 ? stiffness[i] / (2.0 * depth) : 0.0;
+        double slope = depth > 0.0 ? slopes->stiffness[i] / (2.0 * depth) : 0.0;
         bent[i] = slope * d[i] * d[i] + f * (2.0 * changed[i] - f * step->force[0][i]);
     }
     for (int i = 0; i < NODES; i++)
         right[i] -=
             row_by(table->coupling[i], bent) + 2.0 * follower->source->compliance * changed[i];
-    if (!node_solve_linear((const double(*)[NODES])table->coupling, stiffness, right, second))
-        follower->lost = true;
+    node_factors_solve(&slopes->factors, right, second);
     for (int i = 0; i < NODES; i++)
-        course->force[0][i] = stiffness[i] * second[i] + bent[i];
+        course->force[0][i] = slopes->stiffness[i] * second[i] + bent[i];
     move_on(&follower->scene, course, step_length(step->level));
 }
 
 static bool take_step(struct follower *follower, const struct force_step *step)
 {
     double same[NODES];
-    double stiffness[NODES];
     double d[NODES];
+    struct node_row rows[NODES];
+    struct step_slopes slopes;
     const struct level_table *table = find_table(follower, step->level);
     if (!table)
         return false;
-    contact_law_forces(&follower->scene.laws[0], step->indentation[0], same, stiffness);
-    solve_first(follower, table, step, stiffness, d);
+    contact_law_forces(&follower->scene.laws[0], step->indentation[0], same, slopes.stiffness);
+    node_rows_make((const double(*)[NODES])table->coupling, slopes.stiffness, rows);
+    slopes.factors = node_factors_make(rows);
+    follower->lost = follower->lost || !slopes.factors.sound;
+    solve_first(follower, table, step, &slopes, d);
     if (follower->source->curved)
-        solve_second(follower, table, step, stiffness, d);
+        solve_second(follower, table, step, &slopes, d);
     follower->total += step_length(step->level) * row_by(collocation.weight, step->force[0]);
     return true;
 }

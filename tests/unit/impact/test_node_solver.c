@@ -1,8 +1,10 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/impact/node_solver.c: contacts one by one and all at once find the same, which
- * solves the equations; where contacts matter much to each other the first gives up. */
+/* Mirrors service/impact/node_solver.c and node_factors.h: contacts one by one and all at once find
+ * the same, which solves the equations; where contacts matter much to each other the first gives
+ * up. */
+#include "impact/node_factors.h"
 #include "impact/node_solver.h"
 #include "unit/impact/toy_scene.h"
 
@@ -156,8 +158,24 @@ static void linear_equations_are_solved(void **state)
     assert_true(node_solve_linear((const double(*)[NODES])m, stiffness, b, x));
     for (int i = 0; i < NODES; i++)
         near(x[i], expected[i], 1e-14);
+    /* by its factors, for two right sides */
+    struct node_row rows[NODES];
+    double twice[NODES];
+    node_rows_make((const double(*)[NODES])m, stiffness, rows);
+    struct node_factors factors = node_factors_make(rows);
+    assert_true(factors.sound);
+    for (int factor = 1; factor <= 2; factor++) {
+        for (int i = 0; i < NODES; i++)
+            b[i] *= factor;
+        node_factors_solve(&factors, b, twice);
+        for (int i = 0; i < NODES; i++)
+            near(twice[i], factor * x[i], 0.0);
+    }
     m[0][0] = -1.0 / stiffness[0];
     assert_false(node_solve_linear((const double(*)[NODES])m, stiffness, b, x));
+    node_rows_make((const double(*)[NODES])m, stiffness, rows);
+    factors = node_factors_make(rows);
+    assert_false(factors.sound);
 }
 
 int main(void)
