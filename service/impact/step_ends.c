@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "impact/quintic.h"
+
 /* Gauss-Jacobi quadrature of x^(3/2) times polynomials up to the seventh degree on 0..1, the
  * weights over x^(3/2); all numbers to 20 digits from the moments. */
 enum { POINTS = 4 };
@@ -13,57 +15,10 @@ static const double PLACE[POINTS] = {0.1728253493870498751, 0.451700677970741074
 static const double WEIGHT[POINTS] = {0.23787837491065878419, 0.30319276806623797758,
                                       0.26331982728830153484, 0.13224647234779446794};
 
-/* The product of the nodes: that of (s - node_j) at both ends of the step. */
-static const double PRODUCT = 1.0 / 70.0;
-
 /* The secant rule from the straight line between two nodes, which is within 1e-2 of the step: to
  * the last change whose square is rounding, or a billionth of the step. */
 enum { RELEASE_ROUNDS = 4 };
 static const double SMALL_CHANGE = 1e-6;
-
-/* A polynomial of degree five by its values at the nodes, at the start and at the end of a step:
- *
- *   p(s) = sum_j value_j L_j(s) + (low + (high - low) s) prod_j (s - node_j). */
-struct quintic {
-    const double *nodes;
-    double low, high;
-};
-
-static struct quintic quintic_through(double start, const double nodes[NODES], double end)
-{
-    double at_start = 0.0;
-    double at_end = 0.0;
-    for (int j = 0; j < NODES; j++) {
-        at_start += nodes[j] * collocation.monomial[j][0];
-        at_end += nodes[j] * collocation.end[0][j];
-    }
-    return (struct quintic){nodes, (start - at_start) / PRODUCT, (end - at_end) / PRODUCT};
-}
-
-/* Lagrange's polynomials of the nodes at s, and the product. */
-struct basis {
-    double s, product;
-    double by[NODES];
-};
-
-static struct basis basis_at(double s)
-{
-    struct basis basis = {.s = s, .product = 1.0};
-    for (int j = 0; j < NODES; j++) {
-        const double *c = collocation.monomial[j];
-        basis.by[j] = ((c[3] * s + c[2]) * s + c[1]) * s + c[0];
-        basis.product *= s - collocation.node[j];
-    }
-    return basis;
-}
-
-static double quintic_value(const struct quintic *quintic, const struct basis *basis)
-{
-    double sum = (quintic->low + (quintic->high - quintic->low) * basis->s) * basis->product;
-    for (int j = 0; j < NODES; j++)
-        sum += quintic->nodes[j] * basis->by[j];
-    return sum;
-}
 
 /* The slope of the straight line between the nodes, or the ends of the step, around s. */
 static double slope_around(const struct step_values *values, double s)
@@ -87,7 +42,7 @@ double step_ends_release(const struct step_values *values)
     double change = 0.0;
     double before = 0.0;
     for (int round = 0; round < RELEASE_ROUNDS && slope < 0.0; round++) {
-        const struct basis basis = basis_at(s);
+        const struct quintic_basis basis = quintic_basis_at(s);
         double value = quintic_value(&quintic, &basis);
         if (round > 0)
             slope = (value - before) / change;
@@ -120,7 +75,7 @@ static void project(const struct step_end *step, double from, double length, dou
         quintic_through(start + c * contact_law_force(step->law, start, &stiffness), approach,
                         end + c * contact_law_force(step->law, end, &stiffness));
     for (int q = 0; q < POINTS; q++) {
-        const struct basis basis = basis_at(from + length * PLACE[q]);
+        const struct quintic_basis basis = quintic_basis_at(from + length * PLACE[q]);
         double d = quintic_value(&local, &basis);
         double f = contact_law_force(step->law, d, &stiffness);
         /* once by Newton's method */
