@@ -99,12 +99,8 @@ static void fill_loading(struct contact_curves *curves, const struct contact_tab
 static double roughness_at(const struct spline *spline, size_t i)
 {
     double third[2];
-    for (int side = 0; side < 2; side++) {
-        size_t j = i - 1 + (size_t)side;
-        double h = spline->place[j + 1] - spline->place[j];
-        double chord = (spline->value[j + 1] - spline->value[j]) / h;
-        third[side] = 6.0 * (spline->slope[j] + spline->slope[j + 1] - 2.0 * chord) / (h * h);
-    }
+    for (int side = 0; side < 2; side++)
+        third[side] = spline_third(spline, i - 1 + (size_t)side);
     double d = spline->place[i];
     return fabs(third[1] - third[0]) * d * d * d / spline->value[i];
 }

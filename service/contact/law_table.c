@@ -16,6 +16,7 @@
  * contact radius, so that the share of the indentation falls with its root. Hence e ~ v^(-1/4). An
  * elastic table goes on like Hertz, with the last slope of F^(2/3). */
 #include <math.h>
+#include <stdbool.h>
 
 #include "contact/curves.h"
 #include "contact/law_closed_form.h"
@@ -219,10 +220,76 @@ static void rescale(struct contact_law *law, double force, double yield)
     law->parameters[RADIUS] *= yield;
 }
 
+/* Of what lies on a knot but for rounding. */
+static const double ON_KNOT = 1e-12;
+
+/* A curve by its places: of two splines that share them, mixed, in units of length and force. */
+struct placed_curve {
+    const struct spline *pair[2];
+    double mix;
+    double length, force;
+    double from; /* its origin, in indentations */
+};
+
+/* With g = F^(2/3), F has 3/2 g^(1/2) times what g has more behind a knot, a sixth of the jump of
+ * its third derivative times the cube of the way. */
+static double cube_at(const struct placed_curve *curve, size_t i)
+{
+    double jump = 0.0;
+    double value = 0.0;
+    for (int k = 0; k < (curve->mix > 0.0 ? 2 : 1); k++) {
+        const struct spline *spline = curve->pair[k];
+        double part = k ? curve->mix : 1.0 - curve->mix;
+        jump += part * (spline_third(spline, i) - spline_third(spline, i - 1));
+        value += part * spline->value[i];
+    }
+    return 0.25 * sqrt(value) * jump * curve->force /
+           (curve->length * curve->length * curve->length);
+}
+
+/* The inner places on the way. */
+static size_t knots_on(const struct placed_curve *curve, double from, double to,
+                       struct contact_knot knots[CONTACT_KNOTS])
+{
+    const struct spline *spline = curve->pair[0];
+    bool rising = to > from;
+    double x = (from - curve->from) / curve->length;
+    double end = (to - curve->from) / curve->length;
+    size_t i = spline_segment(spline, x * (rising ? 1.0 + ON_KNOT : 1.0 - ON_KNOT)) + rising;
+    size_t found = 0;
+    for (; found < CONTACT_KNOTS && i > 0 && i + 1 < spline->count; rising ? i++ : i--) {
+        if (rising ? !(spline->place[i] < end) : !(spline->place[i] > end))
+            break;
+        double cube = cube_at(curve, i);
+        knots[found].indentation = curve->from + spline->place[i] * curve->length;
+        knots[found++].cube = rising ? cube : -cube;
+    }
+    return found;
+}
+
+/* What falls from the largest indentation does so on a branch, also if rounding has it beyond. */
+static size_t next_knots(const struct contact_law *law, double from, double to,
+                         struct contact_knot knots[CONTACT_KNOTS])
+{
+    const struct contact_history *history = &law->history;
+    const struct spline *loading = &curves_of(law)->loading;
+    double span = history->max_indentation - history->dent;
+    struct placed_curve curve = {.pair = {loading, loading},
+                                 .length = law->parameters[LENGTH],
+                                 .force = law->parameters[FORCE],
+                                 .from = -history->dent};
+    if (span > 0.0 && (from < span || to < from)) {
+        curve = (struct placed_curve){.length = span, .force = history->max_force};
+        curve.mix = branches_of(law, curve.pair);
+    }
+    return knots_on(&curve, from, to, knots);
+}
+
 static const struct plastic_curve curve = {
     .force = loading_force,
     .work = loading_work,
     .joint = next_joint,
+    .knots = next_knots,
     .yield = yield_depth,
     .residual = residual_depth,
     .radius = contact_radius,
@@ -236,6 +303,7 @@ const struct contact_law_operations contact_law_TABLE = {
     .tables = CONTACT_TABLES_ONLY,
     .make = contact_law_closed_form,
     .title = "a table of the contact region",
+    .three_halves = true,
     .force = plastic_force,
     .forces = table_forces,
     .stored = plastic_stored,

@@ -11,15 +11,28 @@
 
 #include "contact/law.h"
 
+enum { CONTACT_KNOTS = 16 };
+
+/* A point of an interpolated law where its third derivative jumps. */
+struct contact_knot {
+    double indentation;
+    double cube; /* what the force is more behind it than without it, over the cube of the way from
+                    there, to first order; N/m^3 */
+};
+
 /* What a law that yields provides; depths d from the virgin surface. */
 struct plastic_curve {
     /* Force of the virgin loading curve at d > 0, and its slope. */
     double (*force)(const struct contact_law *law, double d, double *slope);
     /* Its work from 0 to d, J. */
     double (*work)(const struct contact_law *law, double d);
-    /* The first depth beyond d where it has no third derivative; INFINITY: none. Steps end there.
-     */
+    /* The first depth beyond d where it has no third derivative; INFINITY: none. Steps of several
+     * contacts, or of a law without knots, end there. */
     double (*joint)(const struct contact_law *law, double d);
+    /* Of an interpolated law, NULL for others: the first knots on the way from one indentation to
+     * another, on the curve or the branch where it begins. Returns how many there are. */
+    size_t (*knots)(const struct contact_law *law, double from, double to,
+                    struct contact_knot knots[CONTACT_KNOTS]);
     /* Depth up to which nothing stays. */
     double (*yield)(const struct contact_law *law);
     /* Depth that stays after a largest depth d; < d. */

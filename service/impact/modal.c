@@ -9,6 +9,7 @@
 #include "impact/contact_step.h"
 #include "impact/march.h"
 #include "impact/step_ends.h"
+#include "impact/step_knots.h"
 #include "impact/step_limits.h"
 #include "impact/step_values.h"
 #include "impact/yielding.h"
@@ -219,15 +220,16 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
     run->now[c] = after;
 }
 
-/* The forces of the only contact where it begins or ends. */
-static void project_ends(struct modal_run *run, int level)
+/* What the nodes of the only contact miss where it begins or ends, and where its law has knots. */
+static void correct_forces(struct modal_run *run, int level)
 {
     const struct scene *scene = &run->march.scene;
-    const struct step_end step = {
-        &scene->laws[0],
-        scene->residual[0],
-        {run->now[0].indentation, run->step.end_indentation[0], run->step.indentation[0]}};
-    if (step_ends_project(&step, run->step.force[0]))
+    const double start = run->now[0].indentation;
+    const struct step_end step = {&scene->laws[0],
+                                  scene->residual[0],
+                                  {start, run->step.end_indentation[0], run->step.indentation[0]}};
+    if ((run->projects && step_ends_project(&step, run->step.force[0])) ||
+        step_knots_pass(&run->step, scene, level, start))
         run->step.loss =
             contact_step_loss(scene, &run->march.outcome->motion, level, run->step.force);
 }
@@ -237,8 +239,8 @@ static void accept(struct modal_run *run, int level)
 {
     struct impact_outcome *outcome = run->march.outcome;
     double start = outcome->motion.time;
-    if (run->projects)
-        project_ends(run, level);
+    if (run->projects || (run->yielding.any && run->march.scene.contacts == 1))
+        correct_forces(run, level);
     if (run->settings->log)
         force_log_add(run->settings->log, start, level, run->step.force, run->step.indentation);
     contact_step_take(&run->step, &run->march.scene, &outcome->motion);
@@ -253,8 +255,7 @@ static void begin_phase(struct modal_run *run, size_t contact)
 {
     const struct motion *motion = &run->march.outcome->motion;
     for (size_t c = 0; c < run->march.scene.contacts; c++) {
-        double d;
-        double rate;
+        double d, rate;
         motion_approach(motion, &run->march.scene, c, &d, &rate);
         run->now[c] = (struct contact_start){c == contact ? 0.0 : fmin(d, 0.0), rate, 0.0, 0.0};
         if (c == contact)
@@ -309,8 +310,7 @@ static enum percuss_end_reason go_through(struct modal_run *run)
         level = limit_level(run, level < deepest ? level : deepest, finest);
         if (run->yielding.any)
             level = yielding_level(&run->yielding, level);
-        double h = step_length(level);
-        double time = march->outcome->motion.time;
+        double h = step_length(level), time = march->outcome->motion.time;
         if (time + h == time || march->horizon - time < step_length(deepest))
             return PERCUSS_END_IN_CONTACT;
         /* one that has no solution or is too coarse is tried again with half its length */

@@ -35,6 +35,14 @@ static inline double spline_between(double h, double t, const double value[2],
     return value[0] + t * (left + t * (square + t * cube));
 }
 
+/* Third derivative on segment i. */
+static inline double spline_third(const struct spline *spline, size_t i)
+{
+    double h = spline->place[i + 1] - spline->place[i];
+    double chord = (spline->value[i + 1] - spline->value[i]) / h;
+    return 6.0 * (spline->slope[i] + spline->slope[i + 1] - 2.0 * chord) / (h * h);
+}
+
 /* Value on segment i; *slope becomes its derivative. */
 double spline_on(const struct spline *spline, size_t i, double x, double *slope);
 

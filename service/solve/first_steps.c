@@ -28,16 +28,3 @@ double first_steps_accuracy(double tolerance, bool sequence, bool group)
     double most = group ? MOST_GROUP : sequence ? MOST_SEQUENCE : MOST_SINGLE;
     return fmax(fmin(share * tolerance, most), ATTEMPT_FINEST);
 }
-
-/* Steps pass most of a table's joints, where its second derivative jumps: what that leaves goes
- * with the root of their accuracy, some 4e-3 times it of the paper's rod. The accuracy that leaves
- * a good half of what the tolerance allows, over the tolerance's square. */
-static const double SHARE_TABLE = 300.0;
-
-/* Where they are compared with longer ones these shall leave no more. */
-double first_steps_of_table(double tolerance, bool sequence, bool group)
-{
-    double smooth = first_steps_accuracy(tolerance, sequence, group);
-    double share = tolerance < FIRST_STEPS_COMPARED ? SHARE_TABLE / ATTEMPT_LONGER : SHARE_TABLE;
-    return fmax(fmin(smooth, share * tolerance * tolerance), ATTEMPT_FINEST);
-}

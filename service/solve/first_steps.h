@@ -21,7 +21,4 @@ static const double FIRST_STEPS_FOLLOWED_FINE = 1e-4;
  * error. */
 double first_steps_accuracy(double tolerance, bool sequence, bool group);
 
-/* The same where the law is interpolated. */
-double first_steps_of_table(double tolerance, bool sequence, bool group);
-
 #endif

@@ -117,14 +117,6 @@ static void conclude(const struct attempt_context *context, const struct attempt
     bound(range, compression, &solution->modes.restitution, &solution->modes.impulse);
 }
 
-static double first_accuracy(const struct problem *problem, bool sequence)
-{
-    bool group = problem->contact_count > 1;
-    bool table = contact_model_used(problem)->tables == CONTACT_TABLES_ONLY;
-    return table ? first_steps_of_table(problem->tolerance, sequence, group)
-                 : first_steps_accuracy(problem->tolerance, sequence, group);
-}
-
 /* By as many modes and as short steps as the tolerance asks for. */
 static enum percuss_status search(struct attempt_context *context, struct solution *solution)
 {
@@ -135,8 +127,9 @@ static enum percuss_status search(struct attempt_context *context, struct soluti
     solution->nearby.solutions = 0;
     solution->restitution_by_speed = NAN;
     /* steps as the tolerance asks for to begin with, and as many modes */
-    struct attempt best = {.accuracy = first_accuracy(problem, sequence),
-                           .care = sequence ? IMPACT_CARE_SEQUENCE : IMPACT_CARE_SINGLE};
+    struct attempt best = {
+        .accuracy = first_steps_accuracy(problem->tolerance, sequence, problem->contact_count > 1),
+        .care = sequence ? IMPACT_CARE_SEQUENCE : IMPACT_CARE_SINGLE};
     enum percuss_status status = mode_search(context, &best, &solution->modes);
     if (status)
         return status;

@@ -165,11 +165,76 @@ static void bad_samples_are_refused(void **state)
     contact_curves_free(NULL);
 }
 
+/* Third derivative of the force, which is a cubic to the power 3/2 there, on one side of a place.
+ */
+static double third(const struct contact_law *law, double d, double step)
+{
+    double slope;
+    return (contact_law_force(law, d + 3.0 * step, &slope) -
+            3.0 * contact_law_force(law, d + 2.0 * step, &slope) +
+            3.0 * contact_law_force(law, d + step, &slope) - contact_law_force(law, d, &slope)) /
+           (step * step * step);
+}
+
+/* The knots on the way up, against differences: of step 1e-4 d, whose rounding is 1e-4 of F/d^3,
+ * and which miss 3e-4 of a fourth derivative. Down they are the same, with the other sign. */
+static size_t check_knots(const struct contact_law *law, double from, double to)
+{
+    double roughest = 0.0;
+    struct contact_knot up[CONTACT_KNOTS], down[CONTACT_KNOTS];
+    size_t count = law->operations->curve->knots(law, from, to, up);
+    assert_true(count < CONTACT_KNOTS);
+    assert_int_equal(law->operations->curve->knots(law, to, from, down), count);
+    for (size_t i = 0; i < count; i++) {
+        double d = up[i].indentation;
+        double slope;
+        double jump = third(law, d, 1e-4 * d) - third(law, d, -1e-4 * d);
+        assert_true(d > from && d < to && (i == 0 || d > up[i - 1].indentation));
+        double unit = contact_law_force(law, d, &slope) / (d * d * d);
+        near(6.0 * up[i].cube / unit, jump / unit, 0.02 * fabs(jump / unit) + 0.01);
+        roughest = fmax(roughest, fabs(jump / unit));
+        near_relative(down[count - 1 - i].indentation, d, 1e-14);
+        near_relative(down[count - 1 - i].cube, -up[i].cube, 1e-14);
+    }
+    assert_true(roughest > 1.0);
+    return count;
+}
+
+static void its_knots_are_where_it_jumps(void **state)
+{
+    (void)state;
+    static struct sampled_table sampled;
+    struct fault fault = {0};
+    struct contact_curves *curves;
+    struct contact_law closed = closed_form();
+    sampled_table_make(&sampled, &closed, 100.0);
+    for (int i = 5; i < SAMPLED_POINTS; i += 2)
+        sampled.force[i] *= 1.0 + 1e-3;
+    for (int b = 0; b < SAMPLED_BRANCHES; b++)
+        for (int i = 3; i + 1 < SAMPLED_SHARES; i += 2)
+            sampled.share[b][i] *= 1.0 + 1e-3;
+    assert_int_equal(contact_curves_create(&sampled.table, &curves, &fault), PERCUSS_OK);
+    struct contact_law law = contact_law_table(curves);
+    const double *place = sampled.indentation;
+    /* all places on the way, but for that where it begins */
+    assert_int_equal(check_knots(&law, place[8], place[20]), 11);
+    /* a branch, down from its top also where rounding has it beyond */
+    contact_law_yield(&law, place[20]);
+    double span = contact_law_limit(&law);
+    assert_int_equal(check_knots(&law, 0.2 * span, 0.9 * span), 11);
+    struct contact_knot knots[CONTACT_KNOTS];
+    assert_int_equal(law.operations->curve->knots(&law, span * (1.0 + 1e-15), 0.8 * span, knots),
+                     3);
+    near_relative(knots[0].indentation, span * 15.0 / 16.0, 1e-14);
+    contact_curves_free(curves);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_sampled_table_follows_its_law),
         cmocka_unit_test(its_curves_fit_together),
+        cmocka_unit_test(its_knots_are_where_it_jumps),
         cmocka_unit_test(an_elastic_table_never_yields),
         cmocka_unit_test(bad_samples_are_refused),
     };

@@ -20,12 +20,6 @@ static void begins_below_the_tolerance(void **state)
     near_relative(first_steps_accuracy(0.5, true, false), 1e-5, 1e-12);
     near_relative(first_steps_accuracy(0.5, true, true), 1e-6, 1e-12);
     near_relative(first_steps_accuracy(1e-17, false, false), ATTEMPT_FINEST, 0.0);
-    /* a table's joints: the tolerance's square, of the longer steps that these are compared with */
-    near_relative(first_steps_of_table(1e-3, false, false), 1e-4, 1e-12);
-    near_relative(first_steps_of_table(1e-5, false, false), 3e-8, 1e-12);
-    near_relative(first_steps_of_table(1e-6, false, false), 3e-12, 1e-12);
-    near_relative(first_steps_of_table(1e-3, true, true), 1e-6, 1e-12);
-    near_relative(first_steps_of_table(1e-12, false, false), ATTEMPT_FINEST, 0.0);
 }
 
 int main(void)
