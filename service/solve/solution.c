@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "solve/attempt.h"
-#include "solve/contact_model.h"
 #include "solve/first_steps.h"
 #include "solve/formulation.h"
 
