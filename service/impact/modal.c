@@ -23,7 +23,7 @@ struct modal_run {
     struct contact_start *now;   /* [contact], local */
     struct impact_scale *scales; /* [contact], of the sub-impact under way */
     double *longest;             /* [contact], stable step, s */
-    bool projects;               /* the contact's forces where it begins and ends, step_ends.h */
+    bool projects;               /* forces where contacts begin and end, step_ends.h */
     int finest;                  /* level that events and grading of the closed contacts need */
 };
 
@@ -105,7 +105,7 @@ static void open_contact(struct modal_run *run, size_t contact, double time, dou
 {
     struct march *march = &run->march;
     run->scales[contact] = impact_scale_of(&march->scene, contact, rate);
-    run->projects = step_limits_open(&run->limits, &march->scene, run->scales);
+    run->projects = step_limits_open(&run->limits, &march->scene, contact, &run->scales[contact]);
     run->longest[contact] =
         step_limits_stable(&march->scene, contact, &run->scales[contact], run->limits.coupling);
     march_open(march, contact, time, march->outcome->motion.gap_rate[contact]);
@@ -220,16 +220,14 @@ static void keep_books(struct modal_run *run, size_t c, double start, double h)
     run->now[c] = after;
 }
 
-/* What the nodes of the only contact miss where it begins or ends, and where its law has knots. */
+/* What the nodes miss where contacts begin or end, and where the only one's law has knots. */
 static void correct_forces(struct modal_run *run, int level)
 {
     const struct scene *scene = &run->march.scene;
-    const double start = run->now[0].indentation;
-    const struct step_end step = {&scene->laws[0],
-                                  scene->residual[0],
-                                  {start, run->step.end_indentation[0], run->step.indentation[0]}};
-    if ((run->projects && step_ends_project(&step, run->step.force[0])) ||
-        step_knots_pass(&run->step, scene, level, start))
+    bool corrected = run->projects && step_ends_project_all(scene, run->now, &run->step);
+    if (!corrected && scene->contacts == 1)
+        corrected = step_knots_pass(&run->step, scene, level, run->now[0].indentation);
+    if (corrected)
         run->step.loss =
             contact_step_loss(scene, &run->march.outcome->motion, level, run->step.force);
 }

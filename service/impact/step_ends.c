@@ -17,7 +17,7 @@ static const double WEIGHT[POINTS] = {0.23787837491065878419, 0.3031927680662379
 
 /* The secant rule from the straight line between two nodes, which is within 1e-2 of the step: to
  * the last change whose square is rounding, or a billionth of the step. */
-enum { RELEASE_ROUNDS = 4 };
+enum { ZERO_ROUNDS = 4 };
 static const double SMALL_CHANGE = 1e-6;
 
 /* The slope of the straight line between the nodes, or the ends of the step, around s. */
@@ -33,15 +33,16 @@ static double slope_around(const struct step_values *values, double s)
            (to - from);
 }
 
-double step_ends_release(const struct step_values *values)
+/* Where the polynomial is zero, near what straight lines say; `sense`: 1 where it rises there, -1
+ * where it falls. */
+static double find_zero(const struct step_values *values, double straight, double sense)
 {
     const struct quintic quintic = quintic_through(values->start, values->nodes, values->end);
-    const double straight = step_values_release(values);
     double slope = slope_around(values, straight);
     double s = straight;
     double change = 0.0;
     double before = 0.0;
-    for (int round = 0; round < RELEASE_ROUNDS && slope < 0.0; round++) {
+    for (int round = 0; round < ZERO_ROUNDS && sense * slope > 0.0; round++) {
         const struct quintic_basis basis = quintic_basis_at(s);
         double value = quintic_value(&quintic, &basis);
         if (round > 0)
@@ -53,6 +54,16 @@ double step_ends_release(const struct step_values *values)
             break;
     }
     return s > 0.0 && s < 1.0 ? s : straight;
+}
+
+double step_ends_release(const struct step_values *values)
+{
+    return find_zero(values, step_values_release(values), -1.0);
+}
+
+double step_ends_touch(const struct step_values *values)
+{
+    return values->start < 0.0 ? find_zero(values, step_values_closing(values), 1.0) : 0.0;
 }
 
 /* With the force F at the places s_q, weights w_q and Gauss's weights W_j of the nodes, whose
@@ -100,8 +111,9 @@ static bool closed_within(const double nodes[NODES], double from, double to)
 bool step_ends_project(const struct step_end *step, double force[NODES])
 {
     const struct step_values *values = &step->values;
-    if (values->start == 0.0 && values->end > 0.0 && closed_within(values->nodes, 0.0, 1.0)) {
-        project(step, 0.0, 1.0, force);
+    double touch = values->start <= 0.0 && values->end > 0.0 ? step_ends_touch(values) : 1.0;
+    if (touch < 1.0 && closed_within(values->nodes, touch, 1.0)) {
+        project(step, touch, 1.0 - touch, force);
         return true;
     }
     double release = values->start > 0.0 && !(values->end > 0.0) ? step_ends_release(values) : 0.0;
@@ -109,4 +121,18 @@ bool step_ends_project(const struct step_end *step, double force[NODES])
         return false;
     project(step, release, -release, force);
     return true;
+}
+
+bool step_ends_project_all(const struct scene *scene, const struct contact_start *now,
+                           struct contact_step *step)
+{
+    bool any = false;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        const struct step_end end = {
+            &scene->laws[c],
+            scene->residual[c * (scene->contacts + 1)],
+            {now[c].indentation, step->end_indentation[c], step->indentation[c]}};
+        any = step_ends_project(&end, step->force[c]) || any;
+    }
+    return any;
 }

@@ -23,9 +23,18 @@ struct step_end {
  * through the values, of which the last is not positive. */
 double step_ends_release(const struct step_values *values);
 
-/* Where the contact begins on a step, with an indentation of zero, or ends on it, the forces at its
+/* Share of the step before which the contact is open: 0 where it begins with the step, else the
+ * first zero of that polynomial. */
+double step_ends_touch(const struct step_values *values);
+
+/* Where the contact begins on a step or ends on it, the forces at its
  * nodes become those of the cubic with the moments, up to the third, of the law's force along the
  * indentation. False: it does neither, or both, or opens in between: they stay as they are. */
 bool step_ends_project(const struct step_end *step, double force[NODES]);
+
+/* The same of each contact on a step that was solved, from where they are `now`, [contact]. False:
+ * of none. What others' forces do through the residual flexibility is as smooth as its cubic. */
+bool step_ends_project_all(const struct scene *scene, const struct contact_start *now,
+                           struct contact_step *step);
 
 #endif

@@ -70,28 +70,42 @@ struct step_limits step_limits_make(const struct scene *scene, double accuracy,
  * far from what it converges to as with the other ends, by two steps for three. Not those beside an
  * answer: with the same ends the two agree where both miss a sub-impact, and sequences of eight and
  * more were met and wrong. */
-static const struct {
+struct projected_ends {
     double end; /* factor of accuracy^(3/10) */
     double longest_event, longest_opening;
-} projected[IMPACT_CARES] = {
+};
+static const struct projected_ends projected[IMPACT_CARES] = {
     [IMPACT_CARE_SEQUENCE] = {4.0, 0.125, 0.125},
     [IMPACT_CARE_SINGLE] = {12.6, 0.4, 0.7},
     [IMPACT_CARE_ROUGH] = {12.6, 0.4, 0.7},
 };
 
+/* Of several contacts with a sequence's care, which begin and end anywhere on each other's steps:
+ * the roughness of the others bounds these steps too. Of 200 random groups on beams these leave at
+ * tolerances of 1e-3 and 1e-4 what steps an eighth as long leave without projected ends. */
+static const struct projected_ends projected_several = {16.0, 0.25, 0.25};
+
+static bool may_project(const struct scene *scene, enum impact_care care)
+{
+    for (size_t c = 0; c < scene->contacts; c++)
+        if (!scene->laws[c].operations->three_halves)
+            return false;
+    return care != IMPACT_CARE_BESIDE && (scene->contacts == 1 || is_elastic_group(scene));
+}
+
 void step_limits_project(struct step_limits *limits, const struct scene *scene,
                          const struct impact_settings *settings)
 {
     enum impact_care care = settings->care;
-    if (scene->contacts != 1 || !scene->laws[0].operations->three_halves ||
-        care == IMPACT_CARE_BESIDE)
+    if (!may_project(scene, care))
         return;
-    double share = projected[care].end * pow(settings->accuracy, 0.3);
+    bool together = scene->contacts > 1 && care == IMPACT_CARE_SEQUENCE;
+    const struct projected_ends *ends = together ? &projected_several : &projected[care];
+    double share = ends->end * pow(settings->accuracy, 0.3);
     limits->plain[0] = limits->event_share;
     limits->plain[1] = limits->opening_share;
-    limits->projected[0] = fmax(limits->event_share, fmin(projected[care].longest_event, share));
-    limits->projected[1] =
-        fmax(limits->opening_share, fmin(projected[care].longest_opening, share));
+    limits->projected[0] = fmax(limits->event_share, fmin(ends->longest_event, share));
+    limits->projected[1] = fmax(limits->opening_share, fmin(ends->longest_opening, share));
 }
 
 /* Work of the acceleration on the way to the scale's indentation, over the approach's energy: from
@@ -99,16 +113,20 @@ void step_limits_project(struct step_limits *limits, const struct scene *scene,
  * back 2 speed/acceleration after its end: here after 40 durations. */
 static const double PRESSED = 0.1;
 
-bool step_limits_open(struct step_limits *limits, const struct scene *scene,
+bool step_limits_open(struct step_limits *limits, const struct scene *scene, size_t contact,
                       const struct impact_scale *scale)
 {
     if (!(limits->projected[0] > 0.0))
         return false;
-    double pressing = 2.0 * fabs(scene->gap_acceleration[0]) * scale->duration * scale->duration;
+    double pressing =
+        2.0 * fabs(scene->gap_acceleration[contact]) * scale->duration * scale->duration;
     bool projects = pressing <= PRESSED * scale->indentation;
     const double *share = projects ? limits->projected : limits->plain;
     limits->event_share = share[0];
     limits->opening_share = share[1];
+    /* in a group from here on */
+    if (!projects && scene->contacts > 1)
+        limits->projected[0] = 0.0;
     return projects;
 }
 

@@ -31,14 +31,14 @@ struct step_limits {
 struct step_limits step_limits_make(const struct scene *scene, double accuracy,
                                     enum impact_care care);
 
-/* Longer first and last steps where a scene is one contact whose forces there may be projected
- * (step_ends.h). */
+/* Longer first and last steps where a scene's contacts are one, or a group that does not yield, and
+ * their forces there may be projected (step_ends.h). */
 void step_limits_project(struct step_limits *limits, const struct scene *scene,
                          const struct impact_settings *settings);
 
 /* A contact begins, with that scale: chooses the shares, and whether its ends are projected. What
  * acceleration presses is back soon after its end, which a long step would not see. */
-bool step_limits_open(struct step_limits *limits, const struct scene *scene,
+bool step_limits_open(struct step_limits *limits, const struct scene *scene, size_t contact,
                       const struct impact_scale *scale);
 
 /* The longest step of a contact of that scale, s, that pumps no mode. A mode that the step does not

@@ -80,6 +80,25 @@ static void a_beginning_has_its_moments(void **state)
     near(miss(&law, &bow, shares, force), 0.0, 1e-7);
 }
 
+/* In a group contacts begin anywhere on a step, also behind its last node. */
+static void a_beginning_within_has_its_moments(void **state)
+{
+    (void)state;
+    const struct contact_law law = contact_law_hertz(2.0);
+    for (double begin = 0.03; begin < 0.99; begin += 0.0485) {
+        const struct bow bow = {begin, 3.0};
+        const double shares[2] = {begin, 1.0};
+        double nodes[NODES];
+        double force[NODES];
+        struct step_end step = {&law, 0.0, bow_values(&bow, nodes)};
+        forces_at(&law, nodes, force);
+        assert_true(miss(&law, &bow, shares, force) > 1e-5);
+        near(step_ends_touch(&step.values), begin, 1e-8);
+        assert_true(step_ends_project(&step, force));
+        near(miss(&law, &bow, shares, force), 0.0, 1e-7);
+    }
+}
+
 static void an_end_has_its_moments(void **state)
 {
     (void)state;
@@ -138,8 +157,8 @@ static void what_neither_begins_nor_ends_stays(void **state)
 {
     (void)state;
     const struct contact_law law = contact_law_hertz(2.0);
-    /* closed throughout; begins and ends; begins within; open throughout */
-    static const struct bow bows[] = {{-1.0, 2.0}, {0.0, 0.5}, {0.3, 2.0}, {1.5, 2.0}};
+    /* closed throughout; begins and ends; the same within; open throughout */
+    static const struct bow bows[] = {{-1.0, 2.0}, {0.0, 0.5}, {0.3, 0.6}, {1.5, 2.0}};
     for (size_t i = 0; i < sizeof bows / sizeof *bows; i++) {
         double nodes[NODES];
         double force[NODES] = {1.0, 2.0, 3.0, 4.0};
@@ -154,6 +173,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_beginning_has_its_moments),
+        cmocka_unit_test(a_beginning_within_has_its_moments),
         cmocka_unit_test(an_end_has_its_moments),
         cmocka_unit_test(a_compliance_leaves_the_approach_smooth),
         cmocka_unit_test(what_neither_begins_nor_ends_stays),
