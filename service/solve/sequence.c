@@ -14,6 +14,8 @@
 /* A change that is so many times what was left out is that of a sequence that amplifies; 10 times
  * and less are the rule. */
 static const double STRONG = 30.0;
+/* Restitution of a contact that others strike: they give it half of its impulse and more. */
+static const double STRUCK = 3.0;
 /* Share of the tolerance below which what was left out counts as that much. */
 static const double NOTHING = 0.01;
 /* Share of the tolerance that modes and steps may take together. */
@@ -183,6 +185,17 @@ static enum percuss_status tell_apart(struct attempt_context *context, struct at
     return PERCUSS_OK;
 }
 
+/* Whether a contact of a group gets most of its impulse by way of others, over little of its own:
+ * what steps leave of theirs is large there, and one comparison may agree by chance. */
+static bool is_struck_by_others(const struct attempt_context *context, const struct attempt *best)
+{
+    size_t n = context->problem->contact_count;
+    for (size_t c = 0; n > 1 && c < n; c++)
+        if (outcome_restitution(context->problem, &best->outcome, c) > STRUCK)
+            return true;
+    return false;
+}
+
 /* Where first order does not say it, the first other solution has the next better model and longer
  * steps at once: where the first attempt agrees with it the answer is good. Where not, or where the
  * agreement may be chance, there are more. */
@@ -209,7 +222,7 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
         outcome_compare(context->problem, &best->outcome, &both.outcome);
     double strained = change.restitution / slow.restitution;
     bool is_long =
-        attempt_is_long(best) ||
+        attempt_is_long(best) || is_struck_by_others(context, best) ||
         change.restitution > STRONG * fmax(slow.restitution, NOTHING * context->problem->tolerance);
     widen(error, SEQUENCE_FACTOR, change);
     error->strained = strained;
