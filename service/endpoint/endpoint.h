@@ -37,9 +37,7 @@ void endpoint_stop(struct endpoint *endpoint);
 /* Wakes the thread of endpoint_run, which says that it is alive. Any thread. */
 void endpoint_nudge(struct endpoint *endpoint);
 
-/* Wakes threads of DDS that sleep until a time of day which was set back (wire_clock.h). Any
- * thread.
- */
+/* Wakes threads of DDS that sleep until a time that was set back (wire_clock.h). Any thread. */
 void endpoint_rouse(struct endpoint *endpoint);
 
 /* Writes the answer to its client. Thread-safe. */
