@@ -34,17 +34,24 @@ static void place_columns(struct percuss_contact_trace *contact, double *block, 
         *all[i] = block + i * room;
 }
 
-static bool make_room(struct gather *gather, const percuss_v1_Trace *wire)
+/* Room for `needed` instants: by what has come, not by what is announced. */
+static bool make_room(struct gather *gather, uint32_t c, size_t needed)
 {
-    size_t room = (size_t)wire->parts * wire->time._length;
+    struct percuss_contact_trace *contact = &gather->contacts[c];
+    if (needed <= gather->room[c] && contact->time)
+        return true;
+    size_t room = needed > 2 * gather->room[c] ? needed : 2 * gather->room[c];
     double *block = calloc(COLUMNS * room + 1, sizeof *block);
     if (!block) {
         gather->out_of_memory = true;
         return false;
     }
-    gather->parts[wire->contact] = wire->parts;
-    gather->room[wire->contact] = room;
-    place_columns(&gather->contacts[wire->contact], block, room);
+    for (size_t i = 0; i < COLUMNS && contact->count > 0; i++)
+        memcpy(block + i * room, contact->time + i * gather->room[c],
+               contact->count * sizeof *block);
+    free(contact->time);
+    gather->room[c] = room;
+    place_columns(contact, block, room);
     return true;
 }
 
@@ -56,12 +63,15 @@ void gather_add(struct gather *gather, const percuss_v1_Trace *wire)
     /* the parts of a history come in order: none is skipped */
     if (c >= PERCUSS_MAX_CONTACTS || wire->part != gather->next[c] || wire->part >= wire->parts)
         return;
-    if (wire->part == 0 && !make_room(gather, wire))
-        return;
     struct percuss_contact_trace *contact = &gather->contacts[c];
     size_t length = wire->time._length;
-    /* no more than the first part has announced */
-    if (wire->parts != gather->parts[c] || contact->count + length > gather->room[c])
+    if (wire->part == 0) {
+        gather->parts[c] = wire->parts;
+        gather->longest[c] = length;
+    }
+    /* the first part is as long as any */
+    if (wire->parts != gather->parts[c] || length > gather->longest[c] ||
+        !make_room(gather, c, contact->count + length))
         return;
     for (size_t i = 0; i < COLUMNS; i++) {
         double *column = contact->time + i * gather->room[c] + contact->count;

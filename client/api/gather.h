@@ -13,6 +13,7 @@ struct gather {
     struct percuss_contact_trace contacts[PERCUSS_MAX_CONTACTS];
     uint32_t next[PERCUSS_MAX_CONTACTS];  /* part awaited */
     uint32_t parts[PERCUSS_MAX_CONTACTS]; /* 0: none has come */
+    size_t longest[PERCUSS_MAX_CONTACTS]; /* part, instants */
     size_t room[PERCUSS_MAX_CONTACTS];    /* instants */
     bool out_of_memory;
 };

@@ -56,6 +56,22 @@ static void puts_parts_together(void **state)
     percuss_trace_free(&trace);
 }
 
+/* Nor is there memory for it. */
+static void what_is_announced_is_not_there_yet(void **state)
+{
+    (void)state;
+    static struct gather gather;
+    percuss_v1_Trace first = part_of(0, 0, UINT32_MAX, 3), second = part_of(0, 1, UINT32_MAX, 3);
+    gather_add(&gather, &first);
+    gather_add(&gather, &second);
+    assert_false(gather.out_of_memory);
+    assert_false(gather_is_complete(&gather, 1));
+    assert_int_equal(gather.contacts[0].count, 6);
+    assert_in_range(gather.room[0], 6, 12);
+    assert_true(gather.contacts[0].time[2] == 2 && gather.contacts[0].time[3] == 1);
+    gather_clear(&gather);
+}
+
 static void a_refusal_has_no_histories(void **state)
 {
     (void)state;
@@ -72,6 +88,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(puts_parts_together),
+        cmocka_unit_test(what_is_announced_is_not_there_yet),
         cmocka_unit_test(a_refusal_has_no_histories),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
