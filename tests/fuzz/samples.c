@@ -3,10 +3,34 @@
 
 #include "samples.h"
 
+#include "wire_read.h"
 #include "wire_whole.h"
 
-/* As wire_topic.c and DDS behind it. The copy has the sample's size, so that tools see every byte
- * read beyond it. */
+/* As wire_sample.c: by the type's plan, where the bytes are complete. False: they are not. The copy
+ * has the sample's size, so that tools see every byte read beyond it. */
+static bool give_planned(int type, const char *copy, size_t size, samples_visit *visit,
+                         void *context)
+{
+    static struct wire_plan *plans[ANY_TYPES]; /* kept for the whole run */
+    const dds_topic_descriptor_t *descriptor = any_types[type].type;
+    if (!plans[type])
+        plans[type] = wire_plan_create(descriptor->m_ops);
+    FUZZ_REQUIRE(plans[type], "no plan of a %s", any_types[type].topic);
+    const uint8_t *data = (const uint8_t *)copy;
+    if (!wire_read_is_complete(plans[type], data, size))
+        return false;
+    FUZZ_REQUIRE(wire_whole(descriptor->m_ops, data, size, false),
+                 "the plan of a %s takes what the check refuses", any_types[type].topic);
+    void *sample = dds_alloc(descriptor->m_size);
+    memset(sample, 0, descriptor->m_size);
+    FUZZ_REQUIRE(wire_read(plans[type], data, size, sample), "a complete %s is not read",
+                 any_types[type].topic);
+    visit(context, type, sample);
+    dds_sample_free(sample, descriptor, DDS_FREE_ALL);
+    return true;
+}
+
+/* As wire_topic.c and DDS behind it. */
 static void give(int type, bool swapped, const struct fuzz_bytes *bytes, samples_visit *visit,
                  void *context)
 {
@@ -15,7 +39,8 @@ static void give(int type, bool swapped, const struct fuzz_bytes *bytes, samples
     char *copy = malloc(bytes->left + !bytes->left);
     if (bytes->left)
         memcpy(copy, bytes->data, bytes->left);
-    if (wire_whole(descriptor->m_ops, copy, bytes->left, swapped) &&
+    const bool planned = !swapped && give_planned(type, copy, bytes->left, visit, context);
+    if (!planned && wire_whole(descriptor->m_ops, copy, bytes->left, swapped) &&
         dds_stream_normalize_data(copy, &used, (uint32_t)bytes->left, swapped, XCDR2,
                                   descriptor->m_ops)) {
         void *sample = dds_alloc(descriptor->m_size);
