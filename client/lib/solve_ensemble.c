@@ -124,6 +124,26 @@ struct watcher {
     void *context;
 };
 
+/* What the last of the progress says: its sample may come after the reply, as DDS has it of two
+ * topics. */
+static void tell_last(struct percuss_client *client, const struct percuss_ensemble_reply *reply,
+                      const struct watcher *watcher, uint64_t told)
+{
+    if (!watcher->function || reply->statistic_count == 0 || told == reply->samples)
+        return;
+    const struct percuss_statistic *restitution = &reply->statistics[0];
+    const struct percuss_ensemble_progress progress = {
+        .done = reply->samples,
+        .samples = reply->requested,
+        .mean = restitution->mean,
+        .standard_deviation = restitution->standard_deviation,
+        .half_width = restitution->mean_high - restitution->mean,
+    };
+    pthread_mutex_unlock(&client->lock);
+    watcher->function(watcher->context, &progress);
+    pthread_mutex_lock(&client->lock);
+}
+
 /* Waits for the reply, telling of progress. The lock is held but while the watcher is told. */
 static enum percuss_result await(struct percuss_client *client, struct pending *pending,
                                  double timeout, const struct watcher *watcher)
@@ -132,6 +152,7 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
     double ask = watching_first(&watching);
     bool cancelled = false;
     unsigned told = 0;
+    struct percuss_ensemble_progress progress = {0};
     while (!pending->ready) {
         /* the server may have gone while the watcher was told */
         if (pending->orphaned)
@@ -152,7 +173,7 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
         if (!watcher->function || pending->ensemble->told == told)
             continue;
         told = pending->ensemble->told;
-        struct percuss_ensemble_progress progress = pending->ensemble->progress;
+        progress = pending->ensemble->progress;
         pthread_mutex_unlock(&client->lock);
         bool go_on = watcher->function(watcher->context, &progress);
         pthread_mutex_lock(&client->lock);
@@ -161,6 +182,8 @@ static enum percuss_result await(struct percuss_client *client, struct pending *
             send_cancel(client, pending->sequence);
         cancelled = cancelled || !go_on;
     }
+    if (pending->result == PERCUSS_RESULT_OK)
+        tell_last(client, &pending->ensemble->reply, watcher, progress.done);
     return pending->result;
 }
 

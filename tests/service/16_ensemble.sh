@@ -32,6 +32,13 @@ shows "sub-impacts"
 [ "$(wc -l <"$work/samples.csv")" -eq 1001 ] || fail "not 1000 samples in the file"
 head -n 1 "$work/samples.csv" | grep -q '^speed,restitution,' || fail "no head line"
 
+say "one that is done at once says so"
+# its reply overtakes what is told on the way, now and then
+for i in $(seq 20); do
+    expect 0 ensemble --samples 10 --progress
+    says "10/10"
+done
+
 say "a picture changes no number"
 expect 0 ensemble --samples 1000 --json
 numbers "$out" >"$work/plain"

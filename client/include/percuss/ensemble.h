@@ -17,8 +17,8 @@ struct percuss_client;
 /* An empty request with default options and 1000 plain samples. */
 PERCUSS_API void percuss_ensemble_request_init(struct percuss_ensemble_request *request);
 
-/* Told of progress a few times a second, in the calling thread. False cancels: the reply then says
- * what was found so far. */
+/* Told of progress a few times a second, in the calling thread, and of all samples that the reply
+ * is of. False cancels: the reply then says what was found so far. */
 typedef bool percuss_progress_function(void *context,
                                        const struct percuss_ensemble_progress *progress);
 
