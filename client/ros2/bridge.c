@@ -13,16 +13,38 @@
 
 static const double BODIES_TIMEOUT = 1.0; /* s; they are there already, once connected */
 
+static bool is_silent(struct bridge_silent *silent, dds_instance_handle_t writer)
+{
+    bool found = false;
+    pthread_mutex_lock(&silent->lock);
+    for (unsigned i = 0; i < silent->count && i < BRIDGE_MOST_SILENT && !found; i++)
+        found = silent->writers[i] == writer;
+    pthread_mutex_unlock(&silent->lock);
+    return found;
+}
+
+/* Waits for the reader of who asks, but once for somebody who has none. */
+static void await_reader(struct bridge *bridge, dds_instance_handle_t client)
+{
+    struct bridge_silent *silent = &bridge->silent;
+    if (is_silent(silent, client) ||
+        service_await(bridge->request_reader, bridge->reply_writer, client))
+        return;
+    pthread_mutex_lock(&silent->lock);
+    silent->writers[silent->count++ % BRIDGE_MOST_SILENT] = client;
+    pthread_mutex_unlock(&silent->lock);
+}
+
 /* A question on the topic: the reply has the same client and number. */
 static void answer_topic(struct bridge *bridge, struct ask *ask, const void *sample,
                          dds_instance_handle_t client)
 {
     const percuss_msgs_msg_dds__Request_ *request = sample;
     percuss_msgs_msg_dds__Reply_ reply = {.sequence_number = request->sequence_number};
-    (void)client;
     memcpy(reply.client, request->client, sizeof reply.client);
     ask_answer(&bridge->line, ask, &request->question);
     reply.answer = ask->answer;
+    await_reader(bridge, client);
     dds_return_t written = dds_write(bridge->reply_writer, &reply);
     if (written < 0)
         say("a reply was not written: %s", dds_strretcode(-written));
@@ -132,6 +154,7 @@ bool bridge_open(struct bridge *bridge, const struct bridge_config *config)
     *bridge = (struct bridge){
         .config = *config, .line = {.domain = config->client.domain, .timeout = config->timeout}};
     pthread_mutex_init(&bridge->line.lock, NULL);
+    pthread_mutex_init(&bridge->silent.lock, NULL);
     /* percussd's side first: where both are in one domain, its participant makes it */
     char warning[PERCUSS_WARNING_SIZE];
     if (percuss_client_create(&config->client, &bridge->line.client) != PERCUSS_RESULT_OK) {
@@ -205,4 +228,5 @@ void bridge_free(struct bridge *bridge)
     percuss_body_list_free(&bridge->announced);
     percuss_client_free(bridge->line.client);
     pthread_mutex_destroy(&bridge->line.lock);
+    pthread_mutex_destroy(&bridge->silent.lock);
 }

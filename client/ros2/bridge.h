@@ -12,7 +12,7 @@
 
 #include "ask.h"
 
-enum { BRIDGE_NAME_SIZE = 128, BRIDGE_MOST_THREADS = 64 };
+enum { BRIDGE_NAME_SIZE = 128, BRIDGE_MOST_THREADS = 64, BRIDGE_MOST_SILENT = 64 };
 
 struct bridge_config {
     struct percuss_client_config client;
@@ -23,6 +23,13 @@ struct bridge_config {
     unsigned threads;
 };
 
+/* Who asks on the topic and reads no replies: others do. The latest ones. */
+struct bridge_silent {
+    pthread_mutex_t lock;
+    dds_instance_handle_t writers[BRIDGE_MOST_SILENT];
+    unsigned count;
+};
+
 struct bridge {
     struct bridge_config config;
     struct ask_line line;
@@ -31,6 +38,7 @@ struct bridge {
     dds_entity_t service_reader, service_writer; /* rmw_cyclonedds */
     dds_entity_t body_writer;
     struct percuss_body_list announced;
+    struct bridge_silent silent;
     pthread_t threads[BRIDGE_MOST_THREADS];
     unsigned running;
 };

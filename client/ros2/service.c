@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_CLIENTS = 256, TRIES = 100 };
+enum { MOST_CLIENTS = 256, TRIES = 1000 };
 static const char CLIENT[] = "clientid=";
 
 void service_name(dds_entity_t participant, dds_qos_t *qos)
@@ -48,29 +48,52 @@ static bool endpoint_id(const dds_builtintopic_endpoint_t *endpoint, char id[SER
     return has;
 }
 
-static bool is_matched(dds_entity_t replies, const char *wanted)
+/* Whether a reader is that of whom a writer is. */
+typedef bool same_peer(const dds_builtintopic_endpoint_t *reader,
+                       const dds_builtintopic_endpoint_t *writer);
+
+static bool has_same_id(const dds_builtintopic_endpoint_t *reader,
+                        const dds_builtintopic_endpoint_t *writer)
+{
+    char id[SERVICE_ID_SIZE], wanted[SERVICE_ID_SIZE];
+    return endpoint_id(reader, id) && endpoint_id(writer, wanted) && strcmp(id, wanted) == 0;
+}
+
+static bool has_same_participant(const dds_builtintopic_endpoint_t *reader,
+                                 const dds_builtintopic_endpoint_t *writer)
+{
+    return memcmp(&reader->participant_key, &writer->participant_key,
+                  sizeof reader->participant_key) == 0;
+}
+
+static bool is_matched(dds_entity_t replies, const dds_builtintopic_endpoint_t *writer,
+                       same_peer *same)
 {
     dds_instance_handle_t readers[MOST_CLIENTS];
     dds_return_t count = dds_get_matched_subscriptions(replies, readers, MOST_CLIENTS);
     bool found = false;
     for (dds_return_t i = 0; i < count && i < MOST_CLIENTS && !found; i++) {
-        char id[SERVICE_ID_SIZE];
         dds_builtintopic_endpoint_t *reader =
             dds_get_matched_subscription_data(replies, readers[i]);
-        found = endpoint_id(reader, id) && strcmp(id, wanted) == 0;
+        found = reader && same(reader, writer);
         if (reader)
             dds_builtintopic_free_endpoint(reader);
     }
     return found;
 }
 
-void service_await(dds_entity_t requests, dds_entity_t replies, dds_instance_handle_t client)
+bool service_await(dds_entity_t requests, dds_entity_t replies, dds_instance_handle_t client)
 {
     char id[SERVICE_ID_SIZE];
     dds_builtintopic_endpoint_t *writer = dds_get_matched_publication_data(requests, client);
-    bool known = endpoint_id(writer, id);
+    same_peer *same = endpoint_id(writer, id) ? has_same_id : has_same_participant;
+    bool found = false;
+    for (int i = 0; writer && !found && i < TRIES; i++) {
+        found = is_matched(replies, writer, same);
+        if (!found)
+            dds_sleepfor(DDS_MSECS(1));
+    }
     if (writer)
         dds_builtintopic_free_endpoint(writer);
-    for (int i = 0; known && i < TRIES && !is_matched(replies, id); i++)
-        dds_sleepfor(DDS_MSECS(1));
+    return found;
 }

@@ -18,8 +18,9 @@ void service_name(dds_entity_t participant, dds_qos_t *qos);
  * none, or a longer one. */
 bool service_client_id(const void *data, size_t size, char id[SERVICE_ID_SIZE]);
 
-/* Waits up to 0.1 s until the replies' reader of the client whose request writer is `client` is
- * matched: a reply that is written before is lost. At once where the client does not say which. */
-void service_await(dds_entity_t requests, dds_entity_t replies, dds_instance_handle_t client);
+/* Waits up to a second until a replies' reader of whom the request writer `client` is has been
+ * matched: a reply that is written before is lost. By the id of a service's client, else by the
+ * participant. False: there is none. */
+bool service_await(dds_entity_t requests, dds_entity_t replies, dds_instance_handle_t client);
 
 #endif

@@ -46,6 +46,11 @@ for way in topic service; do
     agree "$work/$way" 0.1 0.2 0.3
 done
 
+say "who reads replies a moment after it has asked gets them"
+expect 0 "$peers/ros2_peer" "$domain" late 0.1 3
+cp "$out" "$work/late"
+agree "$work/late" 0.1 0.2 0.3
+
 say "two clients of the service at once: each gets his own answers"
 "$peers/ros2_peer" "$domain" service 0.1 20 >"$work/one" 9>&- &
 one=$!

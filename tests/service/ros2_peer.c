@@ -2,8 +2,9 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* A client of percuss-ros2 on plain Cyclone DDS: on the topics as any vendor's, or of the service
- * as rmw_cyclonedds makes one. Asks about a steel sphere on the end of a rod, `count` questions at
- * once, and prints the restitution of each. usage: ros2_peer DOMAIN topic|service SPEED COUNT
+ * as rmw_cyclonedds makes one; or on the topics with a reader of replies that comes 0.3 s after the
+ * questions. Asks about a steel sphere on the end of a rod, `count` questions at
+ * once, and prints the restitution of each. usage: ros2_peer DOMAIN topic|late|service SPEED COUNT
  * [BODY]; exit code 1: an answer is missing */
 
 #include <stdio.h>
@@ -18,7 +19,7 @@ enum { MOST = 64, MILLISECONDS = 20000 };
 
 struct peer {
     dds_entity_t writer, reader;
-    bool service;
+    bool service, late;
     uint64_t id;
     unsigned count, answered, strangers;
     double restitution[MOST];
@@ -103,9 +104,22 @@ static bool is_matched(const struct peer *peer)
     dds_subscription_matched_status_t read;
     if (peer->service)
         return names_server(peer->writer, false) && names_server(peer->reader, true);
-    return dds_get_publication_matched_status(peer->writer, &written) == 0 &&
-           dds_get_subscription_matched_status(peer->reader, &read) == 0 &&
+    if (dds_get_publication_matched_status(peer->writer, &written) != 0)
+        return false;
+    if (peer->late)
+        return written.current_count == 1;
+    return dds_get_subscription_matched_status(peer->reader, &read) == 0 &&
            written.current_count == 1 && read.current_count == 1;
+}
+
+static void open_reader(struct peer *peer, dds_entity_t participant, dds_qos_t *qos)
+{
+    dds_entity_t answers =
+        dds_create_topic(participant,
+                         peer->service ? &percuss_msgs_srv_dds__Impact_Response__desc
+                                       : &percuss_msgs_msg_dds__Reply__desc,
+                         peer->service ? "rr/percuss/impactReply" : "rt/percuss/reply", NULL, NULL);
+    peer->reader = dds_create_reader(participant, answers, qos, NULL);
 }
 
 static void open_ends(struct peer *peer, uint32_t domain)
@@ -123,13 +137,9 @@ static void open_ends(struct peer *peer, uint32_t domain)
         peer->service ? &percuss_msgs_srv_dds__Impact_Request__desc
                       : &percuss_msgs_msg_dds__Request__desc,
         peer->service ? "rq/percuss/impactRequest" : "rt/percuss/request", NULL, NULL);
-    dds_entity_t answers =
-        dds_create_topic(participant,
-                         peer->service ? &percuss_msgs_srv_dds__Impact_Response__desc
-                                       : &percuss_msgs_msg_dds__Reply__desc,
-                         peer->service ? "rr/percuss/impactReply" : "rt/percuss/reply", NULL, NULL);
     peer->writer = dds_create_writer(participant, asked, qos, NULL);
-    peer->reader = dds_create_reader(participant, answers, qos, NULL);
+    if (!peer->late)
+        open_reader(peer, participant, qos);
     dds_delete_qos(qos);
 }
 
@@ -139,6 +149,7 @@ int main(int argc, char **argv)
     if (argc < 5 || strtoul(argv[4], NULL, 10) > MOST)
         return 2;
     peer.service = strcmp(argv[2], "service") == 0;
+    peer.late = strcmp(argv[2], "late") == 0;
     peer.count = (unsigned)strtoul(argv[4], NULL, 10);
     open_ends(&peer, (uint32_t)strtoul(argv[1], NULL, 10));
     /* one bridge, then all questions, then all answers */
@@ -147,6 +158,12 @@ int main(int argc, char **argv)
     double speed = strtod(argv[3], NULL);
     for (unsigned i = 0; i < peer.count; i++)
         ask(&peer, i, speed * (i + 1), argc > 5 ? argv[5] : (char *)"al-rod-1");
+    if (peer.late) {
+        dds_qos_t *qos = wire_qos_exchange(NULL);
+        dds_sleepfor(DDS_MSECS(300));
+        open_reader(&peer, dds_get_participant(peer.writer), qos);
+        dds_delete_qos(qos);
+    }
     for (int i = 0; i < MILLISECONDS && peer.answered < peer.count; i++) {
         take(&peer);
         dds_sleepfor(DDS_MSECS(1));
