@@ -12,6 +12,10 @@
 #if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&                \
     !defined(__SANITIZE_THREAD__) && !defined(PERCUSS_ONE_KERNEL)
 #define VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
+/* For code that is written for either width: what is before a function for AVX2, and whether there
+ * is that. Not defined where there is the baseline alone. */
+#define VECTOR_WIDE    __attribute__((target("avx2")))
+#define VECTOR_IS_WIDE __builtin_cpu_supports("avx2")
 #else
 #define VECTOR_CLONES
 #endif

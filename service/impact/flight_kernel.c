@@ -7,10 +7,8 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "base/vector_clones.h"
-#include "impact/step_table.h"
+#include "impact/fold.h"
 
-typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 typedef uint64_t bits __attribute__((vector_size(LANES * sizeof(uint64_t))));
 
 #define AT(array, k) (*(const lanes *)((array) + (k)))
@@ -44,31 +42,8 @@ VECTOR_CLONES void flight_kernel_bounds(const struct flight_modes *modes, double
         reach[j - 1] += reach[j];
 }
 
-/* Every second derivative of undamped modes: sums[2 n] += sum_k phi_k x_k (-(scale omega_k)^2)^(n +
- * first), n < 5 at most. As many totals as the registers of the baseline hold. */
+/* Powers of which q and v have sums at once: as many as the registers of the baseline hold. */
 enum { AT_ONCE = 5 };
-
-static inline void add_powers(const struct flight_modes *modes, const double *x, double scale,
-                              const int range[2], double *sums)
-{
-    lanes total[AT_ONCE] = {{0}};
-    for (size_t k = 0; k < modes->length; k += LANES) {
-        lanes angle = AT(modes->omega, k) * scale;
-        lanes spring = -(angle * angle);
-        lanes term = AT(modes->phi, k) * AT(x, k);
-        if (range[0])
-            term *= (spring * spring) * (spring * spring) * spring;
-#pragma GCC unroll 5
-        for (int n = 0; n < range[1]; n++) {
-            total[n] += term;
-            if (n + 1 < range[1])
-                term *= spring;
-        }
-    }
-#pragma GCC unroll 5
-    for (int n = 0; n < range[1]; n++)
-        sums[2 * (range[0] + n)] += TOTAL(total[n]);
-}
 
 /* By the equation of motion, from phi q and phi v times the scale on. */
 static inline void add_damped(const struct flight_modes *modes, double scale, int terms,
@@ -93,33 +68,53 @@ static inline void add_damped(const struct flight_modes *modes, double scale, in
         sums[n] += TOTAL(total[n]);
 }
 
-VECTOR_CLONES void flight_kernel_derivatives(const struct flight_modes *modes,
+/* Undamped modes, for either width. */
+#define VECTOR     half
+#define WIDTH      2
+#define FOLD       FOLD_HALVES
+#define SUMS(name) name##_narrow
+#define SUMS_UNIT
+#include "impact/flight_sums.h"
+#ifdef VECTOR_WIDE
+#undef VECTOR
+#undef WIDTH
+#undef FOLD
+#undef SUMS
+#undef SUMS_UNIT
+#define VECTOR     lanes
+#define WIDTH      LANES
+#define FOLD       FOLD_LANES
+#define SUMS(name) name##_wide
+#define SUMS_UNIT  VECTOR_WIDE
+#include "impact/flight_sums.h"
+#endif
+
+VECTOR_CLONES static void damped_derivatives(const struct flight_modes *modes,
                                              double sums[SCAN_TERMS])
 {
-    static const int HALF[2] = {0, SCAN_TERMS / 2};
-    if (modes->damping) {
-        add_damped(modes, 1.0, SCAN_TERMS, sums);
-        return;
-    }
-    add_powers(modes, modes->q, 1.0, HALF, sums);
-    add_powers(modes, modes->v, 1.0, HALF, sums + 1);
+    add_damped(modes, 1.0, SCAN_TERMS, sums);
 }
 
-VECTOR_CLONES void flight_kernel_terms(const struct flight_modes *modes, double length,
+VECTOR_CLONES static void damped_terms(const struct flight_modes *modes, double length,
                                        double sums[ROOT_TERMS])
 {
-    static const int PARTS[2][2] = {{0, AT_ONCE}, {AT_ONCE, AT_ONCE}};
-    double rates[ROOT_TERMS] = {0.0};
-    if (modes->damping) {
-        add_damped(modes, length, ROOT_TERMS, sums);
-        return;
-    }
-    for (int part = 0; part < 2; part++) {
-        add_powers(modes, modes->q, length, PARTS[part], sums);
-        add_powers(modes, modes->v, length, PARTS[part], rates);
-    }
-    for (int n = 0; n < ROOT_TERMS; n += 2)
-        sums[n + 1] += length * rates[n];
+    add_damped(modes, length, ROOT_TERMS, sums);
+}
+
+void flight_kernel_derivatives(const struct flight_modes *modes, double sums[SCAN_TERMS])
+{
+    if (modes->damping)
+        damped_derivatives(modes, sums);
+    else
+        FOLD_EITHER(derivatives)(modes, sums);
+}
+
+void flight_kernel_terms(const struct flight_modes *modes, double length, double sums[ROOT_TERMS])
+{
+    if (modes->damping)
+        damped_terms(modes, length, sums);
+    else
+        FOLD_EITHER(terms)(modes, length, sums);
 }
 
 /* pi/2 in three parts, of which the first two have 33 bits: times a whole number below 2^20 they

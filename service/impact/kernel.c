@@ -3,14 +3,14 @@
 
 #include "impact/kernel.h"
 
-#include "base/vector_clones.h"
+#include "impact/fold.h"
 
-typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
-
-#define AT(array, k) (*(const lanes *)((array) + (k)))
+#define AT(array, k) (*(const VECTOR *)((array) + (k)))
 /* A term of modes that lie together, see step_table.h. */
 #define TERM(at, t) AT(at, (t)*LANES)
 #define TOTAL(x)    (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
+/* All lanes at once. */
+#define VECTOR lanes
 
 VECTOR_CLONES void kernel_nodes(const struct step_table *table, size_t length, const double *phi,
                                 const double *q, const double *v, double sums[STEP_POINTS])
@@ -70,7 +70,6 @@ VECTOR_CLONES void kernel_dot2(size_t length, const double *a, const double *x, 
 }
 
 /* Two nodes together: five points of a step with four nodes each keep ten sums in registers. */
-typedef double half __attribute__((vector_size(2 * sizeof(double))));
 #define HALF(array, k) (*(const half *)((array) + (k)))
 
 VECTOR_CLONES void kernel_response(const struct step_table *table, size_t length,
@@ -139,28 +138,20 @@ static inline struct pairs pair_up(const double force[NODES])
 
 #define TURN(at, turn, q, v)                                                                       \
     do {                                                                                           \
-        lanes turned = TERM(at, turn) * (q) + TERM(at, (turn) + 1) * (v);                          \
+        VECTOR turned = TERM(at, turn) * (q) + TERM(at, (turn) + 1) * (v);                         \
         (v) = TERM(at, (turn) + 2) * (q) + TERM(at, turn) * (v);                                   \
         (q) = turned;                                                                              \
     } while (0)
 
-#define SWING(at, pq, pv)                                                                          \
-    do {                                                                                           \
-        c0 += TERM(at, MIDDLE_COSINE) * (pq);                                                      \
-        c1 += TERM(at, MIDDLE_COSINE + 1) * (pq);                                                  \
-        s0 += TERM(at, MIDDLE_SINE) * (pv);                                                        \
-        s1 += TERM(at, MIDDLE_SINE + 1) * (pv);                                                    \
-        end += TERM(at, TURN_HALF) * (pq) + TERM(at, TURN_HALF + 1) * (pv);                        \
-    } while (0)
-
-/* The nodes of the pairs from their cosines and sines. */
-static inline void add_up(const double cosine[2], const double sine[2], double end,
-                          double sums[STEP_POINTS])
+/* The nodes of the pairs from their cosines and sines, the outer pair's first. */
+static inline void add_up(half cosine, half sine, double end, double sums[STEP_POINTS])
 {
-    sums[0] += cosine[0] - sine[0];
-    sums[1] += cosine[1] - sine[1];
-    sums[2] += cosine[1] + sine[1];
-    sums[3] += cosine[0] + sine[0];
+    half before = cosine - sine;
+    half behind = cosine + sine;
+    sums[0] += before[0];
+    sums[1] += before[1];
+    sums[2] += behind[1];
+    sums[3] += behind[0];
     sums[NODES] += end;
 }
 
@@ -185,39 +176,36 @@ VECTOR_CLONES void kernel_kick(const double *middle, size_t length, const double
         KICK(middle, pairs, AT(phi, k), *(lanes *)(state[0] + k), *(lanes *)(state[1] + k));
 }
 
-VECTOR_CLONES void kernel_swing(const double *middle, size_t length, const double *phi,
-                                const double *const state[2], double sums[STEP_POINTS])
+/* Passes that sum, for either width. */
+#undef VECTOR
+#define VECTOR     half
+#define WIDTH      2
+#define FOLD       FOLD_HALVES
+#define SUMS(name) name##_narrow
+#define SUMS_UNIT
+#include "impact/middle_sums.h"
+#ifdef VECTOR_WIDE
+#undef VECTOR
+#undef WIDTH
+#undef FOLD
+#undef SUMS
+#undef SUMS_UNIT
+#define VECTOR     lanes
+#define WIDTH      LANES
+#define FOLD       FOLD_LANES
+#define SUMS(name) name##_wide
+#define SUMS_UNIT  VECTOR_WIDE
+#include "impact/middle_sums.h"
+#endif
+
+void kernel_swing(const double *middle, size_t length, const double *phi,
+                  const double *const state[2], double sums[STEP_POINTS])
 {
-    lanes c0 = {0}, c1 = {0}, s0 = {0}, s1 = {0}, end = {0};
-    for (size_t k = 0; k < length; k += LANES, middle += LANES * MIDDLE_TERMS) {
-        lanes pq = AT(phi, k) * AT(state[0], k);
-        lanes pv = AT(phi, k) * AT(state[1], k);
-        SWING(middle, pq, pv);
-    }
-    add_up((double[]){TOTAL(c0), TOTAL(c1)}, (double[]){TOTAL(s0), TOTAL(s1)}, TOTAL(end), sums);
+    FOLD_EITHER(swing)(middle, length, phi, state, sums);
 }
 
-VECTOR_CLONES void kernel_carry(const struct kernel_carry *carry, size_t length, const double *phi,
-                                double *const state[2], double sums[STEP_POINTS])
+void kernel_carry(const struct kernel_carry *carry, size_t length, const double *phi,
+                  double *const state[2], double sums[STEP_POINTS])
 {
-    const struct pairs pairs = pair_up(carry->force);
-    const double *from = carry->from;
-    const double *next = carry->next;
-    double *const q_to = state[0];
-    double *const v_to = state[1];
-    lanes c0 = {0}, c1 = {0}, s0 = {0}, s1 = {0}, end = {0};
-    for (size_t k = 0; k < length; k += LANES) {
-        lanes q = AT(q_to, k);
-        lanes v = AT(v_to, k);
-        KICK(from, pairs, AT(phi, k), q, v);
-        TURN(from, carry->turn, q, v);
-        *(lanes *)(q_to + k) = q;
-        *(lanes *)(v_to + k) = v;
-        q *= AT(phi, k);
-        v *= AT(phi, k);
-        SWING(next, q, v);
-        from += LANES * MIDDLE_TERMS;
-        next += LANES * MIDDLE_TERMS;
-    }
-    add_up((double[]){TOTAL(c0), TOTAL(c1)}, (double[]){TOTAL(s0), TOTAL(s1)}, TOTAL(end), sums);
+    FOLD_EITHER(carry)(carry, length, phi, state, sums);
 }

@@ -1,0 +1,32 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* The inner loops' vectors, and the ends of their sums: lanes 0 to 3 are added as
+ * (0 + 2) + (1 + 3), however wide the vectors were. */
+#ifndef PERCUSS_IMPACT_FOLD_H
+#define PERCUSS_IMPACT_FOLD_H
+
+#include "base/vector_clones.h"
+#include "impact/step_table.h"
+
+/* Four modes, and two. gcc keeps sums that are wider than the vector unit's in memory from turn to
+ * turn of a loop: what sums in an inner loop is written for either (VECTOR, WIDTH of its lanes). */
+typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
+typedef double half __attribute__((vector_size(2 * sizeof(double))));
+
+/* Lanes 0 + 2 and 1 + 3 of a sum that is two halves, or that is one. */
+#define FOLD_HALVES(x) ((x)[0] + (x)[1])
+#define FOLD_LANES(x)                                                                              \
+    (__builtin_shufflevector((x)[0], (x)[0], 0, 1) + __builtin_shufflevector((x)[0], (x)[0], 2, 3))
+
+/* Two folded sums. */
+#define FOLD_BOTH(x, y) (__builtin_shufflevector(x, y, 0, 2) + __builtin_shufflevector(x, y, 1, 3))
+
+/* The function of a name for the processor's width. */
+#ifdef VECTOR_WIDE
+#define FOLD_EITHER(name) (VECTOR_IS_WIDE ? name##_wide : name##_narrow)
+#else
+#define FOLD_EITHER(name) name##_narrow
+#endif
+
+#endif
