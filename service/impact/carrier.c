@@ -3,6 +3,8 @@
 
 #include "impact/carrier.h"
 
+#include <string.h>
+
 #include "impact/kernel.h"
 
 /* No step has been entered. */
@@ -92,6 +94,14 @@ static size_t choose_one(const struct carrier *carrier, const struct scene *scen
     return one;
 }
 
+/* A group that no contact moves. */
+static void turn_on(const struct kernel_carry *carry, const struct scene_group *group,
+                    double *const state[2])
+{
+    kernel_turn(carry->from, carry->turn, 1.0, group->stride,
+                (const double *const[]){state[0], state[1]}, state);
+}
+
 /* The same from a step that was taken to one about as long. */
 static void enter_next(const struct carrier *carrier, const struct scene *scene, size_t g,
                        struct kernel_carry *carry, double (*sums)[STEP_POINTS])
@@ -100,16 +110,9 @@ static void enter_next(const struct carrier *carrier, const struct scene *scene,
     const double *const *phi = group->participation;
     double *const state[2] = {carrier->q[g], carrier->v[g]};
     carry->from = middle_of(group, carrier->level);
-    /* the only contact, and none */
-    if (scene->contacts == 1 && phi[0]) {
-        carry->force = carrier->force[0];
-        kernel_carry(carry, group->stride, phi[0], state, sums[0]);
-        return;
-    }
     size_t one = choose_one(carrier, scene, phi);
     if (one == NONE) {
-        kernel_turn(carry->from, carry->turn, 1.0, group->stride,
-                    (const double *const[]){state[0], state[1]}, state);
+        turn_on(carry, group, state);
         return;
     }
     /* the others' forces before it, their approaches behind */
@@ -134,14 +137,13 @@ static void enter_damped(const struct scene *scene, const struct scene_group *gr
                          start[0], start[1], sums[c]);
 }
 
-void carrier_enter(struct carrier *carrier, const struct scene *scene, const struct motion *motion,
-                   int level, double (*sums)[STEP_POINTS])
+/* Group by group. */
+static void enter_groups(const struct carrier *carrier, const struct scene *scene,
+                         const struct motion *motion, int level, double (*sums)[STEP_POINTS])
 {
     struct kernel_carry carry = {0};
+    memset(sums, 0, scene->contacts * sizeof *sums);
     bool next = carrier->force && find_turn(carrier->level, level, &carry.turn);
-    for (size_t c = 0; c < scene->contacts; c++)
-        for (int i = 0; i < STEP_POINTS; i++)
-            sums[c][i] = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
         const double *const start[2] = {motion->q[g], motion->v[g]};
@@ -153,22 +155,76 @@ void carrier_enter(struct carrier *carrier, const struct scene *scene, const str
         else
             enter(carrier, scene, g, start, level, sums);
     }
+}
+
+/* Most steps are such: undamped modes go on from a step of the only contact to one about as long.
+ * False: not this one. */
+static inline bool enter_only(const struct carrier *carrier, const struct scene *scene, int level,
+                              double sums[STEP_POINTS])
+{
+    struct kernel_carry carry;
+    if (scene->contacts != 1 || carrier->damped || !carrier->force ||
+        !find_turn(carrier->level, level, &carry.turn))
+        return false;
+    carry.force = carrier->force[0];
+    for (int i = 0; i < STEP_POINTS; i++)
+        sums[i] = 0.0;
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        const double *phi = group->participation[0];
+        double *const state[2] = {carrier->q[g], carrier->v[g]};
+        carry.from = middle_of(group, carrier->level);
+        carry.next = middle_of(group, level);
+        if (phi)
+            kernel_carry(&carry, group->stride, phi, state, sums);
+        else
+            turn_on(&carry, group, state);
+    }
+    return true;
+}
+
+void carrier_enter(struct carrier *carrier, const struct scene *scene, const struct motion *motion,
+                   int level, double (*sums)[STEP_POINTS])
+{
+    if (!enter_only(carrier, scene, level, sums[0]))
+        enter_groups(carrier, scene, motion, level, sums);
     carrier->level = level;
     carrier->force = NULL;
 }
 
-void carrier_take(struct carrier *carrier, const struct scene *scene, struct motion *motion,
-                  double (*const force)[NODES])
+/* The rigid gap of the only contact at the end of a step, without loops. */
+static inline void take_gap(const struct scene *scene, struct motion *motion, int level,
+                            const double force[NODES])
 {
-    carrier->force = (const double(*)[NODES])force;
-    motion_step_gaps(motion, motion, scene, carrier->level);
+    double impulse;
+    double travel;
+    double h = step_length(level);
+    double a = scene->gap_acceleration[0];
+    motion->time += h;
+    motion->gap[0] += h * (motion->gap_rate[0] + 0.5 * a * h);
+    motion->gap_rate[0] += a * h;
+    motion_integrate(force, h, &impulse, &travel);
+    motion->gap[0] += scene->w[0] * travel;
+    motion->gap_rate[0] += scene->w[0] * impulse;
+}
+
+/* Of several, those that bear a force. */
+static void take_gaps(const struct scene *scene, struct motion *motion, int level,
+                      double (*const force)[NODES])
+{
+    motion_step_gaps(motion, motion, scene, level);
     for (size_t c = 0; c < scene->contacts; c++)
         if (motion_bears(force[c]))
-            motion_push_gaps(motion, scene, carrier->level, c, force[c]);
-    /* damped modes */
-    for (size_t g = 0; carrier->damped && g < scene->groups; g++) {
+            motion_push_gaps(motion, scene, level, c, force[c]);
+}
+
+/* Damped modes at the end of the step. */
+static void take_damped(const struct scene *scene, struct motion *motion, int level,
+                        double (*const force)[NODES])
+{
+    for (size_t g = 0; g < scene->groups; g++) {
         const struct scene_group *group = &scene->group[g];
-        const struct step_table *table = group->set->tables[carrier->level];
+        const struct step_table *table = group->set->tables[level];
         if (table->middle)
             continue;
         kernel_advance(table, group->stride, motion->q[g], motion->v[g], motion->q[g],
@@ -178,6 +234,18 @@ void carrier_take(struct carrier *carrier, const struct scene *scene, struct mot
                 kernel_push(table, group->stride, group->participation[c], force[c], motion->q[g],
                             motion->v[g]);
     }
+}
+
+void carrier_take(struct carrier *carrier, const struct scene *scene, struct motion *motion,
+                  double (*const force)[NODES])
+{
+    carrier->force = (const double(*)[NODES])force;
+    if (scene->contacts == 1)
+        take_gap(scene, motion, carrier->level, force[0]);
+    else
+        take_gaps(scene, motion, carrier->level, force);
+    if (carrier->damped)
+        take_damped(scene, motion, carrier->level, force);
 }
 
 void carrier_leave(struct carrier *carrier, const struct scene *scene, struct motion *motion)

@@ -142,23 +142,10 @@ void motion_step(struct motion *to, const struct motion *from, const struct scen
 void motion_push_gaps(struct motion *end, const struct scene *scene, int level, size_t contact,
                       const double force[NODES])
 {
-    double h = step_length(level);
-    const double *weight = collocation.weight;
-    const double *position = collocation.position_end;
-    /* by the force's integral and its double integral */
-    double impulse =
-        weight[0] * force[0] + weight[1] * force[1] + weight[2] * force[2] + weight[3] * force[3];
-    double travel = position[0] * force[0] + position[1] * force[1] + position[2] * force[2] +
-                    position[3] * force[3];
-    impulse *= h;
-    travel *= h * h;
+    double impulse;
+    double travel;
+    motion_integrate(force, step_length(level), &impulse, &travel);
     const double *w = scene->w + contact * scene->contacts; /* symmetric */
-    /* the only contact, and several */
-    if (scene->contacts == 1) {
-        end->gap[0] += w[0] * travel;
-        end->gap_rate[0] += w[0] * impulse;
-        return;
-    }
     for (size_t a = 0; a < scene->contacts; a++)
         end->gap[a] += w[a] * travel;
     for (size_t a = 0; a < scene->contacts; a++)

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
+#include "impact/collocation.h"
 #include "impact/scene.h"
 
 struct motion {
@@ -49,6 +50,21 @@ void motion_push(struct motion *end, const struct scene *scene, int level,
 static inline bool motion_bears(const double force[NODES])
 {
     return force[0] != 0.0 || force[1] != 0.0 || force[2] != 0.0 || force[3] != 0.0;
+}
+
+/* What the forces at the nodes of a step of length h come to at its end: their integral, and their
+ * double integral. */
+static inline void motion_integrate(const double force[NODES], double h, double *impulse,
+                                    double *travel)
+{
+    const double *weight = collocation.weight;
+    const double *position = collocation.position_end;
+    double sum =
+        weight[0] * force[0] + weight[1] * force[1] + weight[2] * force[2] + weight[3] * force[3];
+    double twice = position[0] * force[0] + position[1] * force[1] + position[2] * force[2] +
+                   position[3] * force[3];
+    *impulse = sum * h;
+    *travel = twice * (h * h);
 }
 
 /* The rigid part of the two, and the time. */
