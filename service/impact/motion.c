@@ -109,6 +109,37 @@ void motion_turn(struct motion *motion, const struct scene *scene, double time)
     }
 }
 
+bool motion_turn_tables(const struct scene *scene, double time, struct arena *arena,
+                        double **tables)
+{
+    for (size_t g = 0; g < scene->groups; g++) {
+        const struct scene_group *group = &scene->group[g];
+        struct flight_modes modes = flight_modes_of(group, 0, NULL, NULL);
+        tables[g] = NULL;
+        if (!turns_at_once(group, time))
+            continue;
+        tables[g] = arena_reserve(arena, group->stride, TURN_TERMS * sizeof(double));
+        if (!tables[g])
+            return false;
+        flight_kernel_table(&modes, time, tables[g]);
+    }
+    return true;
+}
+
+void motion_turn_by(struct motion *motion, const struct scene *scene, double time,
+                    double *const *tables)
+{
+    move_gaps(motion, scene, time);
+    for (size_t g = 0; g < scene->groups; g++) {
+        struct flight_modes modes =
+            flight_modes_of(&scene->group[g], 0, motion->q[g], motion->v[g]);
+        if (tables[g])
+            flight_kernel_step(tables[g], &modes, motion->q[g], motion->v[g]);
+        else
+            move_modes(motion, scene, g, time);
+    }
+}
+
 void motion_advance(struct motion *motion, const struct scene *scene, double time)
 {
     move(motion, scene, time);

@@ -33,6 +33,13 @@ void motion_advance(struct motion *motion, const struct scene *scene, double tim
  * (FLIGHT_TURN_ANGLE). */
 void motion_turn(struct motion *motion, const struct scene *scene, double time);
 
+/* Tables by which that goes over a time, [group]; NULL in them: by none. False: out of memory. And
+ * the motion by them, to the same bits. */
+bool motion_turn_tables(const struct scene *scene, double time, struct arena *arena,
+                        double **tables);
+void motion_turn_by(struct motion *motion, const struct scene *scene, double time,
+                    double *const *tables);
+
 /* Free motion back over `time` >= 0, as if nothing were damped: damping run backward would blow the
  * rounding of fast modes up without bound. The vibration's energy stays what it is. */
 void motion_rewind(struct motion *motion, const struct scene *scene, double time);

@@ -13,10 +13,32 @@
 /* An opening shorter than this share of the step after it is rounding of the time. */
 static const double NO_FLIGHT = 1e-3;
 
-/* What forces do to approaches on a step of a level: row i at node i. */
+/* What every source meets on a step: the law's stiffness K at the nodes, 1 + M K with the coupling
+ * M, and the flight before it. */
+struct path_step {
+    double stiffness[NODES];
+    struct node_factors factors;
+    double flight;  /* s; 0: none */
+    double **turns; /* see motion_turn_tables */
+};
+
+/* What forces do to approaches on a step of a level: row i at node i, as contact_step's. */
+struct path_level {
+    double coupling[STEP_POINTS][NODES];
+};
+
+struct tangent_path {
+    const struct force_log *log;
+    struct scene scene;                     /* at rest, where nothing presses */
+    struct path_level *levels[STEP_LEVELS]; /* NULL: no step is of it */
+    struct path_step *steps;                /* [log->count] */
+    bool sound;                             /* all steps can be followed */
+    struct arena *arena;
+};
+
+/* What the source does by itself on a step of a level: row i at node i. */
 struct level_table {
-    double coupling[STEP_POINTS][NODES]; /* as contact_step's */
-    double own[NODES][NODES];            /* the source's */
+    double own[NODES][NODES];
 };
 
 /* What the change is in one order: of the motion, of the forces on this step, of the impulse of the
@@ -29,13 +51,11 @@ struct course {
 };
 
 struct follower {
+    const struct tangent_path *path;
     const struct tangent_source *source;
-    struct scene scene; /* at rest, where nothing presses */
     struct course first, second;
     struct level_table *tables[STEP_LEVELS]; /* NULL: not yet */
-    struct arena *arena;
-    double total; /* impulse of the sub-impact under way */
-    bool lost;    /* a step could not be followed */
+    double total;                            /* impulse of the sub-impact under way */
 };
 
 static bool create_course(struct course *course, const struct scene *scene, struct arena *arena)
@@ -47,22 +67,21 @@ static bool create_course(struct course *course, const struct scene *scene, stru
     return true;
 }
 
-static bool create(struct follower *follower, const struct scene *scene)
+/* The scene at rest. False: out of memory. */
+static bool calm(struct tangent_path *path, const struct scene *scene)
 {
-    double *none = arena_take(follower->arena, 1, sizeof *none);
-    struct scene_group *groups = arena_take(follower->arena, scene->groups, sizeof *groups);
+    double *none = arena_take(path->arena, 1, sizeof *none);
+    struct scene_group *groups = arena_take(path->arena, scene->groups, sizeof *groups);
     if (!none || !groups)
         return false;
     for (size_t g = 0; g < scene->groups; g++) {
         groups[g] = scene->group[g];
         groups[g].q = groups[g].v = NULL;
     }
-    follower->scene = *scene;
-    follower->scene.group = groups;
-    follower->scene.gap = follower->scene.gap_rate = follower->scene.gap_acceleration = none;
-    return create_course(&follower->first, &follower->scene, follower->arena) &&
-           (!follower->source->curved ||
-            create_course(&follower->second, &follower->scene, follower->arena));
+    path->scene = *scene;
+    path->scene.group = groups;
+    path->scene.gap = path->scene.gap_rate = path->scene.gap_acceleration = none;
+    return true;
 }
 
 /* What a unit force at node j does to the approach at node i: rigid bodies, series compliance and
@@ -83,6 +102,59 @@ static void find_coupling(const struct scene *scene, int level, double m[STEP_PO
     }
 }
 
+/* The same of the path's steps of a level. NULL: out of memory. */
+static const struct path_level *find_level(struct tangent_path *path, int level)
+{
+    struct path_level **at = &path->levels[level];
+    if (*at)
+        return *at;
+    *at = arena_take(path->arena, 1, sizeof **at);
+    if (*at)
+        find_coupling(&path->scene, level, (*at)->coupling);
+    return *at;
+}
+
+/* A step, which begins `free` after the one before it. False: out of memory. */
+static bool lay_step(struct tangent_path *path, const struct force_step *step, double free,
+                     struct path_step *to)
+{
+    double same[NODES];
+    struct node_row rows[NODES];
+    const struct path_level *level = find_level(path, step->level);
+    if (!level)
+        return false;
+    contact_law_forces(&path->scene.laws[0], step->indentation[0], same, to->stiffness);
+    node_rows_make((const double(*)[NODES])level->coupling, to->stiffness, rows);
+    to->factors = node_factors_make(rows);
+    path->sound = path->sound && to->factors.sound;
+    to->flight = 0.0;
+    if (!(free > NO_FLIGHT * step_length(step->level)))
+        return true;
+    to->flight = free;
+    to->turns = arena_reserve(path->arena, path->scene.groups, sizeof *to->turns);
+    return to->turns && motion_turn_tables(&path->scene, free, path->arena, to->turns);
+}
+
+struct tangent_path *tangent_path_create(const struct scene *scene, const struct force_log *log,
+                                         struct arena *arena)
+{
+    struct tangent_path *path = arena_take(arena, 1, sizeof *path);
+    if (!path)
+        return NULL;
+    *path = (struct tangent_path){.log = log, .sound = true, .arena = arena};
+    path->steps = arena_reserve(arena, log->count, sizeof *path->steps);
+    if (!path->steps || !calm(path, scene))
+        return NULL;
+    double end = log->count > 0 ? log->steps[0].start : 0.0;
+    for (size_t i = 0; i < log->count; i++) {
+        const struct force_step *step = &log->steps[i];
+        if (!lay_step(path, step, step->start - end, &path->steps[i]))
+            return NULL;
+        end = step->start + step_length(step->level);
+    }
+    return path;
+}
+
 /* What the source takes from the approach at node i by a unit force at node j, whose coupling is m:
  * its inertia and viscosity by the derivatives of the force's cubic, its force by the coupling. */
 static double find_own(const struct tangent_source *source, double h, double m, int i, int j)
@@ -101,14 +173,14 @@ static const struct level_table *find_table(struct follower *follower, int level
     struct level_table *table = follower->tables[level];
     if (table)
         return table;
-    table = arena_take(follower->arena, 1, sizeof *table);
+    table = arena_reserve(follower->path->arena, 1, sizeof *table);
     if (!table)
         return NULL;
-    find_coupling(&follower->scene, level, table->coupling);
+    const struct path_level *met = follower->path->levels[level];
     for (int i = 0; i < NODES; i++)
         for (int j = 0; j < NODES; j++)
             table->own[i][j] =
-                find_own(follower->source, step_length(level), table->coupling[i][j], i, j);
+                find_own(follower->source, step_length(level), met->coupling[i][j], i, j);
     return follower->tables[level] = table;
 }
 
@@ -137,28 +209,22 @@ static void move_on(const struct scene *scene, struct course *course, double h)
     course->impulse += h * row_by(collocation.weight, course->force[0]);
 }
 
-/* The law's stiffness K at the nodes of a step, and 1 + M K with the coupling M. */
-struct step_slopes {
-    double stiffness[NODES];
-    struct node_factors factors;
-};
-
 /* With the law's stiffness K at the nodes, the coupling M and what the source does by itself, f to
  * the forces F and G F to the approach, (1 + M K) d = approach - G F, and F changes by K d + f. */
 static void solve_first(struct follower *follower, const struct level_table *table,
-                        const struct force_step *step, const struct step_slopes *slopes,
+                        const struct force_step *step, const struct path_step *slopes,
                         double d[NODES])
 {
     struct course *course = &follower->first;
     double right[NODES];
     const double *force = step->force[0];
-    find_approaches(&follower->scene, course, step->level, right);
+    find_approaches(&follower->path->scene, course, step->level, right);
     for (int i = 0; i < NODES; i++)
         right[i] -= row_by(table->own[i], force);
     node_factors_solve(&slopes->factors, right, d);
     for (int i = 0; i < NODES; i++)
         course->force[0][i] = slopes->stiffness[i] * d[i] + follower->source->force * force[i];
-    move_on(&follower->scene, course, step_length(step->level));
+    move_on(&follower->path->scene, course, step_length(step->level));
 }
 
 /* The second derivatives by the size s of the change, of forces exp(s f) F(d) and the approach that
@@ -168,9 +234,8 @@ static void solve_first(struct follower *follower, const struct level_table *tab
  *
  * where K' = K/(2 d) by a law like d^(3/2). It has no bound where contacts begin and end, but is
  * integrable: what the nodes miss of it there is some tenth of a step. */
-static void solve_second(struct follower *follower, const struct level_table *table,
-                         const struct force_step *step, const struct step_slopes *slopes,
-                         const double d[NODES])
+static void solve_second(struct follower *follower, const struct force_step *step,
+                         const struct path_step *slopes, const double d[NODES])
 {
     struct course *course = &follower->second;
     double f = follower->source->force;
@@ -178,7 +243,8 @@ static void solve_second(struct follower *follower, const struct level_table *ta
     double bent[NODES];
     double second[NODES];
     const double *changed = follower->first.force[0];
-    find_approaches(&follower->scene, course, step->level, right);
+    const struct path_level *level = follower->path->levels[step->level];
+    find_approaches(&follower->path->scene, course, step->level, right);
     for (int i = 0; i < NODES; i++) {
         double depth = step->indentation[0][i];
         double slope = depth > 0.0 ? slopes->stiffness[i] / (2.0 * depth) : 0.0;
@@ -186,38 +252,32 @@ static void solve_second(struct follower *follower, const struct level_table *ta
     }
     for (int i = 0; i < NODES; i++)
         right[i] -=
-            row_by(table->coupling[i], bent) + 2.0 * follower->source->compliance * changed[i];
+            row_by(level->coupling[i], bent) + 2.0 * follower->source->compliance * changed[i];
     node_factors_solve(&slopes->factors, right, second);
     for (int i = 0; i < NODES; i++)
         course->force[0][i] = slopes->stiffness[i] * second[i] + bent[i];
-    move_on(&follower->scene, course, step_length(step->level));
+    move_on(&follower->path->scene, course, step_length(step->level));
 }
 
-static bool take_step(struct follower *follower, const struct force_step *step)
+static bool take_step(struct follower *follower, const struct force_step *step,
+                      const struct path_step *slopes)
 {
-    double same[NODES];
     double d[NODES];
-    struct node_row rows[NODES];
-    struct step_slopes slopes;
     const struct level_table *table = find_table(follower, step->level);
     if (!table)
         return false;
-    contact_law_forces(&follower->scene.laws[0], step->indentation[0], same, slopes.stiffness);
-    node_rows_make((const double(*)[NODES])table->coupling, slopes.stiffness, rows);
-    slopes.factors = node_factors_make(rows);
-    follower->lost = follower->lost || !slopes.factors.sound;
-    solve_first(follower, table, step, &slopes, d);
+    solve_first(follower, table, step, slopes, d);
     if (follower->source->curved)
-        solve_second(follower, table, step, &slopes, d);
+        solve_second(follower, step, slopes, d);
     follower->total += step_length(step->level) * row_by(collocation.weight, step->force[0]);
     return true;
 }
 
 /* Free motion from sub-impact to sub-impact. */
-static void fly(const struct scene *scene, struct course *course, double time)
+static void fly(const struct scene *scene, struct course *course, const struct path_step *step)
 {
     carrier_leave(&course->carrier, scene, &course->motion);
-    motion_turn(&course->motion, scene, time);
+    motion_turn_by(&course->motion, scene, step->flight, step->turns);
 }
 
 /* A sub-impact has ended. */
@@ -232,37 +292,40 @@ static void close_part(struct follower *follower, struct tangent *tangent)
     follower->total = follower->first.impulse = follower->second.impulse = 0.0;
 }
 
-enum percuss_status tangent_follow(const struct scene *scene, const struct force_log *log,
-                                   const struct tangent_source *source, struct arena *arena,
+/* At rest before the first step. False: out of memory. */
+static bool begin(struct follower *follower)
+{
+    const struct tangent_path *path = follower->path;
+    return create_course(&follower->first, &path->scene, path->arena) &&
+           (!follower->source->curved ||
+            create_course(&follower->second, &path->scene, path->arena));
+}
+
+enum percuss_status tangent_follow(struct tangent_path *path, const struct tangent_source *source,
                                    struct pace *pace, struct tangent *tangent)
 {
-    struct follower *follower = arena_take(arena, 1, sizeof *follower);
-    if (!follower)
-        return PERCUSS_INTERNAL;
+    struct follower follower = {.path = path, .source = source};
     *tangent = (struct tangent){0};
-    *follower = (struct follower){.source = source, .arena = arena};
-    if (!create(follower, scene))
+    if (!path || !begin(&follower))
         return PERCUSS_INTERNAL;
-    double cost = step_cost(scene);
-    double end = log->count > 0 ? log->steps[0].start : 0.0;
+    const struct force_log *log = path->log;
+    double cost = step_cost(&path->scene);
     for (size_t i = 0; i < log->count; i++) {
-        const struct force_step *step = &log->steps[i];
-        double h = step_length(step->level);
+        const struct path_step *slopes = &path->steps[i];
         if (!pace_keeps(pace, cost))
             return PERCUSS_TIMEOUT;
-        if (step->start - end > NO_FLIGHT * h) {
-            close_part(follower, tangent);
-            fly(&follower->scene, &follower->first, step->start - end);
+        if (slopes->flight > 0.0) {
+            close_part(&follower, tangent);
+            fly(&path->scene, &follower.first, slopes);
             if (source->curved)
-                fly(&follower->scene, &follower->second, step->start - end);
+                fly(&path->scene, &follower.second, slopes);
         }
-        if (!take_step(follower, step))
+        if (!take_step(&follower, &log->steps[i], slopes))
             return PERCUSS_INTERNAL;
-        end = step->start + h;
     }
     if (log->count > 0)
-        close_part(follower, tangent);
-    if (follower->lost)
+        close_part(&follower, tangent);
+    if (!path->sound)
         tangent->strain = INFINITY;
     return PERCUSS_OK;
 }

@@ -31,10 +31,15 @@ struct tangent {
                          be followed */
 };
 
-/* Follows the source along the log of a solution of the scene by impact_modal: one contact, which
- * did not yield. OK, INTERNAL without memory, or TIMEOUT where the pace stopped it. */
-enum percuss_status tangent_follow(const struct scene *scene, const struct force_log *log,
-                                   const struct tangent_source *source, struct arena *arena,
+/* What every source meets along the log of a solution of the scene by impact_modal: one contact,
+ * which did not yield. From the arena, as scene and log are; NULL: out of memory. */
+struct tangent_path;
+struct tangent_path *tangent_path_create(const struct scene *scene, const struct force_log *log,
+                                         struct arena *arena);
+
+/* Follows the source along the path. OK, INTERNAL without memory (path NULL is such), or TIMEOUT
+ * where the pace stopped it. */
+enum percuss_status tangent_follow(struct tangent_path *path, const struct tangent_source *source,
                                    struct pace *pace, struct tangent *tangent);
 
 #endif

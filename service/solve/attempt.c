@@ -46,6 +46,7 @@ static enum percuss_status run_once(struct attempt_context *context, struct atte
         .care = attempt->care,
     };
     attempt->log = log;
+    attempt->path = NULL;
     if (!impact_create(&attempt->outcome, scene, context->arena))
         return PERCUSS_INTERNAL;
     /* the method asked for, or the closed form where that is exact */

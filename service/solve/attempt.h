@@ -8,7 +8,8 @@
 #include "solve/assemble.h"
 #include "solve/outcome.h"
 
-struct nearby; /* nearby.h */
+struct nearby;       /* nearby.h */
+struct tangent_path; /* tangent.h */
 
 /* What all attempts at a problem share. */
 struct attempt_context {
@@ -25,6 +26,7 @@ struct attempt {
     struct assembly *assembly;
     struct impact_outcome outcome;
     const struct force_log *log; /* of that outcome; NULL: it was not taken down */
+    struct tangent_path *path;   /* along that log; NULL: not asked for yet */
     enum impact_care care;       /* of the time steps; a sequence's where one was found */
 };
 

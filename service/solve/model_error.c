@@ -106,19 +106,26 @@ static enum percuss_status follow_group(const struct model_margin *margin, struc
     return PERCUSS_OK;
 }
 
-static enum percuss_status follow(const struct model_margin *margin, bool curved, struct pace *pace,
-                                  struct by_orders *orders)
+/* Along the answer, as the search for modes left it or made now. NULL: out of memory. */
+static struct tangent_path *find_path(const struct model_margin *margin)
 {
     const struct solution *solution = margin->solution;
-    struct tangent_source source = source_of(margin, 0, 1.0);
     struct scene scene;
-    struct tangent tangent;
-    source.curved = curved;
+    if (solution->path)
+        return solution->path;
     if (!fewer_modes(margin->problem, solution->scene, &solution->outcome, FEWER_FIRST_ORDER,
                      &scene))
-        return PERCUSS_INTERNAL;
-    enum percuss_status status =
-        tangent_follow(&scene, solution->log, &source, margin->problem->arena, pace, &tangent);
+        return NULL;
+    return tangent_path_create(&scene, solution->log, margin->problem->arena);
+}
+
+static enum percuss_status follow(const struct model_margin *margin, struct tangent_path *path,
+                                  bool curved, struct pace *pace, struct by_orders *orders)
+{
+    struct tangent_source source = source_of(margin, 0, 1.0);
+    struct tangent tangent;
+    source.curved = curved;
+    enum percuss_status status = tangent_follow(path, &source, pace, &tangent);
     double compression = margin->problem->impulse_compression[0];
     if (!status)
         *orders = (struct by_orders){tangent.impulse / compression, tangent.curvature / compression,
@@ -139,10 +146,11 @@ static enum percuss_status single_by_order(const struct model_margin *margin, st
     bool bends = solution->scene->laws[0].operations->three_halves;
     bool curved = bends && expected > STRAIN;
     struct by_orders orders;
-    enum percuss_status status = follow(margin, curved, pace, &orders);
+    struct tangent_path *path = find_path(margin);
+    enum percuss_status status = follow(margin, path, curved, pace, &orders);
     if (!status && !curved && bends && orders.strain > STRAIN && orders.strain <= STRAIN_CURVED) {
         curved = true;
-        status = follow(margin, curved, pace, &orders);
+        status = follow(margin, path, curved, pace, &orders);
     }
     if (!status && orders.strain <= (curved ? STRAIN_CURVED : STRAIN))
         *change = fabs(orders.first) + 0.5 * fabs(orders.second);

@@ -110,7 +110,7 @@ static bool is_followed(const struct attempt_context *context, const struct atte
 
 /* What inertia and viscosity of the omitted modes do, followed along the answer with fewer modes.
  */
-static enum percuss_status follow(struct attempt_context *context, const struct attempt *best,
+static enum percuss_status follow(struct attempt_context *context, struct attempt *best,
                                   struct tangent *tangent)
 {
     struct scene scene;
@@ -120,13 +120,13 @@ static enum percuss_status follow(struct attempt_context *context, const struct 
     if (!fewer_modes(context->problem, &best->assembly->scene, &best->outcome, FEWER_FIRST_ORDER,
                      &scene))
         return PERCUSS_INTERNAL;
-    return tangent_follow(&scene, best->log, &source, context->arena, context->pace, tangent);
+    best->path = tangent_path_create(&scene, best->log, context->arena);
+    return tangent_follow(best->path, &source, context->pace, tangent);
 }
 
 /* By first order, where that says it; *known then. */
-static enum percuss_status by_first_order(struct attempt_context *context,
-                                          const struct attempt *best, struct mode_error *error,
-                                          bool *known)
+static enum percuss_status by_first_order(struct attempt_context *context, struct attempt *best,
+                                          struct mode_error *error, bool *known)
 {
     struct tangent tangent;
     *known = false;

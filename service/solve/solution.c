@@ -96,6 +96,7 @@ static void conclude(const struct attempt_context *context, const struct attempt
     solution->scene = &best->assembly->scene;
     solution->outcome = best->outcome;
     solution->log = attempt_is_followed(context, best) ? best->log : NULL;
+    solution->path = best->path;
     solution->step_accuracy = best->accuracy;
     solution->step_care = best->care;
     /* what is cut off for its effort takes all that was left, but for a step */

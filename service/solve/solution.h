@@ -24,6 +24,7 @@ struct solution {
     bool revised;                  /* the problem was formulated anew on the way */
     struct assembly *assembly;     /* of the scene */
     const struct force_log *log;   /* of the answer where first order says something of it; NULL */
+    struct tangent_path *path;     /* along it, if it was asked for on the way; NULL */
     double step_accuracy;          /* that it was solved with, see impact_settings */
     enum impact_care step_care;    /* the same */
     struct mode_error modes;

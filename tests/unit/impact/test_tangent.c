@@ -65,8 +65,9 @@ static void first_order_is_that_of_solutions(double damping)
     assert_true(count >= 3);
 
     const struct tangent_source stiffer = {.force = 1.0};
-    assert_int_equal(tangent_follow(&toy.scene, &log, &stiffer, &arena, NULL, &tangent),
-                     PERCUSS_OK);
+    assert_int_equal(
+        tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &stiffer, NULL, &tangent),
+        PERCUSS_OK);
     double difference =
         (changed(&toy, &arena, STEP, 0.0) - changed(&toy, &arena, -STEP, 0.0)) / (2.0 * STEP);
     print_message("%zu sub-impacts: impulse %.9g, by force %.9g %.9g\n", count, impulse,
@@ -76,7 +77,9 @@ static void first_order_is_that_of_solutions(double damping)
     assert_true(tangent.strain >= fabs(tangent.impulse) / impulse / (double)count);
 
     const struct tangent_source softer = {.compliance = 1.0};
-    assert_int_equal(tangent_follow(&toy.scene, &log, &softer, &arena, NULL, &tangent), PERCUSS_OK);
+    assert_int_equal(
+        tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &softer, NULL, &tangent),
+        PERCUSS_OK);
     difference =
         (changed(&toy, &arena, 0.0, STEP) - changed(&toy, &arena, 0.0, -STEP)) / (2.0 * STEP);
     print_message("by compliance %.9g %.9g\n", tangent.impulse, difference);
@@ -111,8 +114,9 @@ static void second_order_is_that_of_solutions(void **state)
         const struct tangent_source *source = &sources[i];
         struct tangent tangent;
         double both = 0.0;
-        assert_int_equal(tangent_follow(&toy.scene, &log, source, &arena, NULL, &tangent),
-                         PERCUSS_OK);
+        assert_int_equal(
+            tangent_follow(tangent_path_create(&toy.scene, &log, &arena), source, NULL, &tangent),
+            PERCUSS_OK);
         for (int sign = -1; sign <= 1; sign += 2)
             both += changed(&toy, &arena, expm1(sign * WIDE * source->force),
                             sign * WIDE * source->compliance);
@@ -124,8 +128,9 @@ static void second_order_is_that_of_solutions(void **state)
         struct tangent_source straight = *source;
         struct tangent first;
         straight.curved = false;
-        assert_int_equal(tangent_follow(&toy.scene, &log, &straight, &arena, NULL, &first),
-                         PERCUSS_OK);
+        assert_int_equal(
+            tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &straight, NULL, &first),
+            PERCUSS_OK);
         near(first.impulse, tangent.impulse, 0.0);
         assert_true(first.strain <= tangent.strain);
         assert_true(0.5 * fabs(tangent.curvature) <= tangent.strain * impulse * (double)count);
@@ -170,8 +175,9 @@ static void inertia_and_viscosity_are_those_of_fast_oscillators(void **state)
         const struct tangent_source source = {.inertia = compliance / (fast[0] * fast[0]),
                                               .viscosity =
                                                   2.0 * dampings[i] * compliance / fast[0]};
-        assert_int_equal(tangent_follow(&toy.scene, &log, &source, &arena, NULL, &tangent),
-                         PERCUSS_OK);
+        assert_int_equal(
+            tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &source, NULL, &tangent),
+            PERCUSS_OK);
         print_message("by an oscillator %.6g %.6g\n", tangent.impulse, difference);
         /* touch and release, where F is like t^1.5, are not slow: at 60 rad/s it is 0.05 off, at
          * 100 rad/s 0.02 */
@@ -191,7 +197,9 @@ static void a_log_of_nothing_changes_nothing(void **state)
     make(&toy, MODES, 0.0);
     const struct force_log log = force_log_make(&arena, 1);
     const struct tangent_source source = {.force = 1.0};
-    assert_int_equal(tangent_follow(&toy.scene, &log, &source, &arena, NULL, &tangent), PERCUSS_OK);
+    assert_int_equal(
+        tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &source, NULL, &tangent),
+        PERCUSS_OK);
     near(tangent.impulse, 0.0, 0.0);
     near(tangent.strain, 0.0, 0.0);
     toy_free(&toy);

@@ -137,7 +137,9 @@ static void one_contact_is_that_of_tangent(void **state)
     assert_int_equal(impact_modal(&toy.scene, &settings, &arena, &outcome), PERCUSS_OK);
     const struct tangent_group_task task = {&toy.scene, &log, 1, {&source}};
     assert_int_equal(tangent_group_follow(&task, &arena, NULL, &group), PERCUSS_OK);
-    assert_int_equal(tangent_follow(&toy.scene, &log, &source, &arena, NULL, &alone), PERCUSS_OK);
+    assert_int_equal(
+        tangent_follow(tangent_path_create(&toy.scene, &log, &arena), &source, NULL, &alone),
+        PERCUSS_OK);
     near(group.impulse[0], alone.impulse, 1e-9 * fabs(alone.impulse));
     toy_free(&toy);
     arena_release(&arena);
