@@ -72,21 +72,21 @@ static inline void add_damped(const struct flight_modes *modes, double scale, in
 #define VECTOR     half
 #define WIDTH      2
 #define FOLD       FOLD_HALVES
-#define SUMS(name) name##_narrow
-#define SUMS_UNIT
-#include "impact/flight_sums.h"
+#define PASS(name) name##_narrow
+#define PASS_UNIT
+#include "impact/flight_passes.h"
 #ifdef VECTOR_WIDE
 #undef VECTOR
 #undef WIDTH
 #undef FOLD
-#undef SUMS
-#undef SUMS_UNIT
+#undef PASS
+#undef PASS_UNIT
 #define VECTOR     lanes
 #define WIDTH      LANES
 #define FOLD       FOLD_LANES
-#define SUMS(name) name##_wide
-#define SUMS_UNIT  VECTOR_WIDE
-#include "impact/flight_sums.h"
+#define PASS(name) name##_wide
+#define PASS_UNIT  VECTOR_WIDE
+#include "impact/flight_passes.h"
 #endif
 
 VECTOR_CLONES static void damped_derivatives(const struct flight_modes *modes,
@@ -274,12 +274,9 @@ VECTOR_CLONES void flight_kernel_table(const struct flight_modes *modes, double 
         make_turn(modes, k, time, turn++);
 }
 
-VECTOR_CLONES void flight_kernel_step(const double *table, const struct flight_modes *modes,
-                                      double *q, double *v)
+void flight_kernel_step(const double *table, const struct flight_modes *modes, double *q, double *v)
 {
-    const struct turn *turn = (const struct turn *)table;
-    for (size_t k = 0; k < modes->length; k += LANES)
-        apply_turn(turn++, modes, k, q, v);
+    FOLD_EITHER(step)(table, modes, q, v);
 }
 
 /* The damper takes 2 zeta omega int v^2 dt; with v = Re(V e^(lambda t)), V = v + i u, u = (zeta v +

@@ -5,12 +5,8 @@
 
 #include "impact/fold.h"
 
-#define AT(array, k) (*(const VECTOR *)((array) + (k)))
-/* A term of modes that lie together, see step_table.h. */
-#define TERM(at, t) AT(at, (t)*LANES)
-#define TOTAL(x)    (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
-/* All lanes at once. */
-#define VECTOR lanes
+#define AT(array, k) (*(const lanes *)((array) + (k)))
+#define TOTAL(x)     (((x)[0] + (x)[2]) + ((x)[1] + (x)[3]))
 
 VECTOR_CLONES void kernel_nodes(const struct step_table *table, size_t length, const double *phi,
                                 const double *q, const double *v, double sums[STEP_POINTS])
@@ -126,23 +122,6 @@ static inline struct pairs pair_up(const double force[NODES])
                           {force[0] + force[3], force[1] + force[2]}};
 }
 
-/* The same three on a group of lanes, `at` its terms; macros, as arguments that wide have no place
- * in the baseline's calls. */
-#define KICK(at, force, p, q, v)                                                                   \
-    do {                                                                                           \
-        (q) += (p) * (TERM(at, MIDDLE_KICK_Q) * (force).odd[0] +                                   \
-                      TERM(at, MIDDLE_KICK_Q + 1) * (force).odd[1]);                               \
-        (v) += (p) * (TERM(at, MIDDLE_KICK_V) * (force).even[0] +                                  \
-                      TERM(at, MIDDLE_KICK_V + 1) * (force).even[1]);                              \
-    } while (0)
-
-#define TURN(at, turn, q, v)                                                                       \
-    do {                                                                                           \
-        VECTOR turned = TERM(at, turn) * (q) + TERM(at, (turn) + 1) * (v);                         \
-        (v) = TERM(at, (turn) + 2) * (q) + TERM(at, turn) * (v);                                   \
-        (q) = turned;                                                                              \
-    } while (0)
-
 /* The nodes of the pairs from their cosines and sines, the outer pair's first. */
 static inline void add_up(half cosine, half sine, double end, double sums[STEP_POINTS])
 {
@@ -155,48 +134,38 @@ static inline void add_up(half cosine, half sine, double end, double sums[STEP_P
     sums[NODES] += end;
 }
 
-VECTOR_CLONES void kernel_turn(const double *middle, enum middle_term turn, double way,
-                               size_t length, const double *const state[2], double *const to[2])
-{
-    for (size_t k = 0; k < length; k += LANES) {
-        lanes q = AT(state[0], k);
-        lanes v = way * AT(state[1], k);
-        TURN(middle, turn, q, v);
-        *(lanes *)(to[0] + k) = q;
-        *(lanes *)(to[1] + k) = way * v;
-        middle += LANES * MIDDLE_TERMS;
-    }
-}
-
-VECTOR_CLONES void kernel_kick(const double *middle, size_t length, const double *phi,
-                               const double force[NODES], double *const state[2])
-{
-    struct pairs pairs = pair_up(force);
-    for (size_t k = 0; k < length; k += LANES, middle += LANES * MIDDLE_TERMS)
-        KICK(middle, pairs, AT(phi, k), *(lanes *)(state[0] + k), *(lanes *)(state[1] + k));
-}
-
-/* Passes that sum, for either width. */
-#undef VECTOR
+/* Passes over undamped modes, for either width. */
 #define VECTOR     half
 #define WIDTH      2
 #define FOLD       FOLD_HALVES
-#define SUMS(name) name##_narrow
-#define SUMS_UNIT
-#include "impact/middle_sums.h"
+#define PASS(name) name##_narrow
+#define PASS_UNIT
+#include "impact/middle_passes.h"
 #ifdef VECTOR_WIDE
 #undef VECTOR
 #undef WIDTH
 #undef FOLD
-#undef SUMS
-#undef SUMS_UNIT
+#undef PASS
+#undef PASS_UNIT
 #define VECTOR     lanes
 #define WIDTH      LANES
 #define FOLD       FOLD_LANES
-#define SUMS(name) name##_wide
-#define SUMS_UNIT  VECTOR_WIDE
-#include "impact/middle_sums.h"
+#define PASS(name) name##_wide
+#define PASS_UNIT  VECTOR_WIDE
+#include "impact/middle_passes.h"
 #endif
+
+void kernel_turn(const double *middle, enum middle_term turn, double way, size_t length,
+                 const double *const state[2], double *const to[2])
+{
+    FOLD_EITHER(turn)(middle, turn, way, length, state, to);
+}
+
+void kernel_kick(const double *middle, size_t length, const double *phi, const double force[NODES],
+                 double *const state[2])
+{
+    FOLD_EITHER(kick)(middle, length, phi, force, state);
+}
 
 void kernel_swing(const double *middle, size_t length, const double *phi,
                   const double *const state[2], double sums[STEP_POINTS])

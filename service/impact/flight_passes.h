@@ -1,16 +1,16 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Derivatives of undamped modes seen by a contact (flight_kernel.h), for vectors of WIDTH lanes:
- * flight_kernel.c includes this once for each width. Lanes have sums of their own and are added in
- * the order of fold.h, so that every width gives the same bits. */
+/* Derivatives of undamped modes seen by a contact, and free motion by a table (flight_kernel.h),
+ * for vectors of WIDTH lanes: flight_kernel.c includes this once for each width. Lanes have sums of
+ * their own and are added in the order of fold.h, so that every width gives the same bits. */
 
 #define PARTS          (LANES / WIDTH)
 #define PART(array, k) (*(const VECTOR *)((array) + (k)))
 /* sums[2 n] += sum_k phi_k q_k (-(scale omega_k)^2)^n, and sums[2 n + 1] the same of v times the
  * scale, for n from range[0] on, range[1] of them. */
-SUMS_UNIT __attribute__((always_inline)) static inline void
-SUMS(add_powers)(const struct flight_modes *modes, double scale, const int range[2], double *sums)
+PASS_UNIT __attribute__((always_inline)) static inline void
+PASS(add_powers)(const struct flight_modes *modes, double scale, const int range[2], double *sums)
 {
     VECTOR total[2 * AT_ONCE][PARTS] = {{{0}}};
 #pragma GCC unroll 2
@@ -47,18 +47,35 @@ SUMS(add_powers)(const struct flight_modes *modes, double scale, const int range
     }
 }
 
-SUMS_UNIT static void SUMS(derivatives)(const struct flight_modes *modes, double sums[SCAN_TERMS])
+PASS_UNIT static void PASS(derivatives)(const struct flight_modes *modes, double sums[SCAN_TERMS])
 {
     static const int HALF[2] = {0, SCAN_TERMS / 2};
-    SUMS(add_powers)(modes, 1.0, HALF, sums);
+    PASS(add_powers)(modes, 1.0, HALF, sums);
 }
 
-SUMS_UNIT static void SUMS(terms)(const struct flight_modes *modes, double length,
+PASS_UNIT static void PASS(terms)(const struct flight_modes *modes, double length,
                                   double sums[ROOT_TERMS])
 {
     static const int PARTS_OF[2][2] = {{0, AT_ONCE}, {AT_ONCE, AT_ONCE}};
-    SUMS(add_powers)(modes, length, PARTS_OF[0], sums);
-    SUMS(add_powers)(modes, length, PARTS_OF[1], sums);
+    PASS(add_powers)(modes, length, PARTS_OF[0], sums);
+    PASS(add_powers)(modes, length, PARTS_OF[1], sums);
+}
+
+/* By a table of struct turn. */
+PASS_UNIT static void PASS(step)(const double *table, const struct flight_modes *modes, double *q,
+                                 double *v)
+{
+    for (size_t k = 0; k < modes->length; k += LANES, table += LANES * TURN_TERMS) {
+#pragma GCC unroll 2
+        for (size_t at = 0; at < LANES; at += WIDTH) {
+            VECTOR before = PART(modes->q, k + at);
+            VECTOR rate = PART(modes->v, k + at);
+            VECTOR after = PART(table, at) * before + PART(table, at + LANES) * rate;
+            VECTOR then = PART(table, at + 2 * LANES) * before + PART(table, at + 3 * LANES) * rate;
+            *(VECTOR *)(q + k + at) = after;
+            *(VECTOR *)(v + k + at) = then;
+        }
+    }
 }
 
 #undef PARTS
