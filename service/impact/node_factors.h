@@ -17,6 +17,9 @@ typedef double node_pair __attribute__((vector_size(2 * sizeof(double)), aligned
 #define NODE_PAIR(at)       (*(node_pair *)(at))
 #define NODE_CONST_PAIR(at) (*(const node_pair *)(at))
 
+/* What a comparison of two nodes says. */
+typedef long long pair_mask __attribute__((vector_size(2 * sizeof(long long))));
+
 /* A row's lanes 0, 1 and 2, 3. */
 struct node_row {
     node_pair low, high;

@@ -9,9 +9,6 @@
 #include "impact/node_factors.h"
 #include "numeric/linear.h"
 
-/* What a comparison of two nodes says. */
-typedef long long pair_mask __attribute__((vector_size(2 * sizeof(long long))));
-
 /* Newton's method takes two or three iterations in an ordinary step; where it takes so many it
  * would take for ever. */
 enum { MAX_ITERATIONS = 40 };

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "impact/carrier.h"
+#include "impact/fold.h"
 #include "impact/kernel.h"
 #include "impact/node_factors.h"
 #include "impact/step_cost.h"
@@ -184,29 +185,53 @@ static const struct level_table *find_table(struct follower *follower, int level
     return follower->tables[level] = table;
 }
 
-/* Changes of the approaches at the nodes by what was before the step. */
+/* Two nodes of all. */
+static inline node_pair pair_of(double number)
+{
+    return (node_pair){number, number};
+}
+
+/* Rows i and i + 1 of a table by the forces at the nodes. */
+static inline node_pair rows_by(const double (*rows)[NODES], int i, const double force[NODES])
+{
+    const node_pair low = NODE_CONST_PAIR(force);
+    const node_pair high = NODE_CONST_PAIR(force + 2);
+    node_pair one = NODE_CONST_PAIR(rows[i]) * low + NODE_CONST_PAIR(rows[i] + 2) * high;
+    node_pair next = NODE_CONST_PAIR(rows[i + 1]) * low + NODE_CONST_PAIR(rows[i + 1] + 2) * high;
+    return FOLD_BOTH(one, next);
+}
+
+/* The change of the approaches at the nodes by what was before the step, less what `rows` take by
+ * the forces. */
 static void find_approaches(const struct scene *scene, struct course *course, int level,
+                            const double (*rows)[NODES], const double force[NODES],
                             double approach[NODES])
 {
     double sums[1][STEP_POINTS];
     const struct motion *motion = &course->motion;
-    double travel = step_length(level) * motion->gap_rate[0];
+    node_pair gap = pair_of(motion->gap[0]);
+    node_pair travel = pair_of(step_length(level) * motion->gap_rate[0]);
     carrier_enter(&course->carrier, scene, motion, level, sums);
-    for (int i = 0; i < NODES; i++)
-        approach[i] = -(motion->gap[0] + collocation.node[i] * travel) - sums[0][i];
+    for (int i = 0; i < NODES; i += 2) {
+        node_pair away = gap + NODE_CONST_PAIR(collocation.node + i) * travel;
+        away += NODE_CONST_PAIR(sums[0] + i);
+        NODE_PAIR(approach + i) = -(away + rows_by(rows, i, force));
+    }
 }
 
-/* A row of a table by the forces at the nodes. */
-static inline double row_by(const double row[NODES], const double force[NODES])
+/* The impulse of the forces over the step. */
+static inline double impulse_of(const double force[NODES], double h)
 {
-    return (row[0] * force[0] + row[1] * force[1]) + (row[2] * force[2] + row[3] * force[3]);
+    const double *weight = collocation.weight;
+    return h * ((weight[0] * force[0] + weight[1] * force[1]) +
+                (weight[2] * force[2] + weight[3] * force[3]));
 }
 
 /* The motion under the forces of the step, and what they add to the impulse. */
 static void move_on(const struct scene *scene, struct course *course, double h)
 {
     carrier_take(&course->carrier, scene, &course->motion, course->force);
-    course->impulse += h * row_by(collocation.weight, course->force[0]);
+    course->impulse += impulse_of(course->force[0], h);
 }
 
 /* With the law's stiffness K at the nodes, the coupling M and what the source does by itself, f to
@@ -218,12 +243,14 @@ static void solve_first(struct follower *follower, const struct level_table *tab
     struct course *course = &follower->first;
     double right[NODES];
     const double *force = step->force[0];
-    find_approaches(&follower->path->scene, course, step->level, right);
-    for (int i = 0; i < NODES; i++)
-        right[i] -= row_by(table->own[i], force);
+    find_approaches(&follower->path->scene, course, step->level, (const double(*)[NODES])table->own,
+                    force, right);
     node_factors_solve(&slopes->factors, right, d);
-    for (int i = 0; i < NODES; i++)
-        course->force[0][i] = slopes->stiffness[i] * d[i] + follower->source->force * force[i];
+    const node_pair f = pair_of(follower->source->force);
+    for (int i = 0; i < NODES; i += 2)
+        NODE_PAIR(course->force[0] + i) =
+            NODE_CONST_PAIR(slopes->stiffness + i) * NODE_CONST_PAIR(d + i) +
+            f * NODE_CONST_PAIR(force + i);
     move_on(&follower->path->scene, course, step_length(step->level));
 }
 
@@ -238,24 +265,30 @@ static void solve_second(struct follower *follower, const struct force_step *ste
                          const struct path_step *slopes, const double d[NODES])
 {
     struct course *course = &follower->second;
-    double f = follower->source->force;
+    const node_pair f = pair_of(follower->source->force);
     double right[NODES];
     double bent[NODES];
     double second[NODES];
     const double *changed = follower->first.force[0];
     const struct path_level *level = follower->path->levels[step->level];
-    find_approaches(&follower->path->scene, course, step->level, right);
-    for (int i = 0; i < NODES; i++) {
-        double depth = step->indentation[0][i];
-        double slope = depth > 0.0 ? slopes->stiffness[i] / (2.0 * depth) : 0.0;
-        bent[i] = slope * d[i] * d[i] + f * (2.0 * changed[i] - f * step->force[0][i]);
+    for (int i = 0; i < NODES; i += 2) {
+        node_pair depth = NODE_CONST_PAIR(step->indentation[0] + i);
+        node_pair slope = NODE_CONST_PAIR(slopes->stiffness + i) / (2.0 * depth);
+        slope = (node_pair)((pair_mask)slope & (depth > 0.0)); /* open: none */
+        NODE_PAIR(bent + i) =
+            slope * NODE_CONST_PAIR(d + i) * NODE_CONST_PAIR(d + i) +
+            f * (2.0 * NODE_CONST_PAIR(changed + i) - f * NODE_CONST_PAIR(step->force[0] + i));
     }
-    for (int i = 0; i < NODES; i++)
-        right[i] -=
-            row_by(level->coupling[i], bent) + 2.0 * follower->source->compliance * changed[i];
+    find_approaches(&follower->path->scene, course, step->level,
+                    (const double(*)[NODES])level->coupling, bent, right);
+    const node_pair twice = pair_of(2.0 * follower->source->compliance);
+    for (int i = 0; i < NODES; i += 2)
+        NODE_PAIR(right + i) -= twice * NODE_CONST_PAIR(changed + i);
     node_factors_solve(&slopes->factors, right, second);
-    for (int i = 0; i < NODES; i++)
-        course->force[0][i] = slopes->stiffness[i] * second[i] + bent[i];
+    for (int i = 0; i < NODES; i += 2)
+        NODE_PAIR(course->force[0] + i) =
+            NODE_CONST_PAIR(slopes->stiffness + i) * NODE_CONST_PAIR(second + i) +
+            NODE_CONST_PAIR(bent + i);
     move_on(&follower->path->scene, course, step_length(step->level));
 }
 
@@ -269,7 +302,7 @@ static bool take_step(struct follower *follower, const struct force_step *step,
     solve_first(follower, table, step, slopes, d);
     if (follower->source->curved)
         solve_second(follower, step, slopes, d);
-    follower->total += step_length(step->level) * row_by(collocation.weight, step->force[0]);
+    follower->total += impulse_of(step->force[0], step_length(step->level));
     return true;
 }
 
