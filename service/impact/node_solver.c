@@ -4,6 +4,7 @@
 #include "impact/node_solver.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "impact/node_factors.h"
@@ -69,9 +70,12 @@ static inline void follow(double force[NODES], const double stiffness[NODES],
 
 static inline double largest_of(const double values[NODES])
 {
-    double low = fabs(values[0]) > fabs(values[1]) ? fabs(values[0]) : fabs(values[1]);
-    double high = fabs(values[2]) > fabs(values[3]) ? fabs(values[2]) : fabs(values[3]);
-    return low > high ? low : high;
+    static const pair_mask MAGNITUDE = {INT64_MAX, INT64_MAX};
+    pair_mask low = (pair_mask)NODE_CONST_PAIR(values) & MAGNITUDE;
+    pair_mask high = (pair_mask)NODE_CONST_PAIR(values + 2) & MAGNITUDE;
+    pair_mask above = (node_pair)low > (node_pair)high;
+    node_pair most = (node_pair)((low & above) | (high & ~above));
+    return most[0] > most[1] ? most[0] : most[1];
 }
 
 /* The excess e, and the matrix. */

@@ -128,6 +128,9 @@ bool step_ends_project_all(const struct scene *scene, const struct contact_start
 {
     bool any = false;
     for (size_t c = 0; c < scene->contacts; c++) {
+        /* most steps neither begin nor end a contact */
+        if ((now[c].indentation > 0.0) == (step->end_indentation[c] > 0.0))
+            continue;
         const struct step_end end = {
             &scene->laws[c],
             scene->residual[c * (scene->contacts + 1)],
