@@ -167,6 +167,7 @@ static inline bool enter_only(const struct carrier *carrier, const struct scene 
         !find_turn(carrier->level, level, &carry.turn))
         return false;
     carry.force = carrier->force[0];
+    carry.nodes_only = carrier->nodes_only;
     for (int i = 0; i < STEP_POINTS; i++)
         sums[i] = 0.0;
     for (size_t g = 0; g < scene->groups; g++) {

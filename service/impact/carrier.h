@@ -12,6 +12,7 @@
 struct carrier {
     double **q, **v; /* [group][stride], of undamped modes at the middle of the step */
     bool damped;     /* any mode is */
+    bool nodes_only; /* nobody asks for the ends of the steps: sums of theirs may be missing */
     int level;       /* of that step; < 0: all modes are as the motion says */
     /* [contact], of that step if it is behind them: still to be applied; NULL: it was not taken */
     const double (*force)[NODES];

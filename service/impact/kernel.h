@@ -7,6 +7,8 @@
 #ifndef PERCUSS_IMPACT_KERNEL_H
 #define PERCUSS_IMPACT_KERNEL_H
 
+#include <stdbool.h>
+
 #include "impact/step_table.h"
 
 /* sums[i] += sum_k phi_k (node_q[i]_k q_k + node_v[i]_k v_k): free displacement at the nodes, and
@@ -61,6 +63,7 @@ struct kernel_carry {
     const double *from, *next;
     enum middle_term turn;
     const double *force; /* [NODES] */
+    bool nodes_only;     /* the sum at the end of the step stays as it is */
 };
 void kernel_carry(const struct kernel_carry *carry, size_t length, const double *phi,
                   double *const state[2], double sums[STEP_POINTS]);

@@ -33,8 +33,10 @@
         c1[p] += TERM(at, MIDDLE_COSINE + 1) * (pq);                                               \
         s0[p] += TERM(at, MIDDLE_SINE) * (pv);                                                     \
         s1[p] += TERM(at, MIDDLE_SINE + 1) * (pv);                                                 \
-        end[p] += TERM(at, TURN_HALF) * (pq) + TERM(at, TURN_HALF + 1) * (pv);                     \
     } while (0)
+
+#define SWING_END(at, p, pq, pv)                                                                   \
+    (end[p] += TERM(at, TURN_HALF) * (pq) + TERM(at, TURN_HALF + 1) * (pv))
 
 /* What the lanes' sums come to. */
 #define ADD_UP(sums)                                                                               \
@@ -87,14 +89,15 @@ PASS_UNIT static void PASS(swing)(const double *middle, size_t length, const dou
             VECTOR pq = PART(phi, k + at) * PART(state[0], k + at);
             VECTOR pv = PART(phi, k + at) * PART(state[1], k + at);
             SWING(middle + at, p, pq, pv);
+            SWING_END(middle + at, p, pq, pv);
         }
     }
     ADD_UP(sums);
 }
 
-PASS_UNIT static void PASS(carry)(const struct kernel_carry *carry, size_t length,
-                                  const double *phi, double *const state[2],
-                                  double sums[STEP_POINTS])
+PASS_UNIT __attribute__((always_inline)) static inline void
+PASS(carry_on)(const struct kernel_carry *carry, const bool ends, size_t length, const double *phi,
+               double *const state[2], double sums[STEP_POINTS])
 {
     const struct pairs pairs = pair_up(carry->force);
     const double *from = carry->from;
@@ -116,11 +119,23 @@ PASS_UNIT static void PASS(carry)(const struct kernel_carry *carry, size_t lengt
             q *= PART(phi, k + at);
             v *= PART(phi, k + at);
             SWING(next + at, p, q, v);
+            if (ends)
+                SWING_END(next + at, p, q, v);
         }
         from += LANES * MIDDLE_TERMS;
         next += LANES * MIDDLE_TERMS;
     }
     ADD_UP(sums);
+}
+
+PASS_UNIT static void PASS(carry)(const struct kernel_carry *carry, size_t length,
+                                  const double *phi, double *const state[2],
+                                  double sums[STEP_POINTS])
+{
+    if (carry->nodes_only)
+        PASS(carry_on)(carry, false, length, phi, state, sums);
+    else
+        PASS(carry_on)(carry, true, length, phi, state, sums);
 }
 
 #undef PARTS
@@ -130,4 +145,5 @@ PASS_UNIT static void PASS(carry)(const struct kernel_carry *carry, size_t lengt
 #undef KICK
 #undef TURN
 #undef SWING
+#undef SWING_END
 #undef ADD_UP

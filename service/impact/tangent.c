@@ -64,6 +64,7 @@ static bool create_course(struct course *course, const struct scene *scene, stru
     if (!motion_create(&course->motion, scene, arena) ||
         !carrier_create(&course->carrier, scene, arena))
         return false;
+    course->carrier.nodes_only = true;
     motion_start(&course->motion, scene);
     return true;
 }

@@ -165,10 +165,17 @@ static void steps_by_their_middle(void **state)
         for (int i = 0; i < 3; i++) {
             int level = i == 0 ? 13 : i == 1 ? 14 : 12;
             const double *next = oscillators_table(x.set, level)->middle;
-            struct kernel_carry carry = {terms, next, turns[i], force};
+            struct kernel_carry carry = {terms, next, turns[i], force, false};
             double carried[STEP_POINTS] = {0.0}, apart[STEP_POINTS] = {0.0};
+            double nodes[STEP_POINTS] = {0.0};
+            struct kernel_carry shorter = carry;
+            shorter.nodes_only = true;
+            kernel_turn(terms, TURN_HALF, 1.0, x.stride, start, middle);
+            kernel_carry(&shorter, x.stride, x.phi, middle, nodes);
             kernel_turn(terms, TURN_HALF, 1.0, x.stride, start, middle);
             kernel_carry(&carry, x.stride, x.phi, middle, carried);
+            assert_memory_equal(nodes, carried, NODES * sizeof *nodes);
+            assert_true(nodes[NODES] == 0.0);
             kernel_nodes(oscillators_table(x.set, level), x.stride, x.phi, x.q_end, x.v_end, apart);
             for (int j = 0; j < STEP_POINTS; j++)
                 agrees(carried[j], apart[j]);

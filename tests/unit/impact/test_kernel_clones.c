@@ -128,7 +128,7 @@ static void middles_too(void **state)
         struct oscillators *set = oscillators_create(count, omega, 0.0);
         assert_non_null(set);
         const double *middle = oscillators_table(set, 12)->middle;
-        const struct kernel_carry carry = {middle, middle, TURN_WHOLE, force};
+        const struct kernel_carry carry = {middle, middle, TURN_WHOLE, force, false};
         double *const clone[2] = {states[0][0], states[0][1]};
         double *const base[2] = {states[1][0], states[1][1]};
         const double *const clones[2] = {clone[0], clone[1]}, *const bases[2] = {base[0], base[1]};
@@ -141,6 +141,13 @@ static void middles_too(void **state)
         baseline_swing(middle, n, phi, bases, sums[1]);
         kernel_carry(&carry, n, phi, clone, sums[0]);
         baseline_carry(&carry, n, phi, base, sums[1]);
+        /* and without the ends, which stay as they are */
+        struct kernel_carry nodes = carry;
+        double ends = sums[0][NODES];
+        nodes.nodes_only = true;
+        kernel_carry(&nodes, n, phi, clone, sums[0]);
+        baseline_carry(&nodes, n, phi, base, sums[1]);
+        assert_true(sums[0][NODES] == ends);
         same(states[0][0], states[1][0], 2 * LONGEST);
         same(sums[0], sums[1], STEP_POINTS);
         oscillators_free(set);
