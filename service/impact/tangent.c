@@ -55,8 +55,9 @@ struct follower {
     const struct tangent_path *path;
     const struct tangent_source *source;
     struct course first, second;
-    struct level_table *tables[STEP_LEVELS]; /* NULL: not yet */
-    double total;                            /* impulse of the sub-impact under way */
+    struct level_table *tables[STEP_LEVELS];       /* NULL: not yet */
+    double rate[NODES][NODES], bend[NODES][NODES]; /* see differentiate; 0: not needed */
+    double total;                                  /* impulse of the sub-impact under way */
 };
 
 static bool create_course(struct course *course, const struct scene *scene, struct arena *arena)
@@ -157,21 +158,24 @@ struct tangent_path *tangent_path_create(const struct scene *scene, const struct
     return path;
 }
 
-/* What the source takes from the approach at node i by a unit force at node j, whose coupling is m:
- * its inertia and viscosity by the derivatives of the force's cubic, its force by the coupling. */
-static double find_own(const struct tangent_source *source, double h, double m, int i, int j)
+/* Derivatives of the force's cubic at the nodes, by the step's own time: row i at node i. */
+static void differentiate(double first[NODES][NODES], double second[NODES][NODES])
 {
-    double s = collocation.node[i];
-    const double *a = collocation.monomial[j];
-    double first = (a[1] + s * (2.0 * a[2] + 3.0 * s * a[3])) / h;
-    double second = (2.0 * a[2] + 6.0 * s * a[3]) / (h * h);
-    double compliance = i == j ? source->compliance : 0.0;
-    return compliance + source->force * m - source->viscosity * first - source->inertia * second;
+    for (int i = 0; i < NODES; i++)
+        for (int j = 0; j < NODES; j++) {
+            double s = collocation.node[i];
+            const double *a = collocation.monomial[j];
+            first[i][j] = a[1] + s * (2.0 * a[2] + 3.0 * s * a[3]);
+            second[i][j] = 2.0 * a[2] + 6.0 * s * a[3];
+        }
 }
 
-/* The table of a level. NULL: out of memory. */
+/* What the source takes from the approach at node i by a unit force at node j, whose coupling is
+ * that of the level: its inertia and viscosity by the cubic's derivatives, its force by the
+ * coupling. NULL: out of memory. */
 static const struct level_table *find_table(struct follower *follower, int level)
 {
+    const struct tangent_source *source = follower->source;
     struct level_table *table = follower->tables[level];
     if (table)
         return table;
@@ -179,10 +183,16 @@ static const struct level_table *find_table(struct follower *follower, int level
     if (!table)
         return NULL;
     const struct path_level *met = follower->path->levels[level];
-    for (int i = 0; i < NODES; i++)
-        for (int j = 0; j < NODES; j++)
-            table->own[i][j] =
-                find_own(follower->source, step_length(level), met->coupling[i][j], i, j);
+    double h = step_length(level);
+    double viscosity = source->viscosity / h;
+    double inertia = source->inertia / (h * h);
+    for (int i = 0; i < NODES; i++) {
+        for (int j = 0; j < NODES; j += 2)
+            NODE_PAIR(table->own[i] + j) = source->force * NODE_CONST_PAIR(met->coupling[i] + j) -
+                                           viscosity * NODE_CONST_PAIR(follower->rate[i] + j) -
+                                           inertia * NODE_CONST_PAIR(follower->bend[i] + j);
+        table->own[i][i] += source->compliance;
+    }
     return follower->tables[level] = table;
 }
 
@@ -330,6 +340,8 @@ static void close_part(struct follower *follower, struct tangent *tangent)
 static bool begin(struct follower *follower)
 {
     const struct tangent_path *path = follower->path;
+    if (follower->source->viscosity != 0.0 || follower->source->inertia != 0.0)
+        differentiate(follower->rate, follower->bend);
     return create_course(&follower->first, &path->scene, path->arena) &&
            (!follower->source->curved ||
             create_course(&follower->second, &path->scene, path->arena));
