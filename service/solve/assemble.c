@@ -24,7 +24,8 @@ struct addition {
     size_t body;
     size_t family;
     const struct prepared_family *prepared;
-    size_t count; /* modes of the family that take part */
+    size_t count;       /* modes of the family that take part */
+    double *compliance; /* [contact], of the family by itself; NAN: not known yet */
 };
 
 static bool family_is_loaded(const struct problem *problem, size_t body, size_t family)
@@ -197,7 +198,10 @@ static bool add_family(const struct addition *add, double *residual)
         for (size_t j = 0; j < n; j++) {
             const struct family_load *a = problem_load(problem, i, add->body, add->family);
             const struct family_load *b = problem_load(problem, j, add->body, add->family);
-            double all = a && b ? modal_compliance(body, add->family, a, b) : 0.0;
+            bool known = i == j && !isnan(add->compliance[i]);
+            double all = known    ? add->compliance[i]
+                         : a && b ? modal_compliance(body, add->family, a, b)
+                                  : 0.0;
             residual[i * n + j] += all;
             left[i] = i == j ? all : left[i];
         }
@@ -240,8 +244,9 @@ static size_t wanted(const struct addition *add, const struct scene *rigid,
                      const struct mode_choice *choice)
 {
     size_t fixed = add->problem->bodies[add->body]->modes;
-    size_t count =
-        fixed ? fixed : mode_choice_count(choice, add->problem, rigid, add->body, add->family);
+    size_t count = fixed ? fixed
+                         : mode_choice_count(choice, add->problem, rigid, add->body, add->family,
+                                             add->compliance);
     size_t allowed = add->problem->compliance.most;
     if (add->problem->bodies[add->body]->mesh && allowed > 0 && count > allowed)
         count = allowed;
@@ -273,6 +278,7 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
 {
     size_t n = problem->contact_count;
     double *residual = arena_take(problem->arena, n * n, sizeof *residual);
+    double compliance[PERCUSS_MAX_CONTACTS];
     if (!residual || !create(assembly, problem) || !fill_scene(assembly, problem))
         return false;
     /* what is in series with the laws */
@@ -291,9 +297,12 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
                                    .state = problem->states[b],
                                    .elapsed = problem->request->bodies[b].elapsed,
                                    .body = b,
-                                   .family = f};
+                                   .family = f,
+                                   .compliance = compliance};
             if (!family_is_loaded(problem, b, add.family))
                 continue;
+            for (size_t c = 0; c < n; c++)
+                compliance[c] = NAN;
             add.count = wanted(&add, &rigid, choice);
             if (add.count > MODE_CHOICE_MOST)
                 return false;

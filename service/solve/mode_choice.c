@@ -42,7 +42,7 @@ static struct demand make_demand(const struct scene *scene, size_t contact, doub
 /* The contacts that load the family, as if each closed like the fastest of all: what rests on a
  * body hands on the blow that it gets. */
 static size_t find_demands(const struct problem *problem, const struct scene *scene, size_t body,
-                           size_t family, struct demand *demands)
+                           size_t family, struct demand *demands, double *compliance)
 {
     size_t count = 0;
     double rate = 0.0;
@@ -53,7 +53,8 @@ static size_t find_demands(const struct problem *problem, const struct scene *sc
         if (!load)
             continue;
         demands[count] = make_demand(scene, c, rate, load);
-        demands[count++].left = modal_compliance(problem->bodies[body], family, load, load);
+        compliance[c] = modal_compliance(problem->bodies[body], family, load, load);
+        demands[count++].left = compliance[c];
     }
     return count;
 }
@@ -147,13 +148,13 @@ static size_t count_of_few(const struct mode_choice *choice, const struct proble
 }
 
 size_t mode_choice_count(const struct mode_choice *choice, const struct problem *problem,
-                         const struct scene *scene, size_t body, size_t family)
+                         const struct scene *scene, size_t body, size_t family, double *compliance)
 {
     /* what the contacts ask of the family */
     struct demand demands[PERCUSS_MAX_CONTACTS];
     struct shapes shapes;
     const struct body *owner = problem->bodies[body];
-    size_t loads = find_demands(problem, scene, body, family, demands);
+    size_t loads = find_demands(problem, scene, body, family, demands, compliance);
     if (modal_family_most(owner, family) <= MODE_CHOICE_MOST) {
         const struct prepared_family *all =
             prepared_family_get(problem->cache, owner, family, MODE_CHOICE_MOST);
