@@ -86,25 +86,22 @@ echo "a sample of an ensemble on the beam at 1e-3: $((samples / 100)) instructio
 fresh=$(count beam 1e-3 sites | cut -d ' ' -f 1)
 again=$(count beam 1e-3 sites-again | cut -d ' ' -f 1)
 echo "a blow on the beam at 1e-3 where none was before: $((fresh / 100)) instructions, there again: $((again / 100))"
+# three contacts at once against one: thirty groups on a beam and their ninety contacts one by one. The aim is
+# 400 %; what a group costs itself is held, for the share rises when a single contact becomes cheaper.
+if [ -n "$often" ]; then
+    program=$often
+    groups=$(count beam 1e-3 groups)
+    singles=$(count beam 1e-3 singles | cut -d ' ' -f 1)
+    total=${groups% *}
+    echo "groups 1e-3 $groups" >>"$work/counts"
+    [ "$record" = yes ] || compare groups 1e-3 3 "$total" || bad=1
+    echo "a group of three contacts: $((300 * total / singles)) % of the instructions of one contact"
+fi
 if [ "$record" = yes ]; then
     {
-        echo "# instructions of one warm solve: scene, tolerance, instructions, library calls (instructions.sh --record)"
+        echo "# instructions of warm solves: scene, tolerance, instructions, library calls (instructions.sh --record)"
         cat "$work/counts"
     } >"$recorded"
     cat "$recorded"
-fi
-
-# three contacts at once against one: thirty groups on a beam and their ninety contacts one by one. The
-# aim is 400 %; counted it is 434 %: steps of each contact's own, and solutions beside the answer for
-# the numerical error, where first order serves one contact.
-if [ -n "$often" ] && [ "$record" = no ]; then
-    program=$often
-    groups=$(count beam 1e-3 groups | cut -d ' ' -f 1)
-    singles=$(count beam 1e-3 singles | cut -d ' ' -f 1)
-    echo "a group of three contacts: $((300 * groups / singles)) % of the instructions of one contact"
-    if [ "$groups" -le 0 ] || [ "$((groups * 300))" -gt "$((singles * 450))" ]; then
-        echo "instructions: a group of three contacts: more than 450 % of one contact" >&2
-        bad=1
-    fi
 fi
 exit $bad
