@@ -19,6 +19,7 @@ static const double NO_FLIGHT = 1e-3;
 struct path_step {
     double stiffness[NODES];
     struct node_factors factors;
+    double impulse; /* of the answer */
     double flight;  /* s; 0: none */
     double **turns; /* see motion_turn_tables */
 };
@@ -117,6 +118,14 @@ static const struct path_level *find_level(struct tangent_path *path, int level)
     return *at;
 }
 
+/* The impulse of the forces over the step. */
+static inline double impulse_of(const double force[NODES], double h)
+{
+    const double *weight = collocation.weight;
+    return h * ((weight[0] * force[0] + weight[1] * force[1]) +
+                (weight[2] * force[2] + weight[3] * force[3]));
+}
+
 /* A step, which begins `free` after the one before it. False: out of memory. */
 static bool lay_step(struct tangent_path *path, const struct force_step *step, double free,
                      struct path_step *to)
@@ -130,6 +139,7 @@ static bool lay_step(struct tangent_path *path, const struct force_step *step, d
     node_rows_make((const double(*)[NODES])level->coupling, to->stiffness, rows);
     to->factors = node_factors_make(rows);
     path->sound = path->sound && to->factors.sound;
+    to->impulse = impulse_of(step->force[0], step_length(step->level));
     to->flight = 0.0;
     if (!(free > NO_FLIGHT * step_length(step->level)))
         return true;
@@ -230,16 +240,8 @@ static void find_approaches(const struct scene *scene, struct course *course, in
     }
 }
 
-/* The impulse of the forces over the step. */
-static inline double impulse_of(const double force[NODES], double h)
-{
-    const double *weight = collocation.weight;
-    return h * ((weight[0] * force[0] + weight[1] * force[1]) +
-                (weight[2] * force[2] + weight[3] * force[3]));
-}
-
 /* The motion under the forces of the step, and what they add to the impulse. */
-static void move_on(const struct scene *scene, struct course *course, double h)
+static inline void move_on(const struct scene *scene, struct course *course, double h)
 {
     carrier_take(&course->carrier, scene, &course->motion, course->force);
     course->impulse += impulse_of(course->force[0], h);
@@ -313,7 +315,7 @@ static bool take_step(struct follower *follower, const struct force_step *step,
     solve_first(follower, table, step, slopes, d);
     if (follower->source->curved)
         solve_second(follower, step, slopes, d);
-    follower->total += impulse_of(step->force[0], step_length(step->level));
+    follower->total += slopes->impulse;
     return true;
 }
 
