@@ -53,18 +53,6 @@ VECTOR_CLONES void kernel_push(const struct step_table *table, size_t length, co
     }
 }
 
-VECTOR_CLONES void kernel_dot2(size_t length, const double *a, const double *x, const double *y,
-                               double *ax, double *ay)
-{
-    lanes sx = {0}, sy = {0};
-    for (size_t k = 0; k < length; k += LANES) {
-        sx += AT(a, k) * AT(x, k);
-        sy += AT(a, k) * AT(y, k);
-    }
-    *ax = TOTAL(sx);
-    *ay = TOTAL(sy);
-}
-
 /* Two nodes together: five points of a step with four nodes each keep ten sums in registers. */
 #define HALF(array, k) (*(const half *)((array) + (k)))
 
@@ -154,6 +142,12 @@ static inline void add_up(half cosine, half sine, double end, double sums[STEP_P
 #define PASS_UNIT  VECTOR_WIDE
 #include "impact/middle_passes.h"
 #endif
+
+void kernel_dot2(size_t length, const double *a, const double *x, const double *y, double *ax,
+                 double *ay)
+{
+    FOLD_EITHER(dot2)(length, a, x, y, ax, ay);
+}
 
 void kernel_turn(const double *middle, enum middle_term turn, double way, size_t length,
                  const double *const state[2], double *const to[2])

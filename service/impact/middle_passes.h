@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Passes over undamped modes (kernel.h) for a VECTOR of WIDTH lanes: kernel.c includes this once
- * for each width. Lanes have sums of their own and are added in the order of fold.h, so that every
- * width gives the same bits. */
+/* Passes over undamped modes and sums (kernel.h) for a VECTOR of WIDTH lanes: kernel.c includes
+ * this once for each width. Lanes have sums of their own and are added in the order of fold.h, so
+ * that every width gives the same bits. */
 
 #define PARTS            (LANES / WIDTH)
 #define PART(array, k)   (*(const VECTOR *)((array) + (k)))
@@ -46,8 +46,9 @@
                sums);                                                                              \
     } while (0)
 
-PASS_UNIT static void PASS(turn)(const double *middle, enum middle_term turn, double way,
-                                 size_t length, const double *const state[2], double *const to[2])
+PASS_UNIT __attribute__((always_inline)) static inline void
+PASS(turn_by)(const double *middle, enum middle_term turn, double way, size_t length,
+              const double *const state[2], double *const to[2])
 {
     for (size_t k = 0; k < length; k += LANES, middle += LANES * MIDDLE_TERMS) {
 #pragma GCC unroll 2
@@ -59,6 +60,15 @@ PASS_UNIT static void PASS(turn)(const double *middle, enum middle_term turn, do
             PUT(to[1], k + at, way * v);
         }
     }
+}
+
+PASS_UNIT static void PASS(turn)(const double *middle, enum middle_term turn, double way,
+                                 size_t length, const double *const state[2], double *const to[2])
+{
+    if (way > 0.0)
+        PASS(turn_by)(middle, turn, 1.0, length, state, to);
+    else
+        PASS(turn_by)(middle, turn, -1.0, length, state, to);
 }
 
 PASS_UNIT static void PASS(kick)(const double *middle, size_t length, const double *phi,
@@ -136,6 +146,23 @@ PASS_UNIT static void PASS(carry)(const struct kernel_carry *carry, size_t lengt
         PASS(carry_on)(carry, false, length, phi, state, sums);
     else
         PASS(carry_on)(carry, true, length, phi, state, sums);
+}
+
+PASS_UNIT static void PASS(dot2)(size_t length, const double *a, const double *x, const double *y,
+                                 double *ax, double *ay)
+{
+    VECTOR sx[PARTS] = {{0}}, sy[PARTS] = {{0}};
+    for (size_t k = 0; k < length; k += LANES) {
+#pragma GCC unroll 2
+        for (size_t p = 0; p < PARTS; p++) {
+            const size_t at = k + p * WIDTH;
+            sx[p] += PART(a, at) * PART(x, at);
+            sy[p] += PART(a, at) * PART(y, at);
+        }
+    }
+    half both = FOLD_BOTH(FOLD(sx), FOLD(sy));
+    *ax = both[0];
+    *ay = both[1];
 }
 
 #undef PARTS
