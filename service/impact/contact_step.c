@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "impact/kernel.h"
+#include "impact/node_factors.h"
 #include "impact/node_solver.h"
 #include "numeric/linear.h"
 
@@ -59,9 +60,10 @@ static void free_approaches(struct contact_step *step, const struct scene *scene
         double gap = motion->gap[c];
         double travel = h * motion->gap_rate[c];
         double bend = 0.5 * h * h * scene->gap_acceleration[c];
-        for (int i = 0; i < NODES; i++) {
-            double s = collocation.node[i];
-            target[i] = -(gap + s * (travel + s * bend)) - target[i];
+#pragma GCC unroll 2
+        for (int i = 0; i < NODES; i += 2) {
+            node_pair s = NODE_CONST_PAIR(collocation.node + i);
+            NODE_PAIR(target + i) = -(gap + s * (travel + s * bend)) - NODE_CONST_PAIR(target + i);
         }
         target[NODES] = -(gap + (travel + bend)) - target[NODES];
     }
@@ -259,9 +261,10 @@ static void foresee(struct contact_step *step, size_t contact, const struct cont
     double rate = from->rate * h;
     double curvature = 0.5 * from->curvature * (h * h);
     double bend = from->bend * (h * h * h) * (1.0 / 6.0);
-    for (int i = 0; i < NODES; i++) {
-        double s = collocation.node[i];
-        to[i] = indentation + s * (rate + s * (curvature + s * bend));
+#pragma GCC unroll 2
+    for (int i = 0; i < NODES; i += 2) {
+        node_pair s = NODE_CONST_PAIR(collocation.node + i);
+        NODE_PAIR(to + i) = indentation + s * (rate + s * (curvature + s * bend));
     }
 }
 

@@ -143,11 +143,13 @@ static bool stays_open(const struct outlook *outlook, double h)
     for (int n = 1; n < SCAN_TERMS; n++) {
         b[n] = outlook->derivative[n] * (power * FACTORIAL[n]);
         end += b[n];
-        b[n] *= BINOMIAL[n];
         power *= h;
     }
     if (end < outlook->rest)
         return false;
+#pragma GCC unroll 8
+    for (int n = 1; n < SCAN_TERMS; n++)
+        b[n] *= BINOMIAL[n];
     b[SCAN_TERMS - 1] -= outlook->rest;
     /* Bernstein's coefficients, by repeated sums of neighbours */
 #pragma GCC unroll 8

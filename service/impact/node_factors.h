@@ -25,16 +25,17 @@ struct node_row {
     node_pair low, high;
 };
 
-/* Row i of the matrix 1 + coupling F' but for the 1, and what the forces take from the approach. */
-static inline double node_row_of(const double coupling[NODES], const double force[NODES],
-                                 const double stiffness[NODES], struct node_row *row)
+/* Row i of the matrix 1 + coupling F' but for the 1, and what the forces take from the approach, in
+ * two parts. */
+static inline node_pair node_row_of(const double coupling[NODES], const double force[NODES],
+                                    const double stiffness[NODES], struct node_row *row)
 {
     const node_pair low = NODE_CONST_PAIR(coupling);
     const node_pair high = NODE_CONST_PAIR(coupling + 2);
     node_pair moved = low * NODE_CONST_PAIR(force) + high * NODE_CONST_PAIR(force + 2);
     row->low = low * NODE_CONST_PAIR(stiffness);
     row->high = high * NODE_CONST_PAIR(stiffness + 2);
-    return moved[0] + moved[1];
+    return moved;
 }
 
 static inline void node_rows_add_one(struct node_row matrix[NODES])

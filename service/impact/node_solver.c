@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "impact/fold.h"
 #include "impact/node_factors.h"
 #include "numeric/linear.h"
 
@@ -85,10 +86,13 @@ static inline void assemble_one(const struct node_problem *problem, const double
 {
     const double(*m)[NODES] = coupling_own(problem->coupling, problem->level, 0)->by;
     const double *target = problem->target[0];
-    excess[0] = d[0] - target[0] + node_row_of(m[0], force, stiffness, &a[0]);
-    excess[1] = d[1] - target[1] + node_row_of(m[1], force, stiffness, &a[1]);
-    excess[2] = d[2] - target[2] + node_row_of(m[2], force, stiffness, &a[2]);
-    excess[3] = d[3] - target[3] + node_row_of(m[3], force, stiffness, &a[3]);
+#pragma GCC unroll 2
+    for (int i = 0; i < NODES; i += 2) {
+        node_pair one = node_row_of(m[i], force, stiffness, &a[i]);
+        node_pair next = node_row_of(m[i + 1], force, stiffness, &a[i + 1]);
+        NODE_PAIR(excess + i) =
+            NODE_CONST_PAIR(d + i) - NODE_CONST_PAIR(target + i) + FOLD_BOTH(one, next);
+    }
     node_rows_add_one(a);
 }
 

@@ -154,7 +154,9 @@ struct tangent_path *tangent_path_create(const struct scene *scene, const struct
     struct tangent_path *path = arena_take(arena, 1, sizeof *path);
     if (!path)
         return NULL;
-    *path = (struct tangent_path){.log = log, .sound = true, .arena = arena};
+    path->log = log;
+    path->sound = true;
+    path->arena = arena;
     path->steps = arena_reserve(arena, log->count, sizeof *path->steps);
     if (!path->steps || !calm(path, scene))
         return NULL;

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "impact/node_factors.h"
+
 bool track_create(struct track *track, struct arena *arena)
 {
     track->list = arena_reserve(arena, PERCUSS_MAX_SUB_IMPACTS, sizeof *track->list);
@@ -114,14 +116,15 @@ static void find_peak(struct sub_impact *open, double time, double h,
  * the nodes' polynomials. */
 static void add_omitted(struct track *track, double h, const struct track_values *values)
 {
-    double sum[NODES] = {0.0};
+    node_pair low = {0.0, 0.0};
+    node_pair high = {0.0, 0.0};
     double inertia = 0.0;
     double viscosity = 0.0;
     for (int j = 0; j < NODES; j++) {
-        double force = values->force[j];
-        for (int i = 0; i < NODES; i++)
-            sum[i] += collocation.slopes[j][i] * force;
+        low += NODE_CONST_PAIR(collocation.slopes[j]) * values->force[j];
+        high += NODE_CONST_PAIR(collocation.slopes[j] + 2) * values->force[j];
     }
+    const double sum[NODES] = {low[0], low[1], high[0], high[1]};
     for (int i = 0; i < NODES; i++) {
         inertia += values->stiffness[i] * sum[i];
         viscosity += values->force[i] * sum[i];
