@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "wire.h"
+#include "wire_hand.h"
 #include "wire_sample.h"
 #include "wire_whole.h"
 
@@ -52,6 +53,7 @@ static bool may_pass(const struct ddsi_sertype *type, const uint8_t *data, size_
 static struct ddsi_serdata *take_bytes(const struct ddsi_sertype *type, void *data, size_t size)
 {
     struct ddsi_serdata *sample = wire_sample_take((const struct wire_type *)type, data, size);
+    wire_hand_give(sample);
     if (sample || !may_pass(type, data, size))
         return sample;
     ddsrt_iovec_t whole = {.iov_base = data, .iov_len = size};
@@ -94,6 +96,7 @@ static struct ddsi_serdata *from_network(const struct ddsi_sertype *type,
     struct ddsi_serdata *sample =
         kind == SDK_DATA ? wire_sample_take((const struct wire_type *)type, data, fragments->maxp1)
                          : NULL;
+    wire_hand_give(sample);
     if (sample || (kind == SDK_DATA && !may_pass(type, data, fragments->maxp1)))
         return sample;
     return behind_check(type)->from_ser(type, kind, fragments, size);
@@ -126,6 +129,7 @@ static struct ddsi_serdata *to_key(const struct ddsi_serdata *sample)
         uint8_t bytes[LARGEST_HEAD];
     } head;
     ddsrt_iovec_t header;
+    wire_hand_take(sample);
     struct ddsi_serdata *held = ddsi_serdata_to_ser_ref(sample, 0, ENCAPSULATION, &header);
     size_t size = (size_t)((uint8_t *)header.iov_base - (const uint8_t *)sample) + ENCAPSULATION;
     if (size > sizeof head)
@@ -135,6 +139,7 @@ static struct ddsi_serdata *to_key(const struct ddsi_serdata *sample)
     memcpy(&head, sample, count);
     ddsrt_atomic_st32(&head.common.refc, 1);
     memcpy(head.bytes + rest, (const uint8_t *)sample + rest, size - rest);
+    wire_hand_give(sample);
     ddsi_serdata_to_ser_unref(held, &header);
     head.common.ops = behind_check(sample->type);
     return head.common.ops->to_untyped(&head.common);
@@ -143,12 +148,25 @@ static struct ddsi_serdata *to_key(const struct ddsi_serdata *sample)
 static struct ddsi_serdata *from_sample(const struct ddsi_sertype *type,
                                         enum ddsi_serdata_kind kind, const void *sample)
 {
-    return wire_sample_write((const struct wire_type *)type, behind_check(type), kind, sample);
+    struct ddsi_serdata *written =
+        wire_sample_write((const struct wire_type *)type, behind_check(type), kind, sample);
+    wire_hand_give(written);
+    return written;
 }
 
 static bool to_sample(const struct ddsi_serdata *taken, void *sample, void **buffer, void *limit)
 {
-    return wire_sample_read(taken, behind_check(taken->type), sample, buffer, limit);
+    wire_hand_take(taken);
+    bool read = wire_sample_read(taken, behind_check(taken->type), sample, buffer, limit);
+    wire_hand_give(taken);
+    return read;
+}
+
+/* What to_key has made has no type. All are given back alike. */
+static void free_sample(struct ddsi_serdata *sample)
+{
+    wire_hand_take(sample);
+    ddsi_serdata_ops_xcdr2.free(sample);
 }
 
 static void free_type(struct ddsi_sertype *type)
@@ -164,6 +182,7 @@ static void put_ours(struct ddsi_serdata_ops *operations)
     operations->from_ser = from_network;
     operations->from_ser_iov = from_pieces;
     operations->to_untyped = to_key;
+    operations->free = free_sample;
 }
 
 static void prepare_operations(void)
