@@ -13,16 +13,18 @@ enum { NO_STEP = -1 };
 bool carrier_create(struct carrier *carrier, const struct scene *scene, struct arena *arena)
 {
     *carrier = (struct carrier){.level = NO_STEP};
-    carrier->q = arena_take(arena, scene->groups, sizeof *carrier->q);
-    carrier->v = arena_take(arena, scene->groups, sizeof *carrier->v);
-    if (!carrier->q || !carrier->v)
+    /* pairs of arrays, one behind the other */
+    carrier->q = arena_reserve(arena, 2 * scene->groups, sizeof *carrier->q);
+    if (!carrier->q)
         return false;
+    carrier->v = carrier->q + scene->groups;
     for (size_t g = 0; g < scene->groups; g++) {
         carrier->damped = carrier->damped || scene->group[g].set->most_damping > 0.0;
-        carrier->q[g] = arena_reserve(arena, scene->group[g].stride, sizeof **carrier->q);
-        carrier->v[g] = arena_reserve(arena, scene->group[g].stride, sizeof **carrier->v);
-        if (!carrier->q[g] || !carrier->v[g])
+        size_t stride = scene->group[g].stride; /* whole lanes: both are aligned */
+        carrier->q[g] = arena_reserve(arena, 2 * stride, sizeof **carrier->q);
+        if (!carrier->q[g])
             return false;
+        carrier->v[g] = carrier->q[g] + stride;
     }
     return true;
 }

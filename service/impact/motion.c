@@ -11,17 +11,19 @@
 
 bool motion_create(struct motion *motion, const struct scene *scene, struct arena *arena)
 {
-    motion->gap = arena_take(arena, scene->contacts, sizeof *motion->gap);
-    motion->gap_rate = arena_take(arena, scene->contacts, sizeof *motion->gap_rate);
-    motion->q = arena_take(arena, scene->groups, sizeof *motion->q);
-    motion->v = arena_take(arena, scene->groups, sizeof *motion->v);
-    if (!motion->gap || !motion->gap_rate || !motion->q || !motion->v)
+    /* pairs of arrays, one behind the other */
+    motion->gap = arena_take(arena, 2 * scene->contacts, sizeof *motion->gap);
+    motion->q = arena_reserve(arena, 2 * scene->groups, sizeof *motion->q);
+    if (!motion->gap || !motion->q)
         return false;
+    motion->gap_rate = motion->gap + scene->contacts;
+    motion->v = motion->q + scene->groups;
     for (size_t g = 0; g < scene->groups; g++) {
-        motion->q[g] = arena_take(arena, scene->group[g].stride, sizeof **motion->q);
-        motion->v[g] = arena_take(arena, scene->group[g].stride, sizeof **motion->v);
-        if (!motion->q[g] || !motion->v[g])
+        size_t stride = scene->group[g].stride; /* whole lanes: both are aligned */
+        motion->q[g] = arena_take(arena, 2 * stride, sizeof **motion->q);
+        if (!motion->q[g])
             return false;
+        motion->v[g] = motion->q[g] + stride;
     }
     return true;
 }
