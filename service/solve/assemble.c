@@ -71,7 +71,7 @@ static double fill_row(const struct addition *add, const struct prepared_group *
     participations_get(add->prepared->participations, add->problem->bodies[add->body],
                        add->prepared->modes, source->mode, count, load, row);
     for (size_t k = 0; k < count; k++)
-        largest = fmax(largest, fabs(row[k]));
+        largest = fabs(row[k]) > largest ? fabs(row[k]) : largest;
     return largest;
 }
 
@@ -136,11 +136,13 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
         return false;
     if (!excited)
         return true;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++)
-            residual[i * n + j] -= held_compliance(group, i, j);
-    for (size_t i = 0; i < n; i++)
-        left[i] -= held_compliance(group, i, i);
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j < n; j++) {
+            double held = held_compliance(group, i, j);
+            residual[i * n + j] -= held;
+            left[i] -= i == j ? held : 0.0;
+        }
+    }
     /* without those of a mesh that hardly take part: families of bars are what a place excites */
     assembly->offered[add->body] += group->count;
     if (add->problem->bodies[add->body]->mesh &&
