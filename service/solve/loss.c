@@ -27,7 +27,7 @@ static double share_of(const struct problem *problem, size_t contact, int which)
 /* 1 - exp(-pi eta/2) of a rebound. */
 static double lost(double rebound, double loss_factor)
 {
-    return rebound * -expm1(-M_PI_2 * loss_factor);
+    return loss_factor > 0.0 ? rebound * -expm1(-M_PI_2 * loss_factor) : 0.0;
 }
 
 /* The body's part of the contact's loss factor, 0 where none is stated. */
@@ -54,8 +54,8 @@ double loss_worst(const struct problem *problem, const struct impact_outcome *ou
 static void find_stated(const struct problem *problem, size_t contact, double rebound,
                         struct warnings *warnings)
 {
-    double whole = loss_of_contact(problem, contact, rebound);
     double both = stated(problem, contact, 0) + stated(problem, contact, 1);
+    double whole = lost(rebound, both);
     for (unsigned which = 0; which < 2 && whole > problem->tolerance; which++) {
         const struct body *body = problem_body(problem, contact, (int)which);
         if (stated(problem, contact, (int)which) >= 0.5 * both)
@@ -73,8 +73,10 @@ static void find_unstated(const struct problem *problem, size_t contact, double 
     for (unsigned which = 0; which < 2; which++) {
         const struct body *body = problem_body(problem, contact, (int)which);
         double young = problem_material(problem, contact, (int)which)->young;
+        if (!isnan(body->loss_factor) || !(young < SOFT))
+            continue;
         double least = lost(rebound, share_of(problem, contact, (int)which) * LEAST);
-        if (isnan(body->loss_factor) && young < SOFT && least > problem->tolerance)
+        if (least > problem->tolerance)
             warnings_add(warnings, WARNING_LOSS + which,
                          "contacts[%zu]: materials as soft as that of %s (young %.3g Pa) lose "
                          "energy of themselves, of the restitution %.2g or more: it is not in the "

@@ -50,9 +50,8 @@ double validity_wave_loss(const struct problem *problem)
         double energy_share = 0.0;
         for (int which = 0; which < 2; which++) {
             const struct body *body = problem_body(problem, c, which);
-            double ratio = speed / wave_speed(body);
             if (isfinite(body->mass) && !body_is_flexible(body))
-                energy_share += SPHERE_VIBRATION * ratio;
+                energy_share += SPHERE_VIBRATION * (speed / wave_speed(body));
         }
         /* e^2 = 1 - share */
         worst = fmax(worst, 0.5 * energy_share);
