@@ -34,18 +34,19 @@ bool contact_step_create(struct contact_step *step, const struct scene *scene, d
 {
     size_t n = scene->contacts;
     *step = (struct contact_step){.arena = arena, .last_change = node_solver_last_change(accuracy)};
-    step->indentation = arena_take(arena, n, sizeof *step->indentation);
-    step->force = arena_take(arena, n, sizeof *step->force);
-    step->stiffness = arena_take(arena, n, sizeof *step->stiffness);
-    step->end_indentation = arena_take(arena, n, sizeof(double));
+    /* arrays of a kind, one behind the other */
+    step->indentation = arena_take(arena, 3 * n, sizeof *step->indentation);
+    step->target = arena_take(arena, 2 * n, sizeof *step->target);
+    step->approach = arena_take(arena, 3 * n, sizeof *step->approach);
     step->matrix = arena_reserve(arena, n * n, sizeof(double));
-    step->target = arena_take(arena, n, sizeof *step->target);
-    step->taken = arena_take(arena, n, sizeof *step->taken);
-    step->approach = arena_take(arena, n, sizeof(double));
-    step->end_force = arena_take(arena, n, sizeof(double));
-    return step->indentation && step->force && step->stiffness && step->end_indentation &&
-           step->matrix && step->target && step->taken && step->approach && step->end_force &&
-           coupling_create(&step->coupling, scene, arena) &&
+    if (!step->indentation || !step->target || !step->approach || !step->matrix)
+        return false;
+    step->force = step->indentation + n;
+    step->stiffness = step->force + n;
+    step->taken = step->target + n;
+    step->end_force = step->approach + n;
+    step->end_indentation = step->end_force + n;
+    return coupling_create(&step->coupling, scene, arena) &&
            carrier_create(&step->carrier, scene, arena);
 }
 
