@@ -14,8 +14,11 @@
 /* A change that is so many times what was left out is that of a sequence that amplifies; 10 times
  * and less are the rule. */
 static const double STRONG = 30.0;
-/* Restitution of a contact that others strike: they give it half of its impulse and more. */
-static const double STRUCK = 3.0;
+/* Restitution of a contact that others strike: they give it a fifth of its impulse and more. And
+ * its share of the group's largest impulse of compression: what steps leave goes with the others'
+ * forces, and is much of so little. */
+static const double STRUCK = 1.5;
+static const double SLIGHT = 0.01;
 /* Share of the tolerance below which what was left out counts as that much. */
 static const double NOTHING = 0.01;
 /* Share of the tolerance that modes and steps may take together. */
@@ -185,13 +188,16 @@ static enum percuss_status tell_apart(struct attempt_context *context, struct at
     return PERCUSS_OK;
 }
 
-/* Whether a contact of a group gets most of its impulse by way of others, over little of its own:
+/* Whether a contact of a group gets much of its impulse by way of others, or has little of its own:
  * what steps leave of theirs is large there, and one comparison may agree by chance. */
 static bool is_struck_by_others(const struct attempt_context *context, const struct attempt *best)
 {
-    size_t n = context->problem->contact_count;
+    const struct problem *problem = context->problem;
+    size_t n = problem->contact_count;
+    double slight = SLIGHT * problem_largest_compression(problem);
     for (size_t c = 0; n > 1 && c < n; c++)
-        if (outcome_restitution(context->problem, &best->outcome, c) > STRUCK)
+        if (outcome_restitution(problem, &best->outcome, c) > STRUCK ||
+            (problem->impulse_compression[c] > 0.0 && problem->impulse_compression[c] < slight))
             return true;
     return false;
 }
@@ -217,19 +223,27 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
     status = solve_beside(context, best, &better, &both, error);
     if (status || error->unchecked)
         return status;
-    /* good where they agree, unless that may be chance */
+    /* good where they agree, unless that may be chance: of a contact that others strike the better
+     * model with the answer's own steps tells */
     struct outcome_difference change =
         outcome_compare(context->problem, &best->outcome, &both.outcome);
     double strained = change.restitution / slow.restitution;
     bool is_long =
-        attempt_is_long(best) || is_struck_by_others(context, best) ||
+        attempt_is_long(best) ||
         change.restitution > STRONG * fmax(slow.restitution, NOTHING * context->problem->tolerance);
     widen(error, SEQUENCE_FACTOR, change);
     error->strained = strained;
-    error->covers_steps =
+    bool agrees =
         first && !is_long && error->restitution <= BOTH_SHARE * context->problem->tolerance;
-    if (error->covers_steps)
-        return PERCUSS_OK;
+    bool is_struck = is_struck_by_others(context, best);
+    if (agrees && is_struck) {
+        status = compare_again(context, best, &better, false, error);
+        agrees =
+            !error->unchecked && error->restitution <= BOTH_SHARE * context->problem->tolerance;
+    }
+    error->covers_steps = agrees;
+    if (status || error->unchecked || agrees)
+        return status;
     /* otherwise which of the two makes the difference */
     *error = slow;
     error->strained = strained;
@@ -237,5 +251,5 @@ enum percuss_status sequence_compare(struct attempt_context *context, struct att
     if (status || error->unchecked || error->by_steps ||
         error->restitution > SEQUENCE_MODES_SHARE * context->problem->tolerance)
         return status;
-    return compare_again(context, best, &better, is_long, error);
+    return compare_again(context, best, &better, is_long || is_struck, error);
 }
