@@ -4,6 +4,7 @@
 
 import ctypes
 import pickle
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -43,6 +44,24 @@ class Watching:
         # who asks for no progress hears nothing but signals
         self.function = _ensemble_abi.PROGRESS(self._told) if progress or shared else _ensemble_abi.PROGRESS()
 
+    def __enter__(self) -> "Watching":
+        self._hook = sys.unraisablehook
+        if threading.current_thread() is threading.main_thread():
+            sys.unraisablehook = self._unraisable
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        if sys.unraisablehook == self._unraisable:
+            sys.unraisablehook = self._hook
+
+    def _unraisable(self, what: Any) -> None:
+        """A signal's handler has raised before the first line of _told, where nothing catches it. What _told then
+        returns to C is by chance; the next time it ends the call."""
+        if what.object == self._told:
+            self.problem = self.problem or what.exc_value
+        else:
+            self._hook(what)
+
     def _told(self, _: Any, told: Any) -> bool:
         if self.problem is not None:
             return False
@@ -52,15 +71,10 @@ class Watching:
             self.problem = problem
         return not self._refused and self.problem is None
 
-    def finish(
-        self, code: int, library: ctypes.CDLL | None, client: Client, answer: _ensemble_abi.Reply
-    ) -> None:
+    def finish(self, code: int, library: ctypes.CDLL | None, client: Client) -> None:
         client._settle()
         if self.problem is not None:
             raise self.problem
-        # a signal's handler has raised before the first line of _told, where nobody can catch it
-        if answer.message.startswith(b"cancelled") and not self._refused:
-            raise KeyboardInterrupt
         check(code, library) if library else check(code)
 
 
@@ -86,7 +100,7 @@ def solve_shared(
     code = library.percuss_solve_ensemble_shared(
         client._open, ctypes.byref(asked), deal.function, watch.function, None, ctypes.byref(answer)
     )
-    watch.finish(code, library, client, answer)
+    watch.finish(code, library, client)
 
 
 def _share_library() -> ctypes.CDLL:

@@ -67,15 +67,15 @@ def ensemble(
     is not looked at."""
     asked, kept = ensemble_request.fill(question)
     answer = _ensemble_abi.Reply()
-    watch = Watching(progress, executor is not None)
     try:
-        if executor is None:
-            code = _abi.library.percuss_solve_ensemble(
-                client._open, ctypes.byref(asked), timeout, watch.function, None, ctypes.byref(answer)
-            )
-            watch.finish(code, None, client, answer)
-        else:
-            solve_shared(question, asked, client, executor, watch, answer)
+        with Watching(progress, executor is not None) as watch:
+            if executor is None:
+                code = _abi.library.percuss_solve_ensemble(
+                    client._open, ctypes.byref(asked), timeout, watch.function, None, ctypes.byref(answer)
+                )
+                watch.finish(code, None, client)
+            else:
+                solve_shared(question, asked, client, executor, watch, answer)
         del kept
         return ensemble_reply.read(answer, question)
     finally:

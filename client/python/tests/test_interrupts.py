@@ -4,6 +4,7 @@
 
 import os
 import signal
+import sys
 import threading
 import time
 import unittest
@@ -97,6 +98,23 @@ class Interrupts(unittest.TestCase):
             ensemble = long_ensemble(client)
             self.interrupted(lambda: percuss.ensemble(ensemble, client, timeout=LONG))
             self.interrupted(lambda: percuss.ensemble(ensemble, client, timeout=LONG, progress=lambda _: True))
+            self.has_no_tasks(client)
+
+    def test_before_the_first_line(self) -> None:
+        """Ctrl-C just where C calls the function that is told of the progress."""
+
+        def interrupt(frame: Any, _: str, __: Any) -> None:
+            if frame.f_code.co_name == "_told":
+                raise KeyboardInterrupt
+
+        with self.connect() as client:
+            ensemble = long_ensemble(client)
+            sys.settrace(interrupt)
+            try:
+                with self.assertRaises(KeyboardInterrupt):
+                    percuss.ensemble(ensemble, client, timeout=LONG, progress=lambda _: True)
+            finally:
+                sys.settrace(None)
             self.has_no_tasks(client)
 
     def test_local(self) -> None:
