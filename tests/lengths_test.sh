@@ -33,11 +33,11 @@ refused() {
     grep -qF "$1" "$work/said" || { cat "$work/said" >&2 && exit 1; }
 }
 
-file 400 60
+file 1000 60
 check || { cat "$work/said" >&2 && exit 1; }
-file 401 60
-refused "service/made_up.c: 401 lines"
-file 400 61
+file 1001 60
+refused "service/made_up.c: 1001 lines"
+file 1000 61
 refused "service/made_up.c:2: 61 lines: at most 60 are allowed: static int"
 : >"$work/service/made_up.c"
 refused "no function was found"
