@@ -61,8 +61,9 @@ static void print_sub_impacts(const struct percuss_contact_result *contact)
 static void print_contact(const struct percuss_reply *reply,
                           const struct percuss_contact_result *contact)
 {
-    printf("  restitution  %.6g  (estimated error %.1g; with the models' own %.2g)\n",
-           contact->restitution, reply_restitution_error(reply), reply->error.restitution_total);
+    printf("  restitution  %.6g +- %.2g  (the model %.2g, modes and steps %.1g)\n",
+           contact->restitution, reply->error.restitution_total, reply->error.restitution_model,
+           reply_restitution_error(reply));
     printf("  impulse      %.6g N s  (%.6g N s stops the approach)\n", contact->impulse,
            contact->impulse_compression);
     printf("  duration     %.4g ms (%s)\n", 1e3 * contact->end_time,
