@@ -268,7 +268,7 @@ static json_t *body_schema(void)
         VALUE("description", "string", "dimensions, theory and ends in words"),
         VALUES("half_extents", "number", "m, half the size along x, y, z; 0: without bounds"),
         VALUE("radius", "number", "m; 0: it has none"),
-        VALUE("tip_radius", "number", "m, of a rod's ends; null: flat"),
+        VALUE("tip_radius", "number", "m, of a rod's or a beam's caps; null: flat ends of a rod"),
         VALUES("supports", "string", "at -x and +x: free, pinned or clamped"),
         VALUES("inertia", "number", "kg m^2, diagonal about the centre of mass"),
         VALUES("products", "number", "kg m^2, elements yz, zx, xy"),

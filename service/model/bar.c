@@ -33,6 +33,34 @@ int bar_round_faces(const struct body *body, double tip_radius, const double p[3
     return 3;
 }
 
+enum percuss_status bar_check_tips(const struct body *body, struct fault *fault)
+{
+    if (body->tip_radius >= body->radius)
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "tip_radius: %.9g: must be at least radius (%.9g m); absent: flat ends",
+                     body->tip_radius, body->radius);
+}
+
+/* tip - sqrt(tip^2 - r^2), without the difference of large numbers. */
+static double cap_height(const struct body *body)
+{
+    double r = body->radius, tip = body->tip_radius;
+    return isfinite(tip) ? r * r / (tip + sqrt(tip * tip - r * r)) : 0.0;
+}
+
+/* Of a cap of height h: pi h (3 r^2 + h^2) / 6. */
+double bar_cap_loss(const struct body *body)
+{
+    double h = cap_height(body), ratio = h > 0.0 ? h / body->radius : 0.0;
+    return h * (0.5 - ratio * ratio / 6.0);
+}
+
+double bar_cap_section(const struct body *body, const struct site *site)
+{
+    return copysign(0.5 * body->length - cap_height(body), site->point[0]);
+}
+
 const char *bar_why_not(const struct body *body, const struct site *site)
 {
     if (site->face == SITE_END && body->supports[site->point[0] > 0.0] != SUPPORT_FREE)
@@ -42,7 +70,7 @@ const char *bar_why_not(const struct body *body, const struct site *site)
 
 double bar_place(const struct body *body, const struct site *site)
 {
-    double half = 0.5 * body->length;
+    double half = 0.5 * body->span;
     return site->face == SITE_END ? copysign(half, site->point[0])
                                   : fmax(-half, fmin(half, site->point[0]));
 }

@@ -22,6 +22,16 @@ void bar_complete_round(struct body *body);
 int bar_round_faces(const struct body *body, double tip_radius, const double p[3],
                     struct face *faces);
 
+/* Caps that cover the ends, or none: a smaller one would leave the face's rim beside it. PERCUSS_OK
+ * or PERCUSS_BAD_REQUEST. */
+enum percuss_status bar_check_tips(const struct body *body, struct fault *fault);
+
+/* By how much a bar of a full section and the same volume is shorter at an end with a cap, m. */
+double bar_cap_loss(const struct body *body);
+
+/* Where along x a cap, or a flat end, stands on the bar of a full section. */
+double bar_cap_section(const struct body *body, const struct site *site);
+
 /* Why a site on a held end has no model; NULL: it is none. */
 const char *bar_why_not(const struct body *body, const struct site *site);
 

@@ -25,7 +25,7 @@ struct beam_plane beam_plane_of(const struct body *body, int plane)
                        ? body->shear_factor[plane] * material_shear_modulus(material) * body->area
                        : INFINITY;
     return (struct beam_plane){
-        .length = body->length,
+        .length = body->span,
         .bending_stiffness = material->young * body->second_moment[plane],
         .shear_stiffness = shear,
         .line_mass = material->density * body->area,

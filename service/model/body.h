@@ -52,6 +52,8 @@ struct body {
     double inertia[3];       /* about the centre of mass; a Timoshenko beam's M(L^2/12 + r^2/4) */
     double products[3];      /* mesh: yz, zx, xy of the same tensor */
     double area;             /* rod, beam: of the section */
+    double span;             /* rod, beam: length of the uniform bar whose waves are the body's:
+                              * one with caps has their mass */
     double second_moment[2]; /* beam: of the section for bending along y, along z */
     double torsion_constant, warping_constant; /* beam: of the section, m^4, m^6 */
     double shear_factor[2]; /* beam: for bending along y, along z; NAN for Euler-Bernoulli */

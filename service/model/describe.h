@@ -7,7 +7,8 @@
 
 struct body_description {
     double half_extents[3]; /* along x, y, z, m; 0: without bounds */
-    double tip_radius;      /* rod: of its ends, INFINITY where they are flat; others: 0 */
+    double tip_radius; /* rod, beam with caps: of its ends, INFINITY where a rod's are flat; others:
+                          0 */
     char text[256];
 };
 

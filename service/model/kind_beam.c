@@ -36,6 +36,8 @@ static const struct key keys[] = {
      KEY_SAYS("radius stands instead", "a rectangular section")},
     {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length),
      KEY_SAYS(NULL, "along its axis, which is x")},
+    {"tip_radius", KEY_NUMBER, &limit_length, KEY_OF(body, tip_radius), .absent = INFINITY,
+     KEY_SAYS("flat ends", "of round caps on the ends of a round section; at least radius")},
     {"theory", KEY_WORD, KEY_OF(body, theory), KEY_WORDS(theories),
      KEY_SAYS("timoshenko",
               "theory of its bending: with shear and rotation of the section, or without")},
@@ -65,7 +67,11 @@ static enum percuss_status check(const struct body *body, struct fault *fault)
                          "section: %.9g x %.9g: must be absent beside radius (%.9g m)", body->width,
                          body->height, body->radius);
     if (is_round(body))
-        return PERCUSS_OK;
+        return bar_check_tips(body, fault);
+    if (isfinite(body->tip_radius))
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "tip_radius: %.9g: must be absent beside section: caps are of a round one",
+                         body->tip_radius);
     enum percuss_status status = limit_check(&limit_length, "section.width", body->width, fault);
     return status ? status : limit_check(&limit_length, "section.height", body->height, fault);
 }
@@ -74,7 +80,8 @@ static enum percuss_status check(const struct body *body, struct fault *fault)
  * goes with deflection along z. */
 static void complete_section(struct body *body)
 {
-    double length = body->length;
+    body->span = body->length - 2.0 * bar_cap_loss(body);
+    double length = body->span;
     double *second = body->second_moment;
     /* the section */
     if (is_round(body)) {
@@ -168,15 +175,15 @@ static enum percuss_status complete(struct body *body, struct fault *fault)
 
 static double smallest_radius(const struct body *body)
 {
-    return fmin(is_round(body) ? body->radius : 0.5 * fmin(body->width, body->height),
-                0.5 * body->length);
+    double across = is_round(body) ? body->radius : 0.5 * fmin(body->width, body->height);
+    return fmin(fmin(across, body->tip_radius), 0.5 * body->length);
 }
 
 static int find_faces(const struct body *body, const double p[3], struct face *faces)
 {
     const double half[3] = {0.5 * body->length, 0.5 * body->width, 0.5 * body->height};
-    int count =
-        is_round(body) ? bar_round_faces(body, INFINITY, p, faces) : face_box(half, p, faces);
+    int count = is_round(body) ? bar_round_faces(body, body->tip_radius, p, faces)
+                               : face_box(half, p, faces);
     for (int i = 0; i < count; i++)
         faces[i].kind = i < 2 ? SITE_END : SITE_BEAM_SIDE;
     return count;
@@ -189,23 +196,27 @@ static const struct mode_family *const families[] = {
     [BAR_TWIST] = &beam_twist_family,
 };
 
-/* A section turning by psi moves a point at the height y by -psi y along the axis. A hit on the
- * side of a rectangular section twists it about the axis; without friction one on a round section
- * or on an end face does not. */
+/* A section turning by psi moves a point at the height y and by x in front of it by -psi y along
+ * the axis and by psi x across it: so a cap's force acts on the section that the cap stands on,
+ * with its lever. A hit on the side of a rectangular section twists it about the axis; without
+ * friction one on a round section or on an end does not. */
 static void load_families(const struct body *body, const struct site *site,
                           const double direction[3], struct site_load *load)
 {
     bool on_end = site->face == SITE_END;
     double x = bar_place(body, site);
+    double at = on_end ? bar_cap_section(body, site) : x;
     const double *point = site->point;
     /* along the axis */
     bar_load_along(body, site, direction, &load->family[BAR_LONGITUDINAL]);
     /* across it, in both planes */
     for (int plane = 0; plane < 2; plane++) {
         struct family_load *bending = &load->family[BAR_BENDING_Y + plane];
-        bending->bar.x = x;
+        bending->bar.x = at;
         bending->bar.force = direction[1 + plane];
-        bending->bar.moment = on_end ? -point[1 + plane] * direction[0] : 0.0;
+        if (on_end)
+            bending->bar.moment =
+                (point[0] - at) * direction[1 + plane] - point[1 + plane] * direction[0];
         bar_load_settle(body, bending);
     }
     /* about it */
@@ -235,6 +246,10 @@ static void describe(const struct body *body, struct body_description *descripti
     if (is_round(body)) {
         describe_extents(description, 0.5 * body->length, body->radius, body->radius);
         describe_add(description, "radius %g m", body->radius);
+        if (isfinite(body->tip_radius)) {
+            description->tip_radius = body->tip_radius;
+            describe_add(description, "tip radius %g m", body->tip_radius);
+        }
     } else {
         describe_extents(description, 0.5 * body->length, 0.5 * body->width, 0.5 * body->height);
         describe_add(description, "section %g m x %g m", body->width, body->height);

@@ -33,21 +33,12 @@ static const struct mode_family *const families[] = {
     [BAR_LONGITUDINAL] = &longitudinal_family,
 };
 
-/* A smaller tip would not cover the face: its rim would stand beside the cap. */
-static enum percuss_status check(const struct body *body, struct fault *fault)
-{
-    if (body->tip_radius >= body->radius)
-        return PERCUSS_OK;
-    return fault_set(fault, PERCUSS_BAD_REQUEST,
-                     "tip_radius: %.9g: must be at least radius (%.9g m); absent: flat ends",
-                     body->tip_radius, body->radius);
-}
-
 static enum percuss_status complete(struct body *body, struct fault *fault)
 {
     (void)fault;
     bar_complete_round(body);
     body->area = M_PI * body->radius * body->radius;
+    body->span = body->length;
     return PERCUSS_OK;
 }
 
@@ -70,7 +61,7 @@ static const char *why_not(const struct body *body, const struct site *site)
                "shape: beam";
     if (hypot(site->point[1], site->point[2]) > 0.1 * body->radius)
         return "a hit beside the axis bends it (more than 10 % of the radius), and a rod has "
-               "longitudinal waves only: declare it as shape: beam";
+               "longitudinal waves only: declare it as shape: beam, which takes tip_radius too";
     return bar_why_not(body, site);
 }
 
@@ -113,7 +104,7 @@ const struct body_kind rod_kind = {
     .name = "rod",
     .keys = keys,
     .key_count = sizeof keys / sizeof *keys,
-    .check = check,
+    .check = bar_check_tips,
     .complete = complete,
     .smallest_radius = smallest_radius,
     .faces = find_faces,

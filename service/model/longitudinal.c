@@ -17,7 +17,7 @@ static int held_ends(const struct body *body)
 static double wave_number_of(const struct body *body, size_t k)
 {
     double half_waves = held_ends(body) == 1 ? (double)k + 0.5 : (double)k + 1.0;
-    return half_waves * M_PI / body->length;
+    return half_waves * M_PI / body->span;
 }
 
 /* Lateral inertia: kinetic energy grows by this share, (nu r_p k)^2 with the polar radius of
@@ -67,7 +67,7 @@ static double compliance(const struct body *body, size_t family, const struct fa
                          const struct family_load *j)
 {
     (void)family;
-    double full = body->length / (body->material.young * body->area);
+    double full = body->span / (body->material.young * body->area);
     double share = 1.0;
     if (held_ends(body) == 0)
         share = is_right(i) == is_right(j) ? 1.0 / 3.0 : -1.0 / 6.0;

@@ -32,9 +32,12 @@ bool roll_choose(const struct body *body, const struct site_load *load, struct r
     if (!y->acts && !z->acts)
         return false;
 
-    /* the plane of a force on the side, or of the moment of one beside the axis of an end */
+    /* the plane of a force on the side or on a cap, whose moment may be rounding, or of the moment
+     * of one beside the axis of an end */
     double moment = hypot(y->bar.moment, z->bar.moment);
     double force = hypot(y->bar.force, z->bar.force);
+    if (moment <= NEGLIGIBLE * force * body_smallest_radius(body))
+        moment = 0.0;
     double along_y = moment > 0.0 ? y->bar.moment / moment : y->bar.force / force;
     double along_z = moment > 0.0 ? z->bar.moment / moment : z->bar.force / force;
     /* turned by as little as puts the second family there */

@@ -54,7 +54,7 @@ static struct bar bar_of(const struct body *body)
     int held = (body->supports[0] != SUPPORT_FREE) + (body->supports[1] != SUPPORT_FREE);
     double polar = body->second_moment[0] + body->second_moment[1];
     return (struct bar){
-        .length = held == 1 ? 2.0 * body->length : body->length,
+        .length = held == 1 ? 2.0 * body->span : body->span,
         .stiffness = material_shear_modulus(&body->material) * body->torsion_constant,
         .inertia = body->material.density * polar,
         .warping_stiffness = body->material.young * gamma,
@@ -186,7 +186,7 @@ double torsion_shape(const struct body *body, size_t k, double omega, double x)
     struct bar bar = bar_of(body);
     bool odd = is_odd_class(&bar, k);
     if (bar.held == 1) /* from the held end; the double bar has half the amplitude squared */
-        x = body->supports[0] == SUPPORT_FREE ? 0.5 * body->length - x : x + 0.5 * body->length;
+        x = body->supports[0] == SUPPORT_FREE ? 0.5 * body->span - x : x + 0.5 * body->span;
     if (bar.held == 2 || bar.warping_stiffness == 0.0) {
         double beta = half_waves(&bar, k) * M_PI / bar.length;
         double mass = 0.5 * bar.length * (bar.inertia + bar.warping_inertia * beta * beta);
@@ -245,7 +245,7 @@ static double free_share(const struct bar *bar, double i, double j)
 double torsion_compliance(const struct body *body, double x_i, double x_j)
 {
     struct bar bar = bar_of(body);
-    double half = 0.5 * body->length, share;
+    double half = 0.5 * body->span, share;
     double lambda = sqrt(bar.warping_stiffness / bar.stiffness);
     if (bar.held == 2) {
         double low = fmin(x_i, x_j) + half, high = half - fmax(x_i, x_j);

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "impact/tangent_group.h"
+#include "solve/askew.h"
 #include "solve/contact_model.h"
 #include "solve/fewer.h"
 #include "solve/loss.h"
@@ -58,7 +59,8 @@ static double single(const struct model_margin *margin)
         double flow = margin->deviation[c].yield *
                       outcome_rebound(margin->problem, &margin->solution->outcome, c);
         double ringing = model_deviation_ringing(margin->problem, c, &margin->blow[c]);
-        largest = fmax(largest, hypot(hypot(spring, flow), ringing));
+        double bent = askew_loss(margin->problem, c, margin->blow[c].duration);
+        largest = fmax(largest, hypot(hypot(spring, flow), ringing) + bent);
     }
     return largest + validity_wave_loss(margin->problem);
 }

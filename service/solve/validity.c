@@ -8,9 +8,11 @@
 
 #include "model/rigid.h"
 #include "model/vector.h"
+#include "solve/askew.h"
 #include "solve/contact_model.h"
 #include "solve/law_error.h"
 #include "solve/loss.h"
+#include "solve/model_deviation.h"
 #include "solve/outcome.h"
 
 /* Contact or dent against the smallest radius: surfaces are no longer parabolas there. */
@@ -265,6 +267,7 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     find_place(problem, outcome, c, axes[0], warnings);
     find_sliding(problem, outcome, c, approach, warnings);
     loss_find(problem, c, outcome_rebound(problem, outcome, c), warnings);
+    askew_find(problem, c, model_blow_of(problem, outcome, c).duration, warnings);
 }
 
 static void find_delassus(const struct problem *problem, struct warnings *warnings)

@@ -23,7 +23,8 @@ enum warning_kind {
     WARNING_LAW,
     WARNING_LOSS,
     WARNING_WAVES = 18,
-    WARNING_KINDS
+    WARNING_BENDING,
+    WARNING_KINDS = 21
 };
 _Static_assert(WARNING_KINDS <= 32, "a set of kinds is 32 bits");
 

@@ -38,6 +38,11 @@ static void refuses_impossible_sizes(void **state)
         {"  r: {shape: rod, material: steel, radius: 0.01, length: 0}", "bodies.r.length: 0"},
         {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, tip_radius: 0.005}",
          "bodies.r.tip_radius: 0.005: must be at least radius (0.01 m)"},
+        {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, tip_radius: 0.005}",
+         "bodies.b.tip_radius: 0.005: must be at least radius (0.01 m)"},
+        {"  b: {shape: beam, material: steel, section: {width: 0.01, height: 0.01}, length: 1, "
+         "tip_radius: 0.02}",
+         "bodies.b.tip_radius: 0.02: must be absent beside section: caps are of a round one"},
         {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, damping: 1}",
          "bodies.r.damping: 1: must be a ratio >= 0 and < 1"},
         {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, damping: [0.1, 0.2]}",
@@ -131,9 +136,9 @@ static void refuses_unknown_words(void **state)
          "bodies.s: colour: unknown key; the keys of sphere are shape, material, radius"},
         {"  s: {shape: sphere, material: steel, radius: 1, damping: 0.1}",
          "damping: unknown key; the keys of sphere are"},
-        {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, tip_radius: 1}",
-         "tip_radius: unknown key; the keys of beam are shape, material, radius, section, length, "
-         "theory, shear_factor, ends, damping, modes"},
+        {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, tips: 1}",
+         "tips: unknown key; the keys of beam are shape, material, radius, section, length, "
+         "tip_radius, theory, shear_factor, ends, damping, modes"},
         {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, ends: loose}",
          "bodies.b.ends: loose: must be one of free, pinned, clamped, or a list of two"},
         {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, ends: [free]}",

@@ -18,6 +18,7 @@ static struct body strip(double width, double height, enum support left, enum su
         .width = width,
         .height = height,
         .length = 0.3,
+        .tip_radius = INFINITY,
         .supports = {left, right},
     };
     assert_int_equal(body_complete(&body, NULL), PERCUSS_OK);
@@ -167,7 +168,8 @@ static void blows_beside_the_axis_twist(void **state)
     assert_true(load.family[BAR_TWIST].acts && load.family[BAR_BENDING_Z].acts);
     near(load.family[BAR_TWIST].bar.moment, -0.005, 1e-18);
     assert_false(beside(&body, 0.05, 0.0).family[BAR_TWIST].acts);
-    struct body round = {.id = "round", .material = body.material, .kind = &beam_kind};
+    struct body round = {
+        .id = "round", .material = body.material, .kind = &beam_kind, .tip_radius = INFINITY};
     round.radius = 0.01;
     round.length = 0.3;
     assert_int_equal(body_complete(&round, NULL), PERCUSS_OK);
