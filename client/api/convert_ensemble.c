@@ -15,6 +15,10 @@ static enum percuss_result convert_input(const struct percuss_input *from, size_
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "inputs[%zu]: name or body is not terminated; up to %d bytes are allowed",
                          index, PERCUSS_ID_SIZE - 1);
+    if (from->value_count > 0 && !from->values)
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                         "inputs[%zu].values: NULL: %zu numbers are needed", index,
+                         from->value_count);
     *to = (percuss_v1_EnsembleInput){0};
     PERCUSS_INPUT_FIELDS(PERCUSS_COPY, PERCUSS_NONE)
     /* writing only reads it */

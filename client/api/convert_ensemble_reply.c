@@ -74,6 +74,8 @@ enum percuss_result convert_ensemble_reply(const percuss_v1_EnsembleReply *from,
 
 void percuss_ensemble_reply_free(struct percuss_ensemble_reply *reply)
 {
+    if (!reply)
+        return;
     storage_free(reply->storage);
     free(reply->rows);
     *reply = (struct percuss_ensemble_reply){0};

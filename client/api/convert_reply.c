@@ -31,6 +31,8 @@ enum percuss_result convert_reply(const percuss_v1_Reply *from, struct percuss_r
 
 void percuss_reply_free(struct percuss_reply *reply)
 {
+    if (!reply)
+        return;
     storage_free(reply->storage);
     *reply = (struct percuss_reply){0};
 }

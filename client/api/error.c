@@ -21,6 +21,13 @@ enum percuss_result error_set(enum percuss_result result, const char *format, ..
     return result;
 }
 
+enum percuss_result error_null(struct missing missing)
+{
+    return missing.name
+               ? error_set(PERCUSS_RESULT_INVALID_ARGUMENT, MISSING_FORMAT, MISSING_TEXT(missing))
+               : PERCUSS_RESULT_OK;
+}
+
 void error_copy(const char *text)
 {
     snprintf(error_text, sizeof error_text, "%s", text);

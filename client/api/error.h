@@ -6,10 +6,16 @@
 
 #include <percuss/result.h>
 
+#include "missing.h"
+
 /* Keeps the text for percuss_error_text of this thread and returns `result`. That of NO_MEMORY
  * begins with "out of memory: ", so that it only has to say for what. */
 enum percuss_result error_set(enum percuss_result result, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+
+/* INVALID_ARGUMENT, with its name in the text, where one of these pointers is NULL; else OK. */
+#define ERROR_NULL(...) error_null(MISSING(__VA_ARGS__))
+enum percuss_result error_null(struct missing missing);
 
 /* Takes over the text of another library's copy of this module. */
 void error_copy(const char *text);

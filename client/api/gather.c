@@ -114,7 +114,9 @@ void gather_clear(struct gather *gather)
 
 void percuss_trace_free(struct percuss_trace *trace)
 {
-    for (size_t c = 0; c < trace->contact_count; c++)
+    if (!trace)
+        return;
+    for (size_t c = 0; trace->contacts && c < trace->contact_count; c++)
         free(trace->contacts[c].time);
     free(trace->contacts);
     *trace = (struct percuss_trace){0};

@@ -7,11 +7,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error.h"
+#include "similar.h"
+
 const struct percuss_body *percuss_body_find(const struct percuss_body_list *list, const char *id)
 {
+    if (ERROR_NULL(list, id) || (list->count > 0 && ERROR_NULL(list->bodies)))
+        return NULL;
     for (size_t i = 0; i < list->count; i++)
         if (!strcmp(list->bodies[i].id, id))
             return &list->bodies[i];
+    /* a slip of the fingers */
+    const struct percuss_body *nearest = similar_body(list, id);
+    error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "id: '%.63s': no such body among %zu%s%s%s", id,
+              list->count, nearest ? "; did you mean '" : "", nearest ? nearest->id : "",
+              nearest ? "'?" : "");
     return NULL;
 }
 
@@ -27,7 +37,7 @@ void percuss_server_list_free(struct percuss_server_list *list)
 {
     if (!list)
         return;
-    for (size_t i = 0; i < list->count; i++)
+    for (size_t i = 0; list->servers && i < list->count; i++)
         free(list->servers[i].tasks);
     free(list->servers);
     *list = (struct percuss_server_list){0};
@@ -37,7 +47,7 @@ void percuss_specimen_list_free(struct percuss_specimen_list *list)
 {
     if (!list)
         return;
-    for (size_t i = 0; i < list->count; i++)
+    for (size_t i = 0; list->specimens && i < list->count; i++)
         free(list->specimens[i].dents);
     free(list->specimens);
     *list = (struct percuss_specimen_list){0};

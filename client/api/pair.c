@@ -153,6 +153,11 @@ static bool both_beams(const struct percuss_pair *pair)
 
 static enum percuss_result check_pair(const struct percuss_pair *pair)
 {
+    if (!pair->a || !pair->b)
+        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                         "pair.%c: NULL: a body is needed; percuss_body_find returns NULL for an "
+                         "id that its list has not",
+                         pair->a ? 'b' : 'a');
     if (!(pair->speed > 0.0) || !isfinite(pair->speed))
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
                          "speed: %g: a finite number of m/s > 0 is needed", pair->speed);
@@ -180,6 +185,8 @@ enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
                                          struct percuss_request *request)
 {
     struct site site_a, site_b;
+    if (ERROR_NULL(pair, request))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
     /* where each of them is hit, in its own axes */
     enum percuss_result result = check_pair(pair);
     if (result == PERCUSS_RESULT_OK)

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <percuss/slow_link.h>
 
+#include "error.h"
 #include "moment.h"
 
 static const double BUSY_INTERVAL = 0.02; /* s until a busy server is asked again */
@@ -28,6 +29,8 @@ static enum percuss_result ask(void *context, const struct percuss_request *ques
                                struct percuss_reply *reply)
 {
     struct percuss_slow_link *link = context;
+    if (ERROR_NULL(link, question, reply))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
     struct percuss_request request = *question;
     enum percuss_result result;
     double deadline;

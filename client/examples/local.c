@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* What happens when the steel sphere hits the end of the aluminium rod? Asked of the solver in this
- * process: no percussd is needed. The catalogue may be the argument. */
+ * process: no percussd is needed. Arguments: a catalogue, and the bodies' names there. */
 
 #include <percuss/local.h>
 #include <stdio.h>
@@ -15,6 +15,15 @@ static void check(enum percuss_result result)
         return;
     fprintf(stderr, "%s: %s\n", percuss_result_text(result), percuss_error_text());
     exit(EXIT_FAILURE);
+}
+
+/* A name that the catalogue does not have: NULL, and the text says which one is similar. */
+static const struct percuss_body *find(const struct percuss_body_list *bodies, const char *id)
+{
+    const struct percuss_body *body = percuss_body_find(bodies, id);
+    if (!body)
+        check(PERCUSS_RESULT_INVALID_ARGUMENT);
+    return body;
 }
 
 int main(int argc, char **argv)
@@ -30,8 +39,9 @@ int main(int argc, char **argv)
     check(percuss_bodies(client, 1.0, &bodies));
 
     /* from here on all is as with a server */
-    struct percuss_pair pair = percuss_pair_default(percuss_body_find(&bodies, "steel-sphere"),
-                                                    percuss_body_find(&bodies, "al-rod"));
+    struct percuss_pair pair =
+        percuss_pair_default(find(&bodies, argc > 2 ? argv[2] : "steel-sphere"),
+                             find(&bodies, argc > 3 ? argv[3] : "al-rod"));
     for (pair.speed = 0.1; pair.speed < 0.45; pair.speed += 0.1) {
         check(percuss_contact_pair(&pair, &request));
         check(percuss_solve(client, &request, 10.0, &reply));

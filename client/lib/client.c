@@ -281,6 +281,8 @@ enum percuss_result percuss_client_create_in(const struct percuss_client_config 
                                              const char *partition, const char *security,
                                              struct percuss_client **client)
 {
+    if (ERROR_NULL(client))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
     struct percuss_client_config chosen = config ? *config : percuss_client_config_default();
     const char *identity = security ? security : environment_security();
     const char *among = partition ? partition : environment_partition();

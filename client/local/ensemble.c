@@ -77,7 +77,7 @@ static enum percuss_status table_is_wanted(void *context, const struct table_mak
 }
 
 /* By whoever the caller knows. */
-static void share(void *context, struct ensemble_run *run, const struct ensemble_range *range)
+static void have_shared(void *context, struct ensemble_run *run, const struct ensemble_range *range)
 {
     struct watcher *watcher = context;
     sharing_ask(watcher->share, watcher->context, run, range);
@@ -95,7 +95,7 @@ static struct answer *run(struct percuss_client *client, const percuss_v1_Ensemb
         .wish = wish,
         .progress = tell,
         .list = list,
-        .share = watcher->share ? share : NULL,
+        .share = watcher->share ? have_shared : NULL,
         .context = watcher,
     };
     const struct ensemble_question question = {
@@ -167,17 +167,20 @@ enum percuss_result local_solve_ensemble(struct percuss_client *client,
 
 enum percuss_result percuss_solve_ensemble_shared(struct percuss_client *client,
                                                   const struct percuss_ensemble_request *request,
-                                                  percuss_share_function *sharer,
+                                                  percuss_share_function *share,
                                                   percuss_progress_function *progress,
                                                   void *context,
                                                   struct percuss_ensemble_reply *reply)
 {
-    struct watcher watcher = {.function = progress, .context = context, .share = sharer};
-    enum percuss_result result = sharing_check(client);
-    if (result == PERCUSS_RESULT_OK && sharer)
+    struct watcher watcher = {.function = progress, .context = context, .share = share};
+    enum percuss_result result = ERROR_NULL(client, request, reply);
+    if (result == PERCUSS_RESULT_OK)
+        result = sharing_check(client);
+    if (result == PERCUSS_RESULT_OK && !share)
+        result = error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "share: NULL: a function is needed");
+    if (result == PERCUSS_RESULT_OK)
         return ask(client, request, &watcher, reply);
-    *reply = (struct percuss_ensemble_reply){0};
-    return result == PERCUSS_RESULT_OK
-               ? error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "share: NULL: a function is needed")
-               : result;
+    if (reply)
+        *reply = (struct percuss_ensemble_reply){0};
+    return result;
 }

@@ -117,6 +117,8 @@ static enum percuss_result load(struct percuss_client *client, bool installed)
 enum percuss_result percuss_local_open(const struct percuss_local_config *config,
                                        struct percuss_client **client)
 {
+    if (ERROR_NULL(client))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
     struct percuss_local_config chosen = config ? *config : percuss_local_config_default();
     *client = NULL;
     if (chosen.first_sequence == 0)

@@ -55,6 +55,8 @@ static size_t item_size(bool extras)
 
 size_t percuss_ensemble_part_size(const struct percuss_ensemble_range *range)
 {
+    if (ERROR_NULL(range))
+        return 0;
     return sizeof(struct part_head) + range->count * item_size(range->extras);
 }
 
@@ -97,8 +99,11 @@ enum percuss_result percuss_ensemble_worker_create(struct percuss_client *client
                                                    const struct percuss_ensemble_request *request,
                                                    struct percuss_ensemble_worker **worker)
 {
-    *worker = NULL;
-    enum percuss_result result = sharing_check(client);
+    if (worker)
+        *worker = NULL;
+    enum percuss_result result = ERROR_NULL(client, request, worker);
+    if (result == PERCUSS_RESULT_OK)
+        result = sharing_check(client);
     if (result != PERCUSS_RESULT_OK)
         return result;
     struct percuss_ensemble_worker *created = calloc(1, sizeof *created);
@@ -141,6 +146,8 @@ enum percuss_result percuss_ensemble_worker_solve(struct percuss_ensemble_worker
                                                   const struct percuss_ensemble_range *range,
                                                   void *part)
 {
+    if (ERROR_NULL(worker, range, part))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
     uint64_t items = ensemble_part_items(worker->part, range->extras, range->done);
     if (range->first > items || range->count > items - range->first)
         return error_set(PERCUSS_RESULT_INVALID_ARGUMENT,
@@ -174,6 +181,8 @@ enum percuss_result percuss_ensemble_take(struct percuss_ensemble_sharing *shari
                                           const void *part, size_t size)
 {
     struct part_head head;
+    if (ERROR_NULL(sharing, part))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
     if (size < sizeof head)
         return refuse("too short");
     memcpy(&head, part, sizeof head);

@@ -7,9 +7,12 @@
 #include <stdlib.h>
 
 #include "numeric/lcp.h"
+#include "slow.h"
 
 double percuss_slow_force_centre(const struct percuss_sub_impact *sub)
 {
+    if (SLOW_NULL(sub))
+        return NAN;
     double before = sub->compression_impulse * (sub->compression_end - sub->start);
     double after = (sub->impulse - sub->compression_impulse) * (sub->end - sub->compression_end);
     double shift = sub->impulse > 0.0 ? 0.326 * (after - before) / sub->impulse : 0.0;
@@ -18,6 +21,8 @@ double percuss_slow_force_centre(const struct percuss_sub_impact *sub)
 
 bool percuss_slow_compression(size_t n, const double *W, const double *gap_rate, double *impulse)
 {
+    if (n > 0 && SLOW_NULL(W, gap_rate, impulse))
+        return false;
     if (n != 1)
         return lcp_solve(n, W, gap_rate, impulse) == LCP_SOLVED;
     impulse[0] = gap_rate[0] < 0.0 ? -gap_rate[0] / W[0] : 0.0;
@@ -27,6 +32,8 @@ bool percuss_slow_compression(size_t n, const double *W, const double *gap_rate,
 void percuss_slow_gap_rate_after(size_t n, const double *W, const double *gap_rate,
                                  const double *impulse, double *after)
 {
+    if (n > 0 && SLOW_NULL(W, gap_rate, impulse, after))
+        return;
     for (size_t i = 0; i < n; i++) {
         after[i] = gap_rate[i];
         for (size_t j = 0; j < n; j++)
@@ -53,6 +60,8 @@ static bool expand(size_t n, const double *W, const double *middle, double *expa
 bool percuss_slow_poisson(size_t n, const double *W, const double *gap_rate,
                           const double *restitution, struct percuss_slow_outcome *outcome)
 {
+    if (n > 0 && (SLOW_NULL(W, gap_rate, restitution, outcome) || SLOW_NULL(outcome->impulse)))
+        return false;
     double *scratch = calloc(4 * n, sizeof *scratch);
     if (!scratch)
         return false;
@@ -81,6 +90,8 @@ bool percuss_slow_poisson(size_t n, const double *W, const double *gap_rate,
 bool percuss_slow_restitution(size_t n, const double *W, const double *gap_rate,
                               const double *impulse, double *restitution)
 {
+    if (n > 0 && SLOW_NULL(W, gap_rate, impulse, restitution))
+        return false;
     double *compression = calloc(n, sizeof *compression);
     bool good = compression && percuss_slow_compression(n, W, gap_rate, compression);
     for (size_t i = 0; good && i < n; i++)

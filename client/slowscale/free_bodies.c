@@ -5,6 +5,8 @@
 #include <math.h>
 #include <percuss/slow_equations.h>
 
+#include "slow.h"
+
 static void cross(const double a[3], const double b[3], double c[3])
 {
     c[0] = a[1] * b[2] - a[2] * b[1];
@@ -72,6 +74,8 @@ static double rate_at(const double position[3], const double velocity[3], const 
 void percuss_slow_gap_rates(const struct percuss_body_motion *bodies, size_t count,
                             const struct percuss_slow_contact *contacts, double *gap_rate)
 {
+    if (count > 0 && SLOW_NULL(bodies, contacts, gap_rate))
+        return;
     for (size_t i = 0; i < count; i++) {
         const struct percuss_body_motion *a = &bodies[contacts[i].a];
         const struct percuss_body_motion *b = &bodies[contacts[i].b];
@@ -95,6 +99,8 @@ void percuss_slow_free_delassus(const struct percuss_body_motion *bodies,
                                 const struct percuss_slow_inertia *inertias, size_t count,
                                 const struct percuss_slow_contact *contacts, double *delassus)
 {
+    if (count > 0 && SLOW_NULL(bodies, inertias, contacts, delassus))
+        return;
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j <= i; j++) {
             const struct percuss_slow_contact *x = &contacts[i];
@@ -112,6 +118,8 @@ void percuss_slow_free_apply(struct percuss_body_motion *bodies,
                              const struct percuss_slow_inertia *inertias,
                              const struct percuss_slow_contact *contact, double impulse)
 {
+    if (SLOW_NULL(bodies, inertias, contact))
+        return;
     for (int side = 0; side < 2; side++) {
         uint32_t body = side == 0 ? contact->a : contact->b;
         double velocity[3], turning[3];
@@ -141,6 +149,8 @@ void percuss_slow_free_move(struct percuss_body_motion *bodies,
                             const struct percuss_slow_inertia *inertias,
                             const struct percuss_slow_contact *contact, double moment)
 {
+    if (SLOW_NULL(bodies, inertias, contact))
+        return;
     for (int side = 0; side < 2; side++) {
         uint32_t body = side == 0 ? contact->a : contact->b;
         double signed_moment = side == 0 ? moment : -moment;

@@ -150,6 +150,8 @@ void pairs_settle(struct percuss_slow *slow, double now)
 
 bool percuss_slow_rests(const struct percuss_slow *slow, uint32_t a, uint32_t b, uint32_t feature)
 {
+    if (SLOW_NULL(slow))
+        return false;
     struct percuss_slow_contact key = {.a = a, .b = b, .feature = feature};
     const struct pair *pair = pairs_find(slow, &key);
     return pair && pair->rests;

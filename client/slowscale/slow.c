@@ -18,6 +18,13 @@ enum percuss_result slow_fail(enum percuss_result result, const char *format, ..
     return result;
 }
 
+enum percuss_result slow_null(struct missing missing)
+{
+    return missing.name
+               ? slow_fail(PERCUSS_RESULT_INVALID_ARGUMENT, MISSING_FORMAT, MISSING_TEXT(missing))
+               : PERCUSS_RESULT_OK;
+}
+
 enum percuss_result slow_no_memory(void)
 {
     return slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for an impact");

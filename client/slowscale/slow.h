@@ -7,6 +7,8 @@
 
 #include <percuss/slowscale.h>
 
+#include "missing.h"
+
 enum latch {
     LATCH_ARMED,
     LATCH_PLAYING, /* until the last sub-impact */
@@ -77,6 +79,10 @@ static inline bool slow_has_come(double time, double now)
 {
     return time <= now + SLOW_INSTANT;
 }
+
+/* INVALID_ARGUMENT, with its name in the text, where one of these pointers is NULL; else OK. */
+#define SLOW_NULL(...) slow_null(MISSING(__VA_ARGS__))
+enum percuss_result slow_null(struct missing missing);
 
 enum percuss_result slow_no_memory(void);
 enum percuss_result slow_fail(enum percuss_result result, const char *format, ...)

@@ -50,29 +50,32 @@ static enum percuss_result check(const struct percuss_slow_config *config)
 }
 
 enum percuss_result percuss_slow_create(const struct percuss_slow_config *config,
-                                        struct percuss_slow **result)
+                                        struct percuss_slow **slow)
 {
-    *result = NULL;
-    enum percuss_result checked = check(config);
-    if (checked)
-        return checked;
-    struct percuss_slow *slow = calloc(1, sizeof *slow);
-    if (slow) {
-        slow->config = *config;
-        slow->ids = calloc(config->body_count, sizeof *slow->ids);
-        slow->bodies = calloc(config->body_count, sizeof *slow->bodies);
-        slow->tokens = calloc(config->body_count, sizeof *slow->tokens);
+    if (slow)
+        *slow = NULL;
+    enum percuss_result result = SLOW_NULL(config, slow);
+    if (!result)
+        result = check(config);
+    if (result)
+        return result;
+    struct percuss_slow *made = calloc(1, sizeof *made);
+    if (made) {
+        made->config = *config;
+        made->ids = calloc(config->body_count, sizeof *made->ids);
+        made->bodies = calloc(config->body_count, sizeof *made->bodies);
+        made->tokens = calloc(config->body_count, sizeof *made->tokens);
     }
-    if (!slow || !slow->ids || !slow->bodies || !slow->tokens) {
-        percuss_slow_free(slow);
+    if (!made || !made->ids || !made->bodies || !made->tokens) {
+        percuss_slow_free(made);
         return slow_fail(PERCUSS_RESULT_NO_MEMORY, "no memory for %zu bodies", config->body_count);
     }
     for (size_t i = 0; i < config->body_count; i++) {
-        strcpy(slow->ids[i], config->bodies[i].id);
-        slow->bodies[i] = (struct percuss_slow_body){slow->ids[i], config->bodies[i].fixed};
+        strcpy(made->ids[i], config->bodies[i].id);
+        made->bodies[i] = (struct percuss_slow_body){made->ids[i], config->bodies[i].fixed};
     }
-    slow->config.bodies = slow->bodies;
-    *result = slow;
+    made->config.bodies = made->bodies;
+    *slow = made;
     return PERCUSS_RESULT_OK;
 }
 
@@ -90,12 +93,14 @@ void percuss_slow_free(struct percuss_slow *slow)
 
 struct percuss_slow_counts percuss_slow_counts(const struct percuss_slow *slow)
 {
-    return slow->counts;
+    return SLOW_NULL(slow) ? (struct percuss_slow_counts){0} : slow->counts;
 }
 
 double percuss_slow_next(const struct percuss_slow *slow)
 {
     double next = INFINITY;
+    if (SLOW_NULL(slow))
+        return next;
     for (const struct episode *episode = slow->episodes; episode; episode = episode->next)
         if (episode->played < episode->entry_count)
             next = fmin(next, episode->entries[episode->played].play);
@@ -140,6 +145,8 @@ static size_t first_due(const struct percuss_slow *slow, const struct group *gro
 bool percuss_slow_due(const struct percuss_slow *slow, size_t count,
                       const struct percuss_slow_contact *contacts)
 {
+    if (SLOW_NULL(slow) || (count > 0 && SLOW_NULL(contacts)))
+        return false;
     /* nothing that does not touch can be due: most trial states end here */
     bool touches = false;
     for (size_t i = 0; i < count; i++)
@@ -189,6 +196,8 @@ enum percuss_result percuss_slow_advance(struct percuss_slow *slow, size_t count
 {
     enum percuss_result result;
     size_t applied = 0;
+    if (SLOW_NULL(slow) || (count > 0 && SLOW_NULL(contacts)))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
     double now = slow->config.engine.now(slow->config.engine.context);
     struct group *group = look(slow, count, contacts, &result);
     if (!group)

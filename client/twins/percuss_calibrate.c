@@ -146,11 +146,15 @@ enum percuss_result percuss_measured_calibrate(const struct percuss_measured *me
                                                struct percuss_calibration *calibration)
 {
     struct report report;
+    if (calibration) {
+        calibration->warning_count = 0;
+        calibration->warnings = NULL;
+    }
+    if (REPORT_NULL(measured, question, calibration))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
     struct percuss_measured_question fine = *question;
     if (fine.options.tolerance == 0.0)
         fine.options.tolerance = FITTING_TOLERANCE;
-    calibration->warning_count = 0;
-    calibration->warnings = NULL;
     enum percuss_result result = report_check(question);
     if (result == PERCUSS_RESULT_OK)
         result = check(&question->pair, calibration);
@@ -165,6 +169,8 @@ enum percuss_result percuss_measured_calibrate(const struct percuss_measured *me
 
 void percuss_calibration_free(struct percuss_calibration *calibration)
 {
+    if (!calibration)
+        return;
     report_free_warnings(calibration->warning_count, calibration->warnings);
     calibration->warning_count = 0;
     calibration->warnings = NULL;

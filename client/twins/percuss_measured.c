@@ -31,7 +31,14 @@ enum percuss_result percuss_measured_read(const char *file, size_t column_count,
 {
     struct column_map map = {0};
     struct measured_fault fault;
-    *measured = NULL;
+    if (measured)
+        *measured = NULL;
+    if (REPORT_NULL(file, measured) || (column_count > 0 && REPORT_NULL(columns)))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
+    for (size_t i = 0; i < column_count; i++)
+        if (!columns[i])
+            return report_set(PERCUSS_RESULT_INVALID_ARGUMENT,
+                              "columns[%zu]: NULL: a pointer is needed", i);
     for (size_t i = 0; i < column_count; i++)
         if (!column_map_add(&map, columns[i], &fault))
             return report_set(PERCUSS_RESULT_INVALID_ARGUMENT, "columns[%zu]: %s", i, fault.text);
@@ -98,7 +105,10 @@ enum percuss_result percuss_measured_create(size_t count,
                                             const struct percuss_measured_impact *impacts,
                                             struct percuss_measured **measured)
 {
-    *measured = NULL;
+    if (measured)
+        *measured = NULL;
+    if (REPORT_NULL(measured) || (count > 0 && REPORT_NULL(impacts)))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
     if (count == 0)
         return report_set(PERCUSS_RESULT_INVALID_ARGUMENT, "impacts: none: at least one is needed");
     struct percuss_measured *made = calloc(1, sizeof *made);
@@ -127,11 +137,13 @@ void percuss_measured_free(struct percuss_measured *measured)
 
 size_t percuss_measured_count(const struct percuss_measured *measured)
 {
-    return measured->set.count;
+    return REPORT_NULL(measured) ? 0 : measured->set.count;
 }
 
 const char *percuss_measured_note(const struct percuss_measured *measured, size_t index)
 {
+    if (REPORT_NULL(measured))
+        return NULL;
     size_t count = measured->remarks.notes;
     return index < count && index < REMARKS_KEPT ? measured->remarks.note[index].text : NULL;
 }
@@ -205,7 +217,10 @@ enum percuss_result percuss_measured_compare(const struct percuss_measured *meas
                                              struct percuss_comparison *comparison)
 {
     struct report report;
-    *comparison = (struct percuss_comparison){0};
+    if (comparison)
+        *comparison = (struct percuss_comparison){0};
+    if (REPORT_NULL(measured, question, comparison))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
     enum percuss_result result = report_check(question);
     if (result != PERCUSS_RESULT_OK)
         return result;
@@ -220,6 +235,8 @@ enum percuss_result percuss_measured_compare(const struct percuss_measured *meas
 
 void percuss_comparison_free(struct percuss_comparison *comparison)
 {
+    if (!comparison)
+        return;
     free(comparison->impacts);
     report_free_warnings(comparison->warning_count, comparison->warnings);
     *comparison = (struct percuss_comparison){0};

@@ -23,6 +23,13 @@ enum percuss_result report_set(enum percuss_result result, const char *format, .
     return result;
 }
 
+enum percuss_result report_null(struct missing missing)
+{
+    return missing.name
+               ? report_set(PERCUSS_RESULT_INVALID_ARGUMENT, MISSING_FORMAT, MISSING_TEXT(missing))
+               : PERCUSS_RESULT_OK;
+}
+
 const char *percuss_measured_error_text(void)
 {
     return error_text;

@@ -7,6 +7,7 @@
 
 #include <percuss/measured.h>
 
+#include "missing.h"
 #include "tally.h"
 #include "twin.h"
 
@@ -18,6 +19,10 @@ struct percuss_measured {
 /* Keeps the text for percuss_measured_error_text of this thread and returns `result`. */
 enum percuss_result report_set(enum percuss_result result, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+
+/* INVALID_ARGUMENT, with its name in the text, where one of these pointers is NULL; else OK. */
+#define REPORT_NULL(...) report_null(MISSING(__VA_ARGS__))
+enum percuss_result report_null(struct missing missing);
 
 /* A call of the library: its own copy of the impacts, which is completed, and their twins. */
 struct report {

@@ -62,7 +62,8 @@ typedef void percuss_share_function(void *context, struct percuss_ensemble_shari
 PERCUSS_API enum percuss_result percuss_ensemble_take(struct percuss_ensemble_sharing *sharing,
                                                       const void *part, size_t size);
 
-/* As percuss_solve_ensemble, with the samples solved by whoever `share` asks. */
+/* As percuss_solve_ensemble, with the samples solved by whoever `share` asks; `progress` may be
+ * NULL here, too. */
 PERCUSS_API enum percuss_result
 percuss_solve_ensemble_shared(struct percuss_client *client,
                               const struct percuss_ensemble_request *request,

@@ -3,7 +3,8 @@
 
 /* Measured impacts beside simulated ones, and parameters of bodies from them: libpercuss-measured,
  * with a client of libpercuss or of libpercuss-local. SI units; NAN: not known or undefined. What
- * failed says percuss_measured_error_text, not percuss_error_text. */
+ * failed says percuss_measured_error_text, not percuss_error_text. A pointer that is NULL is
+ * treated as percuss.h says. */
 #ifndef PERCUSS_MEASURED_H
 #define PERCUSS_MEASURED_H
 
@@ -109,7 +110,8 @@ PERCUSS_API size_t percuss_measured_count(const struct percuss_measured *measure
 PERCUSS_API const char *percuss_measured_note(const struct percuss_measured *measured,
                                               size_t index);
 
-/* The pair at its default places, default options, 60 s, 1999 permutations, seed 1, noise 0.01. */
+/* The pair at its default places, default options, 60 s, 1999 permutations, seed 1, noise 0.01. A
+ * client or a body that is NULL is refused when the question is asked. */
 PERCUSS_API struct percuss_measured_question
 percuss_measured_question_default(struct percuss_client *client, const struct percuss_body *a,
                                   const struct percuss_body *b);

@@ -8,6 +8,11 @@
  * an answer: OK, with the reason in reply.status and reply.message. Timeouts are seconds from the
  * call, >= 0, INFINITY allowed.
  *
+ * A pointer may be NULL only where its function says so. Otherwise NULL is INVALID_ARGUMENT; a
+ * function without a result does nothing then and returns false, 0, NAN or NULL. In both cases the
+ * error text names the argument. All functions that free take NULL, and callbacks' contexts may be
+ * NULL. An array of no elements may be NULL.
+ *
  * Every function may be called from several threads on one client at once, except that
  * percuss_client_free must be the last; and one outstanding request is waited for by one thread.
  * The library starts no thread of its own besides those of Cyclone DDS and installs no signal

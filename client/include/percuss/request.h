@@ -74,12 +74,13 @@ PERCUSS_API struct percuss_options percuss_options_default(void);
 PERCUSS_API void percuss_request_init(struct percuss_request *request);
 
 /* Appends a body at the origin, unrotated, at rest, without state. Returns it for the caller to
- * fill; NULL if the request is full or the id longer than 63 bytes. */
+ * fill; NULL if the request is full or the id longer than 63 bytes, and percuss_error_text says
+ * which. */
 PERCUSS_API struct percuss_body_motion *percuss_request_add_body(struct percuss_request *request,
                                                                  const char *id);
 
 /* Appends a contact of bodies[a] on bodies[b] with zero point, normal and gap. Returns it for the
- * caller to fill; NULL if the request is full. */
+ * caller to fill; NULL if the request is full, and percuss_error_text says so. */
 PERCUSS_API struct percuss_contact *percuss_request_add_contact(struct percuss_request *request,
                                                                 uint32_t a, uint32_t b);
 

@@ -81,7 +81,8 @@ struct percuss_pair {
 extern "C" {
 #endif
 
-/* The pair at speed 0 with beams hit half-way. */
+/* The pair at speed 0 with beams hit half-way. A body may be NULL, as percuss_body_find returns it:
+ * percuss_contact_pair refuses it. */
 PERCUSS_API struct percuss_pair percuss_pair_default(const struct percuss_body *a,
                                                      const struct percuss_body *b);
 
@@ -92,12 +93,12 @@ PERCUSS_API struct percuss_pair percuss_pair_default(const struct percuss_body *
  * normal of its site; a mesh: its first site with a name. A is turned by the smallest rotation that
  * makes the outward normal of its site -n (half a turn: about its x axis, or y for rods and
  * cylinders); a beam on a beam is also turned about n so that they cross at a right angle.
- * INVALID_ARGUMENT for a shape that it cannot place, a speed that is not positive and finite or a
- * fraction outside 0..1. Needs no client. */
+ * INVALID_ARGUMENT for a body that is NULL, a shape that it cannot place, a speed that is not
+ * positive and finite or a fraction outside 0..1. Needs no client. */
 PERCUSS_API enum percuss_result percuss_contact_pair(const struct percuss_pair *pair,
                                                      struct percuss_request *request);
 
-/* The body of that id, or NULL. */
+/* The body of that id; NULL: there is none, and percuss_error_text says which one is similar. */
 PERCUSS_API const struct percuss_body *percuss_body_find(const struct percuss_body_list *list,
                                                          const char *id);
 

@@ -4,7 +4,9 @@
 /* The slow scale's equations: impacts as jumps of rigid velocities (Schiehlen and Seifried, Eqs.
  * (3) to (6); Pfeiffer and Glocker for several contacts at once). n contacts; W = w^T M^-1 w is
  * their n x n row-major Delassus matrix, 1/kg, symmetric and positive semidefinite; gap rates in
- * m/s, < 0 approaches; impulses in N s. Pure functions: nothing is kept. */
+ * m/s, < 0 approaches; impulses in N s. Pure functions: nothing is kept. A pointer may be NULL
+ * where it is said so, and where no element is read; otherwise the function does nothing and
+ * returns false or NAN, and percuss_slow_error_text (slowscale.h) names the argument. */
 #ifndef PERCUSS_SLOW_EQUATIONS_H
 #define PERCUSS_SLOW_EQUATIONS_H
 

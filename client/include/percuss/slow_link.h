@@ -20,13 +20,15 @@ struct percuss_slow_link {
     bool connected;   /* the link's */
 };
 
-/* A link by a client, connected or not yet: 60 s for an answer, 10 s for a server. Answers take
+/* A link by a client (NULL: every question is refused), connected or not yet: 60 s for an answer,
+ * 10 s for a server. Answers take
  * milliseconds and a server is found within a second or two; the limits are long because whoever
  * meets them gets other results, and a loaded machine must not: they only end what would hang. */
 PERCUSS_API struct percuss_slow_link percuss_slow_link_default(struct percuss_client *client);
 
-/* The service for struct percuss_slow_config. A busy server is asked again; a server that was lost
- * is looked for, and asked again. A question that is not answered in time is given up. */
+/* The service for struct percuss_slow_config; by a link that is NULL it refuses every question. A
+ * busy server is asked again; a server that was lost is looked for, and asked again. A question
+ * that is not answered in time is given up. */
 PERCUSS_API struct percuss_slow_service percuss_slow_link_service(struct percuss_slow_link *link);
 
 #ifdef __cplusplus

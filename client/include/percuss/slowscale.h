@@ -10,7 +10,11 @@
  * the answer's sub-impacts are played, bodies may overlap by some tenths of a millimetre: the pair
  * is latched until its last one and armed again, at that very moment or later, once its gap is open
  * or it does not approach; and at the end of the answer's window in any case. Which body of a pair
- * is called a may differ from call to call. No globals; one thread at a time for each object. */
+ * is called a may differ from call to call. No globals; one thread at a time for each object.
+ *
+ * A pointer may be NULL only where it is said so, or as an array of no elements. Otherwise NULL is
+ * INVALID_ARGUMENT; a function without a result returns false, INFINITY or zeros then, and
+ * percuss_slow_error_text names the argument. */
 #ifndef PERCUSS_SLOWSCALE_H
 #define PERCUSS_SLOWSCALE_H
 
@@ -110,7 +114,7 @@ struct percuss_slow_counts {
 };
 PERCUSS_API struct percuss_slow_counts percuss_slow_counts(const struct percuss_slow *slow);
 
-/* What went wrong in the thread's last call that did not return OK. */
+/* What went wrong in the thread's last call that did not return OK, or was given a NULL. */
 PERCUSS_API const char *percuss_slow_error_text(void);
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests client/cli/similar.c: which id was meant. */
+/* Tests client/api/similar.c: which id was meant, as percuss_body_find says it, too. */
 #include <string.h>
 
 #include "check.h"
@@ -39,11 +39,24 @@ static void finds_what_was_meant(void **state)
     assert_int_equal(similar_distance(text, "x"), PERCUSS_ID_SIZE - 2);
 }
 
+static void tells_what_is_similar(void **state)
+{
+    (void)state;
+    struct percuss_body bodies[] = {{.id = "al-beam"}, {.id = "al-rod"}};
+    const struct percuss_body_list list = {2, bodies};
+    assert_null(percuss_body_find(&list, "al-rodd"));
+    assert_string_equal(percuss_error_text(),
+                        "id: 'al-rodd': no such body among 2; did you mean 'al-rod'?");
+    assert_null(percuss_body_find(&list, "concrete-wall"));
+    assert_string_equal(percuss_error_text(), "id: 'concrete-wall': no such body among 2");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(measures_the_distance),
         cmocka_unit_test(finds_what_was_meant),
+        cmocka_unit_test(tells_what_is_similar),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#ifndef PERCUSS_CLI_SIMILAR_H
-#define PERCUSS_CLI_SIMILAR_H
+#ifndef PERCUSS_API_SIMILAR_H
+#define PERCUSS_API_SIMILAR_H
 
 #include <percuss/server.h>
 
