@@ -250,9 +250,31 @@ int make_client(const struct common *common, const uint8_t *id, struct percuss_c
     return code;
 }
 
+/* A server that is looked for. */
+struct search {
+    const struct common *common;
+    unsigned asked; /* some ten times a second */
+};
+
+/* Says that it takes long, once. */
+static bool search_goes_on(void *context)
+{
+    enum { UNSAID = 20 };
+    struct search *search = context;
+    const char *partition = search->common->partition;
+    const bool among = partition && partition[0];
+    if (++search->asked == UNSAID)
+        complain("looking for a daemon in %s%s%sDDS domain %u ...", among ? "partition " : "",
+                 among ? partition : "", among ? " of " : "", search->common->domain);
+    return true;
+}
+
 int connect_client(const struct common *common, struct percuss_client *client)
 {
+    struct search search = {common, 0};
+    percuss_client_watch(client, search_goes_on, &search);
     enum percuss_result result = percuss_client_connect(client, common_patience(common));
+    percuss_client_watch(client, NULL, NULL);
     /* one that is secured is not started that easily */
     bool secured = common->security || getenv("PERCUSS_SECURITY");
     if (result != PERCUSS_RESULT_NO_SERVER || common_names_server(common) || secured)

@@ -17,6 +17,15 @@ static void check(enum percuss_result result)
     exit(EXIT_FAILURE);
 }
 
+/* Asked some ten times a second while a call waits; says after 2 s that a server is looked for. */
+static bool wait_on(void *context)
+{
+    unsigned *asked = context;
+    if (++*asked == 20)
+        fputs("looking for a percussd ...\n", stderr);
+    return true; /* false gives it up */
+}
+
 /* A sphere of 15 mm just touches the top of a beam of 10 mm radius at a quarter of its length. */
 static void describe(struct percuss_request *request, double speed)
 {
@@ -56,7 +65,10 @@ int main(int argc, char **argv)
     struct percuss_request request;
     struct percuss_reply reply;
     check(percuss_client_create(&config, &client));
+    unsigned asked = 0;
+    percuss_client_watch(client, wait_on, &asked);
     check(percuss_client_connect(client, 3.0));
+    percuss_client_watch(client, NULL, NULL);
 
     /* one question, waited for */
     describe(&request, 0.3);

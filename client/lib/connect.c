@@ -299,12 +299,17 @@ enum percuss_result connect_find(struct percuss_client *client, double timeout)
     pthread_mutex_lock(&client->lock);
     client->connected = false;
     client->answering_count = 0;
+    const struct watching watching = client->watching;
     pthread_mutex_unlock(&client->lock);
+    double ask = watching_first(&watching);
     /* asks and looks around until one can be chosen; the last round begins after the deadline */
     do {
         percuss_server_list_free(&search.announced);
         bool late = moment_now() >= search.deadline;
         result = client_check_identity(client);
+        /* a round is shorter than the time between two questions to whoever watches */
+        if (result == PERCUSS_RESULT_OK && !watching_asks(&watching, &ask))
+            result = watching_cancelled();
         if (result == PERCUSS_RESULT_OK)
             result = ping_all(&search);
         if (result == PERCUSS_RESULT_OK)

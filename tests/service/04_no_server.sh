@@ -7,7 +7,16 @@
 say "no daemon in the domain"
 expect 3 query --timeout 1
 says "no percussd"
+! grep -q "looking for" "$err" || fail "who waits for 1 s is told that it takes long"
 expect 3 percuss ping --timeout 1
+
+say "who waits longer is told after 2 s what for, by the command line and by a program in C"
+expect 3 percuss ping --timeout 3
+says "percuss: looking for a daemon in DDS domain $domain ..."
+[ "$(grep -c "looking for" "$err")" = 1 ] || fail "it is said more than once"
+expect 1 "$build/client/examples/query" "$domain"
+says "looking for a percussd"
+says "no percussd in DDS domain $domain"
 
 say "nor any more"
 start_daemon

@@ -76,7 +76,7 @@ PERCUSS_API void percuss_client_free(struct percuss_client *client);
  * longest; it is chosen here, once. NO_SERVER: none within the time, or none of that name; TIMEOUT:
  * one is there but has not answered; INVALID_ARGUMENT: several have ids that begin so;
  * INCOMPATIBLE: one is there, but after 2 s a quality of service still does not fit, named in
- * percuss_error_text.
+ * percuss_error_text. It prints nothing: percuss_client_watch lets a program say that it looks.
  *
  * When that server goes, whatever waits for it returns NO_SERVER with its name: at once when it
  * ends, within 2 s after it was killed. To be called again then, and after a restart, since a
