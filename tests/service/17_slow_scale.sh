@@ -17,6 +17,25 @@ done
 paste "$work/list" "$work/total" | awk '{ if ($4 - $11 > 1e-12 || $11 - $4 > 1e-12 ||
     $7 - $14 > 1e-12 || $14 - $7 > 1e-12) exit 1 }' || fail "$(cat "$work/list" "$work/total")"
 
+say "the loop that integrating.md prints, with its callbacks, is the example's; in process it ends alike"
+page=$source_dir/docs/integrating.md
+engine=$source_dir/client/examples/engine
+blocks() { # those of C on the page
+    awk '/^```c$/ { inside = 1; next } /^```$/ { inside = 0 } inside' "$page"
+}
+{
+    sed 1,3d "$engine/engine.c"
+    sed -n '/^static bool my_probe/,/^\/\* Asked/p' "$engine/my_engine.h" | sed '$d' | sed '$d'
+} >"$work/printed"
+blocks | diff - "$work/printed" >"$out" || fail "another program than client/examples/engine"
+expect 0 env PERCUSS_DOMAIN="$domain" "$build/client/examples/engine"
+cp "$out" "$work/asked"
+grep -q '^0.005000 s: e = 0.7' "$out" || fail "no impact after 1 mm at 0.2 m/s"
+expect 0 percuss query --a steel-sphere --b al-beam --speed 0.2 --json
+awk -v e="$(field restitution)" '/ e = / { exit !(($5 - e) ^ 2 < 1e-6) }' "$work/asked" || fail "e is not $(field restitution)"
+expect 0 "$build/client/examples/engine_in_process"
+cmp "$out" "$work/asked" || fail "other numbers in process"
+
 # a client of its own pace: a line into the pipe lets it make the next impact
 start_client() { # IMPACTS [fall-back]
     rm -f "$work/pace"

@@ -78,12 +78,15 @@ cmp "$out" "$work/by-itself" || fail "by-cmake/local"
 expect 0 "$prefix/bin/percuss" query --local --a steel-sphere --b al-rod --speed 0.1
 shows "restitution  0.72"
 
-say "integrating: an engine, compiled; the MuJoCo example, run"
-cp "$source_dir/tests/service/slow_client.c" engine.c
-PKG_CONFIG_PATH=$libraries/pkgconfig sh -euc \
-    "$(sed -n 's|.*\(cc engine.c .*\) \*/.*|\1|p' "$documents/integrating.md") -o engine"
-[ -x engine ] || fail "integrating.md has no command that makes an engine"
+say "integrating: an engine, compiled and run, with a daemon and without; the MuJoCo example, run"
+PERCUSS_DOMAIN=$domain
+export PERCUSS_DOMAIN
+in_tree integrating.md 'cc engine.c'
+[ "$(grep -c '^sphere 0.1' "$out")" = 2 ] && [ "$(sort -u "$out" | wc -l)" = 2 ] ||
+    fail "a daemon's engine and that in process do not end alike"
+unset PERCUSS_DOMAIN
 ldd ./engine | grep -F "$prefix" | grep -q slowscale || fail "the engine does not find libpercuss-slowscale"
+ldd ./engine-in-process | grep -q dds && fail "the engine in process needs DDS"
 run=$(sed -n 's|.*`\(sh share/percuss/examples/mujoco/run.sh\)`.*|\1|p' "$documents/integrating.md")
 cd "$prefix"
 # the words of a command
