@@ -16,6 +16,10 @@ static const struct {
     const char *daemon, *settings;
 } places[] = {{"percussd", "../../config/percussd.yaml"}, {INSTALLED_DAEMON, INSTALLED_SETTINGS}};
 
+/* What the package of the daemon installs, from the folder of the package's percuss. */
+static const char UNIT[] = "../lib/systemd/system/percussd.service";
+static const char UNIT_SETTINGS[] = "../../etc/percuss/percussd.yaml";
+
 /* The folder of this program in `folder`; false: unknown. */
 static bool own_folder(char folder[PATH_MAX])
 {
@@ -44,6 +48,27 @@ static bool find(const char *from, const char *path, char found[PATH_MAX])
     return true;
 }
 
+/* The domain that the unit's settings name, 0 without. */
+static unsigned unit_domain(const char *folder)
+{
+    char path[PATH_MAX], line[256];
+    unsigned domain = 0;
+    FILE *settings = find(folder, UNIT_SETTINGS, path) ? fopen(path, "r") : NULL;
+    while (settings && fgets(line, sizeof line, settings))
+        (void)sscanf(line, "domain: %u", &domain);
+    if (settings)
+        fclose(settings);
+    return domain;
+}
+
+/* Whether the service manager has a daemon that would be found. */
+static bool unit_suits(const struct common *common, const char *folder)
+{
+    char path[PATH_MAX];
+    const bool partition = common->partition && common->partition[0];
+    return !partition && find(folder, UNIT, path) && unit_domain(folder) == common->domain;
+}
+
 /* Where else servers are: "; one is in domain 7, 9". */
 static void list_domains(const struct common *common, char *text, size_t size)
 {
@@ -70,7 +95,10 @@ void complain_no_server(const struct common *common)
     for (size_t i = 0; known && !found && i < sizeof places / sizeof places[0]; i++)
         found =
             find(folder, places[i].daemon, daemon) && find(folder, places[i].settings, settings);
-    complain("%s%s; --local needs none; start one with: %s --config %s --domain %u%s%s", what,
-             elsewhere, found ? daemon : "percussd", found ? settings : "FILE", common->domain,
+    complain("%s%s; --local needs none; start one with: %s%s --config %s --domain %u%s%s", what,
+             elsewhere,
+             known && unit_suits(common, folder) ? "systemctl start percussd; or by yourself: "
+                                                 : "",
+             found ? daemon : "percussd", found ? settings : "FILE", common->domain,
              partition ? " --partition " : "", partition ? common->partition : "");
 }

@@ -36,6 +36,19 @@ names_ours() {
 # sooner or later: on a busy machine half a second may not do
 wait_for 10 names_ours || fail "it is not told"
 says "start one with: "
+! grep -q systemctl "$err" || fail "a unit is advised that is not installed"
+
+say "where the daemon's unit is installed and its settings name the domain, it is what is started"
+mkdir -p "$work/usr/bin" "$work/usr/lib/systemd/system" "$work/etc/percuss"
+cp "$bin/percuss" "$work/usr/bin"
+cp "$source_dir/deploy/systemd/percussd.service" "$work/usr/lib/systemd/system"
+for settled in "$empty" "$domain"; do
+    printf 'catalogue: catalogue.yaml\ndomain: %s\n' "$settled" >"$work/etc/percuss/percussd.yaml"
+    expect 3 "$work/usr/bin/percuss" ping --domain "$empty" --timeout 0.5
+    grep -q "start one with: systemctl start percussd; or by yourself: percussd --config" "$err" ||
+        [ "$settled" = "$domain" ] || fail "the unit is not advised"
+done
+! grep -q systemctl "$err" || fail "the unit of another domain is advised"
 exec 8>&-
 stop_daemon
 expect 3 query --timeout 1
