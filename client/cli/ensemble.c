@@ -319,7 +319,7 @@ static int ask(struct ensemble *ensemble, struct percuss_client *client,
     else
         ensemble_print_table(request, &reply);
     if (reply.status == PERCUSS_UNKNOWN_BODY)
-        scene_explain_unknown(&request->scene, bodies);
+        scene_explain_unknown(ensemble->common, client, &request->scene, bodies);
     percuss_ensemble_reply_free(&reply);
     return code;
 }

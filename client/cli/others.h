@@ -12,6 +12,10 @@
  * the exit code of a second connection that failed. */
 int others_settle(const struct common *common, struct percuss_client *client);
 
+/* After the server has refused a body: complains whose catalogue that was, and of those that other
+ * servers of the domain have. */
+void others_explain(const struct common *common, struct percuss_client *client);
+
 /* The line of a table that says who answered. */
 void print_server_line(const uint8_t server[16], const char *catalogue_revision);
 

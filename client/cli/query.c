@@ -247,10 +247,10 @@ static void end(struct asking *asking)
 /* Names what is known after the server refused a body. */
 static void explain_unknown(const struct asking *asking, const struct percuss_request *request)
 {
+    const struct common *common = asking->query->common;
     struct percuss_body_list list;
-    if (percuss_bodies(asking->client, common_timeout(asking->query->common), &list) ==
-        PERCUSS_RESULT_OK)
-        scene_explain_unknown(request, &list);
+    if (percuss_bodies(asking->client, common_timeout(common), &list) == PERCUSS_RESULT_OK)
+        scene_explain_unknown(common, asking->client, request, &list);
     percuss_body_list_free(&list);
 }
 

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "others.h"
 #include "quantity.h"
 #include "similar.h"
 
@@ -233,7 +234,8 @@ int scene_request(const struct scene *scene, const struct scene_bodies *bodies, 
     return result == PERCUSS_RESULT_OK ? EXIT_ANSWERED : complain_result(result);
 }
 
-void scene_explain_unknown(const struct percuss_request *request,
+void scene_explain_unknown(const struct common *common, struct percuss_client *client,
+                           const struct percuss_request *request,
                            const struct percuss_body_list *list)
 {
     for (size_t i = 0; i < request->body_count; i++) {
@@ -247,6 +249,7 @@ void scene_explain_unknown(const struct percuss_request *request,
         for (size_t j = 0; j < list->count; j++)
             fprintf(stderr, " %s", list->bodies[j].id);
         fputc('\n', stderr);
+        others_explain(common, client);
         return;
     }
 }

@@ -65,8 +65,9 @@ int scene_request(const struct scene *scene, const struct scene_bodies *bodies, 
                   struct percuss_request *request);
 
 /* Prints to stderr which of the request's bodies the server lacks and which it knows, the most
- * similar ids first. */
-void scene_explain_unknown(const struct percuss_request *request,
+ * similar id first, and in which catalogue. */
+void scene_explain_unknown(const struct common *common, struct percuss_client *client,
+                           const struct percuss_request *request,
                            const struct percuss_body_list *list);
 
 #endif

@@ -203,7 +203,7 @@ static int judge(const struct sweep_run *run)
     struct percuss_request request;
     if (refused && refused->status == PERCUSS_UNKNOWN_BODY &&
         scene_request(&run->scene, &run->bodies, run->speeds[0], &request) == EXIT_ANSWERED)
-        scene_explain_unknown(&request, &run->bodies.list);
+        scene_explain_unknown(run->common, run->client, &request, &run->bodies.list);
     return worst;
 }
 

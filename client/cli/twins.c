@@ -9,7 +9,7 @@
 
 int twins_open(struct twins *twins, const struct common *common, const struct scene *scene)
 {
-    *twins = (struct twins){.scene = scene, .warnings.unit = "twins"};
+    *twins = (struct twins){.common = common, .scene = scene, .warnings.unit = "twins"};
     struct percuss_client *client = NULL;
     int code = open_client(common, NULL, &client);
     if (code == EXIT_ANSWERED)
@@ -41,7 +41,7 @@ static int judge(const struct twins *twins, const struct percuss_request *reques
         return EXIT_ANSWERED;
     complain("%s: %s", percuss_status_name(reply->status), reply->message);
     if (reply->status == PERCUSS_UNKNOWN_BODY)
-        scene_explain_unknown(request, &twins->bodies.list);
+        scene_explain_unknown(twins->common, twins->question.client, request, &twins->bodies.list);
     return code;
 }
 

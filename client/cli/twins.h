@@ -11,6 +11,7 @@
 
 /* Whom to ask for which scene. */
 struct twins {
+    const struct common *common;
     const struct scene *scene;
     struct scene_bodies bodies;
     struct twin_question question;

@@ -124,6 +124,24 @@ warns() {
     grep -q "answers here too, with ANOTHER CATALOGUE" "$err"
 }
 wait_for 20 warns || fail "no warning"
+says "$stiff); asked is percussd"
+says "or give each a domain of its own (--domain N, PERCUSS_DOMAIN)"
+
+say "a body that the one asked does not know: whose catalogue that is, who has another one, and how to ask there"
+explains() {
+    expect 5 percuss query --a nobody --b al-rod --speed 1
+    grep -q "another catalogue" "$err"
+}
+wait_for 20 explains || fail "the other catalogue is not named"
+says "that is the catalogue $work/catalogue.yaml of percussd $(echo "$elder" | cut -c1-8)"
+says "has another catalogue, $stiff: --server $(echo "$younger" | cut -c1-8) asks it"
+says "PERCUSS_DOMAIN=N"
+expect 5 percuss sweep --a nobody --b al-rod --speed 0.1:0.2:2
+says "that is the catalogue $work/catalogue.yaml"
+expect 5 percuss ensemble --a nobody --b al-rod --speed uniform:0.1:0.2 --samples 4
+says "that is the catalogue $work/catalogue.yaml"
+expect 5 percuss compare "$source_dir/client/examples/measured/beam.csv" --a nobody --b al-beam
+says "that is the catalogue $work/catalogue.yaml"
 say "who finds both asks the one up longest"
 both=0
 for i in 1 2 3 4 5 6 7 8 9 10; do
@@ -155,4 +173,11 @@ says "PERCUSS_DOMAIN: 300: must be a whole number, 0 to 230"
 kill -TERM $others
 wait $others || fail "the second daemon failed"
 others=
+
+say "with one daemon: its catalogue, and how another domain is asked"
+expect 5 percuss query --a nobody --b al-rod --speed 1
+says "(process $daemon on "
+says "in DDS domain $domain; a daemon of another domain is asked by --domain N or PERCUSS_DOMAIN=N"
 stop_daemon
+expect 5 "$bin/percuss" query --local --catalogue "$stiff" --a nobody --b al-rod --speed 1
+says "that is the catalogue $stiff"
