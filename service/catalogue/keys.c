@@ -28,6 +28,16 @@ static bool read_number(const yaml_node_t *value, const struct key *key, void *f
     return true;
 }
 
+static bool read_twice(const yaml_node_t *value, const struct key *key, void *field)
+{
+    double number;
+    if (!read_number(value, key, &number))
+        return false;
+    number *= 0.5;
+    memcpy(field, &number, sizeof number);
+    return true;
+}
+
 static bool read_whole(const yaml_node_t *value, const struct key *key, void *field)
 {
     return reader_whole(value, (unsigned)key->limit->high, field);
@@ -123,9 +133,36 @@ static enum percuss_status read_damping(struct reader *reader, const yaml_node_t
     return PERCUSS_OK;
 }
 
+/* Two words in one, "clamped-free", and a name for the commonest two. */
+static bool read_pair(const yaml_node_t *value, const struct key *key, unsigned pair[2])
+{
+    const unsigned last = (unsigned)key->word_count - 1;
+    char both[64];
+    if (reader_is(value, "cantilever")) {
+        pair[0] = last;
+        pair[1] = 0;
+        return true;
+    }
+    for (pair[0] = 0; pair[0] <= last; pair[0]++)
+        for (pair[1] = 0; pair[1] <= last; pair[1]++) {
+            const char *one = key->words[pair[0]], *other = key->words[pair[1]];
+            if (!one || !other)
+                continue;
+            snprintf(both, sizeof both, "%s-%s", one, other);
+            if (reader_is(value, both))
+                return true;
+        }
+    return false;
+}
+
 static enum percuss_status read_ends(struct reader *reader, const yaml_node_t *value,
                                      const struct key *key, char *field)
 {
+    unsigned pair[2];
+    if (read_pair(value, key, pair)) {
+        memcpy(field, pair, sizeof pair);
+        return PERCUSS_OK;
+    }
     if (!read_word(value, key, field))
         return read_list(reader, value, key, 2, field);
     memcpy(field + sizeof(unsigned), field, sizeof(unsigned));
@@ -141,6 +178,9 @@ enum percuss_status keys_read_value(struct reader *reader, const yaml_node_t *va
     switch (key->type) {
     case KEY_NUMBER:
         good = read_number(value, key, field);
+        break;
+    case KEY_TWICE:
+        good = read_twice(value, key, field);
         break;
     case KEY_WHOLE:
         good = read_whole(value, key, field);
@@ -188,23 +228,45 @@ static enum percuss_status refuse_key(const struct reader *reader, const yaml_no
                          reader_excerpt(key).text, table->owner, key_list(table).text);
 }
 
-/* Whether the mapping has what this key asks for: itself, or the one that may stand instead. */
+/* Of keys that stand instead of each other there must be one. */
+static enum percuss_status check_instead(struct reader *reader, struct entry entry,
+                                         const struct key_table *table, const struct key *key)
+{
+    const char *const names[] = {key->name, key->instead[0], key->instead[1]};
+    const size_t count = key->instead[1] ? 3 : 2;
+    const char *found = NULL;
+    for (size_t i = 0; i < count; i++) {
+        struct entry item = reader_find(reader, entry.value, names[i]);
+        if (!item.value)
+            continue;
+        if (found) {
+            reader_enter(reader, names[i]);
+            return reader_refuse(reader, item.key, "must be absent beside %s", found);
+        }
+        found = names[i];
+    }
+    if (found)
+        return PERCUSS_OK;
+    return reader_refuse(reader, entry.key, "%s%s%s or %s missing: a %s must have one of them",
+                         names[0], count > 2 ? ", " : "", count > 2 ? names[1] : "",
+                         names[count - 1], table->owner);
+}
+
+/* Whether the mapping has what the table's keys ask for. */
 static enum percuss_status check_required(struct reader *reader, struct entry entry,
                                           const struct key_table *table)
 {
     const struct key *key;
-    for (size_t i = 0; (key = key_at(table, i)); i++) {
-        if ((!key->required && !key->instead) || reader_find(reader, entry.value, key->name).value)
-            continue;
-        if (key->required) {
+    enum percuss_status status = PERCUSS_OK;
+    for (size_t i = 0; !status && (key = key_at(table, i)); i++) {
+        if (key->instead[0]) {
+            status = check_instead(reader, entry, table, key);
+        } else if (key->required && !reader_find(reader, entry.value, key->name).value) {
             reader_enter(reader, key->name);
-            return reader_refuse(reader, entry.key, "missing: must be %s", key_allowed(key).text);
+            status = reader_refuse(reader, entry.key, "missing: must be %s", key_allowed(key).text);
         }
-        if (!reader_find(reader, entry.value, key->instead).value)
-            return reader_refuse(reader, entry.key, "%s or %s missing: a %s must have one of them",
-                                 key->name, key->instead, table->owner);
     }
-    return PERCUSS_OK;
+    return status;
 }
 
 /* One row of the table, or NULL. */

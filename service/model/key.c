@@ -31,6 +31,17 @@ static void grow_words(struct growing *growing, const struct key *key)
     }
 }
 
+/* How two ends that differ are written: the last word is that of a held end. */
+static void grow_pair(struct growing *growing, const struct key *key)
+{
+    const char *loose = key->words[0], *held = key->words[key->word_count - 1];
+    grow(growing, ", or two of them, at -x and at +x: [", held);
+    grow(growing, ", ", loose);
+    grow(growing, "], also written ", held);
+    grow(growing, "-", loose);
+    grow(growing, " or cantilever", "");
+}
+
 static void grow_keys(struct growing *growing, const struct key_table *table)
 {
     const char *before = "";
@@ -78,6 +89,7 @@ struct key_text key_allowed(const struct key *key)
     }
     switch (key->type) {
     case KEY_NUMBER:
+    case KEY_TWICE:
     case KEY_WHOLE:
         grow(&growing, "", key->limit->text);
         break;
@@ -94,7 +106,7 @@ struct key_text key_allowed(const struct key *key)
     case KEY_ENDS:
         grow(&growing, "one of ", "");
         grow_words(&growing, key);
-        grow(&growing, "", ", or a list of two of them");
+        grow_pair(&growing, key);
         break;
     case KEY_SHEAR:
         grow_words(&growing, key);

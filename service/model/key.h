@@ -13,11 +13,12 @@
 
 enum key_type {
     KEY_NUMBER,  /* double within `limit` */
+    KEY_TWICE,   /* twice the double, within `limit`: a diameter of what holds the radius */
     KEY_NUMBERS, /* list of three of them */
     KEY_WHOLE,   /* unsigned, 1 .. limit->high; 0: absent */
     KEY_FLAG,    /* bool */
     KEY_WORD,    /* enum: the index in `words` */
-    KEY_ENDS,    /* two enums: one word for both, or a list of two */
+    KEY_ENDS,    /* two enums: one word for both, a list or a word of two, or cantilever */
     KEY_SHEAR,   /* struct body's shear_rule and shear_number */
     KEY_DAMPING, /* struct body's damping, or a list: damping_shares too */
     KEY_KIND,    /* struct body's kind */
@@ -37,8 +38,8 @@ struct key {
     const char *const *words;
     size_t word_count; /* NULL among the words: a number without a word */
     const struct key_table *nested;
-    double absent;       /* KEY_NUMBER, not required: its value where the key is */
-    const char *instead; /* the key that must be there where this one is not; NULL: none */
+    double absent;          /* KEY_NUMBER, not required: its value where the key is */
+    const char *instead[2]; /* keys one of which must stand where this one does not; NULL: none */
     const char
         *allowed; /* of what the caller reads, in words that follow "must be"; NULL: by type */
     const char *otherwise; /* what holds where the key is absent; NULL: it is required */
@@ -58,7 +59,7 @@ struct key_table {
 
 /* What a key's value may be, in words that follow "must be". */
 struct key_text {
-    char text[320];
+    char text[400];
 };
 struct key_text key_allowed(const struct key *key);
 

@@ -30,10 +30,12 @@ static const struct key section[] = {
 };
 static const struct key_table keys_section = {"a section", section, 2, NULL};
 static const struct key keys[] = {
-    {"radius", KEY_NUMBER, &limit_length, KEY_OF(body, radius), .instead = "section",
-     KEY_SAYS("section stands instead", "of a round section")},
+    {"radius", KEY_NUMBER, &limit_length, KEY_OF(body, radius), .instead = {"diameter", "section"},
+     KEY_SAYS("diameter or section stands instead", "of a round section")},
+    {"diameter", KEY_TWICE, &limit_diameter, KEY_OF(body, radius),
+     KEY_SAYS("radius or section stands instead", "twice the radius")},
     {"section", KEY_SECTION, .nested = &keys_section,
-     KEY_SAYS("radius stands instead", "a rectangular section")},
+     KEY_SAYS("radius or diameter stands instead", "a rectangular section")},
     {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length),
      KEY_SAYS(NULL, "along its axis, which is x")},
     {"tip_radius", KEY_NUMBER, &limit_length, KEY_OF(body, tip_radius), .absent = INFINITY,

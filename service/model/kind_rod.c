@@ -12,8 +12,10 @@ static const char *const ends[] = {
     [SUPPORT_CLAMPED] = "fixed",
 };
 static const struct key keys[] = {
-    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius),
-     KEY_SAYS(NULL, "of its round section")},
+    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius), .instead = {"diameter"},
+     KEY_SAYS("diameter stands instead", "of its round section")},
+    {"diameter", KEY_TWICE, &limit_diameter, KEY_OF(body, radius),
+     KEY_SAYS("radius stands instead", "twice the radius")},
     {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length),
      KEY_SAYS(NULL, "along its axis, which is x")},
     {"tip_radius", KEY_NUMBER, &limit_length, KEY_OF(body, tip_radius), .absent = INFINITY,

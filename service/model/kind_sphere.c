@@ -9,7 +9,10 @@
 #include "model/key.h"
 
 static const struct key keys[] = {
-    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius), KEY_SAYS(NULL, "its radius")},
+    {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius), .instead = {"diameter"},
+     KEY_SAYS("diameter stands instead", "its radius")},
+    {"diameter", KEY_TWICE, &limit_diameter, KEY_OF(body, radius),
+     KEY_SAYS("radius stands instead", "twice the radius")},
 };
 
 static enum percuss_status complete(struct body *body, struct fault *fault)

@@ -7,6 +7,8 @@
  * and catch GPa written for Pa; they lie decades outside any body that is tested for impact. */
 const struct limit limit_length = {
     1e-9, 1e3, false, false, "a finite length > 0 m (1e-9 to 1e3 m)", QUANTITY_LENGTH};
+const struct limit limit_diameter = {
+    2e-9, 2e3, false, false, "a finite length > 0 m (2e-9 to 2e3 m)", QUANTITY_LENGTH};
 const struct limit limit_young = {
     1e3, 1e13, false, false, "a finite modulus > 0 Pa (1e3 to 1e13 Pa)", QUANTITY_STRESS};
 const struct limit limit_poisson = {-1.0,           0.5, true, true, "a number > -1 and < 0.5",

@@ -21,6 +21,7 @@ struct limit {
 };
 
 extern const struct limit limit_length;       /* m */
+extern const struct limit limit_diameter;     /* m */
 extern const struct limit limit_young;        /* Pa */
 extern const struct limit limit_poisson;      /* so that bulk and shear moduli are positive */
 extern const struct limit limit_density;      /* kg/m^3 */

@@ -190,6 +190,9 @@ static void keeps_its_revision_when_only_the_look_changes(void **state)
         "materials: {m: {young: 70 GPa, poisson: 0.3, density: 2.7 g/cm^3}}\n" /* with units */
         "bodies:\n  a: {shape: sphere, material: m, radius: 10 mm}\n"
         "  b: {shape: beam, material: m, radius: 1cm, length: 1e3 mm}\n",
+        BASE_MATERIAL /* diameters */
+        "bodies:\n  a: {shape: sphere, material: m, diameter: 0.02}\n"
+        "  b: {shape: beam, material: m, diameter: 20 mm, length: 1, ends: free-free}\n",
         "materials: {n: {young: 1e9, poisson: 0.3, density: 1}, " /* one that nobody uses */
         "m: {young: 70e9, poisson: 0.3, density: 2700}}\nbodies:\n" BASE_A BASE_B,
         BASE_MATERIAL
@@ -201,6 +204,37 @@ static void keeps_its_revision_when_only_the_look_changes(void **state)
     for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
         revision_of(same[i], other);
         assert_string_equal(other, base);
+    }
+}
+
+/* The ends at -x and +x in one word. */
+static void reads_ends_of_two_words(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *shape, *word;
+        enum support supports[2];
+    } cases[] = {
+        {"beam", "cantilever", {SUPPORT_CLAMPED, SUPPORT_FREE}},
+        {"beam", "clamped-free", {SUPPORT_CLAMPED, SUPPORT_FREE}},
+        {"beam", "free-clamped", {SUPPORT_FREE, SUPPORT_CLAMPED}},
+        {"beam", "pinned-clamped", {SUPPORT_PINNED, SUPPORT_CLAMPED}},
+        {"beam", "pinned-pinned", {SUPPORT_PINNED, SUPPORT_PINNED}},
+        {"beam", "[clamped, free]", {SUPPORT_CLAMPED, SUPPORT_FREE}},
+        {"rod", "cantilever", {SUPPORT_CLAMPED, SUPPORT_FREE}},
+        {"rod", "free-fixed", {SUPPORT_FREE, SUPPORT_CLAMPED}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 BASE_MATERIAL "bodies:\n  b: {shape: %s, material: m, diameter: 20 mm, length: 1, "
+                               "ends: %s}\n",
+                 cases[i].shape, cases[i].word);
+        struct body_set *set = parse_good(text);
+        assert_int_equal(set->bodies[0].supports[0], cases[i].supports[0]);
+        assert_int_equal(set->bodies[0].supports[1], cases[i].supports[1]);
+        assert_true(set->bodies[0].radius == 0.01);
+        body_set_free(set);
     }
 }
 
@@ -376,6 +410,7 @@ int main(void)
         cmocka_unit_test(losses_damp),
         cmocka_unit_test(does_not_depend_on_the_locale),
         cmocka_unit_test(keeps_its_revision_when_only_the_look_changes),
+        cmocka_unit_test(reads_ends_of_two_words),
         cmocka_unit_test(changes_its_revision_with_the_content),
         cmocka_unit_test(says_why_a_file_cannot_be_read),
         cmocka_unit_test(loads_many_bodies),

@@ -73,8 +73,9 @@ static void check_meanings(const struct key_table *table)
     const struct key *key;
     for (size_t i = 0; (key = key_at(table, i)); i++) {
         assert_non_null(key->meaning);
-        /* what need not be there has a default, and nothing else has */
-        assert_int_equal(key->required, !key->otherwise);
+        /* what need not be there has a default, and nothing else has: what another key may stand
+         * instead of names that one */
+        assert_int_equal(key->required && !key->instead[0], !key->otherwise);
         if (key->nested && key->nested != &keys_contact)
             check_meanings(key->nested);
     }
