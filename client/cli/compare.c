@@ -115,8 +115,12 @@ static int report(const struct compare *compare, const struct comparison *compar
 static int run(const struct compare *compare, struct twins *twins, struct measured_set *set)
 {
     struct twin *list = calloc(set->count, sizeof *list);
-    struct comparison comparison = {
-        .scene = &compare->scene, .set = set, .twins = list, .warnings = &twins->warnings};
+    const struct scene_text text = scene_describe(&compare->scene, &twins->bodies);
+    struct comparison comparison = {.scene = &compare->scene,
+                                    .title = text.title,
+                                    .set = set,
+                                    .twins = list,
+                                    .warnings = &twins->warnings};
     int code = list ? twins_ask(twins, set, &(struct twin_changes){.faster = 1.0}, list)
                     : complain_memory();
     waiting_end();

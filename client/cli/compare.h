@@ -11,6 +11,7 @@
 
 struct comparison {
     const struct scene *scene;
+    const char *title; /* the scene in words */
     const struct measured_set *set;
     const struct twin *twins;
     struct differences differences;

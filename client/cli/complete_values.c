@@ -178,7 +178,11 @@ void complete_values(const struct line *line)
         offer_of_bodies(line, false, offer_id);
     else if (!strcmp(name, "at-a") || !strcmp(name, "at-b"))
         offer_of_bodies(line, true, offer_sites);
-    else if (!strcmp(name, "fit"))
+    else if (!strcmp(name, "at")) {
+        line_offer(line, "middle", "half-way along a beam");
+        line_offer(line, "tip", "the free end of a beam that is held at the other");
+        line_offer(line, "root", "the end at which it is held");
+    } else if (!strcmp(name, "fit"))
         offer_of_bodies(line, named, offer_parameters);
     else if (!strcmp(name, "input")) {
         puts(":nospace");

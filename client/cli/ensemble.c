@@ -290,7 +290,7 @@ static bool show_progress(void *context, const struct percuss_ensemble_progress 
 }
 
 static int ask(struct ensemble *ensemble, struct percuss_client *client,
-               const struct percuss_body_list *bodies)
+               const struct scene_bodies *bodies)
 {
     const struct percuss_ensemble_request *request = ensemble->request;
     struct percuss_ensemble_reply reply;
@@ -312,14 +312,15 @@ static int ask(struct ensemble *ensemble, struct percuss_client *client,
         !ensemble_write_csv(ensemble->csv, request, &reply, ensemble->common->units))
         code = EXIT_FAILURE;
     if (plot_wanted(&ensemble->plot) && reply.statistic_count > 0 &&
-        ensemble_plot(&ensemble->plot, request, &reply) != EXIT_ANSWERED)
+        ensemble_plot(&ensemble->plot, scene_describe(&ensemble->scene, bodies).title, request,
+                      &reply) != EXIT_ANSWERED)
         code = EXIT_FAILURE;
     if (ensemble->common->json)
         json_print(ensemble_to_json(&reply));
     else
         ensemble_print_table(request, &reply);
     if (reply.status == PERCUSS_UNKNOWN_BODY)
-        scene_explain_unknown(ensemble->common, client, &request->scene, bodies);
+        scene_explain_unknown(ensemble->common, client, &request->scene, &bodies->list);
     percuss_ensemble_reply_free(&reply);
     return code;
 }
@@ -341,7 +342,7 @@ static int run(struct ensemble *ensemble)
     if (code == EXIT_ANSWERED)
         code = scene_request(&ensemble->scene, &bodies, speed, &ensemble->request->scene);
     if (code == EXIT_ANSWERED)
-        code = ask(ensemble, client, &bodies.list);
+        code = ask(ensemble, client, &bodies);
     percuss_body_list_free(&bodies.list);
     percuss_client_free(client);
     return code;

@@ -26,7 +26,8 @@ bool ensemble_write_csv(const char *file, const struct percuss_ensemble_request 
 
 /* Draws what the reply says, the restitution over the speed from its listed samples. Exit code;
  * complains. */
-int ensemble_plot(const struct plot_output *output, const struct percuss_ensemble_request *request,
+int ensemble_plot(const struct plot_output *output, const char *scene,
+                  const struct percuss_ensemble_request *request,
                   const struct percuss_ensemble_reply *reply);
 
 #endif

@@ -105,12 +105,12 @@ static bool take_intervals(const struct percuss_ensemble_reply *reply, struct co
     return true;
 }
 
-int ensemble_plot(const struct plot_output *output, const struct percuss_ensemble_request *request,
+int ensemble_plot(const struct plot_output *output, const char *scene,
+                  const struct percuss_ensemble_request *request,
                   const struct percuss_ensemble_reply *reply)
 {
     const struct percuss_statistic *e = &reply->statistics[0];
-    const struct percuss_contact *contact = &request->scene.contacts[request->contact];
-    char title[160];
+    char title[600];
     struct columns columns = {0};
     struct ensemble_picture picture = {.title = title,
                                        .mean = e->mean,
@@ -126,9 +126,7 @@ int ensemble_plot(const struct plot_output *output, const struct percuss_ensembl
                                        .curve_count = e->curve_count,
                                        .curve_values = e->curve_values,
                                        .curve_shares = e->curve_shares};
-    snprintf(title, sizeof title, "%.60s on %.60s, %llu samples",
-             request->scene.bodies[contact->a].id, request->scene.bodies[contact->b].id,
-             (unsigned long long)reply->samples);
+    snprintf(title, sizeof title, "%s\n%llu samples", scene, (unsigned long long)reply->samples);
     /* a picture without the samples is better than none, but a failure */
     bool complete = take_samples(request, reply, &columns, &picture) &&
                     take_intervals(reply, &columns, &picture);

@@ -67,7 +67,9 @@ void plot_text(const struct plot *plot, const char *text)
     for (; *text; text++) {
         if (*text == '\'')
             fputc('\'', plot->script);
-        if (*text != '\n')
+        if (*text == '\n')
+            fputs("'.\"\\n\".'", plot->script);
+        else
             fputc(*text, plot->script);
     }
     fputc('\'', plot->script);

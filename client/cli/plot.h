@@ -48,7 +48,7 @@ int plot_begin(struct plot *plot, const struct plot_output *output, unsigned wid
  * picture has at most PLOT_TABLES. */
 void plot_table(struct plot *plot, const char *name, const char *columns);
 
-/* Writes a text as a gnuplot string. */
+/* Writes a text as a gnuplot string; it may have several lines. */
 void plot_text(const struct plot *plot, const char *text);
 
 /* What a file is called where it lies. */

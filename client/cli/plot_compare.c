@@ -121,13 +121,12 @@ static void write_distributions(const struct plot *plot, const struct axes *axes
 int compare_plot(const struct plot_output *output, const struct comparison *comparison)
 {
     struct plot plot;
-    char title[160];
+    char title[600];
     int code = plot_begin(&plot, output, 1000, 1200);
     if (code != EXIT_ANSWERED)
         return code;
     write_impacts(&plot, comparison);
-    snprintf(title, sizeof title, "%s on %s, %zu impacts", comparison->scene->a,
-             comparison->scene->b, comparison->set->count);
+    snprintf(title, sizeof title, "%s: %zu impacts", comparison->title, comparison->set->count);
     fputs("set multiplot title ", plot.script);
     plot_text(&plot, title);
     fputs("\nset lmargin 10\nset rmargin 4\n", plot.script);

@@ -250,8 +250,8 @@ int plot_ensemble(const struct plot_output *output, const struct ensemble_pictur
     if (code != EXIT_ANSWERED)
         return code;
     /* over all of them */
-    char title[256];
-    snprintf(title, sizeof title, "%.150s: e = %.4f, standard deviation %.4f", picture->title,
+    char title[700];
+    snprintf(title, sizeof title, "%.600s: e = %.4f, standard deviation %.4f", picture->title,
              picture->mean, picture->deviation);
     fprintf(plot.script, "set multiplot layout %u,%u title ", rows, columns);
     plot_text(&plot, title);

@@ -274,7 +274,7 @@ int plot_impact(const struct plot_output *output, const struct impact_picture *p
     char title[2 * PERCUSS_ID_SIZE + 8];
     snprintf(title, sizeof title, "%s on %s", name_of(picture->runs, 0), name_of(picture->runs, 1));
     fputs("set multiplot title ", plot.script);
-    plot_text(&plot, title);
+    plot_text(&plot, picture->title ? picture->title : title);
     fputs("\nset format x ''\n", plot.script);
     for (size_t speed = 0; speed < speeds; speed++)
         write_impact(&plot, picture, speed, &axes);

@@ -29,6 +29,7 @@ struct impact_picture {
     size_t speed_count, model_count;
     const struct impact_run *runs; /* of the first speed all models, then of the next */
     const double *speeds;          /* m/s; NULL: not told */
+    const char *title;             /* NULL: the names of the bodies */
     size_t measured_count;         /* laid over the first speeds */
     const struct impact_measured *measured;
 };

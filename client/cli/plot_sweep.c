@@ -229,12 +229,9 @@ static size_t list_groups(const struct sweep_points *points, const char *bodies[
 /* "A on B": which others, the legend tells. */
 static void write_heading(const struct plot *plot, const struct sweep_points *points)
 {
-    char title[2 * PERCUSS_ID_SIZE + 8];
-    if (bodies_differ(points))
-        snprintf(title, sizeof title, "%s on bodies at rest", points->a);
-    else
-        snprintf(title, sizeof title, "%s on %s", points->a, points->curves[0].b);
-    plot_text(plot, title);
+    char title[PERCUSS_ID_SIZE + 32];
+    snprintf(title, sizeof title, "%s on bodies at rest", points->a);
+    plot_text(plot, bodies_differ(points) ? title : points->title);
 }
 
 int sweep_plot(const struct plot_output *output, const struct sweep_points *points)

@@ -216,6 +216,7 @@ const struct argp query_argp = {
 struct asking {
     const struct query *query;
     struct percuss_client *client;
+    struct scene_text text; /* of a scene */
     struct query_output output;
     size_t count; /* answers wanted: of the first speed by all models, then of the next */
     struct impact_run *runs;
@@ -300,6 +301,7 @@ static int write_files(const struct asking *asking)
                                            asking->count / speeds,
                                            asking->runs,
                                            query->file ? NULL : query->speeds,
+                                           query->file ? NULL : asking->text.title,
                                            query->measured_count,
                                            query->measured};
     if (code == EXIT_ANSWERED && plot_wanted(&query->plot))
@@ -355,8 +357,11 @@ static int ask_scene(const struct query *query, struct asking *asking)
         return code;
     /* bodies of the catalogue, placed in contact */
     code = scene_find_bodies(&query->scene, query->common, asking->client, &bodies);
-    if (code == EXIT_ANSWERED)
+    if (code == EXIT_ANSWERED) {
+        asking->text = scene_describe(&query->scene, &bodies);
+        asking->output.scene = &asking->text;
         code = finish(asking, ask_each(asking, &bodies));
+    }
     percuss_body_list_free(&bodies.list);
     return code;
 }

@@ -48,7 +48,7 @@ static void add_table(const struct query_output *output, const struct impact_run
     if (output->several)
         printf("%s%g m/s, contact model %s: ", output->count > 0 ? "\n" : "", speed,
                percuss_contact_model_name(run->request.options.contact_model));
-    reply_table_print(&run->request, &run->reply);
+    reply_table_print(&run->request, &run->reply, output->scene);
 }
 
 void query_output_add(struct query_output *output, const struct impact_run *run, double speed,

@@ -8,13 +8,15 @@
 #include <jansson.h>
 
 #include "plot_impact.h"
+#include "scene.h"
 
 /* Answers to print, one after the other. */
 struct query_output {
     bool json, csv, units;
-    bool several;    /* each is told from the others by speed and contact model */
-    unsigned count;  /* printed so far */
-    json_t *answers; /* of several as JSON, until the end */
+    bool several;                   /* each is told from the others by speed and contact model */
+    unsigned count;                 /* printed so far */
+    json_t *answers;                /* of several as JSON, until the end */
+    const struct scene_text *scene; /* the question in words; NULL: a whole request */
 };
 
 /* Prints the answer to this speed (m/s); `spread` is how it spreads, NULL: not asked for. */

@@ -30,6 +30,48 @@ static void print_title(const struct percuss_request *request, size_t i)
         printf("%s on %s\n", request->bodies[contact->a].id, request->bodies[contact->b].id);
 }
 
+static void cross(const double a[3], const double b[3], double result[3])
+{
+    for (int i = 0; i < 3; i++)
+        result[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+/* How fast A approaches B at the contact, m/s: -n (v_A - v_B). */
+static double approach_of(const struct percuss_request *request,
+                          const struct percuss_contact *contact)
+{
+    double rate = 0.0;
+    for (int which = 0; which < 2; which++) {
+        const struct percuss_body_motion *body =
+            &request->bodies[which == 0 ? contact->a : contact->b];
+        double arm[3], turning[3];
+        for (int i = 0; i < 3; i++)
+            arm[i] = contact->point[i] - body->position[i];
+        cross(body->angular_velocity, arm, turning);
+        for (int i = 0; i < 3; i++)
+            rate +=
+                (which == 0 ? 1.0 : -1.0) * contact->normal[i] * (body->velocity[i] + turning[i]);
+    }
+    return -rate;
+}
+
+/* What was asked: speed, place, ends and materials. */
+static void print_question(const struct percuss_request *request, size_t i,
+                           const struct scene_text *scene)
+{
+    const struct percuss_contact *contact = &request->contacts[i];
+    if (i >= request->contact_count || contact->a >= request->body_count ||
+        contact->b >= request->body_count)
+        return;
+    printf("  impact       %.6g m/s", approach_of(request, contact));
+    if (!scene)
+        printf(" at (%.4g, %.4g, %.4g) m\n", contact->point[0], contact->point[1],
+               contact->point[2]);
+    else
+        printf("%s%s\n  bodies       %s\n", scene->place[0] ? ", " : "", scene->place,
+               scene->bodies);
+}
+
 /* Of a longer list the negligible ones are left out. */
 enum { LONG_LIST = 40 };
 
@@ -125,10 +167,12 @@ void reply_table_tell(const struct percuss_reply *reply)
         complain("warning: %s", reply->warnings[i]);
 }
 
-void reply_table_print(const struct percuss_request *request, const struct percuss_reply *reply)
+void reply_table_print(const struct percuss_request *request, const struct percuss_reply *reply,
+                       const struct scene_text *scene)
 {
     for (size_t i = 0; i < reply->contact_count; i++) {
         print_title(request, i);
+        print_question(request, i, scene);
         print_contact(reply, &reply->contacts[i]);
     }
     if (reply->contact_count > 0) {

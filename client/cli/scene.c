@@ -4,6 +4,7 @@
 #include "scene.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -28,7 +29,8 @@ static const struct argp_option scene_options[] = {
     {"a", KEY_A, "ID", 0, "the moving body", 10},
     {"b", KEY_B, "ID", 0, "the body at rest; percuss bodies lists them", 10},
     {"at", KEY_AT, "S", 0,
-     "place of the impact along a beam, 0..1 (default 0.5), or from its end at -x, such as 250mm",
+     "place of the impact along a beam: 0..1 (default 0.5), 25%, a length from its end at -x such "
+     "as 250mm, middle, or of a beam that is held at one end tip or root",
      10},
     {"at-a", KEY_AT_A, "NAME", 0, "place of the impact on the moving body: a site's name", 10},
     {"at-b", KEY_AT_B, "NAME", 0, "the same on the body at rest (default: its first site)", 10},
@@ -57,24 +59,39 @@ static unsigned parse_choice(const char *option, const char *text, unsigned coun
     return 0;
 }
 
-static void parse_site(const char *text, struct scene *scene, struct argp_state *state)
+/* A place by its name. */
+static bool read_place(const char *text, struct scene *scene)
+{
+    scene->at = 0.5;
+    scene->at_length = NAN;
+    scene->place = !strcmp(text, "tip")    ? PLACE_TIP
+                   : !strcmp(text, "root") ? PLACE_ROOT
+                                           : PLACE_NUMBER;
+    return scene->place != PLACE_NUMBER || !strcmp(text, "middle");
+}
+
+/* A fraction of the length or so many per cent of it, or else a length. */
+static bool read_place_number(const char *text, struct scene *scene)
 {
     struct quantity_fault fault;
     size_t length = strlen(text);
+    bool percent = length > 0 && text[length - 1] == '%';
     /* a number alone is no length */
-    bool good = quantity_read(text, length, QUANTITY_NUMBER, &scene->at, &fault);
-    if (good) {
-        good = scene->at >= 0.0 && scene->at <= 1.0;
-        scene->at_length = NAN;
-    } else {
-        good = quantity_read(text, length, QUANTITY_LENGTH, &scene->at_length, &fault) &&
+    if (!quantity_read(text, percent ? length - 1 : length, QUANTITY_NUMBER, &scene->at, &fault))
+        return quantity_read(text, length, QUANTITY_LENGTH, &scene->at_length, &fault) &&
                scene->at_length >= 0.0;
-    }
+    if (percent)
+        scene->at /= 100.0;
+    return scene->at >= 0.0 && scene->at <= 1.0;
+}
+
+static void parse_site(const char *text, struct scene *scene, struct argp_state *state)
+{
     scene->at_given = true;
-    if (!good)
+    if (!read_place(text, scene) && !read_place_number(text, scene))
         argp_error(state,
                    "--at: '%s': a fraction of the length, 0..1, or a length from the end at -x, "
-                   "such as 250mm, is needed",
+                   "such as 250mm, is needed, or 25%%, middle, tip, root",
                    text);
 }
 
@@ -201,6 +218,30 @@ static int place_length(const struct scene *scene, const struct percuss_body *be
     return EXIT_USAGE;
 }
 
+static const char *support_name(enum percuss_support support)
+{
+    static const char *const names[] = {"free", "pinned", "clamped"};
+    return (unsigned)support < sizeof names / sizeof *names ? names[support] : "?";
+}
+
+/* The free end of a beam that is held at the other one, or that other end. */
+static int place_end(enum scene_place place, const struct percuss_body *beam, double *at)
+{
+    bool free_at[2] = {beam->supports[0] == PERCUSS_SUPPORT_FREE,
+                       beam->supports[1] == PERCUSS_SUPPORT_FREE};
+    if (strcmp(beam->shape, "beam") != 0)
+        return EXIT_ANSWERED;
+    if (free_at[0] == free_at[1]) {
+        complain("--at: %s: the ends of %s are %s and %s, so that it has no tip and no root: --at "
+                 "0 is its end at -x, --at 1 the one at +x",
+                 place == PLACE_TIP ? "tip" : "root", beam->id, support_name(beam->supports[0]),
+                 support_name(beam->supports[1]));
+        return EXIT_USAGE;
+    }
+    *at = free_at[1] == (place == PLACE_TIP) ? 1.0 : 0.0;
+    return EXIT_ANSWERED;
+}
+
 int scene_find_bodies(const struct scene *scene, const struct common *common,
                       struct percuss_client *client, struct scene_bodies *bodies)
 {
@@ -219,9 +260,93 @@ int scene_find_bodies(const struct scene *scene, const struct common *common,
         complain("--at has no effect: neither body is a beam");
     double *at = b_is_beam ? &bodies->pair.at_b : &bodies->pair.at_a;
     *at = scene->at;
-    return isnan(scene->at_length)
-               ? EXIT_ANSWERED
-               : place_length(scene, b_is_beam ? bodies->pair.b : bodies->pair.a, at);
+    const struct percuss_body *beam = b_is_beam ? bodies->pair.b : bodies->pair.a;
+    if (scene->place != PLACE_NUMBER)
+        return place_end(scene->place, beam, at);
+    return isnan(scene->at_length) ? EXIT_ANSWERED : place_length(scene, beam, at);
+}
+
+/* A text that grows as far as it has room. */
+static void add(char *text, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+static void add(char *text, size_t size, const char *format, ...)
+{
+    size_t length = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + length, size - length, format, arguments);
+    va_end(arguments);
+}
+
+#define ADD(array, ...) add(array, sizeof array, __VA_ARGS__)
+
+/* Where A (0) or B (1) is hit; nothing where its shape leaves no choice. */
+static void describe_place(const struct scene *scene, const struct percuss_pair *pair, int which,
+                           char *text, size_t size)
+{
+    const struct percuss_body *body = which == 0 ? pair->a : pair->b;
+    const char *site = which == 0 ? pair->site_a : pair->site_b;
+    const double at = which == 0 ? pair->at_a : pair->at_b;
+    /* of two beams --at places the one at rest */
+    const bool placed = which == 1 || strcmp(pair->b->shape, "beam") != 0;
+    /* by the name of a site */
+    if (!strcmp(body->shape, "mesh") && (site || body->site_count > 0)) {
+        add(text, size, "at the site %s of %s", site ? site : body->sites[0].name, body->id);
+        if (!site && body->site_count > 1)
+            add(text, size, " (default; --at-%c NAME)", 'a' + which);
+    }
+    /* along a beam */
+    if (strcmp(body->shape, "beam") != 0)
+        return;
+    if (at == 0.0 || at == 1.0)
+        add(text, size, "at the %s end of %s at %cx", support_name(body->supports[at > 0.5]),
+            body->id, at > 0.5 ? '+' : '-');
+    else if (at == 0.5)
+        add(text, size, "in the middle of %s", body->id);
+    else
+        add(text, size, "at %.4g %% of the length of %s", 100.0 * at, body->id);
+    if (placed && !scene->at_given)
+        add(text, size, " (default; --at S)");
+}
+
+/* "steel-sphere of steel", and its ends if it has any. */
+static void describe_body(const struct percuss_body *body, char *text, size_t size)
+{
+    add(text, size, "%s", body->id);
+    /* percuss-reduce was given numbers without a name */
+    if (body->material[0] && strcmp(body->material, "given") != 0)
+        add(text, size, " of %s", body->material);
+    if (!strcmp(body->shape, "beam") || !strcmp(body->shape, "rod"))
+        add(text, size, ", ends %s and %s", support_name(body->supports[0]),
+            support_name(body->supports[1]));
+}
+
+struct scene_text scene_describe(const struct scene *scene, const struct scene_bodies *bodies)
+{
+    struct scene_text text = {0};
+    const struct percuss_pair *pair = &bodies->pair;
+    if (!pair->a || !pair->b) {
+        ADD(text.title, "%s on %s", scene->a, scene->b);
+        return text;
+    }
+    /* the bodies */
+    describe_body(pair->a, text.bodies, sizeof text.bodies);
+    ADD(text.bodies, "; ");
+    describe_body(pair->b, text.bodies, sizeof text.bodies);
+    /* B's place before A's */
+    char of_a[200] = "";
+    describe_place(scene, pair, 1, text.place, sizeof text.place);
+    describe_place(scene, pair, 0, of_a, sizeof of_a);
+    if (*of_a)
+        ADD(text.place, "%s%s", text.place[0] ? ", " : "", of_a);
+    /* all in one line, without what is typed */
+    describe_body(pair->a, text.title, sizeof text.title);
+    ADD(text.title, " on ");
+    describe_body(pair->b, text.title, sizeof text.title);
+    const int length = (int)strcspn(text.place, "(");
+    if (length > 0)
+        ADD(text.title, ", %.*s", text.place[length] ? length - 1 : length, text.place);
+    return text;
 }
 
 int scene_request(const struct scene *scene, const struct scene_bodies *bodies, double speed,

@@ -9,6 +9,9 @@
 
 enum { SCENE_CHOICES = 8 };
 
+/* A place along a beam by its name; `at` and `at_length` say all others. */
+enum scene_place { PLACE_NUMBER, PLACE_TIP, PLACE_ROOT };
+
 struct scene {
     const char *a, *b; /* NULL: not given; b: the last one given */
     /* all bodies B and contact models given, for the commands that take several */
@@ -16,6 +19,7 @@ struct scene {
     enum percuss_contact_model models[SCENE_CHOICES];
     size_t b_count, model_count;
     double at, at_length; /* along a beam: fraction, or m from its end at -x (NAN: not given) */
+    enum scene_place place;
     bool at_given;
     const char *at_a, *at_b; /* names of sites; NULL: not given */
     bool given;              /* any flag */
@@ -63,6 +67,14 @@ int scene_find_bodies(const struct scene *scene, const struct common *common,
 /* The request at that speed. Exit code; complains. */
 int scene_request(const struct scene *scene, const struct scene_bodies *bodies, double speed,
                   struct percuss_request *request);
+
+/* The question in words. */
+struct scene_text {
+    char place[320];  /* "in the middle of al-beam (default; --at S)"; empty: no choice */
+    char bodies[384]; /* "steel-sphere of steel; al-beam of aluminium, ends free and free" */
+    char title[512];  /* of a picture */
+};
+struct scene_text scene_describe(const struct scene *scene, const struct scene_bodies *bodies);
 
 /* Prints to stderr which of the request's bodies the server lacks and which it knows, the most
  * similar id first, and in which catalogue. */

@@ -259,6 +259,13 @@ static int finish(struct work *work, int code)
 {
     const struct sweep *sweep = work->sweep;
     tell_end(work);
+    /* the bodies of the first curve that was asked for */
+    size_t asked = 0;
+    while (asked + 1 < work->points.curve_count && !work->runs[asked].bodies.pair.a)
+        asked++;
+    const struct scene_text text =
+        scene_describe(&work->runs[asked].scene, &work->runs[asked].bodies);
+    work->points.title = text.title;
     if (plot_wanted(&sweep->plot) && sweep_plot(&sweep->plot, &work->points) != EXIT_ANSWERED)
         code = EXIT_FAILURE;
     if (sweep->common->json)
@@ -292,6 +299,7 @@ static bool list_curves(struct work *work, struct percuss_client *client)
         }
     }
     work->points = (struct sweep_points){scene->a,
+                                         NULL,
                                          sweep->count,
                                          work->speeds,
                                          count,

@@ -32,7 +32,8 @@ struct sweep_curve {
 
 struct sweep_points {
     const char *a;
-    unsigned count; /* speeds */
+    const char *title; /* of a picture of a single body B */
+    unsigned count;    /* speeds */
     const double *speeds;
     size_t curve_count;
     const struct sweep_curve *curves;

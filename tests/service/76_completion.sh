@@ -121,6 +121,10 @@ for ask in "in_bash percuss" "in_zsh percuss"; do
     offers_not edge
 done
 
+in_bash percuss query -b al-beam --at ""
+offers tip
+offers middle
+
 say "parameters of the bodies that the line names, as they are typed"
 for ask in "in_bash percuss" "in_zsh percuss"; do
     $ask calibrate file.csv --a steel-sphere --b al-beam --fit y

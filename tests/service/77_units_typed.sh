@@ -35,6 +35,9 @@ say "speeds and times, of every command that takes them"
     same --speed=0.009 --speed=9mm/s query $pair --json
     same --speed=0.25 "--speed=0.9 km/h" query $pair --json
     same --at=0.25 --at=250mm query $pair --speed 0.3 --json
+    same --at=0.25 --at=25% query $pair --speed 0.3 --json
+    same --at=0.25 "--at=25 %" query $pair --speed 0.3 --json
+    same --at=0.5 --at=middle query $pair --speed 0.3 --json
     same --at=1 --at=1m query $pair --speed 0.3 --json
     same --horizon=0.02 --horizon=20ms query $pair --speed 0.3 --json
     same --speed-sigma=0.01 --speed-sigma=10mm/s query $pair --speed 0.3
@@ -49,6 +52,52 @@ say "speeds and times, of every command that takes them"
 # shellcheck disable=SC2086
 expect 2 percuss query $pair --speed 0.3 --at 1.2m
 says "--at: 1.2 m from its end is beyond al-beam, which is 1 m long"
+
+say "the tip and the root of a beam that is held at one end, whichever that is"
+cat >"$work/held.yaml" <<'END'
+materials:
+  steel: {young: 210e9, poisson: 0.3, density: 7800}
+bodies:
+  ball: {shape: sphere, material: steel, diameter: 16 mm}
+  ahead: {shape: beam, material: steel, diameter: 10 mm, length: 0.4, ends: cantilever}
+  behind: {shape: beam, material: steel, diameter: 10 mm, length: 0.4, ends: free-pinned}
+  held: {shape: beam, material: steel, diameter: 10 mm, length: 0.4, ends: clamped-pinned}
+END
+local="--local --catalogue $work/held.yaml --a ball --speed 0.3"
+# at BODY PLACE: where the contact is along x
+at() {
+    # shellcheck disable=SC2086
+    "$bin/percuss" query $local --b "$1" --at "$2" 2>/dev/null | sed -n 's/^  impact  *0.3 m.s, //p'
+}
+[ "$(at ahead tip)" = "at the free end of ahead at +x" ] || fail "$(at ahead tip)"
+[ "$(at ahead root)" = "at the clamped end of ahead at -x" ] || fail "$(at ahead root)"
+[ "$(at behind tip)" = "at the free end of behind at -x" ] || fail "$(at behind tip)"
+[ "$(at behind root)" = "at the pinned end of behind at +x" ] || fail "$(at behind root)"
+# shellcheck disable=SC2086
+{
+    same --at=1 --at=tip query $local --b ahead --json
+    same --at=0 --at=tip query $local --b behind --json
+    expect 2 "$bin/percuss" query $local --b held --at tip
+    says "--at: tip: the ends of held are clamped and pinned, so that it has no tip and no root: --at 0 is its end"
+    expect 2 "$bin/percuss" query $local --b held --at top
+    says "--at: 'top': a fraction of the length"
+}
+
+say "the answer says what was asked: speed, place, ends and materials, and which place nobody chose"
+# shellcheck disable=SC2086
+expect 0 percuss query $pair --speed 300mm/s
+shows "  impact       0.3 m/s, in the middle of al-beam (default; --at S)"
+shows "  bodies       steel-sphere of steel; al-beam of aluminium, ends free and free"
+# shellcheck disable=SC2086
+expect 0 percuss query $pair --speed 300mm/s --at 40%
+shows "  impact       0.3 m/s, at 40 % of the length of al-beam"
+cat >"$work/turning.json" <<'END'
+{"bodies": [{"id": "steel-sphere", "position": [0.1, 0, 0.025], "velocity": [0, 0, -0.3]},
+            {"id": "al-beam", "position": [0, 0, 0], "angular_velocity": [0, -1, 0]}],
+ "contacts": [{"a": 0, "b": 1, "point": [0.1, 0, 0.010], "normal": [0, 0, 1]}]}
+END
+expect 0 percuss query --request "$work/turning.json"
+shows "  impact       0.4 m/s at (0.1, 0, 0.01) m"
 
 say "uncertain moduli, lengths and densities; where a calibration starts"
 for inputs in "young@al-beam=normal:70e9:1e9 young@al-beam=normal:70GPa:1GPa" \

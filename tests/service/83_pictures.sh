@@ -59,6 +59,8 @@ several="query $pair --speed 0.2 --speed 0.3 --contact-model hertz --contact-mod
 expect 0 percuss $several
 [ "$(grep -c '^  restitution' "$out")" -eq 4 ] || fail "not four answers"
 shows "0.3 m/s, contact model auto: steel-sphere on al-beam"
+asked="steel-sphere of steel on al-beam of aluminium, ends free and free, in the middle of al-beam"
+grep -q "multiplot title '$asked'" "$work/impact/plot.gp" || fail "the picture does not say what was asked"
 expect 0 percuss $several --csv
 [ "$(cut -d, -f 1,2 "$out" | uniq | tr '\n' ' ')" = \
     "speed,contact_model 0.20000000000000001,hertz 0.20000000000000001,auto 0.29999999999999999,hertz 0.29999999999999999,auto " ] ||
@@ -114,6 +116,11 @@ sed -n 's/^set yrange \[\(-[0-9.]*\):.*/\1/p' "$work/wide/plot.gp" | head -n 1 |
 say "an ensemble"
 picture ensemble "3 sub-impacts|local ± σ|quantiles, 95 % intervals|with its interactions|young@al-beam|share of the variance" \
     ensemble $pair --speed uniform:0.089:0.411 --input young@al-beam=normal:70e9:1e9 --samples 500
+
+for name in compare ensemble; do
+    grep -q "multiplot .*title '$asked" "$work/$name/plot.gp" || fail "$name: the picture does not say what was asked"
+done
+picture sweep "$asked" sweep $pair --speed 0.1:0.3:3
 
 say "the script draws the same picture from the files; they are there without gnuplot, too"
 for format in png svg; do

@@ -48,7 +48,7 @@ static void writes_tables_and_script(void **state)
         const char *script = taken(folder, "plot.gp");
         assert_non_null(strstr(script, "set output 'plot.png'\n"));
         assert_non_null(strstr(script, "first = \"'first.csv'\"\nsecond = \"'second.csv'\"\n"));
-        assert_non_null(strstr(script, "title 'a ''b'' @first $first `ls`\"c\"'\n"));
+        assert_non_null(strstr(script, "title 'a ''b'' @first $first `ls`'.\"\\n\".'\"c\"'\n"));
     }
     rmdir(folder);
     rmdir(above);
