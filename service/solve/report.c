@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/bar.h"
 #include "model/rigid.h"
 #include "model/vector.h"
 #include "solve/contact_model.h"
@@ -132,7 +133,42 @@ static double largest_restitution(const struct solve_result *result)
     return largest;
 }
 
-static void explain_modes(const struct assembly *assembly, struct text *reason)
+/* A body that bends and is hit where it is held: every mode has a node there. NULL: there is none.
+ */
+static const struct body *body_at_node(const struct problem *problem)
+{
+    const double near = 1e-6; /* of its length: rounding of the pose, and more */
+    for (size_t c = 0; c < problem->contact_count; c++)
+        for (int which = 0; which < 2; which++) {
+            const struct body *body = problem_body(problem, c, which);
+            if (!body_is_flexible(body) || !body_bends(body))
+                continue;
+            double x = bar_place(body, &problem->sides[c][which].site);
+            bool held = body->supports[x > 0.0] != SUPPORT_FREE;
+            if (held && fabs(x) >= (0.5 - near) * body->length)
+                return body;
+        }
+    return NULL;
+}
+
+/* Why no mode takes part. */
+static void explain_no_modes(const struct problem *problem, const struct assembly *assembly,
+                             struct text *reason)
+{
+    const struct body *held = body_at_node(problem);
+    if (held) {
+        text_format(reason, "; the modes of %s have a node at the contact, where it is held",
+                    held->id);
+    } else {
+        text_add(reason, "; every mode is too fast to matter (lowest ");
+        text_add_number(reason, assembly->lowest_omitted / (2.0 * M_PI), 4);
+        text_add(reason, " Hz)");
+    }
+    text_add(reason, ": static flexibility only");
+}
+
+static void explain_modes(const struct problem *problem, const struct assembly *assembly,
+                          struct text *reason)
 {
     if (assembly->all_modes) {
         text_add(reason, "; ");
@@ -141,9 +177,7 @@ static void explain_modes(const struct assembly *assembly, struct text *reason)
         text_add_number(reason, assembly->highest / (2.0 * M_PI), 4);
         text_add(reason, " Hz, residual flexibility for the others");
     } else if (isfinite(assembly->lowest_omitted)) {
-        text_add(reason, "; every mode is too fast to matter (lowest ");
-        text_add_number(reason, assembly->lowest_omitted / (2.0 * M_PI), 4);
-        text_add(reason, " Hz): static flexibility only");
+        explain_no_modes(problem, assembly, reason);
     }
 }
 
@@ -160,7 +194,7 @@ static void fill_model(const struct problem *problem, const struct solution *sol
     /* why, in words */
     struct text reason = text_begin(result->reason, sizeof result->reason);
     contact_model_explain(problem, &solution->outcome, &reason);
-    explain_modes(assembly, &reason);
+    explain_modes(problem, assembly, &reason);
     if (radiation_is_in(problem, &assembly->scene))
         text_add(&reason, "; waves leave through the half-space: their energy counts as damping");
     if (problem->compliance.reason[0])

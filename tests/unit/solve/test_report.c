@@ -87,6 +87,36 @@ static void a_compact_rod_is_rigid(void **state)
     lab_free(lab);
 }
 
+/* Why no mode takes part: it is faster than the blow, or has a node there. */
+static void tells_why_no_mode_matters(void **state)
+{
+    (void)state;
+    struct lab *lab = shapes();
+    struct body beam = make_bar(&beam_kind, STEEL, 0.010, 1.0);
+    lab_add(lab, "left", make_supported(beam, SUPPORT_CLAMPED, SUPPORT_FREE));
+    lab_add(lab, "right", make_supported(beam, SUPPORT_FREE, SUPPORT_PINNED));
+    struct solve_request cases[] = {
+        strike(sphere_spot("ball", 0.015), side_spot("left", -0.5, 0.010, 0.0), 0.1),
+        strike(sphere_spot("ball", 0.015), side_spot("right", 0.5, 0.010, 0.0), 0.1),
+        strike(sphere_spot("ball", 0.015), end_spot("bead", 0.04), 0.02)};
+    static const char *const reasons[] = {
+        "the modes of left have a node at the contact, where it is held: static flexibility only",
+        "the modes of right have a node at the contact, where it is held",
+        "every mode is too fast to matter (lowest "};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        cases[i].options.tolerance = 1e-2;
+        lab_solve(lab, &cases[i], &result);
+        if (!strstr(result.reason, reasons[i]))
+            fail_msg("%zu: %s", i, result.reason);
+    }
+    /* the free end moves */
+    struct solve_request tip =
+        strike(sphere_spot("ball", 0.015), side_spot("left", 0.499, 0.010, 0.0), 0.1);
+    lab_solve(lab, &tip, &result);
+    assert_null(strstr(result.reason, "node"));
+    lab_free(lab);
+}
+
 static void warns_where_models_end(void **state)
 {
     (void)state;
@@ -343,6 +373,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_theories_and_models),
         cmocka_unit_test(a_compact_rod_is_rigid),
+        cmocka_unit_test(tells_why_no_mode_matters),
         cmocka_unit_test(warns_where_models_end),
         cmocka_unit_test(warns_of_sliding),
         cmocka_unit_test(sliding_of_the_simulators_bodies),
