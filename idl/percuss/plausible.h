@@ -57,11 +57,21 @@ static inline size_t plausible_material(const struct plausible_body *body,
                                                    "no solid is as heavy"};
     static const struct plausible_range young = {
         "young", "Pa", 1e6, 1.5e12, "is a unit missing, such as GPa?", "no solid is as stiff"};
+    /* Metals, glass and ceramics are as heavy: lead has 16 GPa. Magnesium (45 GPa), beryllium and
+     * carbon fibres lie between 1600 and 2500 kg/m^3, and so does PTFE, with 0.4 GPa and more. */
+    const double heavy = 1600.0, metal = 2500.0;
+    const struct plausible_range stiff = {"young",
+                                          "Pa",
+                                          body->density < metal ? 0.2e9 : 1e9,
+                                          1.2e12,
+                                          "softer than what has this density: is GPa meant?",
+                                          "no solid is as stiff: is GPa meant?"};
     static const struct plausible_range yield = {
         "yield", "Pa", 1e5, 2e10, "is a unit missing, such as MPa?", "no solid is as strong"};
     size_t count = 0;
     plausible_number(&density, body->density, remarks, &count);
-    plausible_number(&young, body->young, remarks, &count);
+    plausible_number(body->density >= heavy && body->young >= young.low ? &stiff : &young,
+                     body->young, remarks, &count);
     plausible_number(&yield, body->yield, remarks, &count);
     return count;
 }

@@ -9,14 +9,19 @@ cat >"$work/catalogue.yaml" <<'END'
 materials:
   steel: {young: 210 GPa, poisson: 0.3, density: 7.8}
   brass: {young: 100e3, poisson: 0.34, density: 8500}
+  lead: {young: 16 MPa, poisson: 0.44, density: 11340}
+  rubber: {young: 16 MPa, poisson: 0.45, density: 1200}
 bodies:
   ball: {shape: sphere, material: steel, radius: 8}
   pin: {shape: rod, material: brass, radius: 8 mm, length: 30 mm}
   bar: {shape: rod, material: brass, radius: 8 mm, length: 30}
   wall: {shape: half-space, material: steel}
+  sinker: {shape: sphere, material: lead, radius: 8 mm}
+  bumper: {shape: sphere, material: rubber, radius: 8 mm}
 END
 remarks='materials.steel.density: 7.8 kg/m^3: below 100 kg/m^3
 materials.brass.young: 100000 Pa: below 1e+06 Pa
+materials.lead.young: 1.6e+07 Pa: below 1e+09 Pa: softer than what has this density: is GPa meant?
 bodies.ball.size: 16 m: more than 2 m
 bodies.pin.length: 0.03 m: shorter than four radii (of 0.008 m)
 bodies.bar.length: 30 m: more than 1000 radii (of 0.008 m)'
@@ -27,7 +32,7 @@ shows "ok"
 echo "$remarks" | while read -r remark; do
     says "percussd: warning: $remark"
 done
-[ "$(wc -l <"$err")" -eq 5 ] || fail "other warnings"
+[ "$(wc -l <"$err")" -eq 6 ] || fail "other warnings"
 
 say "so does percuss bodies --check of a daemon that runs"
 start_daemon
@@ -35,11 +40,11 @@ expect 1 percuss bodies --check
 echo "$remarks" | while read -r remark; do
     shows "$remark"
 done
-[ "$(wc -l <"$out")" -eq 5 ] || fail "other remarks"
+[ "$(wc -l <"$out")" -eq 6 ] || fail "other remarks"
 [ ! -s "$err" ] || fail "it says something on stderr"
 expect 1 percuss bodies --check --json
-shows '"bodies": 4'
-[ "$(grep -c '"text":' "$out")" -eq 5 ] || fail "other remarks in JSON"
+shows '"bodies": 6'
+[ "$(grep -c '"text":' "$out")" -eq 6 ] || fail "other remarks in JSON"
 shows '"key": "density"'
 
 say "and of the shipped bodies nothing"

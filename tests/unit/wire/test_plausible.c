@@ -32,7 +32,10 @@ static void test_materials_that_there_are(void **state)
     assert_int_equal(material(1.2e12, 3515.0, INFINITY), 0); /* diamond */
     assert_int_equal(material(560e9, 22590.0, INFINITY), 0); /* osmium */
     assert_int_equal(material(1e6, 100.0, 1e5), 0);
-    assert_int_equal(material(1.5e12, 25000.0, 2e10), 0);
+    assert_int_equal(material(1.2e12, 25000.0, 2e10), 0);
+    assert_int_equal(material(45e9, 1740.0, 150e6), 0);      /* magnesium */
+    assert_int_equal(material(0.4e9, 2200.0, INFINITY), 0);  /* PTFE, a polymer by its density */
+    assert_int_equal(material(0.01e9, 1500.0, INFINITY), 0); /* rubber with much filler */
     /* a mesh of several materials has no numbers of its own */
     assert_int_equal(material(NAN, NAN, NAN), 0);
 }
@@ -46,6 +49,19 @@ static void test_materials_in_another_unit(void **state)
                         "7.8 kg/m^3: below 100 kg/m^3: is a unit missing, such as g/cm^3?");
     assert_int_equal(material(210e3, 7800.0, INFINITY), 1);
     assert_string_equal(remarks[0].key, "young");
+    /* GPa typed as MPa, and the other way */
+    assert_int_equal(material(210e6, 7800.0, INFINITY), 1);
+    assert_string_equal(
+        remarks[0].text,
+        "2.1e+08 Pa: below 1e+09 Pa: softer than what has this density: is GPa meant?");
+    assert_int_equal(material(70e6, 2700.0, INFINITY), 1);
+    assert_int_equal(material(45e6, 1740.0, INFINITY), 1);
+    assert_int_equal(material(16e6, 11340.0, 5e6), 1);
+    assert_int_equal(material(2.1e12, 7800.0, INFINITY), 1);
+    assert_string_equal(remarks[0].text,
+                        "2.1e+12 Pa: above 1.2e+12 Pa: no solid is as stiff: is GPa meant?");
+    /* a polymer in kPa */
+    assert_int_equal(material(3e5, 1200.0, INFINITY), 1);
     assert_int_equal(material(210.0, 7.8, 205.0), 3);
     assert_string_equal(remarks[2].key, "yield");
     assert_int_equal(material(210e12, 7.8e4, 205e9), 3);
