@@ -14,10 +14,28 @@
 /* p-values below this are called small. */
 static const double SMALL = 0.05;
 
-static void print_distance(const char *name, const struct distance *distance)
+/* Of fewer impacts no order of the values has a p-value that is small: the least of n and n is 2
+ * n! n! / (2 n)!, 1/10 of three and 1/35 of four. */
+enum { LEAST_IMPACTS = 4 };
+
+static void print_distance(const char *name, const struct distance *distance, size_t impacts)
 {
-    printf("  %-20s %.4g, p = %.3g%s\n", name, distance->value, distance->p,
-           distance->p < SMALL ? ": the distributions differ" : "");
+    if (impacts < LEAST_IMPACTS)
+        printf("  %-20s %.4g; %zu impact%s too few for a p-value: %d or more are needed\n", name,
+               distance->value, impacts, impacts == 1 ? " is" : "s are", LEAST_IMPACTS);
+    else
+        printf("  %-20s %.4g, p = %.3g%s\n", name, distance->value, distance->p,
+               distance->p < SMALL ? ": the distributions differ" : "");
+}
+
+/* A single impact has no deviation. */
+static void print_moments(const char *name, double mean, double deviation)
+{
+    printf("  %-20s mean %.4f, ", name, mean);
+    if (isnan(deviation))
+        puts("of a single impact");
+    else
+        printf("standard deviation %.4f\n", deviation);
 }
 
 void compare_print_table(const struct comparison *comparison)
@@ -39,18 +57,18 @@ void compare_print_table(const struct comparison *comparison)
     /* over all of them */
     printf("\n%s on %s, %zu impacts\n", comparison->scene->a, comparison->scene->b,
            comparison->set->count);
-    printf("  %-20s mean %.4f, standard deviation %.4f\n", "measured e",
-           comparison->differences.measured_mean, comparison->differences.measured_deviation);
-    printf("  %-20s mean %.4f, standard deviation %.4f\n", "simulated e",
-           comparison->differences.simulated_mean, comparison->differences.simulated_deviation);
-    printf("  %-20s mean %.4f +- %.4f (95 %%), root mean square %.4f\n", "residual",
-           comparison->differences.residual_mean, comparison->differences.residual_half_width,
-           comparison->differences.residual_rms);
-    print_distance("Kolmogorov-Smirnov", &comparison->differences.kolmogorov);
-    print_distance("energy distance", &comparison->differences.energy);
-    if (comparison->differences.counted > 0)
-        printf("  %-20s equal in %zu of %zu impacts\n", "sub-impacts",
-               comparison->differences.counts_equal, comparison->differences.counted);
+    const struct differences *differences = &comparison->differences;
+    print_moments("measured e", differences->measured_mean, differences->measured_deviation);
+    print_moments("simulated e", differences->simulated_mean, differences->simulated_deviation);
+    printf("  %-20s mean %.4f", "residual", differences->residual_mean);
+    if (!isnan(differences->residual_half_width))
+        printf(" +- %.4f (95 %%)", differences->residual_half_width);
+    printf(", root mean square %.4f\n", differences->residual_rms);
+    print_distance("Kolmogorov-Smirnov", &differences->kolmogorov, comparison->set->count);
+    print_distance("energy distance", &differences->energy, comparison->set->count);
+    if (differences->counted > 0)
+        printf("  %-20s equal in %zu of %zu impacts\n", "sub-impacts", differences->counts_equal,
+               differences->counted);
 }
 
 static void print_csv_of(const struct measured_impact *impact)

@@ -334,6 +334,8 @@ static int run(struct ensemble *ensemble)
     for (size_t i = 0; i < ensemble->request->input_count; i++)
         if (!strcmp(ensemble->request->inputs[i].name, "speed"))
             speed = input_text_middle(&ensemble->request->inputs[i]);
+    if (!ensemble->common->json)
+        scene_doubt_speed(speed);
     /* bodies of the catalogue, placed in contact */
     int code = open_client(ensemble->common, NULL, &client);
     if (code != EXIT_ANSWERED)

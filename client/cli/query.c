@@ -391,6 +391,8 @@ int command_query(int argc, char **argv, struct common *common)
     struct query query = {.common = common, .scene = scene_default()};
     struct asking asking;
     argp_parse(&query_argp, argc, argv, 0, NULL, &query);
+    for (size_t i = 0; i < query.speed_count && !common->json; i++)
+        scene_doubt_speed(query.speeds[i]);
     int code = !begin(&asking, &query) ? complain_memory()
                : query.file            ? ask_file(&query, &asking)
                                        : ask_scene(&query, &asking);

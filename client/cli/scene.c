@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "column.h"
 #include "others.h"
 #include "quantity.h"
 #include "similar.h"
@@ -357,6 +358,13 @@ int scene_request(const struct scene *scene, const struct scene_bodies *bodies, 
     enum percuss_result result = percuss_contact_pair(&pair, request);
     request->options = scene->options;
     return result == PERCUSS_RESULT_OK ? EXIT_ANSWERED : complain_result(result);
+}
+
+void scene_doubt_speed(double speed)
+{
+    const struct column_kind *kind = &IMPACT_KINDS[IMPACT_SPEED];
+    if (speed > kind->usual)
+        complain("warning: --speed: %g m/s: above %g m/s: %s", speed, kind->usual, kind->question);
 }
 
 void scene_explain_unknown(const struct common *common, struct percuss_client *client,

@@ -76,6 +76,9 @@ struct scene_text {
 };
 struct scene_text scene_describe(const struct scene *scene, const struct scene_bodies *bodies);
 
+/* Asks on stderr whether a speed (m/s) that is improbable bears another unit. */
+void scene_doubt_speed(double speed);
+
 /* Prints to stderr which of the request's bodies the server lacks and which it knows, the most
  * similar id first, and in which catalogue. */
 void scene_explain_unknown(const struct common *common, struct percuss_client *client,

@@ -353,6 +353,8 @@ int command_sweep(int argc, char **argv, struct common *common)
     struct sweep sweep = {.common = common, .scene = scene_default()};
     struct percuss_client *client;
     argp_parse(&sweep_argp, argc, argv, 0, NULL, &sweep);
+    if (!common->json)
+        scene_doubt_speed(sweep.high);
     int code = open_client(common, NULL, &client);
     if (code != EXIT_ANSWERED)
         return code;

@@ -11,9 +11,12 @@
 #include "divide.h"
 
 const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS] = {
-    [IMPACT_SPEED] = {"speed", false, false, QUANTITY_SPEED, 1e-9, 1e6, "m/s > 0"},
+    [IMPACT_SPEED] = {"speed", false, false, QUANTITY_SPEED, 1e-9, 1e6, "m/s > 0", 100.0,
+                      "is a unit missing, such as mm/s?"},
+    /* 0..1 but for what a reading scatters, and for bodies that vibrate before */
     [IMPACT_RESTITUTION] = {"restitution", false, false, QUANTITY_NUMBER, -1.0, 2.0,
-                            "a number -1..2"}, /* 0..1 but for what a reading scatters */
+                            "a number -1..2", 1.0,
+                            "only a body that vibrated before the impact gives so much back"},
     [IMPACT_IMPULSE] = {"impulse", false, false, QUANTITY_IMPULSE, 0.0, 1e12, "N s >= 0"},
     [IMPACT_SUB_IMPACTS] = {"sub_impacts", false, true, QUANTITY_NUMBER, 0.0, 1e6, "a count >= 0"},
     [IMPACT_FIRST_IMPULSE] = {"first_impulse", false, false, QUANTITY_IMPULSE, 0.0, 1e12,
@@ -21,6 +24,8 @@ const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS] = {
     [IMPACT_FIRST_DURATION] = {"first_duration", false, false, QUANTITY_TIME, 0.0, 1e6, "s >= 0"},
     [IMPACT_SECOND_START] = {"second_start", false, false, QUANTITY_TIME, 0.0, 1e6, "s >= 0"},
     [IMPACT_AT] = {"at", false, false, QUANTITY_NUMBER, 0.0, 1.0, "a fraction 0..1"},
+    [IMPACT_V_OUT] = {"v_out", false, false, QUANTITY_SPEED, 0.0, 1e6,
+                      "m/s >= 0, at which the bodies separate"},
     [IMPACT_HISTORY] = {"history", true, false, QUANTITY_NUMBER, 0.0, 0.0, "a file"},
 };
 
@@ -73,16 +78,37 @@ static const struct column_kind *find_free(const struct column_map *map, const c
     snprintf(name, sizeof name, "%.*s", (int)length, text);
     const struct column_kind *kind = length < sizeof name ? column_find(name) : NULL;
     if (!kind) {
-        measured_fail(fault,
-                      "'%s': '%s' is none of speed, restitution, impulse, sub_impacts, "
-                      "first_impulse, first_duration, second_start, at, history, and in histories "
-                      "time, velocity_a, velocity_b, displacement_a, displacement_b",
-                      text, name);
+        measured_fail(
+            fault,
+            "'%s': '%s' is none of speed, restitution, impulse, sub_impacts, "
+            "first_impulse, first_duration, second_start, at, v_out, history, and in histories "
+            "time, velocity_a, velocity_b, displacement_a, displacement_b",
+            text, name);
     } else if (column_map_find(map, kind)) {
         measured_fail(fault, "'%s': %s is given twice", text, name);
         kind = NULL;
     }
     return kind;
+}
+
+/* Whether the heading is the name of a column of another quantity. */
+static bool is_of_another(const struct column_kind *kind, const char *heading,
+                          struct measured_fault *fault)
+{
+    for (int i = 0; i < IMPACT_COLUMNS + HISTORY_COLUMNS; i++) {
+        const struct column_kind *named =
+            i < IMPACT_COLUMNS ? &IMPACT_KINDS[i] : &HISTORY_KINDS[i - IMPACT_COLUMNS];
+        if (!cell_same_name(named->name, heading) || named->is_text ||
+            named->quantity == kind->quantity)
+            continue;
+        measured_fail(fault, "'%s=%s': %s is in %s, %s %s%s: %s is a column of its own", kind->name,
+                      heading, named->name,
+                      *units_si(named->quantity) ? units_si(named->quantity) : "no unit",
+                      kind->name, *units_si(kind->quantity) ? "in " : "has no unit",
+                      units_si(kind->quantity), named->name);
+        return true;
+    }
+    return false;
 }
 
 bool column_map_add(struct column_map *map, const char *text, struct measured_fault *fault)
@@ -103,6 +129,8 @@ bool column_map_add(struct column_map *map, const char *text, struct measured_fa
     memcpy(choice.heading, heading, length);
     if (colon)
         column_unit(colon + 1, choice.unit);
+    if (is_of_another(choice.kind, choice.heading, fault))
+        return false;
     if (column_accepts(choice.kind, choice.unit) != UNITS_GOOD)
         return measured_fail(fault, "'%s': '%s': must be %s", text, choice.unit,
                              column_allowed_unit(choice.kind).text);
@@ -150,9 +178,13 @@ enum units_problem column_number(const struct column_kind *kind, const char *num
                                  const char *unit, double *value)
 {
     char text[CELL_SIZE + UNIT_SIZE + 2];
+    bool is_share = kind->quantity == QUANTITY_NUMBER && !kind->is_count;
+    size_t length = strnlen(number, CELL_SIZE);
+    bool marked = is_share && length > 0 && number[length - 1] == '%' && (!*unit || *unit == '%');
+    length -= marked;
     /* a share of something is to it what a centimetre is to a metre */
-    bool share = kind->quantity == QUANTITY_NUMBER && !kind->is_count && !strcmp(unit, "%");
-    snprintf(text, sizeof text, "%.*s %s", CELL_SIZE, number, share ? "cm" : unit);
+    bool share = is_share && (marked || !strcmp(unit, "%"));
+    snprintf(text, sizeof text, "%.*s %s", (int)length, number, share ? "cm" : unit);
     return units_read(text, share ? QUANTITY_LENGTH : kind->quantity, value);
 }
 

@@ -13,7 +13,9 @@ struct column_kind {
     bool is_text, is_count;
     enum quantity quantity;
     double low, high;
-    const char *allowed; /* in words */
+    const char *allowed;  /* in words */
+    double usual;         /* what is above it is possible but improbable; 0: nothing is */
+    const char *question; /* what to think of then */
 };
 
 /* Those of a file of impacts, and of one of time histories. */
@@ -26,6 +28,7 @@ enum {
     IMPACT_FIRST_DURATION,
     IMPACT_SECOND_START,
     IMPACT_AT,
+    IMPACT_V_OUT,
     IMPACT_HISTORY,
     IMPACT_COLUMNS
 };
@@ -79,7 +82,8 @@ struct column_allowed {
 };
 struct column_allowed column_allowed_unit(const struct column_kind *kind);
 
-/* Reads a number, without a mark but the decimal point, that is in this unit. */
+/* Reads a number, without a mark but the decimal point, that is in this unit. A share may bear a %
+ * of its own. */
 enum units_problem column_number(const struct column_kind *kind, const char *number,
                                  const char *unit, double *value);
 

@@ -97,7 +97,7 @@ static bool take_title(struct layout *layout, size_t column, struct measured_rem
     /* what stands in brackets need not be a unit where the name is given with it */
     column_heading(layout->titles.list[column], name, unit);
     if (source->kinds[kind].is_text ||
-        (whole && column_accepts(&source->kinds[kind], unit) != UNITS_GOOD))
+        (whole && column_accepts(&source->kinds[kind], unit) == UNITS_UNKNOWN))
         return true;
     return set_unit(layout, (size_t)kind, unit, layout->line, remarks);
 }
@@ -116,8 +116,8 @@ static bool take_number(struct layout *layout, size_t kind, struct measured_rema
         column_unit(layout->titles.list[number], unit);
         if (column_accepts(&source->kinds[kind], unit) != UNITS_GOOD)
             column_heading(layout->titles.list[number], name, unit);
-        return column_accepts(&source->kinds[kind], unit) != UNITS_GOOD ||
-               set_unit(layout, kind, unit, layout->line, remarks);
+        return column_accepts(&source->kinds[kind], unit) == UNITS_UNKNOWN ||
+               source->kinds[kind].is_text || set_unit(layout, kind, unit, layout->line, remarks);
     }
     layout_list(layout, true, list, sizeof list);
     return remarks_wrong(remarks, "%s:%zu: --column %s=%s: no such column: there are %s",

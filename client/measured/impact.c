@@ -22,15 +22,16 @@ static const size_t OFFSETS[IMPACT_HISTORY] = {
     [IMPACT_FIRST_DURATION] = offsetof(struct measured_impact, first_duration),
     [IMPACT_SECOND_START] = offsetof(struct measured_impact, second_start),
     [IMPACT_AT] = offsetof(struct measured_impact, at),
+    [IMPACT_V_OUT] = offsetof(struct measured_impact, v_out),
 };
 
 /* What a row may lack. */
 enum { LACKS_SPEED, LACKS_OUTCOME, LACKS };
-static const char *const REASONS[LACKS] = {"no speed", "no restitution, impulse or history"};
+static const char *const REASONS[LACKS] = {"no speed", "no restitution, v_out, impulse or history"};
 
 struct measured_impact measured_impact_unknown(void)
 {
-    return (struct measured_impact){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    return (struct measured_impact){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
 struct measured_impact measured_impact_from(const struct history_impacts *history)
@@ -108,6 +109,24 @@ static bool add_history(const char *file, const char *name, const struct column_
     return true;
 }
 
+/* The restitution of Newton where the row does not state it. */
+static bool take_v_out(struct table *table, size_t row, struct measured_impact *impact,
+                       struct measured_remarks *remarks)
+{
+    const double most = IMPACT_KINDS[IMPACT_RESTITUTION].high;
+    double e = impact->v_out / impact->speed;
+    if (!isnan(impact->restitution) || isnan(e))
+        return true;
+    if (e > most)
+        return remarks_wrong(remarks,
+                             "%s:%zu: v_out: %g: must be at most %g times the speed (%g m/s)",
+                             text_name(table->layout.source->file), table->numbers[row],
+                             impact->v_out, most, impact->speed);
+    impact->restitution = e;
+    table_look(table, row, IMPACT_RESTITUTION, e);
+    return true;
+}
+
 /* Reads all of the row, so that all that is wrong with it is said. */
 static bool read_row(struct table *table, size_t row, struct measured_impact *impact,
                      struct measured_remarks *remarks)
@@ -119,6 +138,7 @@ static bool read_row(struct table *table, size_t row, struct measured_impact *im
     for (size_t k = 0; k < IMPACT_HISTORY; k++)
         good =
             table_number(table, row, k, (double *)((char *)impact + OFFSETS[k]), remarks) && good;
+    good = good && take_v_out(table, row, impact, remarks);
     /* what its history adds */
     if (*history && !cell_is_missing(history))
         good = add_history(source->file, history, source->map, impact, remarks) && good;
@@ -147,11 +167,13 @@ static bool check_columns(const struct table *table, struct measured_remarks *re
                              "%s: column 'speed' or 'history': missing; there are %s; --column "
                              "speed=HEADING says which it is",
                              file, list);
-    if (!history && !table_has(table, IMPACT_RESTITUTION) && !table_has(table, IMPACT_IMPULSE))
-        return remarks_wrong(remarks,
-                             "%s: column 'restitution', 'impulse' or 'history': missing; there are "
-                             "%s; --column restitution=HEADING says which it is",
-                             file, list);
+    if (!history && !table_has(table, IMPACT_RESTITUTION) && !table_has(table, IMPACT_IMPULSE) &&
+        !table_has(table, IMPACT_V_OUT))
+        return remarks_wrong(
+            remarks,
+            "%s: column 'restitution', 'v_out', 'impulse' or 'history': missing; there are "
+            "%s; --column restitution=HEADING says which it is",
+            file, list);
     return true;
 }
 
@@ -193,6 +215,7 @@ static bool take_rows(struct table *table, struct measured_set *set,
             return remarks_wrong(remarks, "%s: out of memory", file);
     }
     note_left(table, set, remarks);
+    table_note_unusual(table, remarks);
     if (remarks->errors == errors && set->count == 0)
         return remarks_wrong(remarks, "%s: no impacts: at least one line is needed", file);
     return true;

@@ -19,6 +19,7 @@ struct measured_impact {
     double at;           /* place along a beam, 0..1 */
     double momentum;     /* impulse over the mass of body A: from its velocity, m/s */
     double first_momentum;
+    double v_out; /* speed of separation of the rigid motions: e = v_out / speed */
 };
 
 /* Nothing known. */
@@ -40,10 +41,10 @@ struct measured_set {
 void measured_set_free(struct measured_set *set);
 
 /* Reads a file of columns (table.h): any of speed, restitution, impulse, sub_impacts,
- * first_impulse, first_duration, second_start, at, and history, the name of a file of time
+ * first_impulse, first_duration, second_start, at, v_out, and history, the name of a file of time
  * histories (relative to this one). Empty fields and nan are unknown. Rows without a speed (or a
- * history, which has it) or without any of restitution, impulse and history are left out, with a
- * note. False with all that is wrong: file, line, value and what is allowed. */
+ * history, which has it) or without any of restitution, v_out, impulse and history are left out,
+ * with a note. False with all that is wrong: file, line, value and what is allowed. */
 bool measured_read(const char *file, const struct column_map *map, struct measured_set *set,
                    struct measured_remarks *remarks);
 

@@ -168,7 +168,7 @@ static void list_known(const struct table_source *source, char *text, size_t siz
 static bool explain(struct layout *layout, const struct text_lines *lines,
                     struct measured_remarks *remarks)
 {
-    char known[256] = "", found[160];
+    char known[256] = "", found[160], cure[80] = "HEADING says which is which";
     size_t first = next_row(lines, 0);
     const char *file = text_name(layout->source->file), *separator = DIVIDE_SEPARATORS;
     if (first == lines->count)
@@ -179,13 +179,23 @@ static bool explain(struct layout *layout, const struct text_lines *lines,
     if (!cells_divide(&lines->list[first], *separator, &layout->titles))
         return remarks_wrong(remarks, "%s: out of memory", file);
     layout_list(layout, true, found, sizeof found);
+    /* rows without headings are told by their places */
+    size_t numbers = 0;
+    while (numbers < layout->titles.all && (cell_is_missing(layout->titles.list[numbers]) ||
+                                            cell_begins_with_number(layout->titles.list[numbers])))
+        numbers++;
+    const struct column_kind *kinds = layout->source->kinds;
+    bool bare = numbers == layout->titles.all;
+    if (bare)
+        snprintf(cure, sizeof cure, "NUMBER says which is which: --column %s=1 --column %s=2",
+                 kinds[0].name, kinds[1].name);
     layout_free(layout);
     list_known(layout->source, known, sizeof known);
     return remarks_wrong(remarks,
                          "%s:%zu: column '%s': missing, and all that may be there (%s): there are "
-                         "%s; --column NAME=HEADING says which is which",
-                         file, lines->list[first].number, layout->source->kinds[0].name, known,
-                         found);
+                         "%s%s; --column NAME=%s",
+                         file, lines->list[first].number, kinds[0].name, known, found,
+                         bare ? ", which are no headings" : "", cure);
 }
 
 /* The line of units, if there is one. */

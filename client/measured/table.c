@@ -139,6 +139,16 @@ static bool check_mark(struct table *table, size_t row, size_t kind,
         table->mark, table->mark_line, layout_place(&table->layout, kind).text);
 }
 
+void table_look(struct table *table, size_t row, size_t kind, double number)
+{
+    const struct column_kind *column = &table->layout.source->kinds[kind];
+    struct unusual *unusual = &table->unusual[kind];
+    if (column->usual > 0.0 && number > column->usual && unusual->count++ == 0) {
+        unusual->line = table->numbers[row];
+        unusual->value = number;
+    }
+}
+
 bool table_number(struct table *table, size_t row, size_t kind, double *number,
                   struct measured_remarks *remarks)
 {
@@ -164,7 +174,24 @@ bool table_number(struct table *table, size_t row, size_t kind, double *number,
         return remarks_wrong(remarks, "%s:%zu: %s: %.10g: must be %s %s", file_of(table),
                              table->numbers[row], column->name, *number, column->allowed,
                              layout_place(&table->layout, kind).text);
+    table_look(table, row, kind, *number);
     return true;
+}
+
+void table_note_unusual(const struct table *table, struct measured_remarks *remarks)
+{
+    for (size_t k = 0; k < table->layout.source->kind_count; k++) {
+        const struct column_kind *kind = &table->layout.source->kinds[k];
+        const struct unusual *unusual = &table->unusual[k];
+        const struct layout_place place = layout_place(&table->layout, k);
+        char more[48] = "";
+        if (unusual->count > 1)
+            snprintf(more, sizeof more, ", as in %zu more rows", unusual->count - 1);
+        if (unusual->count > 0)
+            remarks_note(remarks, "%s:%zu: %s: %.10g: above %g%s: %s%s%s", file_of(table),
+                         unusual->line, kind->name, unusual->value, kind->usual, more,
+                         kind->question, *place.text ? " " : "", place.text);
+    }
 }
 
 void left_out_add(struct left_out *left, size_t line)

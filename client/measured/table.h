@@ -16,6 +16,10 @@ struct table {
     size_t *numbers;  /* [rows], of lines, for messages */
     char mark;        /* the decimal mark of the first number that has one; 0: none yet */
     size_t mark_line; /* where that was */
+    struct unusual {
+        size_t count, line; /* the first one's */
+        double value;
+    } unusual[COLUMN_KINDS];
 };
 
 /* Reads a file; empty lines and lines that begin with # are skipped. What is wrong with single
@@ -35,6 +39,13 @@ const char *table_cell(const struct table *table, size_t row, size_t kind);
  * is wrong, for what is no number or one that cannot be. */
 bool table_number(struct table *table, size_t row, size_t kind, double *number,
                   struct measured_remarks *remarks);
+
+/* Remembers a number that is possible but improbable; table_number does, too. */
+void table_look(struct table *table, size_t row, size_t kind, double number);
+
+/* Notes the numbers remembered that are possible but improbable: of each column the first one,
+ * with its line, and how many others there are. */
+void table_note_unusual(const struct table *table, struct measured_remarks *remarks);
 
 /* Rows that are left out for one reason. */
 enum { LEFT_OUT_NAMED = 10 };

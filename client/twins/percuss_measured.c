@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "column.h"
 #include "differences.h"
 #include "report.h"
 
@@ -81,7 +82,7 @@ static const struct {
 enum { NUMBER_COUNT = sizeof NUMBERS / sizeof NUMBERS[0] };
 
 static enum percuss_result take(size_t index, const struct percuss_measured_impact *given,
-                                struct measured_impact *impact)
+                                struct measured_impact *impact, struct measured_remarks *remarks)
 {
     *impact = measured_impact_unknown();
     for (size_t i = 0; i < NUMBER_COUNT; i++) {
@@ -91,6 +92,11 @@ static enum percuss_result take(size_t index, const struct percuss_measured_impa
                               "impacts[%zu].%s: %g: %s or NAN is allowed", index, NUMBERS[i].name,
                               value, NUMBERS[i].allowed);
         *(double *)((char *)impact + NUMBERS[i].offset) = value;
+        /* as of a file */
+        const struct column_kind *kind = column_find(NUMBERS[i].name);
+        if (kind->usual > 0.0 && value > kind->usual)
+            remarks_note(remarks, "impacts[%zu].%s: %g: above %g: %s", index, kind->name, value,
+                         kind->usual, kind->question);
     }
     if (isnan(impact->speed))
         return report_set(PERCUSS_RESULT_INVALID_ARGUMENT,
@@ -115,7 +121,7 @@ enum percuss_result percuss_measured_create(size_t count,
     enum percuss_result result = PERCUSS_RESULT_OK;
     for (size_t i = 0; made && result == PERCUSS_RESULT_OK && i < count; i++) {
         struct measured_impact impact;
-        result = take(i, &impacts[i], &impact);
+        result = take(i, &impacts[i], &impact, &made->remarks);
         if (result == PERCUSS_RESULT_OK && !measured_append(&made->set, &impact))
             result = report_set(PERCUSS_RESULT_NO_MEMORY, "out of memory: impacts");
     }

@@ -128,10 +128,40 @@ says "--column is of a file that is measured: --measured FILE is needed"
 say "rows that tell no impact are left out, counted and named"
 printf 'speed;restitution;mood\n0,2;0,7;\n;0,7;\n0,3;n/a;\n#NV;;x\n0,25;0,6;\n' >gaps.csv
 expect 0 percuss compare gaps.csv $pair --json
-says "gaps.csv: 3 of 5 rows left out: no speed in lines 3 and 5; no restitution, impulse or history in line 4"
+says "gaps.csv: 3 of 5 rows left out: no speed in lines 3 and 5; no restitution, v_out, impulse or history in line 4"
 [ "$(grep -c '"simulated": {' "$out")" -eq 3 ] || fail "not two impacts"
-tr -d ' \n' <"$out" | grep -qF '"left_out":[{"line":3,"reason":"nospeed"},{"line":4,"reason":"norestitution,impulseorhistory"},{"line":5,"reason":"nospeed"}]' ||
+tr -d ' \n' <"$out" | grep -qF '"left_out":[{"line":3,"reason":"nospeed"},{"line":4,"reason":"norestitution,v_out,impulseorhistory"},{"line":5,"reason":"nospeed"}]' ||
     fail "the rows are not named"
+
+say "a rebound speed instead of the restitution, per cent in cells; a restitution above 1 with a warning"
+printf 'speed [mm/s],v_out [mm/s],restitution\n200,90,\n200,,45 %%\n200,230,\n' >rebound.csv
+expect 0 percuss compare rebound.csv $pair --csv
+[ "$(cut -d , -f 1,3 "$out" | sed 1d | tr '\n' ' ')" = \
+    "0.20000000000000001,0.44999999999999996 0.20000000000000001,0.45000000000000001 0.20000000000000001,1.1499999999999999 " ] ||
+    fail "not the restitutions: $(cut -d , -f 1,3 "$out")"
+says "rebound.csv:4: restitution: 1.15: above 1: only a body that vibrated before the impact gives so much back"
+expect 2 percuss compare rebound.csv $pair --column restitution=v_out
+says "--column: 'restitution=v_out': v_out is in m/s, restitution has no unit: v_out is a column of its own"
+
+say "two impacts are too few for a p-value, one for a deviation"
+printf 'speed,restitution\n0.2,0.7\n0.25,0.6\n' >two.csv
+expect 0 percuss compare two.csv $pair
+shows "; 2 impacts are too few for a p-value: 4 or more are needed"
+! grep -q 'p = \|nan' "$out" || fail "a p-value of two impacts"
+head -n 2 two.csv >one.csv
+expect 0 percuss compare one.csv $pair
+shows "; 1 impact is too few for a p-value"
+shows "of a single impact"
+! grep -q 'p = \|nan' "$out" || fail "a p-value or nan of one impact"
+tail -n +2 two.csv | expect 2 percuss compare - $pair
+says "which are no headings; --column NAME=NUMBER says which is which: --column speed=1 --column restitution=2"
+
+say "a speed that may be in another unit, in a file and on the command line"
+printf 'speed,restitution\n200,0.7\n0.25,0.6\n' >fast.csv
+percuss compare fast.csv $pair >"$out" 2>"$err" || true
+says "fast.csv:2: speed: 200: above 100: is a unit missing, such as mm/s? (column 1)"
+percuss query $pair --speed 200 >"$out" 2>"$err" || true
+says "warning: --speed: 200 m/s: above 100 m/s: is a unit missing, such as mm/s?"
 
 say "all that is wrong with a file is said at once"
 printf 'speed [mm/s];restitution;sub_impacts\n-200;0,7;1\n200;7,4;1\n200;half;2\n200;0.7;2\n200;0,7;1,5\n200\n200;inf;1\n' >bad.csv

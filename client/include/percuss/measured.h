@@ -105,7 +105,7 @@ PERCUSS_API void percuss_measured_free(struct percuss_measured *measured);
 
 PERCUSS_API size_t percuss_measured_count(const struct percuss_measured *measured);
 
-/* What was noticed when the file was read, such as rows that were left out, a text each, the
+/* What was noticed when they were taken, such as rows that were left out, a text each, the
  * impacts' as long as they live; NULL from the first index on that has none. */
 PERCUSS_API const char *percuss_measured_note(const struct percuss_measured *measured,
                                               size_t index);

@@ -100,6 +100,11 @@ static void takes_choices(void **state)
     refuse(&map, "sped=v", "'sped' is none of speed, restitution");
     refuse(&map, "speed=v:mm", "'mm': must be a unit of speed, as in 300 mm/s");
     refuse(&map, "restitution=e:m", "'m': must be nothing or %");
+    refuse(
+        &map, "restitution=v_out",
+        "'restitution=v_out': v_out is in m/s, restitution has no unit: v_out is a column of its "
+        "own");
+    refuse(&map, "first_impulse=Speed", "speed is in m/s, first_impulse in N s");
     refuse(&map, "sub_impacts=n:%", "'%': must be nothing: sub_impacts has no unit");
     assert_true(column_map_add(&map, "speed=v", &fault));
     refuse(&map, "speed=w", "speed is given twice");

@@ -83,6 +83,20 @@ static void reads_the_shapes_of_rigs(void **state)
     /* names of the rig's own, in another order, units said by hand or in the cells */
     is_the_set("n,v,e,J1\n1,200,0.5,25 mN s\n1,250,0.51,31.5 mN s\n,300,0.52,37.8 mN s\n",
                "speed=V:mm/s|restitution=e|sub_impacts=n|first_impulse=J1");
+    /* shares with a sign in the cell, of a heading with one and of one without */
+    is_the_set("speed,restitution,sub_impacts,first_impulse\n"
+               "0.2,50 %,1,0.025\n0.25,51%,1,0.0315\n0.3,0.52,,0.0378\n",
+               "");
+    is_the_set("speed;restitution (%);sub_impacts;first_impulse\n"
+               "0,2;50;1;0,025\n0,25;51,0 %;1;0,0315\n0,3;52;;0,0378\n",
+               "");
+    /* the speed of separation */
+    is_the_set("speed [mm/s],v_out [mm/s],sub_impacts,first_impulse\n"
+               "200,100,1,0.025\n250,127.5,1,0.0315\n300,156,,0.0378\n",
+               "");
+    is_the_set("v;w;sub_impacts;first_impulse\n"
+               "0.2;10 cm/s;1;0.025\n0.25;12.75 cm/s;1;0.0315\n0.3;15.6 cm/s;;0.0378\n",
+               "speed=v|v_out=w");
     /* Windows-1252 */
     is_the_set("speed;restitution;sub_impacts;first_impulse [\xB5N\xB7s]\n0.2;0.5;1;25000\n"
                "0.25;0.51;1;31500\n0.3;0.52;;37800\n",
@@ -99,11 +113,11 @@ static void says_how_it_understood_them(void **state)
     assert_int_equal(set.count, 2);
     assert_int_equal(set.left_count, 3);
     assert_int_equal(set.left[1].line, 5);
-    assert_string_equal(set.left[1].reason, "no restitution, impulse or history");
+    assert_string_equal(set.left[1].reason, "no restitution, v_out, impulse or history");
     assert_int_equal(remarks.notes, 3);
     assert_true(files_say(remarks.note, 3,
                           "notes.csv: 3 of 5 rows left out: no speed in lines 4 "
-                          "and 7; no restitution, impulse or history in line 5"));
+                          "and 7; no restitution, v_out, impulse or history in line 5"));
     assert_true(files_say(remarks.note, 3, "columns that are not read: 'colour', 'mood'"));
     assert_true(files_say(remarks.note, 3, "above the headings in line 2 is not read"));
     measured_set_free(&set);
@@ -119,6 +133,19 @@ static void says_how_it_understood_them(void **state)
         strcat(text, "0.1,-\n");
     assert_true(read_with(files_text("many.csv", text), "", &set));
     assert_true(files_say(remarks.note, remarks.notes, "12 and 2 more"));
+    measured_set_free(&set);
+    /* what is possible but improbable, once a column */
+    assert_true(read_with(files_text("fast.csv", "speed,restitution,v_out\n0.1,0.5,\n200,1.02,\n"
+                                                 "300,0.5,\n1,,1.5\n"),
+                          "", &set));
+    assert_int_equal(remarks.notes, 2);
+    assert_true(files_say(remarks.note, 2,
+                          "fast.csv:3: speed: 200: above 100, as in 1 more rows: is a unit "
+                          "missing, such as mm/s? (column 1)"));
+    assert_true(files_say(remarks.note, 2,
+                          "fast.csv:3: restitution: 1.02: above 1, as in 1 more rows: only a body "
+                          "that vibrated before the impact gives so much back (column 2)"));
+    assert_true(set.impacts[3].restitution == 1.5);
     measured_set_free(&set);
     /* a plain file needs no words */
     assert_true(read_with(files_text("plain.csv", "speed,restitution\n0.1,0.5\n"), "", &set));
@@ -152,12 +179,16 @@ static void refuses_files_without_impacts(void **state)
     refuse_with("v,e\n1,2\n", "speed=w", 1, "(speed (as 'w'), restitution");
     refuse_with("v,e\n1,2\n", "speed=w|restitution=e", 1,
                 "--column speed=w: no such column: there are 'v', 'e'");
+    refuse("0.2,0.7\n0.3,0.6\n",
+           "there are '0.2', '0.7', which are no headings; --column NAME=NUMBER says which is "
+           "which: --column speed=1 --column restitution=2");
     refuse_with("v,e\n1,2\n", "speed=7|restitution=e", 1, "--column speed=7: no such column");
     refuse("e,\x1b[2J\n1,2\n", "'e', '?[2J'");
     refuse("speed,restitution\n", "no impacts");
     refuse("speed,restitution\n0.1,\n", "no impacts");
     refuse("restitution\n0.5\n", "column 'speed' or 'history': missing; there are 'restitution'");
-    refuse("speed\n0.5\n", "column 'restitution', 'impulse' or 'history': missing; there are");
+    refuse("speed\n0.5\n",
+           "column 'restitution', 'v_out', 'impulse' or 'history': missing; there are");
     refuse("speed,restitution,Speed\n1,0.5,1\n", "bad.csv:1: columns 1 and 3 are both 'speed'");
     struct measured_set set;
     assert_false(read_with("/nowhere/a.csv", "", &set));
@@ -192,6 +223,16 @@ static void refuses_bad_values(void **state)
     refuse_with("v [m/s],restitution\n0.1,0.5\n", "speed=v:mm/s", 1,
                 "bad.csv:1: speed: 'm/s' here and 'mm/s' elsewhere");
     refuse("speed,restitution [m]\n0.1,0.5\n", "restitution: 'm': must be nothing or %");
+    refuse("speed,v_out\n0.1,-0.05\n", "v_out: -0.05: must be m/s >= 0, at which the bodies sep");
+    refuse("speed,v_out\n0.1,0.3\n",
+           "bad.csv:2: v_out: 0.3: must be at most 2 times the speed (0.1 m/s)");
+    refuse_with("speed,v (m/s)\n0.1,0.05\n", "restitution=v", 1,
+                "restitution: 'm/s': must be nothing or %");
+    refuse_with("speed,v (m/s)\n0.1,0.05\n", "restitution=v (m/s)", 1,
+                "restitution: 'm/s': must be nothing or %");
+    refuse_with("speed,v (m/s)\n0.1,0.05\n", "restitution=2", 1,
+                "restitution: 'm/s': must be nothing or %");
+    refuse("speed,restitution,sub_impacts\n0.1,0.5,3 %\n", "sub_impacts: '3 %': must be a finite");
     refuse("speed,restitution\n0.1 s,0.5\n", "speed: '0.1 s': must be a finite number");
 }
 
