@@ -190,8 +190,10 @@ static int write_script(const struct plot *plot)
         return complain_memory();
     const char *file = plot->output->file ? plot_file_name(plot->output->file) : PICTURE;
     const struct plot names = {.script = script};
-    fprintf(script, "# The picture from the files beside this one: gnuplot %s, in this folder.\n",
-            SCRIPT);
+    fprintf(script,
+            "# The picture from the files beside this one: gnuplot %s, in this folder;\n"
+            "# LC_ALL=C.UTF-8 gnuplot %s where the locale is C.\n",
+            SCRIPT, SCRIPT);
     put_terminal(plot, file, script);
     fputs("set output ", script);
     plot_text(&names, file);

@@ -15,12 +15,30 @@
 
 enum { NOT_FOUND = 127 };
 
+/* The script is UTF-8 whatever the locale is: in that of C gnuplot warns of signs that it has not.
+ * The array is to be freed; NULL: out of memory. */
+static char **environment_utf8(void)
+{
+    static char utf8[] = "LC_ALL=C.UTF-8";
+    size_t count = 0, kept = 0;
+    while (environ[count])
+        count++;
+    char **variables = calloc(count + 2, sizeof *variables);
+    for (size_t i = 0; variables && i < count; i++)
+        if (strncmp(environ[i], "LC_ALL=", 7) != 0)
+            variables[kept++] = environ[i];
+    if (variables)
+        variables[kept] = utf8;
+    return variables;
+}
+
 /* In the child: gnuplot reads the script as its standard input and draws on its standard output,
  * which is never ours. */
-static void become_gnuplot(FILE *script, int picture)
+static void become_gnuplot(FILE *script, int picture, char **variables)
 {
+    char *const arguments[] = {"gnuplot", "-", NULL};
     if (dup2(fileno(script), STDIN_FILENO) >= 0 && dup2(picture, STDOUT_FILENO) >= 0)
-        execlp("gnuplot", "gnuplot", "-", (char *)NULL);
+        execvpe("gnuplot", arguments, variables);
     _exit(NOT_FOUND);
 }
 
@@ -47,14 +65,17 @@ char *plot_draw(FILE *script, const char *file, size_t *size)
     int pipe_ends[2], status = 0;
     bool written = fflush(script) == 0 && !ferror(script);
     rewind(script);
-    if (!written || pipe2(pipe_ends, O_CLOEXEC)) {
+    char **variables = environment_utf8();
+    if (!written || !variables || pipe2(pipe_ends, O_CLOEXEC)) {
+        free(variables);
         complain("--plot: %s: gnuplot could not be started: %s", file, strerror(errno));
         return NULL;
     }
     /* gnuplot in a process of its own, whose picture comes through a pipe */
     pid_t child = fork();
     if (child == 0)
-        become_gnuplot(script, pipe_ends[1]);
+        become_gnuplot(script, pipe_ends[1], variables);
+    free(variables);
     close(pipe_ends[1]);
     char *picture = child > 0 ? read_all(pipe_ends[0], size) : NULL;
     close(pipe_ends[0]);

@@ -133,6 +133,22 @@ PATH=$work/empty expect 0 "$bin/percuss" query --domain "$domain" $pair --speed 
 (cd "$work/alone" && gnuplot plot.gp) || fail "the script fails"
 [ "$(od -An -tx1 -N4 "$work/alone/plot.png" | tr -d ' \n')" = 89504e47 ] || fail "no picture by the script"
 
+say "the locale of C, of which the script has signs that it lacks, draws the same without a word"
+for asked in "query $pair --speed 0.287" "compare $data/beam.csv $pair" "sweep $pair --speed 0.1:0.3:3" \
+    "ensemble $pair --speed uniform:0.1:0.3 --samples 50"; do
+    for locale in C.UTF-8 C; do
+        (
+            LC_ALL=$locale
+            export LC_ALL
+            # words
+            # shellcheck disable=SC2086
+            percuss $asked --plot "$work/$locale.svg"
+        ) >"$out" 2>"$err" || fail "no picture: $asked"
+    done
+    cmp "$work/C.UTF-8.svg" "$work/C.svg" || fail "another picture: $asked"
+    ! grep -qi 'iconv\|degree' "$err" || fail "gnuplot warns: $asked"
+done
+
 say "a folder that cannot be written is refused at once, a full disk is said"
 expect 2 percuss query $pair --speed 0.3 --plot-data "$work/none/folder" --domain 229 --timeout 0
 says "--plot-data: $work/none/folder: cannot be written: No such file or directory"
