@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "error.h"
-#include "similar.h"
+#include "percuss/similar.h"
 
 const struct percuss_body *percuss_body_find(const struct percuss_body_list *list, const char *id)
 {
@@ -18,9 +18,12 @@ const struct percuss_body *percuss_body_find(const struct percuss_body_list *lis
         if (!strcmp(list->bodies[i].id, id))
             return &list->bodies[i];
     /* a slip of the fingers */
-    const struct percuss_body *nearest = similar_body(list, id);
+    struct similar similar = similar_to(id);
+    for (size_t i = 0; i < list->count; i++)
+        similar_offer(&similar, list->bodies[i].id);
+    const char *nearest = similar.nearest;
     error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "id: '%.63s': no such body among %zu%s%s%s", id,
-              list->count, nearest ? "; did you mean '" : "", nearest ? nearest->id : "",
+              list->count, nearest ? "; did you mean '" : "", nearest ? nearest : "",
               nearest ? "'?" : "");
     return NULL;
 }

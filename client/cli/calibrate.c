@@ -10,7 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "input_text.h"
 #include "measured_file.h"
+#include "percuss/similar.h"
 #include "quantity.h"
 #include "twins.h"
 #include "waiting.h"
@@ -39,18 +41,22 @@ static const struct argp_option options[] = {
     {0},
 };
 
-static unsigned parse_parameter(const char *name, size_t length, const char *text,
-                                struct argp_state *state)
+static unsigned parse_parameter(const char *text, size_t length, struct argp_state *state)
 {
+    char name[PERCUSS_ID_SIZE];
+    snprintf(name, sizeof name, "%.*s", (int)length, text);
+    struct similar similar = similar_to(name);
     for (unsigned i = 0; i < PERCUSS_PARAMETER_COUNT; i++) {
         const char *known = percuss_parameter_name(i);
-        if (strlen(known) == length && !strncmp(known, name, length))
+        if (!strcmp(known, name))
             return i;
+        similar_offer(&similar, known);
     }
     argp_error(state,
                "--fit: '%s': PARAMETER:ID[=START] is needed with young, poisson, density, yield, "
-               "tangent, damping, radius or scale",
-               text);
+               "tangent, damping, radius or scale%s%s%s",
+               text, similar.nearest ? ": did you mean '" : "",
+               similar.nearest ? similar.nearest : "", similar.nearest ? "'?" : "");
     return 0;
 }
 
@@ -68,18 +74,21 @@ static double parse_start(const char *text, const char *start, unsigned paramete
 
 static void parse_fit(const char *text, struct calibrate *calibrate, struct argp_state *state)
 {
-    const char *colon = strchr(text, ':'), *equals = strchr(text, '=');
+    const char *colon = input_text_owner(text), *equals = strchr(text, '=');
     if (calibrate->count == FIT_PARAMETERS)
         argp_error(state, "--fit: up to %d parameters are allowed", FIT_PARAMETERS);
     /* PARAMETER */
     struct calibrate_parameter *parameter = &calibrate->parameters[calibrate->count++];
-    size_t length = colon ? (size_t)(colon - text) : strlen(text);
-    *parameter = (struct calibrate_parameter){
-        .parameter = parse_parameter(text, colon ? length : 0, text, state), .start = NAN};
+    size_t length = colon ? (size_t)(colon - text) : strcspn(text, "=");
+    *parameter = (struct calibrate_parameter){.parameter = parse_parameter(text, length, state),
+                                              .start = NAN};
+    if (!colon)
+        argp_error(state, "--fit: '%s': a body is needed: %.*s:ID", text, (int)length, text);
     /* :ID, and =START if it is given */
     size_t id = equals ? (size_t)(equals - colon) - 1 : strlen(colon + 1);
     if (id == 0 || id >= sizeof parameter->body)
-        argp_error(state, "--fit: '%s': the id of a body is needed behind the colon", text);
+        argp_error(state, "--fit: '%s': the id of a body is needed behind the %s", text,
+                   *colon == ':' ? "colon" : "@");
     snprintf(parameter->body, sizeof parameter->body, "%.*s", (int)id, colon + 1);
     if (equals)
         parameter->start = parse_start(text, equals + 1, parameter->parameter, state);
@@ -98,8 +107,7 @@ static void check(const struct calibrate *calibrate, struct argp_state *state)
     scene_check_given(scene, others, 2, "", state);
     for (size_t i = 0; i < calibrate->count; i++) {
         const char *body = calibrate->parameters[i].body;
-        if (strcmp(body, scene->a) != 0 && strcmp(body, scene->b) != 0)
-            argp_error(state, "--fit: '%s' is neither --a nor --b", body);
+        scene_check_body(scene, "fit", body, state);
     }
 }
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "similar.h"
+#include "percuss/similar.h"
 
 const struct command COMMANDS[] = {
     {"query", command_query, &query_argp, "one impact: impulse, restitution and the sub-impacts"},

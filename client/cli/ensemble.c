@@ -47,9 +47,9 @@ struct ensemble {
 static const struct argp_option options[] = {
     {"speed", KEY_SPEED, "DIST", 0, "speed of A towards B, m/s or with units: a distribution", 10},
     {"input", KEY_INPUT, "NAME[@ID]=DIST", 0,
-     "another uncertain number: direction; site, young, poisson, density, radius, yield, damping, "
-     "scale of a body, in SI units or with their own: young@al-beam=normal:70GPa:1GPa (again for "
-     "more)",
+     "another uncertain number: direction; site (or at), young, poisson, density, radius, yield, "
+     "damping, scale of a body, in SI units or with their own: young@al-beam=normal:70GPa:1GPa, or "
+     "young:al-beam=... (again for more)",
      11},
     {"model-error", KEY_MODEL_ERROR, NULL, 0,
      "what the models themselves may be wrong by is uncertain too: the inputs model-force, "
@@ -158,6 +158,9 @@ static void settle(struct ensemble *ensemble, struct argp_state *state)
     struct percuss_ensemble_request *request = ensemble->request;
     const struct scene_need speed = {"--speed DIST", ensemble->has_speed};
     scene_check_given(&ensemble->scene, &speed, 1, "", state);
+    for (size_t i = 0; i < request->input_count; i++)
+        if (request->inputs[i].body[0])
+            scene_check_body(&ensemble->scene, "input", request->inputs[i].body, state);
     for (size_t i = 0; !ensemble->has_samples && i < request->input_count; i++)
         if (request->inputs[i].distribution == PERCUSS_DISTRIBUTION_LIST)
             request->samples = 0;
@@ -289,6 +292,17 @@ static bool show_progress(void *context, const struct percuss_ensemble_progress 
     return !interrupted;
 }
 
+/* What a refusal calls inputs[N] by the name under which it was given. */
+static void tell_input(const struct percuss_ensemble_request *request,
+                       const struct percuss_ensemble_reply *reply)
+{
+    unsigned number;
+    if (sscanf(reply->message, "inputs[%u]", &number) != 1 || number >= request->input_count)
+        return;
+    const struct percuss_input *input = &request->inputs[number];
+    complain("inputs[%u] is %s%s%s", number, input->name, input->body[0] ? "@" : "", input->body);
+}
+
 static int ask(struct ensemble *ensemble, struct percuss_client *client,
                const struct scene_bodies *bodies)
 {
@@ -319,6 +333,7 @@ static int ask(struct ensemble *ensemble, struct percuss_client *client,
         json_print(ensemble_to_json(&reply));
     else
         ensemble_print_table(request, &reply);
+    tell_input(request, &reply);
     if (reply.status == PERCUSS_UNKNOWN_BODY)
         scene_explain_unknown(ensemble->common, client, &request->scene, &bodies->list);
     percuss_ensemble_reply_free(&reply);

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "percuss/similar.h"
 #include "quantity.h"
 
 enum { MOST_NUMBERS = 4, LINE_SIZE = 65536 };
@@ -100,13 +101,40 @@ bool input_text_distribution(const char *text, struct percuss_input *input,
     return read_constant(text, input, fault);
 }
 
+const char *input_text_owner(const char *text)
+{
+    const char *owner = text + strcspn(text, "@:=");
+    return *owner == '@' || *owner == ':' ? owner : NULL;
+}
+
+/* Whether there is such an input, "at" being the command line's word for a site along a beam. One
+ * that is like none of them is the server's to refuse, or to know. */
+static bool check_name(const char *text, const char *name, bool readable, struct input_fault *fault)
+{
+    static const char *const known[] = {
+        "speed", "direction", "model-force", "model-compliance", "model-yield", "site",    "at",
+        "young", "poisson",   "density",     "radius",           "yield",       "damping", "scale"};
+    struct similar similar = similar_to(name);
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        if (!strcmp(known[i], name))
+            return true;
+        similar_offer(&similar, known[i]);
+    }
+    if (readable && !similar.nearest)
+        return true;
+    return refuse(
+        fault,
+        "'%s': '%s' is none of speed, direction, model-force, model-compliance, "
+        "model-yield, and of a body site (or at), young, poisson, density, radius, yield, "
+        "damping, scale%s%s%s",
+        text, name, similar.nearest ? ": did you mean '" : "",
+        similar.nearest ? similar.nearest : "", similar.nearest ? "'?" : "");
+}
+
 bool input_text_read(const char *text, struct percuss_input *input, struct input_fault *fault)
 {
-    const char *equals = strchr(text, '='), *at = strchr(text, '@');
+    const char *equals = strchr(text, '='), *at = input_text_owner(text);
     *input = (struct percuss_input){.distribution = PERCUSS_DISTRIBUTION_CONSTANT};
-    /* an @ behind the = is none of a body */
-    if (!equals || equals == text || (at && at > equals))
-        at = NULL;
     if (!equals)
         return refuse(fault,
                       "'%s' is not NAME@BODY=DISTRIBUTION, for example "
@@ -120,7 +148,16 @@ bool input_text_read(const char *text, struct percuss_input *input, struct input
     memcpy(input->name, text, name);
     if (at)
         memcpy(input->body, at + 1, body);
-    return input_text_distribution(equals + 1, input, fault);
+    /* a name that is wrong comes before its numbers, whose unit it decides about */
+    bool readable = input_text_distribution(equals + 1, input, fault);
+    if (!check_name(text, input->name, readable, fault)) {
+        free((void *)input->values);
+        input->values = NULL;
+        return false;
+    }
+    if (!strcmp(input->name, "at"))
+        strcpy(input->name, "site");
+    return readable;
 }
 
 /* The field of that number (from 0) in a line, cut out in place; NULL: there is none. */

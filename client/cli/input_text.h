@@ -17,8 +17,12 @@ struct input_fault {
 bool input_text_distribution(const char *text, struct percuss_input *input,
                              struct input_fault *fault);
 
-/* "NAME[@BODY]=DISTRIBUTION". */
+/* "NAME[@BODY]=DISTRIBUTION", or with a colon for the @. */
 bool input_text_read(const char *text, struct percuss_input *input, struct input_fault *fault);
+
+/* The colon or @ between a number's name and the body's id, as in young:al-beam and young@al-beam,
+ * where it stands before an equals sign; NULL: there is none. */
+const char *input_text_owner(const char *text);
 
 /* One column of a file of comma-separated values: by its name in the first line, by its number from
  * 1 on, or NULL for the first. Lines without anything or beginning with # are skipped, and a first

@@ -7,7 +7,7 @@
 
 #include "cli.h"
 #include "complete_line.h"
-#include "similar.h"
+#include "percuss/similar.h"
 
 /* The option that begins so, as getopt allows it to be written; NULL: none. */
 static const struct argp_option *find_begun(const struct argp *argp, const char *name,

@@ -10,8 +10,8 @@
 
 #include "column.h"
 #include "others.h"
+#include "percuss/similar.h"
 #include "quantity.h"
-#include "similar.h"
 
 enum scene_key {
     KEY_A = 'a',
@@ -126,6 +126,19 @@ void scene_check_given(const struct scene *scene, const struct scene_need *other
     }
     if (*missing)
         argp_error(state, "missing: %s%s", missing, instead);
+}
+
+void scene_check_body(const struct scene *scene, const char *option, const char *id,
+                      struct argp_state *state)
+{
+    struct similar similar = similar_to(id);
+    similar_offer(&similar, scene->a);
+    similar_offer(&similar, scene->b);
+    if (!strcmp(id, scene->a) || !strcmp(id, scene->b))
+        return;
+    argp_error(state, "--%s: '%s' is neither --a nor --b%s%s%s", option, id,
+               similar.nearest ? ": did you mean '" : "", similar.nearest ? similar.nearest : "",
+               similar.nearest ? "'?" : "");
 }
 
 void scene_check_one_b(const struct scene *scene, struct argp_state *state)
@@ -375,9 +388,11 @@ void scene_explain_unknown(const struct common *common, struct percuss_client *c
         const char *id = request->bodies[i].id;
         if (percuss_body_find(list, id))
             continue;
-        const struct percuss_body *nearest = similar_body(list, id);
-        if (nearest)
-            complain("'%s': did you mean '%s'?", id, nearest->id);
+        struct similar similar = similar_to(id);
+        for (size_t j = 0; j < list->count; j++)
+            similar_offer(&similar, list->bodies[j].id);
+        if (similar.nearest)
+            complain("'%s': did you mean '%s'?", id, similar.nearest);
         fprintf(stderr, "percuss: the server knows:");
         for (size_t j = 0; j < list->count; j++)
             fprintf(stderr, " %s", list->bodies[j].id);

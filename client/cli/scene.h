@@ -40,6 +40,10 @@ struct scene_need {
 void scene_check_given(const struct scene *scene, const struct scene_need *others, size_t count,
                        const char *instead, struct argp_state *state);
 
+/* Ends the process through argp_error if the id in the option is neither --a's nor --b's. */
+void scene_check_body(const struct scene *scene, const char *option, const char *id,
+                      struct argp_state *state);
+
 /* For commands with one body B: ends the process through argp_error if it was given more than once.
  */
 void scene_check_one_b(const struct scene *scene, struct argp_state *state);

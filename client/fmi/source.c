@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "percuss/similar.h"
+
 /* s; a percussd is found within a second or two, and answers within milliseconds: longer waits only
  * end what would hang */
 static const double CONNECT_TIMEOUT = 10.0;
@@ -110,8 +112,13 @@ static const struct percuss_body *find(const struct source *source, const char *
     const struct percuss_body *body = percuss_body_find(&source->bodies, id);
     if (body)
         return body;
+    struct similar similar = similar_to(id);
+    for (size_t i = 0; i < source->bodies.count; i++)
+        similar_offer(&similar, source->bodies.bodies[i].id);
+    const char *meant = similar.nearest;
     int length = snprintf(message, SOURCE_MESSAGE_SIZE,
-                          "%s: '%.64s' is not in the catalogue, which has:", variable, id);
+                          "%s: '%.64s' is not in the catalogue%s%s%s, which has:", variable, id,
+                          meant ? " (did you mean '" : "", meant ? meant : "", meant ? "'?)" : "");
     for (size_t i = 0; i < source->bodies.count && length < SOURCE_MESSAGE_SIZE; i++)
         length += snprintf(message + length, SOURCE_MESSAGE_SIZE - (size_t)length, " %s",
                            source->bodies.bodies[i].id);

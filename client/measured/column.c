@@ -10,6 +10,7 @@
 
 #include "divide.h"
 
+#define PLAIN 0.0, NULL /* nothing is improbable */
 const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS] = {
     [IMPACT_SPEED] = {"speed", false, false, QUANTITY_SPEED, 1e-9, 1e6, "m/s > 0", 100.0,
                       "is a unit missing, such as mm/s?"},
@@ -17,19 +18,22 @@ const struct column_kind IMPACT_KINDS[IMPACT_COLUMNS] = {
     [IMPACT_RESTITUTION] = {"restitution", false, false, QUANTITY_NUMBER, -1.0, 2.0,
                             "a number -1..2", 1.0,
                             "only a body that vibrated before the impact gives so much back"},
-    [IMPACT_IMPULSE] = {"impulse", false, false, QUANTITY_IMPULSE, 0.0, 1e12, "N s >= 0"},
-    [IMPACT_SUB_IMPACTS] = {"sub_impacts", false, true, QUANTITY_NUMBER, 0.0, 1e6, "a count >= 0"},
+    [IMPACT_IMPULSE] = {"impulse", false, false, QUANTITY_IMPULSE, 0.0, 1e12, "N s >= 0", PLAIN},
+    [IMPACT_SUB_IMPACTS] = {"sub_impacts", false, true, QUANTITY_NUMBER, 0.0, 1e6, "a count >= 0",
+                            PLAIN},
     [IMPACT_FIRST_IMPULSE] = {"first_impulse", false, false, QUANTITY_IMPULSE, 0.0, 1e12,
-                              "N s >= 0"},
-    [IMPACT_FIRST_DURATION] = {"first_duration", false, false, QUANTITY_TIME, 0.0, 1e6, "s >= 0"},
-    [IMPACT_SECOND_START] = {"second_start", false, false, QUANTITY_TIME, 0.0, 1e6, "s >= 0"},
-    [IMPACT_AT] = {"at", false, false, QUANTITY_NUMBER, 0.0, 1.0, "a fraction 0..1"},
+                              "N s >= 0", PLAIN},
+    [IMPACT_FIRST_DURATION] = {"first_duration", false, false, QUANTITY_TIME, 0.0, 1e6, "s >= 0",
+                               PLAIN},
+    [IMPACT_SECOND_START] = {"second_start", false, false, QUANTITY_TIME, 0.0, 1e6, "s >= 0",
+                             PLAIN},
+    [IMPACT_AT] = {"at", false, false, QUANTITY_NUMBER, 0.0, 1.0, "a fraction 0..1", PLAIN},
     [IMPACT_V_OUT] = {"v_out", false, false, QUANTITY_SPEED, 0.0, 1e6,
-                      "m/s >= 0, at which the bodies separate"},
-    [IMPACT_HISTORY] = {"history", true, false, QUANTITY_NUMBER, 0.0, 0.0, "a file"},
+                      "m/s >= 0, at which the bodies separate", PLAIN},
+    [IMPACT_HISTORY] = {"history", true, false, QUANTITY_NUMBER, 0.0, 0.0, "a file", PLAIN},
 };
 
-#define ANY -HUGE_VAL, HUGE_VAL, "any"
+#define ANY -HUGE_VAL, HUGE_VAL, "any", PLAIN
 const struct column_kind HISTORY_KINDS[HISTORY_COLUMNS] = {
     [HISTORY_TIME] = {"time", false, false, QUANTITY_TIME, ANY},
     [HISTORY_VELOCITY_A] = {"velocity_a", false, false, QUANTITY_SPEED, ANY},

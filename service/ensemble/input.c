@@ -4,8 +4,10 @@
 #include "ensemble/input.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
+#include "base/units.h"
 #include "model/limits.h"
 #include "numeric/special.h"
 
@@ -56,6 +58,9 @@ const char *distribution_name(unsigned distribution)
 enum input_quantity input_quantity_find(const char *name)
 {
     unsigned i = 0;
+    /* as the command line calls it */
+    if (strcmp(name, "at") == 0)
+        return INPUT_SITE;
     while (i < INPUT_QUANTITY_COUNT && strcmp(quantity_names[i], name) != 0)
         i++;
     return i;
@@ -160,8 +165,12 @@ static enum percuss_status refuse(const struct ensemble_input *input, size_t ind
                                   const char *field, double value, const char *allowed,
                                   struct fault *fault)
 {
-    return fault_set(fault, PERCUSS_BAD_REQUEST, "inputs[%zu].%s: %g: must be %s (%s, %s)", index,
-                     field, value, allowed, input_quantity_name(input->quantity),
+    const enum quantity unit = limit_of(input->quantity)->quantity;
+    const char *example =
+        *units_si(unit) && allowed == limit_of(input->quantity)->text ? units_example(unit) : "";
+    return fault_set(fault, PERCUSS_BAD_REQUEST, "inputs[%zu].%s: %g%s%s: must be %s%s%s (%s, %s)",
+                     index, field, value, *units_si(unit) ? " " : "", units_si(unit), allowed,
+                     *example ? ", such as " : "", example, input_quantity_name(input->quantity),
                      distribution_name(input->distribution));
 }
 
@@ -197,11 +206,20 @@ static enum percuss_status check_spread(const struct ensemble_input *input, size
         return refuse(input, index, "upper", input->upper, "above lower", fault);
     if (input->second == 0.0)
         return PERCUSS_OK; /* a constant, checked as such */
-    if (!(1.0 - input_truncated(input) >= LEAST_SHARE))
-        return refuse(input, index, "first", input->first,
-                      "such that the distribution lies within its truncation and within what the "
-                      "quantity can be",
-                      fault);
+    if (!(1.0 - input_truncated(input) >= LEAST_SHARE) &&
+        !limit_holds(limit_of(input->quantity), input->first))
+        return refuse(input, index, "first", input->first, limit_of(input->quantity)->text, fault);
+    if (!(1.0 - input_truncated(input) >= LEAST_SHARE)) {
+        char allowed[160];
+        double low, high;
+        bounds(input, &low, &high);
+        snprintf(allowed, sizeof allowed,
+                 "such that the distribution lies within its truncation and within what the "
+                 "quantity can be, %g to %g%s%s",
+                 low, high, *units_si(limit_of(input->quantity)->quantity) ? " " : "",
+                 units_si(limit_of(input->quantity)->quantity));
+        return refuse(input, index, "first", input->first, allowed, fault);
+    }
     return PERCUSS_OK;
 }
 

@@ -55,7 +55,7 @@ struct ensemble_input {
 const char *input_quantity_name(unsigned quantity);
 const char *distribution_name(unsigned distribution);
 
-/* INPUT_QUANTITY_COUNT: no such name. */
+/* By its name, or "at" for a site; INPUT_QUANTITY_COUNT: no such name. */
 enum input_quantity input_quantity_find(const char *name);
 
 /* Whether it belongs to a body rather than to the contact. */

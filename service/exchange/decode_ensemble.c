@@ -18,7 +18,7 @@ static void decode_owner(struct check *check, const percuss_v1_EnsembleInput *wi
     input->quantity = input_quantity_find(wire->name);
     check_that(check, input->quantity < INPUT_QUANTITY_COUNT,
                "name: '%s': must be one of speed, direction, model-force, model-compliance, "
-               "model-yield, site, young, poisson, density, radius, yield, damping, scale",
+               "model-yield, site (or at), young, poisson, density, radius, yield, damping, scale",
                wire->name);
     /* a quantity of the contact has no body */
     input->body = 0;

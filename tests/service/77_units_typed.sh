@@ -101,6 +101,8 @@ shows "  impact       0.4 m/s at (0.1, 0, 0.01) m"
 
 say "uncertain moduli, lengths and densities; where a calibration starts"
 for inputs in "young@al-beam=normal:70e9:1e9 young@al-beam=normal:70GPa:1GPa" \
+    "young@al-beam=normal:70e9:1e9 young:al-beam=normal:70GPa:1GPa" \
+    "site@al-beam=uniform:0.4:0.6 at:al-beam=uniform:0.4:0.6" \
     "density@al-beam=uniform:2650:2750 density@al-beam=uniform:2.65g/cm^3:2.75g/cm^3" \
     "radius@steel-sphere=0.0149 radius@steel-sphere=14.9mm"; do
     # shellcheck disable=SC2086
@@ -114,6 +116,9 @@ for start in 69e9 69GPa; do
         fail "calibrate from $start"
 done
 cmp -s "$work/69e9" "$work/69GPa" || fail "another calibration"
+# shellcheck disable=SC2086
+percuss calibrate "$beam" $pair --fit young@al-beam=69GPa --json >"$work/at" 2>"$err" || [ $? -eq 1 ] || fail "with an @"
+cmp -s "$work/69e9" "$work/at" || fail "another calibration with an @"
 grep -q '"start": 69000000000' "$work/69GPa" || fail "it does not start there"
 
 say "seconds between two looks"
@@ -156,6 +161,15 @@ say "what does not fit is refused with the option, the value and what is allowed
         ensemble $pair --speed "uniform:0.1:4 s"
     refused "DEVIATION:LOWEST:HIGHEST: a stress is needed, in Pa or with a unit, such as 70 GPa; mm is no stress" \
         ensemble $pair --speed 0.2 --input young@al-beam=normal:70GPa:1mm
+    refused "--input: 'youngs@al-beam=70GPa': 'youngs' is none of speed, direction, model-force, " \
+        ensemble $pair --speed 0.2 --input youngs@al-beam=70GPa
+    says ": did you mean 'young'?"
+    refused "--input: 'al-baem' is neither --a nor --b: did you mean 'al-beam'?" \
+        ensemble $pair --speed 0.2 --input young@al-baem=70GPa
+    refused "tangent, damping, radius or scale: did you mean 'young'?" calibrate "$beam" $pair --fit yong:al-beam
+    refused "--fit: 'al-bem' is neither --a nor --b: did you mean 'al-beam'?" \
+        calibrate "$beam" $pair --fit young:al-bem
+    refused "--fit: 'young': a body is needed: young:ID" calibrate "$beam" $pair --fit young
     refused "--fit: 'young:al-beam=69mm': START: a stress is needed, in Pa or with a unit, such as 70 GPa; mm is no" \
         calibrate "$beam" $pair --fit young:al-beam=69mm
 }

@@ -101,6 +101,8 @@ def check_errors(unpacked):
     for by_poses in (False, True):
         unpacked.refused("body_a: 'nobody' is not in the catalogue", unpacked.instance,
                          start={"body_a": "nobody", "by_poses": by_poses})
+    unpacked.refused("body_b: 'al-baem' is not in the catalogue (did you mean 'al-beam'?), which has: ",
+                     unpacked.instance, start={"body_b": "al-baem"})
     unpacked.refused("domain: ", unpacked.instance, start={"service": True, "domain": 999, "library": LIBRARY})
     unpacked.refused("'libm.so.6' is no libpercuss", unpacked.instance, start={"service": True, "library": "libm.so.6"})
     unpacked.refused("inverse_effective_mass: -1", strike, unpacked, {},

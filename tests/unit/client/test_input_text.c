@@ -79,6 +79,26 @@ static void names(void **state)
     assert_true(input_text_read("direction=0.1", &input, &fault));
     assert_string_equal(input.name, "direction");
     assert_string_equal(input.body, "");
+    /* as --fit writes it; an id may have either sign */
+    assert_true(input_text_read("young:al-beam=uniform:69e9:71e9", &input, &fault));
+    assert_string_equal(input.name, "young");
+    assert_string_equal(input.body, "al-beam");
+    assert_true(input_text_read("young@al:beam=70e9", &input, &fault));
+    assert_string_equal(input.body, "al:beam");
+    assert_true(input_text_read("young:al@beam=70e9", &input, &fault));
+    assert_string_equal(input.body, "al@beam");
+    assert_true(input_text_read("at@al-beam=0.3", &input, &fault));
+    assert_string_equal(input.name, "site");
+    /* a name that is none is what is wrong, whatever stands behind it */
+    assert_false(input_text_read("youngs@al-beam=normal:70GPa:1GPa", &input, &fault));
+    assert_non_null(strstr(fault.text, "'youngs' is none of speed, direction, "));
+    assert_non_null(strstr(fault.text, ": did you mean 'young'?"));
+    assert_false(input_text_read("mass@al-beam=1 kg", &input, &fault));
+    assert_non_null(strstr(fault.text, "'mass' is none of"));
+    assert_null(strstr(fault.text, "did you mean"));
+    /* one of a server that knows more */
+    assert_true(input_text_read("colour@al-beam=1", &input, &fault));
+    assert_string_equal(input.name, "colour");
     assert_false(input_text_read("young", &input, &fault));
     char longer[200] = "";
     memset(longer, 'x', 100);

@@ -190,6 +190,19 @@ static void refuses_what_it_cannot_place(void **state)
     assert_non_null(strstr(percuss_error_text(), "at: 1.5"));
 }
 
+static void a_body_is_found_or_a_similar_one_named(void **state)
+{
+    (void)state;
+    struct percuss_body bodies[] = {{.id = "al-beam"}, {.id = "al-rod"}};
+    const struct percuss_body_list list = {2, bodies};
+    assert_ptr_equal(percuss_body_find(&list, "al-rod"), &bodies[1]);
+    assert_null(percuss_body_find(&list, "al-rodd"));
+    assert_string_equal(percuss_error_text(),
+                        "id: 'al-rodd': no such body among 2; did you mean 'al-rod'?");
+    assert_null(percuss_body_find(&list, "concrete-wall"));
+    assert_string_equal(percuss_error_text(), "id: 'concrete-wall': no such body among 2");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +211,7 @@ int main(void)
         cmocka_unit_test(places_the_sphere_of_the_contract),
         cmocka_unit_test(beams_cross_at_a_right_angle),
         cmocka_unit_test(refuses_what_it_cannot_place),
+        cmocka_unit_test(a_body_is_found_or_a_similar_one_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

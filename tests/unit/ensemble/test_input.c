@@ -146,12 +146,21 @@ static void refusals(void **state)
     refuses(make(INPUT_YOUNG, DISTRIBUTION_IS_NORMAL, 70e9, -1.0), "second: -1");
     refuses(make(INPUT_YOUNG, DISTRIBUTION_IS_NORMAL, NAN, 1.0), "finite mean");
     refuses(make(INPUT_YOUNG, DISTRIBUTION_IS_LOG_NORMAL, -2.0, 1.0), "mean > 0");
-    refuses(make(INPUT_DAMPING, DISTRIBUTION_IS_NORMAL, -5.0, 0.1), "truncation");
+    refuses(make(INPUT_DAMPING, DISTRIBUTION_IS_NORMAL, -5.0, 0.1), "must be a ratio >= 0 and < 1");
+    refuses(make(INPUT_YOUNG, DISTRIBUTION_IS_NORMAL, 70.0, 1.0),
+            "first: 70 Pa: must be a finite modulus > 0 Pa (1e3 to 1e13 Pa), such as 70 GPa "
+            "(young, normal)");
+    refuses(make(INPUT_RADIUS, DISTRIBUTION_IS_UNIFORM, 1e4, 2e4), "first: 10000 m: must be");
     refuses(make(INPUT_POISSON, DISTRIBUTION_IS_NORMAL, 0.6, 0.0), "first: 0.6");
     struct ensemble_input input = make(INPUT_SPEED, DISTRIBUTION_IS_NORMAL, 0.2, 0.1);
     input.lower = 0.3;
     input.upper = 0.2;
     refuses(input, "above lower");
+    input = make(INPUT_YOUNG, DISTRIBUTION_IS_NORMAL, 70e9, 1e9);
+    input.lower = 1e9;
+    input.upper = 2e9;
+    refuses(input, "first: 7e+10 Pa: must be such that the distribution lies within its truncation "
+                   "and within what the quantity can be, 1e+09 to 2e+09 Pa (young, normal)");
     input = make(INPUT_SPEED, DISTRIBUTION_IS_LIST, 0.0, 0.0);
     refuses(input, "none given");
     input.values = values;
@@ -165,6 +174,7 @@ static void names(void **state)
     for (unsigned i = 0; i < INPUT_QUANTITY_COUNT; i++)
         assert_int_equal(input_quantity_find(input_quantity_name(i)), i);
     assert_int_equal(input_quantity_find("mass"), INPUT_QUANTITY_COUNT);
+    assert_int_equal(input_quantity_find("at"), INPUT_SITE);
     assert_true(input_is_of_model(input_quantity_find("model-yield")));
     assert_true(!input_is_of_body(INPUT_MODEL_FORCE) && !input_is_of_body(INPUT_MODEL_YIELD));
     assert_true(input_is_of_body(INPUT_SITE) && !input_is_of_model(INPUT_SITE));
