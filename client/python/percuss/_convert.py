@@ -47,10 +47,11 @@ def _value(value: Any, hint: Any) -> Any:
 
 def _list(pointer: Any, count: int, hint: Any) -> Any:
     """A structured array or a tuple, as the member is declared."""
-    if get_origin(hint) is np.ndarray:
-        octets = ctypes.string_at(pointer, count * ctypes.sizeof(pointer._type_))
-        return np.frombuffer(octets, dtype=np.dtype(pointer._type_))
-    return tuple(_value(one, get_args(hint)[0]) for one in pointer[:count])
+    # an array's type is no class in every numpy (2.5: NDArray is an alias of its own); a tuple's is
+    if get_origin(hint) is tuple:
+        return tuple(_value(one, get_args(hint)[0]) for one in pointer[:count])
+    octets = ctypes.string_at(pointer, count * ctypes.sizeof(pointer._type_))
+    return np.frombuffer(octets, dtype=np.dtype(pointer._type_))
 
 
 def read(source: Any, kind: type[_Class], **known: Any) -> _Class:

@@ -18,7 +18,7 @@ def _candidates(name: str) -> list[str]:
     chosen = os.environ.get("PERCUSS_LIBRARY")
     if chosen:
         return [chosen if name == f"libpercuss.{_NUMBER}" else str(Path(chosen).resolve().parent / name)]
-    above = Path(__file__).resolve().parents
+    above = list(Path(__file__).resolve().parents)
     # a wheel has its libraries inside (deploy/wheel.sh), and no others
     within = above[0] / "lib" / name
     if within.exists():

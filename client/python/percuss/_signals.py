@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Signals, Ctrl-C above all, while a call of the library waits."""
 
+from __future__ import annotations
+
 import threading
 from collections.abc import Generator
 from typing import Any

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The client."""
 
+from __future__ import annotations
+
 import ctypes
 import os
 import warnings

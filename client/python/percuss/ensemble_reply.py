@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What an ensemble says."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
 
@@ -151,7 +153,7 @@ class EnsembleReply:
     agreeing: int
     warnings: tuple[str, ...]
     timing: Timing
-    rows: FloatArray | None = field(repr=False)
+    rows: Optional[FloatArray] = field(repr=False)
     """A row a sample: inputs, restitution, impulse, end_time, peak_force, sub_impacts, significant, status."""
     columns: tuple[str, ...] = field(repr=False)
     """Of the rows; an input of a body is called young@al-beam."""

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is asked of an ensemble."""
 
+from __future__ import annotations
+
 import ctypes
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -51,7 +53,7 @@ class Input:
     """Where it is cut off; nan: nowhere."""
     body: str = ""
     """Its id; empty: of the contact."""
-    values: ArrayLike | None = None
+    values: Optional[ArrayLike] = None
     """Of a list."""
 
 

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Samples of an ensemble solved by others: threads, processes, the workers of a cluster."""
 
+from __future__ import annotations
+
 import ctypes
 import pickle
 import sys
@@ -9,7 +11,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Optional
 
 from . import _convert, _ensemble_abi
 from . import local as in_process
@@ -31,7 +33,7 @@ class Progress:
     half_width: float
 
 
-Watch = Callable[[Progress], bool | None]
+Watch = Callable[[Progress], Optional[bool]]
 
 
 class Watching:

@@ -13,6 +13,8 @@
 SI units; undefined numbers are nan.
 """
 
+from __future__ import annotations
+
 import ctypes
 from typing import Any
 

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The solver in this process: a daemon's answers without one."""
 
+from __future__ import annotations
+
 import ctypes
 import os
 

@@ -14,13 +14,15 @@ Comparison.measured, with any of speed, restitution, impulse, sub_impacts, first
 known.
 """
 
+from __future__ import annotations
+
 import ctypes
 import itertools
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
-from typing import Any
+from typing import Any, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -185,7 +187,7 @@ class Calibration:
         return _tables.html(f"fitted to {self.impacts} impacts", heads, rows)
 
 
-Source = str | os.PathLike[str] | Mapping[str, ArrayLike] | Impacts | Any
+Source = Union[str, "os.PathLike[str]", Mapping[str, ArrayLike], Impacts, Any]
 """A file, or columns by their names."""
 
 

@@ -6,10 +6,12 @@ SI units. Quaternions are (w, x, y, z), world = R(q) body; body frame: origin in
 and beams along x. Vectors may be given as anything that numpy makes an array of.
 """
 
+from __future__ import annotations
+
 import ctypes
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias, overload
+from typing import Any, Optional, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _abi, _convert
 from .vocabulary import MAX_BODIES, MAX_CONTACTS, Compliance, ContactModel, Dents, Method, Parameter
 
-FloatArray: TypeAlias = NDArray[np.float64]
+FloatArray = NDArray[np.float64]
 
 
 class _Vector:
@@ -114,7 +116,7 @@ class Request:
 
     bodies: list[BodyMotion] = field(default_factory=list)
     contacts: list[Contact] = field(default_factory=list)
-    delassus: ArrayLike | None = None
+    delassus: Optional[ArrayLike] = None
     """The caller's w^T M^-1 w, contacts x contacts, 1/kg; None: the server computes its own."""
     options: Options = field(default_factory=Options)
     sequence: int = 0

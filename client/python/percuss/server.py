@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a server announces of itself and its catalogue, and the placing of two of its bodies."""
 
+from __future__ import annotations
+
 import ctypes
 from dataclasses import dataclass
 from typing import Any

@@ -11,11 +11,13 @@ libpercuss-slowscale does the work; docs/integrating.md explains it, <percuss/sl
 units, world axes, quaternions as in `percuss.BodyMotion`. What an engine's method raises, `due` or `advance` raises.
 """
 
+from __future__ import annotations
+
 import ctypes
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -105,7 +107,7 @@ class Report:
     impulse: FloatArray
     restitution: FloatArray
     """nan where there is no compression."""
-    reply: Reply | None
+    reply: Optional[Reply]
     """None: the declared restitution was used."""
     message: str
     """Why, and what else the user should know; empty: nothing."""

@@ -10,6 +10,8 @@
 SI units; undefined numbers are nan.
 """
 
+from __future__ import annotations
+
 import time
 from collections import deque
 from collections.abc import Sequence

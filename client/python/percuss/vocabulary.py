@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The numbered choices of the wire. Numbers are those of the IDL and of <percuss/vocabulary.h>."""
 
+from __future__ import annotations
+
 import re
 from enum import IntEnum
 from typing import TypeVar

@@ -5,6 +5,7 @@
 The structs are read from the headers; a C program made of their names prints each size and offset.
 """
 
+import dataclasses
 import importlib.metadata
 import os
 import re
@@ -13,11 +14,13 @@ import tempfile
 import unittest
 from ctypes import CDLL, POINTER, Structure, c_char_p, c_double
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
+from typing_extensions import TypeAliasType, TypeVar
 
 import percuss
-from percuss import _abi, _ensemble_abi, _measured_abi, _slow_abi, vocabulary
+from percuss import _abi, _convert, _ensemble_abi, _measured_abi, _slow_abi, vocabulary
 from percuss.slowscale import Application
 
 SOURCE = Path(os.environ["PERCUSS_SOURCE"])
@@ -178,6 +181,17 @@ class Abi(unittest.TestCase):
         self.assertEqual(percuss.force_centres(subs).tolist(), expected)
         self.assertEqual(expected[0], 1e-4)
         self.assertGreater(expected[1], subs["compression_end"][1])
+
+    def test_arrays_by_any_name(self) -> None:
+        """numpy 2.5 has NDArray as an alias, which is no class; members declared by it stay arrays."""
+        scalar = TypeVar("scalar")
+        alias: Any = TypeAliasType("alias", np.ndarray[Any, np.dtype[Any]], type_params=cast(Any, (scalar,)))
+        kind: Any = dataclasses.make_dataclass("Kind", [("impulse", float), ("sub_impacts", alias[np.void])])
+        subs = (_abi.SubImpact * 2)(_abi.SubImpact(start=0.0), _abi.SubImpact(start=0.5))
+        source = _abi.ContactResult(impulse=3.0, sub_impacts_listed=2, sub_impacts=subs)
+        found = _convert.read(source, kind)
+        self.assertEqual(found.impulse, 3.0)
+        self.assertEqual(found.sub_impacts["start"].tolist(), [0.0, 0.5])
 
     def test_unknown_choice(self) -> None:
         newer = percuss.Status(4711)
