@@ -124,10 +124,10 @@ only 'dds/' 'service/endpoint|service/daemon|client/lib|client/ros2'
 only 'time\.h|sys/|unistd|pthread' 'service/exchange|service/respond|service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/local|client/cli|client/twins|client/ros2'
 
 # clients do not look into the service, but for the one that is a service to itself; the slow scale is built
-# with its complementarity solver, and command lines and files of measurements with its numbers with
-# units
+# with its complementarity solver, and clients, command lines and files of measurements with its numbers
+# with units
 found=$(grep -nE '^ *# *include *"(base|numeric|model|fe|contact|impact|solve|ensemble|store|catalogue|exchange|respond|endpoint|daemon)/' client/*/*.[ch] |
-    grep -v -e '^client/slowscale/.*"numeric/lcp\.h"' -e '^client/\(cli/quantity\.h\|measured/column\.h\|measured/divide\.c\|ros2/main\.c\):.*"base/units\.h"' -e '^client/local/.*"\(catalogue\|ensemble\|exchange\|respond\|store\)/')
+    grep -v -e '^client/slowscale/.*"numeric/lcp\.h"' -e '^client/\(api/quantity\.c\|cli/quantity\.h\|measured/column\.h\|measured/divide\.c\|ros2/main\.c\):.*"base/units\.h"' -e '^client/local/.*"\(catalogue\|ensemble\|exchange\|respond\|store\)/')
 [ -z "$found" ] || complain "client looks into the service: $found"
 
 # which therefore needs nothing of the rest, and the slow scale no DDS

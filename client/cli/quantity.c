@@ -11,24 +11,7 @@ enum { NUMBER_SIZE = 512 };
 /* "a speed > 0 is needed, in m/s or with a unit, such as 300 mm/s" */
 static void allow(enum quantity quantity, const char *range, struct quantity_fault *fault)
 {
-    const char *si = units_si(quantity);
-    if (*si)
-        snprintf(fault->text, sizeof fault->text,
-                 "a %s%s is needed, in %s or with a unit, such as %s", units_name(quantity), range,
-                 si, units_example(quantity));
-    else
-        snprintf(fault->text, sizeof fault->text, "a number%s is needed, without a unit", range);
-}
-
-/* Goes on with what the unit of `text` is not. */
-static void blame_unit(const char *text, enum quantity quantity, enum units_problem problem,
-                       struct quantity_fault *fault)
-{
-    const char *unit = units_number_end(text);
-    size_t length = strlen(fault->text);
-    unit += strspn(unit, " ");
-    snprintf(fault->text + length, sizeof fault->text - length, "; %.40s is no %s", unit,
-             problem == UNITS_UNKNOWN ? "unit that is known" : units_name(quantity));
+    units_explain("", UNITS_GOOD, quantity, range, fault->text, sizeof fault->text);
 }
 
 bool quantity_read(const char *text, size_t length, enum quantity quantity, double *number,
@@ -42,10 +25,7 @@ bool quantity_read(const char *text, size_t length, enum quantity quantity, doub
     enum units_problem problem = units_read(copy, quantity, number);
     if (problem == UNITS_GOOD && length - blanks < sizeof copy)
         return true;
-    /* what is allowed, and of a unit why it is not */
-    allow(quantity, "", fault);
-    if (*units_si(quantity) && (problem == UNITS_UNKNOWN || problem == UNITS_OF_ANOTHER))
-        blame_unit(copy, quantity, problem, fault);
+    units_explain(copy, problem, quantity, "", fault->text, sizeof fault->text);
     return false;
 }
 

@@ -275,3 +275,20 @@ enum units_problem units_read(const char *text, enum quantity quantity, double *
     *value = read_value(text, end, &unit) + 0.0;
     return isfinite(*value) ? UNITS_GOOD : UNITS_NO_NUMBER;
 }
+
+void units_explain(const char *text, enum units_problem problem, enum quantity quantity,
+                   const char *range, char *out, size_t size)
+{
+    const char *si = units_si(quantity), *unit = units_number_end(text);
+    if (!*si) {
+        snprintf(out, size, "a number%s is needed, without a unit", range);
+        return;
+    }
+    int length = snprintf(out, size, "a %s%s is needed, in %s or with a unit, such as %s",
+                          units_name(quantity), range, si, units_example(quantity));
+    if ((problem != UNITS_UNKNOWN && problem != UNITS_OF_ANOTHER) || (size_t)length >= size)
+        return;
+    unit += strspn(unit, " ");
+    snprintf(out + length, size - (size_t)length, "; %.40s is no %s", unit,
+             problem == UNITS_UNKNOWN ? "unit that is known" : units_name(quantity));
+}

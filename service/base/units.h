@@ -37,6 +37,11 @@ enum units_problem units_read(const char *text, enum quantity quantity, double *
 /* Where the number at the beginning of the text ends; the text itself: there is none. */
 const char *units_number_end(const char *text);
 
+/* Writes what is allowed, `range` behind the quantity's name, and of a wrong unit why it is not: "a
+ * speed > 0 is needed, in m/s or with a unit, such as 300 mm/s; kg is no speed". */
+void units_explain(const char *text, enum units_problem problem, enum quantity quantity,
+                   const char *range, char *out, size_t size);
+
 const char *units_name(enum quantity quantity);    /* "length" */
 const char *units_si(enum quantity quantity);      /* "m"; empty for a mere number */
 const char *units_example(enum quantity quantity); /* "8 mm" */

@@ -25,6 +25,7 @@
 
 #include <percuss/client.h>
 #include <percuss/ensemble.h>
+#include <percuss/quantity.h>
 #include <percuss/reply.h>
 #include <percuss/request.h>
 #include <percuss/result.h>

@@ -294,6 +294,7 @@ _FUNCTIONS: tuple[tuple[str, Any, list[Any]], ...] = (
     ("body_list_free", None, [POINTER(_server_abi.BodyList)]),
     ("server_list_free", None, [POINTER(_server_abi.ServerList)]),
     ("contact_pair", c_int, [POINTER(_server_abi.Pair), POINTER(Request)]),
+    ("quantity_parse", c_int, [c_char_p, c_char_p, POINTER(c_double)]),
     ("result_text", c_char_p, [c_int]),
     ("error_text", c_char_p, []),
 )
