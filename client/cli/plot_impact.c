@@ -50,12 +50,26 @@ static const char *name_of(const struct impact_run *run, int which)
     return run->request.bodies[which == 0 ? contact->a : contact->b].id;
 }
 
-/* The last instant of an impact, by its first model; 0: there is none. */
+/* The times that are drawn: the contacts, and a quarter of their time before and after them. A
+ * trace goes on for as long as vibration could bring the bodies together again. */
+static struct plot_range drawn_times(const struct impact_run *run)
+{
+    const struct percuss_contact_trace *trace = trace_of(run);
+    const struct percuss_contact_result *contact =
+        &run->reply.contacts[largest_contact(&run->reply)];
+    struct plot_range times = PLOT_NOTHING;
+    plot_range_take_all(&times, trace->time, trace->count);
+    if (contact->sub_impacts_listed == 0 || !(contact->end_time > contact->sub_impacts[0].start))
+        return times;
+    double start = contact->sub_impacts[0].start, margin = 0.25 * (contact->end_time - start);
+    return (struct plot_range){fmax(times.low, start - margin),
+                               fmin(times.high, contact->end_time + margin)};
+}
+
+/* The last instant of an impact that is drawn, by its first model; 0: there is none. */
 static double end_of(const struct impact_picture *picture, size_t speed)
 {
-    const struct percuss_contact_trace *trace =
-        trace_of(&picture->runs[speed * picture->model_count]);
-    return trace->count > 0 ? trace->time[trace->count - 1] : 0.0;
+    return fmax(0.0, drawn_times(&picture->runs[speed * picture->model_count]).high);
 }
 
 /* Measured instants that are drawn: the simulated ones and a twentieth of their time before. */
@@ -63,19 +77,6 @@ static bool is_drawn(const struct impact_picture *picture, size_t speed, size_t 
 {
     double time = picture->measured[speed].motion.time[i], end = end_of(picture, speed);
     return time >= -0.05 * end && time <= end;
-}
-
-static void write_run(struct plot *plot, const struct impact_picture *picture, size_t k)
-{
-    const struct percuss_contact_trace *trace = trace_of(&picture->runs[k]);
-    char name[PLOT_NAME];
-    snprintf(name, sizeof name, "impact_%zu_%zu", k / picture->model_count + 1,
-             k % picture->model_count + 1);
-    plot_table(plot, name, "time,force,displacement_a,displacement_b,velocity_a,velocity_b");
-    for (size_t i = 0; i < trace->count; i++)
-        fprintf(plot->data, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", trace->time[i], trace->force[i],
-                trace->displacement_a[i], trace->displacement_b[i], trace->velocity_a[i],
-                trace->velocity_b[i]);
 }
 
 /* The columns are those of write_run, without a force. */
@@ -118,21 +119,59 @@ static void take_measured(struct axes *axes, const struct impact_picture *pictur
     }
 }
 
+static bool is_on(const struct axes *axes, double time)
+{
+    return time >= axes->time.low && time <= axes->time.high;
+}
+
+/* Of the instants that are on the axis of time. */
+static void take_run(struct axes *axes, const struct impact_run *run)
+{
+    const struct percuss_contact_trace *trace = trace_of(run);
+    for (size_t i = 0; i < trace->count; i++) {
+        if (!is_on(axes, trace->time[i]))
+            continue;
+        plot_range_take(&axes->values[DISPLACEMENT], trace->displacement_a[i]);
+        plot_range_take(&axes->values[DISPLACEMENT], trace->displacement_b[i]);
+        plot_range_take(&axes->values[VELOCITY], trace->velocity_a[i]);
+        plot_range_take(&axes->values[VELOCITY], trace->velocity_b[i]);
+        plot_range_take(&axes->values[FORCE], trace->force[i]);
+    }
+}
+
 static struct axes take_axes(const struct impact_picture *picture)
 {
     struct axes axes = {PLOT_NOTHING, {PLOT_NOTHING, PLOT_NOTHING, PLOT_NOTHING}};
-    for (size_t k = 0; k < picture->speed_count * picture->model_count; k++) {
-        const struct percuss_contact_trace *trace = trace_of(&picture->runs[k]);
-        plot_range_take_all(&axes.time, trace->time, trace->count);
-        plot_range_take_all(&axes.values[DISPLACEMENT], trace->displacement_a, trace->count);
-        plot_range_take_all(&axes.values[DISPLACEMENT], trace->displacement_b, trace->count);
-        plot_range_take_all(&axes.values[VELOCITY], trace->velocity_a, trace->count);
-        plot_range_take_all(&axes.values[VELOCITY], trace->velocity_b, trace->count);
-        plot_range_take_all(&axes.values[FORCE], trace->force, trace->count);
+    const size_t count = picture->speed_count * picture->model_count;
+    /* the time of all of them, then what they do meanwhile */
+    for (size_t k = 0; k < count; k++) {
+        const struct plot_range times = drawn_times(&picture->runs[k]);
+        plot_range_take(&axes.time, times.low);
+        plot_range_take(&axes.time, times.high);
     }
     for (size_t speed = 0; speed < picture->measured_count; speed++)
         take_measured(&axes, picture, speed);
+    for (size_t k = 0; k < count; k++)
+        take_run(&axes, &picture->runs[k]);
     return axes;
+}
+
+/* What is on the axis of time. */
+static void write_run(struct plot *plot, const struct impact_picture *picture, size_t k,
+                      const struct axes *axes)
+{
+    const struct percuss_contact_trace *trace = trace_of(&picture->runs[k]);
+    char name[PLOT_NAME];
+    snprintf(name, sizeof name, "impact_%zu_%zu", k / picture->model_count + 1,
+             k % picture->model_count + 1);
+    plot_table(plot, name, "time,force,displacement_a,displacement_b,velocity_a,velocity_b");
+    for (size_t i = 0; i < trace->count; i++) {
+        if (!is_on(axes, trace->time[i]))
+            continue;
+        fprintf(plot->data, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", trace->time[i], trace->force[i],
+                trace->displacement_a[i], trace->displacement_b[i], trace->velocity_a[i],
+                trace->velocity_b[i]);
+    }
 }
 
 /* In the units of the panels: ms; um, m/s, N. */
@@ -265,11 +304,11 @@ int plot_impact(const struct plot_output *output, const struct impact_picture *p
     int code = plot_begin(&plot, output, AXIS + width, HEIGHT);
     if (code != EXIT_ANSWERED)
         return code;
+    const struct axes axes = take_axes(picture);
     for (size_t k = 0; k < speeds * picture->model_count; k++)
-        write_run(&plot, picture, k);
+        write_run(&plot, picture, k, &axes);
     for (size_t speed = 0; speed < picture->measured_count; speed++)
         write_measured(&plot, picture, speed);
-    const struct axes axes = take_axes(picture);
     /* over all of them */
     char title[2 * PERCUSS_ID_SIZE + 8];
     snprintf(title, sizeof title, "%s on %s", name_of(picture->runs, 0), name_of(picture->runs, 1));

@@ -46,6 +46,26 @@ head -n 1 "$work/impact/impact_1_1.csv" | grep -qx 'time,force,displacement_a,di
 awk -F, 'NR > 1 && $2 > f { f = $2; t = $1 } END { exit !(f > 300 && f < 320 && t > 5e-5 && t < 1e-4) }' \
     "$work/impact/impact_1_1.csv" || fail "no force in N over s"
 
+say "the axis of time fits the contacts: a short touch is not a stroke at the edge of what its beam does afterwards"
+cat >cantilever.yaml <<END
+materials:
+  steel: {young: 210e9, poisson: 0.3, density: 7800}
+bodies:
+  ball: {shape: sphere, material: steel, radius: 0.006}
+  cantilever: {shape: beam, material: steel, section: {width: 0.02, height: 0.004}, length: 0.2, ends: [clamped, free]}
+END
+for place in 0.5 1; do
+    picture "at_$place" "ball|cantilever" query --local --catalogue cantilever.yaml --a ball --b cantilever --speed 0.3 \
+        --at "$place"
+    expect 0 percuss query --local --catalogue cantilever.yaml --a ball --b cantilever --speed 0.3 --at "$place" \
+        --json
+    # in ms: from the touch to a quarter of the contacts' time after the last of them, and the margins of 2 %
+    end=$(sed -n 's/^ *"end_time": \([^,]*\),*$/\1/p' "$out")
+    sed -n 's/^set xrange \[\(.*\):\(.*\)\]$/\1 \2/p' "$work/at_$place/plot.gp" | sort -u |
+        awk -v end="$end" '{ high = 1e3 * end * 1.25 * 1.021; exit !(end > 0 && $2 <= high && $2 > 1.2e3 * end && $1 <= 0) }' ||
+        fail "axis of time $(grep xrange "$work/at_$place/plot.gp" | head -n 1), last contact until $end s"
+done
+
 say "several speeds beside each other, each with its measured history; several models over each other"
 picture speeds "0.276 m/s: e = 0.7313|0.303 m/s: e = 0.2454|history-1.csv|history-3.csv" query $pair \
     --speed 0.276 --speed 0.287 --speed 0.303 --measured "$data/history-1.csv" \
