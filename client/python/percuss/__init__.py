@@ -5,8 +5,7 @@
     import percuss
 
     with percuss.connect() as client:
-        bodies = client.bodies()
-        question = percuss.contact_pair(bodies["steel-sphere"], bodies["al-beam"], speed=0.3)
+        question = percuss.contact_pair("steel-sphere", "al-beam", speed="300mm/s", client=client)
         reply = client.solve(question).raise_for_status()
         print(reply.contacts[0].restitution, reply.contacts[0].sub_impacts["impulse"])
 
@@ -30,6 +29,7 @@ from .errors import (
     PercussError,
     Refused,
     TransportError,
+    UnknownName,
     UnknownSequence,
     WindowFull,
 )
@@ -50,7 +50,7 @@ from .reply import (
     to_dataframe,
 )
 from .request import BodyMotion, Contact, Options, Request
-from .server import Body, Dent, Server, Site, Specimen, Task, contact_pair
+from .server import Bodies, Body, Dent, Server, Site, Specimen, Specimens, Task, contact_pair
 from .sweeps import Curve, Sweep, sweep
 from .traces import ContactTrace, Trace, trace
 from .vocabulary import (
@@ -79,6 +79,7 @@ __all__ = [
     "MAX_SUB_IMPACTS",
     "SUB_IMPACT",
     "AnswerTimeout",
+    "Bodies",
     "Body",
     "BodyEnergy",
     "BodyModel",
@@ -124,6 +125,7 @@ __all__ = [
     "Server",
     "Site",
     "Specimen",
+    "Specimens",
     "Status",
     "Support",
     "Sweep",
@@ -132,6 +134,7 @@ __all__ = [
     "Timing",
     "Trace",
     "TransportError",
+    "UnknownName",
     "UnknownSequence",
     "WindowFull",
     "__version__",

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Between C structs and dataclasses whose members have the same names."""
 
+from __future__ import annotations
+
 import ctypes
 from dataclasses import fields, is_dataclass
 from functools import cache
@@ -9,10 +11,24 @@ from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from .vocabulary import ID_SIZE, Choice, Id
+from . import _abi
+from .errors import InvalidArgument
+from .vocabulary import ID_SIZE, Choice, Id, Result
 
 _Class = TypeVar("_Class")
 _hints: Any = cache(get_type_hints)
+
+
+def number(path: str, value: float | str, quantity: str) -> float:
+    """A number in SI units; a text is read as the command line does: "300mm/s". `path` is for messages."""
+    if not isinstance(value, str):
+        return value
+    found = ctypes.c_double()
+    code: int = _abi.library.percuss_quantity_parse(value.encode(), quantity.encode(), ctypes.byref(found))
+    if code != Result.OK:
+        why: bytes = _abi.library.percuss_error_text()
+        raise InvalidArgument(Result(code), f"{path}: {text(why)}")
+    return found.value
 
 
 def text(octets: bytes) -> str:

@@ -16,7 +16,7 @@ from ._signals import Signals, listening
 from .errors import CallError, check
 from .reply import Reply
 from .request import Request
-from .server import Body, Server, Specimen
+from .server import Bodies, Server, Specimen, Specimens
 from .vocabulary import Id, Result
 
 _library = _abi.library
@@ -248,17 +248,17 @@ class Client:
         finally:
             _library.percuss_server_list_free(ctypes.byref(found))
 
-    def bodies(self, timeout: float = 3.0) -> dict[str, Body]:
-        """The catalogue of the connected server by id, sorted."""
+    def bodies(self, timeout: float = 3.0) -> Bodies:
+        """The catalogue of the connected server by id, sorted: a dict whose KeyError lists what there is."""
         found = _server_abi.BodyList()
         check(_library.percuss_bodies(self._open, timeout, ctypes.byref(found)))
         try:
             bodies = [server.read_body(one) for one in found.bodies[: found.count]]
         finally:
             _library.percuss_body_list_free(ctypes.byref(found))
-        return {body.id: body for body in bodies}
+        return Bodies((body.id, body) for body in bodies)
 
-    def specimens(self, timeout: float = 3.0) -> dict[str, Specimen]:
+    def specimens(self, timeout: float = 3.0) -> Specimens:
         """The specimens that the connected server keeps, by name, sorted."""
         found = _server_abi.SpecimenList()
         check(_library.percuss_specimens(self._open, timeout, ctypes.byref(found)))
@@ -266,7 +266,7 @@ class Client:
             specimens = [read(one, Specimen) for one in found.specimens[: found.count]]
         finally:
             _library.percuss_specimen_list_free(ctypes.byref(found))
-        return {specimen.name: specimen for specimen in specimens}
+        return Specimens((specimen.name, specimen) for specimen in specimens)
 
     def clear_specimen(self, name: str, timeout: float = 3.0) -> None:
         """Has the server forget a specimen, its dents and which body it is. InvalidArgument: it keeps

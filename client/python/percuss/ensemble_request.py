@@ -8,14 +8,14 @@ import ctypes
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _convert, _ensemble_abi, request
 from .request import Request
-from .vocabulary import Choice
+from .vocabulary import Choice, quantity_of
 
 
 class Distribution(Choice):
@@ -44,12 +44,12 @@ class Input:
     """speed, direction, model-force, model-compliance, model-yield of the contact; site, young, poisson, density,
     radius, yield, damping of a body."""
     distribution: Distribution = Distribution.CONSTANT
-    first: float = 0.0
-    """Constant: the value; uniform: the lowest; others: the mean."""
-    second: float = 0.0
+    first: Union[float, str] = 0.0
+    """Constant: the value; uniform: the lowest; others: the mean. SI units, or a text with a unit: "70GPa"."""
+    second: Union[float, str] = 0.0
     """Uniform: the highest; others: the deviation."""
-    lower: float = math.nan
-    upper: float = math.nan
+    lower: Union[float, str] = math.nan
+    upper: Union[float, str] = math.nan
     """Where it is cut off; nan: nowhere."""
     body: str = ""
     """Its id; empty: of the contact."""
@@ -120,8 +120,10 @@ def fill(question: Ensemble) -> tuple[_ensemble_abi.Request, list[Any]]:
 def _fill_input(one: Input, target: _ensemble_abi.Input, path: str) -> Any:
     target.name = _convert._plain(f"{path}.name", one.name)
     target.body = _convert._plain(f"{path}.body", one.body)
-    target.distribution, target.first, target.second = one.distribution, one.first, one.second
-    target.lower, target.upper = one.lower, one.upper
+    target.distribution = one.distribution
+    for member in ("first", "second", "lower", "upper"):
+        value = _convert.number(f"{path}.{member}", getattr(one, member), quantity_of(one.name))
+        setattr(target, member, value)
     if one.values is None:
         return None
     values = np.ascontiguousarray(one.values, dtype=np.float64)

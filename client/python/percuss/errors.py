@@ -3,6 +3,8 @@
 """Exceptions: a call that failed, and a request that the server refused."""
 
 import ctypes
+import difflib
+from collections.abc import Iterable
 from typing import Any
 
 from . import _abi
@@ -70,6 +72,20 @@ class Refused(PercussError):
     def __init__(self, status: Status, message: str) -> None:
         super().__init__(f"{status.name}: {message}")
         self.status = status
+
+
+class UnknownName(PercussError, KeyError, ValueError):
+    """A body, a site or a specimen that is not there; the text lists those that are."""
+
+    def __init__(self, path: str, name: str, known: Iterable[str], where: str) -> None:
+        names = list(known)
+        near = difflib.get_close_matches(name, names, 1)
+        guess = f"; did you mean {near[0]!r}?" if near else ""
+        super().__init__(f"{path}: {name!r}: not {where}, which has {', '.join(names) or 'none'}{guess}")
+
+    def __str__(self) -> str:
+        # a KeyError shows its text in quotes
+        return str(self.args[0])
 
 
 _CLASSES: dict[Result, type[CallError]] = {

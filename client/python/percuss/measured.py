@@ -247,14 +247,18 @@ class _Asked:
 
 
 def _ask(
-    a: Body | str, b: Body | str, client: Client, options: Options | None, at: float | None, timeout: float
+    a: Body | str, b: Body | str, client: Client, options: Options | None, at: float | str | None, timeout: float
 ) -> _Asked:
     known = client.bodies(timeout) if isinstance(a, str) or isinstance(b, str) else {}
     first, second = announced.find("a", a, known), announced.find("b", b, known)
     bodies = announced.write_body(first), announced.write_body(second)
     question = _library.percuss_measured_question_default(client._open, *map(ctypes.byref, bodies))
     if at is not None:
-        setattr(question.pair, "at_b" if second.shape == "beam" else "at_a", at)
+        side, body = ("b", second) if announced.is_placed(second) else ("a", first)
+        fraction, site = announced.place(body, at, "at")
+        setattr(question.pair, f"at_{side}", fraction)
+        if site is not None:
+            setattr(question.pair, f"site_{side}", site.encode())
     _convert.fill(options or Options(), question.options, "options")
     question.timeout = timeout
     return _Asked(question, first, second, bodies)
@@ -267,14 +271,14 @@ def compare(
     client: Client,
     *,
     options: Options | None = None,
-    at: float | None = None,
+    at: float | str | None = None,
     columns: Mapping[str, str] | None = None,
     permutations: int = 1999,
     seed: int = 1,
     timeout: float = 60.0,
 ) -> Comparison:
-    """Puts measured impacts of a on b beside their twins. at: place along the beam where an impact has none.
-    columns: what a file calls them, as {"speed": "v:mm/s"}. permutations, seed: behind the p-value of the energy distance. timeout: s for 64 impacts. InvalidArgument names
+    """Puts measured impacts of a on b beside their twins. at: place where an impact has none, as of
+    contact_pair. columns: what a file calls them, as {"speed": "v:mm/s"}. permutations, seed: behind the p-value of the energy distance. timeout: s for 64 impacts. InvalidArgument names
     line or index, value and what is allowed, or what a twin was refused for."""
     asked = _ask(a, b, client, options, at, timeout)
     asked.question.permutations, asked.question.seed = permutations, seed
@@ -318,16 +322,16 @@ def calibrate(
     b: Body | str,
     client: Client,
     *,
-    fit: Sequence[str | tuple[Parameter | str, str]] | Mapping[str, float | None],
+    fit: Sequence[str | tuple[Parameter | str, str]] | Mapping[str, float | str | None],
     options: Options | None = None,
-    at: float | None = None,
+    at: float | str | None = None,
     columns: Mapping[str, str] | None = None,
     noise: float = 0.01,
     timeout: float = 60.0,
 ) -> Calibration:
     """Finds parameters of the bodies with which the twins fit the first sub-impact's impulse and duration and the start
     of the second. fit: up to eight as "young:al-beam" or (Parameter.YOUNG, "al-beam"); or a mapping of "young:al-beam"
-    to where to start, None: at the catalogue's value. noise: relative standard deviation of the measured numbers to
+    to where to start, a number or a text with a unit, None: at the catalogue's value. noise: relative standard deviation of the measured numbers to
     start with. Others as of compare; a tolerance of 0 is 1e-4 here."""
     asked = _ask(a, b, client, options, at, timeout)
     asked.question.noise = noise
@@ -364,5 +368,5 @@ def _write_fit(fit: Any) -> abi.Calibration:
         target = answer.parameters[i]
         target.parameter = Parameter.of(parameter)
         target.body = _convert._plain(f"fit[{i}]", body)
-        target.start = np.nan if start is None else start
+        target.start = np.nan if start is None else _convert.number(f"fit[{i}]", start, Parameter(target.parameter).quantity)
     return answer

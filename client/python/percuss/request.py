@@ -50,6 +50,25 @@ class _Vector:
         instance.__dict__[self._name] = vector
 
 
+class _Quantity:
+    """A dataclass field that is a number in SI units, whatever text with a unit was assigned to it."""
+
+    def __init__(self, quantity: str, default: float = 0.0) -> None:
+        self._quantity, self._default = quantity, default
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, instance: object | None, owner: type) -> float:
+        if instance is None:  # dataclass asks the class for the default
+            return self._default
+        value: float = instance.__dict__[self._name]
+        return value
+
+    def __set__(self, instance: object, value: float | str) -> None:
+        instance.__dict__[self._name] = _convert.number(self._name, value, self._quantity)
+
+
 @dataclass
 class BodyMotion:
     """One body at the stated instant."""
@@ -66,8 +85,8 @@ class BodyMotion:
     """World, rad/s."""
     state: str = ""
     """Token of an earlier reply (Reply.states_after); empty: at rest, without dents."""
-    elapsed: float = 0.0
-    """s since that state."""
+    elapsed: _Quantity = _Quantity("time")
+    """s since that state, or a text with a unit: "20ms"."""
     specimen: str = ""
     """Name of a durable object on a rig; empty: none."""
     overrides: dict[Parameter, float] = field(default_factory=dict)
@@ -84,8 +103,8 @@ class Contact:
     """World, m."""
     normal: _Vector = _Vector(0.0, 0.0, 0.0)
     """World, unit, from b to a."""
-    gap: float = 0.0
-    """m; negative: the bodies overlap already."""
+    gap: _Quantity = _Quantity("length")
+    """m, or a text with a unit; negative: the bodies overlap already."""
     gap_acceleration: float = 0.0
     """n.(a_A - a_B), m/s^2; negative presses."""
 
@@ -96,8 +115,8 @@ class Options:
 
     tolerance: float = 0.0
     """On the restitution; 0: 1e-3."""
-    horizon: float = 0.0
-    """s; 0: the longer of 20 ms and two longest periods."""
+    horizon: _Quantity = _Quantity("time")
+    """s, or a text with a unit: "20ms"; 0: the longer of 20 ms and two longest periods."""
     contact_model: ContactModel = ContactModel.AUTO
     method: Method = Method.MODAL
     compliance: Compliance = Compliance.DEFAULT
@@ -106,8 +125,8 @@ class Options:
     """Also report d(restitution)/d(speed)."""
     trace: bool = False
     """The server also writes the force history on topic percuss/v1/Trace."""
-    deadline: float = 0.0
-    """s from arrival until the server gives up; 0: none."""
+    deadline: _Quantity = _Quantity("time")
+    """s, or a text with a unit, from arrival until the server gives up; 0: none."""
 
 
 @dataclass

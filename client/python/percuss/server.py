@@ -5,14 +5,16 @@
 from __future__ import annotations
 
 import ctypes
+import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from . import _abi, _server_abi
+from . import _abi, _convert, _server_abi
 from ._convert import read
-from .errors import check
+from .errors import InvalidArgument, UnknownName, check
 from .request import FloatArray, Request, read_scene
 from .vocabulary import Id, Parameter, Support, TaskKind
 
@@ -162,34 +164,142 @@ def write_body(body: Body) -> _server_abi.Body:
     )
 
 
-def find(name: str, body: Body | str, known: dict[str, Body]) -> Body:
+_Value = TypeVar("_Value")
+
+
+class _Named(dict[str, _Value]):
+    """By names; one that is not there is refused with those that are."""
+
+    _path, _where = "", ""
+
+    def __missing__(self, name: str) -> _Value:
+        raise UnknownName(self._path, name, self, self._where)
+
+
+class Bodies(_Named[Body]):
+    """Of a catalogue, by id, sorted."""
+
+    _path, _where = "body", "in the catalogue"
+
+
+class Specimens(_Named[Specimen]):
+    """That a server keeps, by name, sorted."""
+
+    _path, _where = "specimen", "kept by the server"
+
+
+class _Catalogued(Protocol):
+    """A Client or a Local."""
+
+    def bodies(self, timeout: float = 3.0) -> Bodies: ...
+
+
+def find(name: str, body: Body | str, known: Mapping[str, Body]) -> Body:
     """The body, or that of the catalogue with this id; `name` is for messages."""
     if isinstance(body, Body):
         return body
     if body not in known:
-        raise ValueError(f"{name}: {body!r}: not in the catalogue, which has {', '.join(known)}")
+        raise UnknownName(name, body, known, "in the catalogue")
     return known[body]
 
 
+def _end(body: Body, word: str, path: str) -> float:
+    """Which end of a beam that is held at one of them is its tip, or its root."""
+    free = [one == Support.FREE for one in body.supports]
+    if free[0] == free[1]:
+        ends = " and ".join(one.text for one in body.supports)
+        raise ValueError(f"{path}: {word!r}: the ends of {body.id} are {ends}, so that it has no tip and no root; "
+                         "0 is its end at -x, 1 that at +x")
+    return 1.0 if free[1] == (word == "tip") else 0.0
+
+
+def _along(body: Body, text: str, path: str) -> float:
+    """A place along a beam, as the command line reads it."""
+    word = text.strip()
+    if word in ("tip", "root"):
+        return _end(body, word, path)
+    if word == "middle":
+        return 0.5
+    percent = word.endswith("%")
+    try:
+        value = _convert.number(path, word[:-1] if percent else word, "number") / (100.0 if percent else 1.0)
+        end = 1.0
+    except InvalidArgument:
+        # with a unit: from its end at -x
+        try:
+            value, end = _convert.number(path, word, "length"), 2.0 * float(body.half_extents[0])
+        except InvalidArgument:
+            value, end = np.nan, 1.0
+    if not 0.0 <= value <= end:
+        raise ValueError(f"{path}: {text!r}: a fraction of the length of {body.id}, 0..1, per cent of it, a length from "
+                         f"its end at -x of up to {2.0 * float(body.half_extents[0]):g} m, middle, tip or root is allowed")
+    return value / end
+
+
+def place(body: Body, at: float | str, path: str) -> tuple[float, str | None]:
+    """The fraction of a beam's length, and the name of a site: one of them is meant."""
+    if not isinstance(at, str):
+        return at, None
+    if body.sites:
+        names = [site.name for site in body.sites]
+        if at not in names:
+            raise UnknownName(path, at, names, f"a site of {body.id}")
+        return 0.5, at
+    if body.shape != "beam":
+        raise ValueError(f"{path}: {at!r}: {body.id} ({body.shape}) has no sites, and is no beam: it is hit where it always is")
+    return _along(body, at, path), None
+
+
+def is_placed(body: Body) -> bool:
+    """Whether there is a choice of where it is hit."""
+    return body.shape == "beam" or bool(body.sites)
+
+
 def contact_pair(
-    a: Body,
-    b: Body,
-    speed: float,
-    at_a: float = 0.5,
-    at_b: float = 0.5,
+    a: Body | str,
+    b: Body | str,
+    speed: float | str,
+    at_a: float | str = 0.5,
+    at_b: float | str = 0.5,
     site_a: str | None = None,
     site_b: str | None = None,
+    *,
+    at: float | str | None = None,
+    client: _Catalogued | None = None,
+    bodies: Mapping[str, Body] | None = None,
 ) -> Request:
-    """A request in which two bodies touch at their default sites; a moves with `speed` (m/s, > 0)
-    straight at b, and all else is at rest. at_a, at_b: where along a beam its site is, 0 (end at -x)
-    to 1 (end at +x). site_a, site_b: the name of a site.
+    """A request in which two bodies touch at their default sites; a moves with `speed` (m/s, > 0, or a text with a
+    unit: "300mm/s") straight at b, and all else is at rest. a, b: of client.bodies(), or their ids in the catalogue of
+    `client` or among `bodies`.
+
+    at_a, at_b: where along a beam its site is, 0 (end at -x) to 1 (end at +x), or as the command line has it: "25%",
+    "0.3m" from the end at -x, "middle", and of a beam that is held at one end "tip" or "root"; of a mesh the name of a
+    site, as site_a, site_b. at: the same of b, or of a where b leaves no choice.
 
     Default sites: sphere and block: top (+z); half-space: origin; cylinder: end at +x; rod: end at +x if
     that is free, else at -x; beam: +z side; mesh: its first site with a name. b stands unrotated at the origin, the normal is the outward
-    one of its site. InvalidArgument for a shape that cannot be placed, or a number out of range.
+    one of its site. InvalidArgument for a shape that cannot be placed, or a number out of range; UnknownName, a
+    KeyError, lists what there is.
     """
-    first, second = write_body(a), write_body(b)
-    pair = _server_abi.Pair(ctypes.pointer(first), ctypes.pointer(second), speed, at_a, at_b)
+    names = [f"{name}: {one!r}" for name, one in (("a", a), ("b", b)) if isinstance(one, str)]
+    if names and client is None and bodies is None:
+        raise ValueError(f"{', '.join(names)}: a name needs `client` or `bodies`, in whose catalogue it is looked up")
+    if bodies is None:
+        bodies = client.bodies() if names and client is not None else {}
+    first_body, second_body = find("a", a, bodies), find("b", b, bodies)
+    if at is not None:
+        if is_placed(second_body):
+            at_b = at
+        elif is_placed(first_body):
+            at_a = at
+        else:
+            warnings.warn("at has no effect: neither body is a beam or has sites", stacklevel=2)
+    place_a, named_a = place(first_body, at_a, "at_a" if at is None else "at")
+    place_b, named_b = place(second_body, at_b, "at_b" if at is None else "at")
+    site_a, site_b = site_a or named_a, site_b or named_b
+    first, second = write_body(first_body), write_body(second_body)
+    value = _convert.number("speed", speed, "speed")
+    pair = _server_abi.Pair(ctypes.pointer(first), ctypes.pointer(second), value, place_a, place_b)
     pair.site_a, pair.site_b = (None if name is None else name.encode() for name in (site_a, site_b))
     request = _abi.Request()
     check(_abi.library.percuss_contact_pair(ctypes.byref(pair), ctypes.byref(request)))

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _plots, _tables
+from . import _convert, _plots, _tables
 from .client import Client
 from .errors import WindowFull
 from .reply import Reply
@@ -118,20 +118,21 @@ class Sweep:
 def sweep(
     a: Body | str,
     b: Body | str | Sequence[Body | str],
-    speeds: ArrayLike,
+    speeds: ArrayLike | Sequence[object],
     client: Client,
     *,
     contact_model: ContactModel | str | Sequence[ContactModel | str] | None = None,
     options: Options | None = None,
-    at_a: float = 0.5,
-    at_b: float = 0.5,
+    at_a: float | str = 0.5,
+    at_b: float | str = 0.5,
     site_a: str | None = None,
     site_b: str | None = None,
+    at: float | str | None = None,
     timeout: float = 10.0,
 ) -> Sweep:
-    """Asks for the impact of a on b at every speed, m/s, > 0. Bodies by their ids in the catalogue, or as
+    """Asks for the impact of a on b at every speed, m/s or texts with units, > 0. Bodies by their ids in the catalogue, or as
     client.bodies() has them; of b and contact_model one or several: a curve for each. contact_model: None: that of
-    the options. at_a, at_b, site_a, site_b: as of contact_pair. timeout: s that one answer is waited for. Refused points
+    the options. at_a, at_b, site_a, site_b, at: as of contact_pair. timeout: s that one answer is waited for. Refused points
     have their status and no numbers: see Sweep.raise_for_status."""
     options = options or Options()
     bodies_b = [b] if isinstance(b, (str, Body)) else list(b)
@@ -139,17 +140,27 @@ def sweep(
     models = [given] if isinstance(given, (str, ContactModel)) else list(given)
     known = client.bodies(timeout) if any(isinstance(one, str) for one in (a, *bodies_b)) else {}
     first, others = find("a", a, known), [find("b", one, known) for one in bodies_b]
-    values = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
+    values = _values(speeds)
     if values.ndim != 1 or not (np.isfinite(values) & (values > 0.0)).all():
         raise ValueError(f"speeds: {speeds!r}: a list of numbers > 0 is allowed")
     curves = []
     for other in others:
         for model in map(ContactModel.of, models):
-            questions = [contact_pair(first, other, speed, at_a, at_b, site_a, site_b) for speed in values]
+            questions = [contact_pair(first, other, speed, at_a, at_b, site_a, site_b, at=at) for speed in values]
             for question in questions:
                 question.options = replace(options, contact_model=model)
             curves.append(_curve(first, other, model, values, _ask(client, questions, timeout)))
     return Sweep(tuple(curves))
+
+
+def _values(speeds: Any) -> FloatArray:
+    """Texts with units among them are read one by one."""
+    if isinstance(speeds, str):
+        speeds = [speeds]
+    if isinstance(speeds, Sequence):
+        speeds = [_convert.number("speeds", one, "speed") if isinstance(one, str) else one for one in speeds]
+    values: FloatArray = np.atleast_1d(np.asarray(speeds, dtype=np.float64))
+    return values
 
 
 def _ask(client: Client, questions: Sequence[Request], timeout: float) -> list[Reply]:

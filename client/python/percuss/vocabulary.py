@@ -31,6 +31,12 @@ class Id(bytes):
         return format(self.hex(), spec)
 
 
+def quantity_of(name: str) -> str:
+    """Of a body's parameter or an uncertain input of that name."""
+    kinds = {"speed": "speed", "young": "stress", "yield": "stress", "tangent": "stress"}
+    return {**kinds, "radius": "length", "density": "density"}.get(name, "number")
+
+
 class Choice(IntEnum):
     """A number with a name, which is also what it is shown as; one that a newer server sends gets the name
     UNKNOWN_<number>."""
@@ -148,6 +154,11 @@ class Parameter(Choice):
     DAMPING = 5
     RADIUS = 6
     SCALE = 7
+
+    @property
+    def quantity(self) -> str:
+        """Of its numbers: stress, density, length; number: without a unit."""
+        return quantity_of(self.text)
 
 
 class DelassusSource(Choice):

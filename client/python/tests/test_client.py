@@ -6,6 +6,7 @@ import dataclasses
 import json
 import math
 import os
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -176,6 +177,96 @@ class Announced(Beside):
         self.assertEqual(beam.supports, (percuss.Support.FREE, percuss.Support.FREE))
         self.assertEqual((wall.shape, wall.mass, rod.tip_radius), ("half-space", math.inf, math.inf))
         self.assertEqual(list(self.bodies), sorted(self.bodies))
+
+    def test_bodies_by_name(self) -> None:
+        bodies = self.client.bodies()
+        by_object = percuss.contact_pair(bodies["steel-sphere"], bodies["al-beam"], 0.3)
+        for known in ({"client": self.client}, {"bodies": bodies}, {"bodies": dict(bodies)}):
+            with self.subTest(known):
+                by_name = percuss.contact_pair("steel-sphere", "al-beam", speed="300mm/s", **known)
+                self.assertEqual(repr(by_name), repr(by_object))
+        mixed = percuss.contact_pair(bodies["steel-sphere"], "al-beam", 0.3, client=self.client)
+        self.assertEqual(repr(mixed), repr(by_object))
+
+    def test_names_that_are_not_there(self) -> None:
+        bodies = self.client.bodies()
+        listed = "which has al-beam, .*; did you mean 'al-beam'\\?$"
+        for call in (
+            lambda: bodies["al-bean"],
+            lambda: percuss.contact_pair("steel-sphere", "al-bean", 0.3, client=self.client),
+            lambda: percuss.contact_pair("steel-sphere", "al-bean", 0.3, bodies=bodies),
+            lambda: percuss.sweep("steel-sphere", "al-bean", "300mm/s", self.client),
+        ):
+            for kind in (KeyError, ValueError, percuss.UnknownName):
+                with self.assertRaisesRegex(kind, f"^(body|b): 'al-bean': not in the catalogue, {listed}"):
+                    call()
+        with self.assertRaisesRegex(KeyError, "^specimen: 'rig-1': not kept by the server, which has none$"):
+            self.client.specimens()["rig-1"]
+        with self.assertRaisesRegex(ValueError, "^a: 'steel-sphere', b: 'al-beam': a name needs `client` or `bodies`"):
+            percuss.contact_pair("steel-sphere", "al-beam", 0.3)
+        self.assertEqual(bodies.get("al-bean", None), None)
+        self.assertEqual(pickle.loads(pickle.dumps(bodies)).keys(), bodies.keys())
+
+    def test_places(self) -> None:
+        """As the command line has them."""
+        bodies = self.client.bodies()
+        beam = dataclasses.replace(bodies["al-beam"], supports=(percuss.Support.CLAMPED, percuss.Support.FREE))
+        meshed = dataclasses.replace(
+            bodies["al-beam"], shape="mesh", sites=(percuss.Site("nose", np.zeros(3), np.array([0.0, 0.0, 1.0])),)
+        )
+
+        def hit(at: Any, body: percuss.Body = beam, **more: Any) -> Any:
+            pair = percuss.contact_pair(bodies["steel-sphere"], body, 0.3, at=at, **more)
+            return round(pair.contacts[0].point[0] - pair.bodies[1].position[0], 12)
+
+        for at, x in ((0.25, -0.25), ("0.25", -0.25), ("25%", -0.25), ("250mm", -0.25), ("0.25 m", -0.25),
+                      ("1m", 0.5), ("middle", 0.0), ("tip", 0.5), ("root", -0.5)):
+            with self.subTest(at):
+                self.assertEqual(hit(at), x)
+                pair = percuss.contact_pair(bodies["steel-sphere"], beam, 0.3, at_b=at)
+                self.assertEqual(round(pair.contacts[0].point[0], 12), x)
+        self.assertEqual(hit("nose", meshed), 0.0)
+        # the beam may be the body that moves
+        pair = percuss.contact_pair(beam, bodies["steel-wall"], 0.3, at="tip")
+        self.assertEqual(round(abs(pair.bodies[0].position[0]), 12), 0.5)
+        for at, body, text in (
+            ("2m", beam, "at: '2m': a fraction .* 0..1, .* up to 1 m, middle, tip or root is allowed"),
+            ("101%", beam, "at: '101%': a fraction"),
+            ("-0.1", beam, "at: '-0.1': a fraction"),
+            ("tipp", beam, "at: 'tipp': a fraction"),
+            ("tip", bodies["al-beam"], "at: 'tip': the ends of al-beam are free and free"),
+            ("noze", meshed, "at: 'noze': not a site of al-beam, which has nose; did you mean 'nose'"),
+        ):
+            with self.subTest(at), self.assertRaisesRegex(ValueError, text):
+                hit(at, body)
+        with self.assertRaisesRegex(ValueError, "at_a: 'tip': steel-sphere .sphere. has no sites"):
+            percuss.contact_pair(bodies["steel-sphere"], beam, 0.3, at_a="tip")
+        with self.assertWarnsRegex(UserWarning, "at has no effect: neither body"):
+            percuss.contact_pair(bodies["steel-sphere"], bodies["al-rod"], 0.3, at=0.3)
+
+    def test_numbers_with_units(self) -> None:
+        """By the table of the command line."""
+        options = percuss.Options(horizon="30ms", deadline="2 s")
+        self.assertEqual((options.horizon, options.deadline), (0.03, 2.0))
+        self.assertEqual(percuss.Contact(0, 1, gap="8 um").gap, 8e-6)
+        self.assertEqual(repr(dataclasses.replace(percuss.Options(), horizon="1min").horizon), "60.0")
+        with self.assertRaisesRegex(percuss.InvalidArgument, "horizon: '3 m': a time is needed, .*; m is no time"):
+            options.horizon = "3 m"
+        bodies = self.client.bodies()
+        for speed, text in (("3kg", "kg is no speed"), ("fast", "a speed is needed"), ("-1 m/s", "speed: -1")):
+            with self.subTest(speed), self.assertRaisesRegex(ValueError, text):
+                percuss.contact_pair(bodies["steel-sphere"], bodies["al-rod"], speed)
+        (curve,) = percuss.sweep("steel-sphere", "al-rod", ["100mm/s", 0.2], self.client).curves
+        self.assertEqual(curve.speed.tolist(), [0.1, 0.2])
+        scene = percuss.contact_pair("steel-sphere", "al-rod", 0.2, client=self.client)
+        kind = percuss.Distribution.UNIFORM
+        plain, typed = (
+            percuss.ensemble(percuss.Ensemble(scene, [percuss.Input("speed", kind, *ends)], 20), self.client)
+            for ends in ((0.1, 0.4), ("100mm/s", "400 mm/s"))
+        )
+        self.assertEqual(plain.restitution.mean, typed.restitution.mean)
+        with self.assertRaisesRegex(ValueError, r"inputs\[0\].first: '70 mm': a stress is needed"):
+            percuss.ensemble(percuss.Ensemble(scene, [percuss.Input("young", kind, "70 mm", body="al-rod")]), self.client)
 
     def test_server(self) -> None:
         self.assertGreater(self.client.ping(5.0), 0.0)

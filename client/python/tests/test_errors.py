@@ -54,6 +54,7 @@ class Errors(unittest.TestCase):
             percuss.PercussError("something"),
             percuss.CallError(percuss.Result.NO_MEMORY, "no memory"),
             percuss.Refused(percuss.Status.UNKNOWN_BODY, "bodies[1].id: 'x'"),
+            percuss.UnknownName("b", "al-bean", ["al-beam", "al-rod"], "in the catalogue"),
         ]
         kinds = {type(error) for error in errors}
         every = {kind for kind in vars(percuss.errors).values() if isinstance(kind, type)}

@@ -81,6 +81,11 @@ class Compare(Beside):
         """One place for all is that of a column, and of --at."""
         columns = {"speed": [0.2, 0.3], "restitution": [0.5, 0.5]}
         ours = measured.compare(columns, "steel-sphere", "al-beam", self.local, at=0.3)
+        for at in ("300mm", "30%"):
+            typed = measured.compare(columns, "steel-sphere", "al-beam", self.local, at=at)
+            self.assertEqual(typed.simulated.restitution.tolist(), ours.simulated.restitution.tolist())
+        with self.assertRaisesRegex(ValueError, "at: '2m': a fraction"):
+            measured.compare(columns, "steel-sphere", "al-beam", self.local, at="2m")
         same = measured.compare({**columns, "at": [0.3, 0.3]}, "steel-sphere", "al-beam", self.local)
         self.assertEqual(ours.simulated.restitution.tolist(), same.simulated.restitution.tolist())
         Path("two.csv").write_text("speed,restitution\n0.2,0.5\n0.3,0.5\n")
@@ -168,7 +173,7 @@ class Calibrate(Beside):
     def test_several_and_starts(self) -> None:
         file = str(DATA / "beam.csv")
         expected = told("calibrate", file, "--fit", "young:al-beam=71e9", "--fit", "damping:al-beam", "--noise", "0.02")
-        fit = {"young:al-beam": 71e9, "damping:al-beam": None}
+        fit: dict[str, Any] = {"young:al-beam": "71 GPa", "damping:al-beam": None}
         self.assert_as(measured.calibrate(file, "steel-sphere", "al-beam", self.local, fit=fit, noise=0.02), expected)
 
     def test_mistakes(self) -> None:
