@@ -38,31 +38,59 @@ def _legend(figure: Any, axes: Sequence[Any]) -> None:
         for handle, label in zip(*one.get_legend_handles_labels()):
             found.setdefault(label, handle)
     if found:
-        columns = min(4, len(found))
+        # in one row if that is wide enough, by about what a letter and a line with its gaps take
+        inches = [0.085 * len(label) + 0.7 for label in found]
+        wide = figure.bbox.width / figure.dpi
+        columns = len(found) if sum(inches) < wide else max(1, int(wide / max(inches)))
         figure.legend(list(found.values()), list(found), loc="outside upper center", ncols=columns, frameon=False)
 
 
+def _drawn_times(traced: "Trace", i: int) -> tuple[float, float]:
+    """The contacts, and a quarter of their time before and after them; a trace goes on for as long as vibration could
+    bring the bodies together again."""
+    time, subs = traced.contacts[i].time, traced.reply.contacts[i].sub_impacts
+    end = traced.reply.contacts[i].end_time
+    if not len(subs) or not end > subs["start"][0]:
+        return float(time[0]), float(time[-1])
+    start = float(subs["start"][0])
+    margin = 0.25 * (end - start)
+    return max(float(time[0]), start - margin), min(float(time[-1]), end + margin)
+
+
 def trace(traced: "Trace", figure: Any) -> Any:
-    """A column for each contact: the force, the bodies' velocities, the indentation."""
+    """A column for each contact: the bodies' displacements and velocities, the force, the indentation."""
     if not traced.contacts:
         raise ValueError(f"{traced.reply.status}: {traced.reply.message}: there are no histories to plot")
     count = len(traced.contacts)
-    figure = _figure(figure, (8.0 + 3.0 * (count - 1), 7.0))
-    rows = figure.subplots(3, count, sharex="col", squeeze=False)
+    names = traced.names or (("a", "b"),) * count
+    colours = {name: f"C{k}" for k, name in enumerate(dict.fromkeys(one for pair in names for one in pair))}
+    figure = _figure(figure, (8.0 + 3.0 * (count - 1), 9.0))
+    rows = figure.subplots(4, count, squeeze=False)
     for i, contact in enumerate(traced.contacts):
-        force, velocity, depth = rows[:, i]
-        time = 1e3 * contact.time
-        force.fill_between(time, contact.force, color="#d8d8d8", linewidth=0)
-        force.plot(time, contact.force, color="black", linewidth=0.8)
-        bodies = (("velocity of a", contact.velocity_a), ("velocity of b", contact.velocity_b))
-        for name, values in (*bodies, ("gap rate of the rigid bodies", contact.gap_rate)):
-            if not np.isnan(values).all():
-                velocity.plot(time, values, linewidth=1.0, label=name)
-        depth.plot(time, 1e6 * contact.indentation, color="black", linewidth=0.8)
-        force.set(title=f"contact {i}", ylabel="force, N" if i == 0 else None)
-        velocity.set(ylabel="velocity, m/s" if i == 0 else None)
-        depth.set(xlabel="time, ms", ylabel="indentation, um" if i == 0 else None)
-    _legend(figure, list(rows[1]))
+        # each row scales to what is on the axis of time
+        low, high = _drawn_times(traced, i)
+        on = (contact.time >= low) & (contact.time <= high)
+        time = 1e3 * contact.time[on]
+        displacement, velocity, force, depth = rows[:, i]
+        for values, panel, scale in (
+            ((contact.displacement_a, contact.displacement_b), displacement, 1e6),
+            ((contact.velocity_a, contact.velocity_b), velocity, 1.0),
+        ):
+            for name, one in zip(names[i], values):
+                if not np.isnan(one).all():
+                    panel.plot(time, scale * one[on], color=colours[name], linewidth=1.0, label=name)
+        velocity.plot(time, contact.gap_rate[on], "--", color="#808080", linewidth=0.8, label="gap rate of the rigid bodies")
+        force.fill_between(time, contact.force[on], color="#d8d8d8", linewidth=0)
+        force.plot(time, contact.force[on], color="black", linewidth=0.8)
+        depth.plot(time, 1e6 * contact.indentation[on], color="black", linewidth=0.8)
+        result = traced.reply.contacts[i]
+        subs = f"{result.sub_impact_count} sub-impact{'' if result.sub_impact_count == 1 else 's'}"
+        displacement.set(title=f"{' on '.join(names[i])}: e = {result.restitution:.4f}, {subs}")
+        for panel, label in zip(rows[:, i], ("displacement, um", "velocity, m/s", "force, N", "indentation, um")):
+            panel.set(ylabel=label if i == 0 else None, xlim=(1e3 * low, 1e3 * high))
+            panel.tick_params(labelbottom=panel is depth)
+        depth.set(xlabel="time, ms")
+    _legend(figure, [*rows[0], *rows[1]])
     return figure
 
 
@@ -87,7 +115,8 @@ def sweep(swept: "Sweep", figure: Any) -> Any:
         below.plot(curve.speed[there], curve.significant[there], ".", color=f"C{i}", markersize=3)
     names = ", ".join(sorted({curve.a for curve in swept.curves}))
     above.set(ylabel=f"restitution of {names}")
-    below.set(xlabel="speed, m/s", ylabel="sub-impacts (dots: significant)")
+    below.set(xlabel="speed, m/s", ylabel="sub-impacts")
+    below.set_title("dots: without those below 1 % of the impulse", loc="right", fontsize="small")
     below.set_ylim(bottom=0)
     below.yaxis.get_major_locator().set_params(integer=True)
     _legend(figure, [above])
@@ -140,8 +169,8 @@ def comparison(compared: "Comparison", figure: Any) -> Any:
     if deviation > 0.0:
         for i, grey in enumerate(_GREYS):
             half = 0.5 * (4 - i) * deviation
-            above.axhspan(mean - half, mean + half, color=grey, linewidth=0, zorder=0)
-            above.annotate("DCBA"[i], (1.01, mean + half), xycoords=("axes fraction", "data"), va="top", color="#606060")
+            area = f"{'DCBA'[i]}: {0.5 * (4 - i):g} deviations"
+            above.axhspan(mean - half, mean + half, color=grey, linewidth=0, zorder=0, label=area)
         above.axhline(mean, color="#808080", linewidth=0.8, zorder=1)
     above.vlines(speed, ours, theirs, color="#b0b0b0", linewidth=0.8, zorder=2)
     for axes, name in ((above, "restitution"), (middle, "sub_impacts")):

@@ -53,6 +53,8 @@ class Trace:
     reply: Reply
     contacts: tuple[ContactTrace, ...]
     """In the order of the request; empty when it was refused."""
+    names: tuple[tuple[str, str], ...] = ()
+    """Ids of bodies a and b of each contact."""
 
     def to_dataframe(self) -> Any:
         """A row an instant of a contact: contact, and the members of ContactTrace."""
@@ -64,7 +66,8 @@ class Trace:
         return _tables.stack(parts, ("contact", *names))
 
     def plot(self, figure: Any = None) -> Any:
-        """Draws a column for each contact: the force, the velocities of the bodies, the indentation.
+        """Draws a column for each contact: displacements and velocities of the bodies, the force, the indentation, from
+        the first of its sub-impacts to a quarter of their time after the last.
 
         Returns a matplotlib Figure of its own (`.savefig`, or a notebook's last line), or the given one drawn into."""
         return _plots.trace(self, figure)
@@ -94,7 +97,8 @@ def trace(question: Request, client: Client, timeout: float = 10.0) -> Trace:
     try:
         client._check(code)
         contacts = tuple(_read(one) for one in histories.contacts[: histories.contact_count])
-        return Trace(_convert.read(answer, Reply), contacts)
+        names = tuple((question.bodies[one.a].id, question.bodies[one.b].id) for one in question.contacts[: len(contacts)])
+        return Trace(_convert.read(answer, Reply), contacts, names)
     finally:
         _library.percuss_trace_free(ctypes.byref(histories))
         _library.percuss_reply_free(ctypes.byref(answer))

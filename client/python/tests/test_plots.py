@@ -21,6 +21,13 @@ SOURCE = Path(os.environ["PERCUSS_SOURCE"])
 CATALOGUE = SOURCE / "config" / "catalogue.yaml"
 SETTINGS = Path(tempfile.mkdtemp()) / "percussd.yaml"
 SETTINGS.write_text(f"catalogue: {CATALOGUE}\n")
+CANTILEVER = """
+materials:
+  steel: {young: 210e9, poisson: 0.3, density: 7800}
+bodies:
+  ball: {shape: sphere, material: steel, radius: 0.006}
+  cantilever: {shape: beam, material: steel, section: {width: 0.02, height: 0.004}, length: 0.2, ends: [clamped, free]}
+"""
 
 
 class Plots(unittest.TestCase):
@@ -44,10 +51,29 @@ class Plots(unittest.TestCase):
             figure.savefig(name)
             octets = Path(name).read_bytes()
             self.assertTrue(octets.startswith(begin) and len(octets) > 8000, name)
+        self.nothing_collides(figure)
         for legend in figure.legends:
             there = legend.get_window_extent()
             self.assertFalse([axes for axes in figure.axes if there.overlaps(axes.get_window_extent())])
         return list(figure.axes)
+
+    def nothing_collides(self, figure: Any) -> None:
+        """No two texts lie over each other or beyond the picture."""
+        figure.draw_without_rendering()  # the last file had another resolution
+        texts = [text for legend in figure.legends for text in legend.get_texts()]
+        for axes in figure.axes:
+            texts += [axes.title, axes._left_title, axes._right_title, axes.xaxis.label, axes.yaxis.label, *axes.texts]
+            for axis in (axes.xaxis, axes.yaxis):
+                low, high = sorted(axis.get_view_interval())
+                places, labels = axis.get_majorticklocs(), axis.get_majorticklabels()
+                texts += [label for place, label in zip(places, labels) if low <= place <= high]
+        shown = [text for text in texts if text.get_visible() and text.get_text()]
+        boxes = [text.get_window_extent() for text in shown]
+        self.assertGreater(len(boxes), 10)
+        for i, (text, box) in enumerate(zip(shown, boxes)):
+            self.assertTrue(figure.bbox.contains(box.x0, box.y0) and figure.bbox.contains(box.x1, box.y1), text)
+            over = [shown[k].get_text() for k in range(i) if box.overlaps(boxes[k])]
+            self.assertFalse(over, text.get_text())
 
     def drawn(self, axes: Any, values: Any) -> None:
         """One of its lines has these values."""
@@ -57,15 +83,53 @@ class Plots(unittest.TestCase):
     def test_trace(self) -> None:
         traced = percuss.trace(self.question(), self.local)
         figure = traced.plot()
-        force, velocity, depth = self.rendered(figure)
-        self.drawn(force, traced.contacts[0].force)
-        self.drawn(velocity, traced.contacts[0].velocity_b)
-        self.drawn(depth, 1e6 * traced.contacts[0].indentation)
+        displacement, velocity, force, depth = self.rendered(figure)
+        (contact,), (result,) = traced.contacts, traced.reply.contacts
+        # the contacts and a quarter of their time after them
+        on = contact.time <= 1.25 * result.end_time
+        self.drawn(displacement, 1e6 * contact.displacement_a[on])
+        self.drawn(displacement, 1e6 * contact.displacement_b[on])
+        self.drawn(velocity, contact.velocity_b[on])
+        self.drawn(force, contact.force[on])
+        self.drawn(depth, 1e6 * contact.indentation[on])
+        self.assertEqual(displacement.get_title(), "steel-sphere on al-beam: e = 0.7390, 2 sub-impacts")
+        names = [text.get_text() for text in figure.legends[0].get_texts()]
+        self.assertEqual(names, ["steel-sphere", "al-beam", "gap rate of the rigid bodies"])
         self.assertEqual(len(figure.legends), 1)
         refused = self.question()
         refused.bodies[0].id = "nobody"
         with self.assertRaisesRegex(ValueError, "UNKNOWN_BODY: .*no histories"):
             percuss.trace(refused, self.local).plot()
+
+    def test_time_fits_the_contacts(self) -> None:
+        """A short touch is not a stroke at the edge of what its beam does afterwards."""
+        file = Path(tempfile.mkdtemp()) / "cantilever.yaml"
+        file.write_text(CANTILEVER)
+        with percuss.Local(file) as local:
+            for at, long in (("middle", 5.0), ("97%", 1.0)):
+                traced = percuss.trace(percuss.contact_pair("ball", "cantilever", "300mm/s", at=at, client=local), local)
+                end, last = 1e3 * traced.reply.contacts[0].end_time, 1e3 * traced.contacts[0].time[-1]
+                self.assertGreater(last, long * end)
+                for axes in self.rendered(traced.plot()):
+                    low, high = axes.get_xlim()
+                    self.assertEqual(low, 0.0)
+                    self.assertAlmostEqual(high, min(last, 1.25 * end), delta=1e-9)
+
+    def test_two_contacts(self) -> None:
+        """A body has one colour, wherever it touches."""
+        bodies = self.local.bodies()
+        both = percuss.contact_pair(bodies["steel-sphere"], bodies["al-beam"], 0.2, at_b=0.4)
+        other = percuss.contact_pair(bodies["glass-sphere"], bodies["al-beam"], 0.2, at_b=0.7)
+        both.bodies.append(other.bodies[0])
+        both.contacts.append(other.contacts[0])
+        both.contacts[1].a, both.contacts[1].b = 2, 1
+        traced = percuss.trace(both, self.local)
+        self.assertEqual(traced.names, (("steel-sphere", "al-beam"), ("glass-sphere", "al-beam")))
+        figure = traced.plot()
+        first, second = self.rendered(figure)[:2]
+        colours = [{line.get_label(): line.get_color() for line in one.get_lines()} for one in (first, second)]
+        self.assertEqual(colours[0]["al-beam"], colours[1]["al-beam"])
+        self.assertNotEqual(colours[0]["steel-sphere"], colours[1]["glass-sphere"])
 
     def test_sweep(self) -> None:
         sweep = percuss.sweep("steel-sphere", ["al-rod", "al-beam"], [0.1, 0.2, 0.3], self.local)
@@ -94,6 +158,10 @@ class Plots(unittest.TestCase):
         self.drawn(above, compared.measured.restitution)
         self.drawn(above, compared.simulated.restitution)
         self.drawn(middle, compared.simulated.sub_impacts)
+        self.assertIn("A: 0.5 deviations", [text.get_text() for text in compared.plot().legends[0].get_texts()])
+        # areas narrower than their letters
+        close: dict[str, list[float]] = {"speed": [0.2, 0.2, 0.3], "restitution": [0.70, 0.70, 0.71]}
+        self.rendered(measured.compare(close, "steel-sphere", "al-beam", self.local).plot())
         # one impact has no deviation
         one = measured.compare({"speed": [0.2], "restitution": [0.7]}, "steel-sphere", "al-beam", self.local)
         self.rendered(one.plot())
