@@ -7,6 +7,9 @@
 settings "tables: $source_dir/config/tables" "store: $work/specimens.db"
 PERCUSS_DOMAIN=$domain
 PATH=$bin:$PATH
+# for the page that asks from Python, where that has what it needs
+python=$build/python-venv
+[ ! -e "$python/wanted" ] || PATH=$python/bin:$PATH
 export PERCUSS_DOMAIN PATH
 
 # read_page FILE: all of its commands, in a folder with what the source has, where nothing else is lost
@@ -14,7 +17,7 @@ read_page() {
     runnable "$source_dir/$1" | sed -e '/&$/s|$|\nsleep 1|' >"$work/script"
     say "$1: $(grep -c '^[^ ]*percuss' "$work/script") commands"
     mkdir -p "$work/desk/docs/figures"
-    ln -s "$source_dir/client" "$source_dir/config" "$work/desk"
+    ln -s "$source_dir/client" "$source_dir/config" "$source_dir/idl" "$work/desk"
     ln -s "$build" "$work/desk/build"
     cd "$work/desk"
     grep -q '^[^ ]*percussd' "$work/script" || start_daemon
@@ -32,6 +35,10 @@ read_page() {
 count=0
 for page in README.md $(cd "$source_dir" && echo docs/*.md); do
     [ "$page" != docs/tutorial.md ] && runnable "$source_dir/$page" >/dev/null || continue
+    [ "$page" != docs/plain-dds.md ] || [ -e "$python/wanted" ] || {
+        say "$page: no virtual environment (see the test python/environment): left out"
+        continue
+    }
     read_page "$page"
     count=$((count + 1))
 done

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Asks a percussd with nothing but its IDL: no libpercuss, no other part of percuss.
 
-Needs `pip install cyclonedds==11.0.1` and a percussd with the shipped catalogue; the DDS domain may be the
-argument. The types below are those of percuss_wire.idl, which also states the conventions.
+Needs `pip install cyclonedds==11.0.1` and a percussd with the shipped catalogue, in the DDS domain that is the argument
+or stands in PERCUSS_DOMAIN, else 0, and in the partition PERCUSS_PARTITION, else in none. The types below are those of
+percuss_wire.idl, which also states the conventions; docs/plain-dds.md explains the rest.
 """
 
 import os
@@ -16,7 +17,7 @@ from cyclonedds.domain import Domain, DomainParticipant
 from cyclonedds.idl import IdlStruct
 from cyclonedds.idl.annotations import appendable, key, nested
 from cyclonedds.idl.types import array, bounded_str, byte, float64, sequence, uint32, uint64
-from cyclonedds.pub import DataWriter
+from cyclonedds.pub import DataWriter, Publisher
 from cyclonedds.sub import DataReader, Subscriber
 from cyclonedds.topic import Topic
 from cyclonedds.util import duration
@@ -246,16 +247,19 @@ EXCHANGE = (
 class Client:
     """One request after another."""
 
-    def __init__(self, domain):
+    def __init__(self, domain, partition=""):
+        self.domain, self.partition = domain, partition
         self.id = os.urandom(16)
         self.server = bytes(16)
         self._domain = Domain(domain, LOOPBACK) if not os.environ.get("CYCLONEDDS_URI") else None
         participant = DomainParticipant(domain)
         # replies come in a partition of our own: the daemon sees this reader and makes its writer there
-        ours = Subscriber(participant, qos=Qos(Policy.Partition([f"c_{self.id.hex()}"])))
+        replies = f"c_{self.id.hex()}" + (f".{partition}" if partition else "")
+        ours = Subscriber(participant, qos=Qos(Policy.Partition([replies])))
         self._replies = DataReader(ours, Topic(participant, "percuss/v1/Reply", Reply), qos=Qos(*EXCHANGE))
         requests = Topic(participant, "percuss/v1/Request", Request)
-        self._requests = DataWriter(participant, requests, qos=Qos(*EXCHANGE))
+        theirs = Publisher(participant, qos=Qos(Policy.Partition([partition] if partition else [])))
+        self._requests = DataWriter(theirs, requests, qos=Qos(*EXCHANGE))
 
     def connect(self, timeout=5.0):
         """Waits for a match in both directions, then until a ping is answered. Who answered is `server`: a
@@ -268,7 +272,9 @@ class Client:
                 self.server = reply.server
                 return
             time.sleep(0.005)
-        raise TimeoutError("no percussd answers")
+        where = f"DDS domain {self.domain}" + (f", partition {self.partition}" if self.partition else "")
+        raise TimeoutError(f"no percussd answers in {where} within {timeout:g} s: start one there, or say where it is by "
+                           "PERCUSS_DOMAIN, PERCUSS_PARTITION or the argument")
 
     def ask(self, request, timeout=10.0):
         """The reply, or None. A ping is a request with sequence 0."""
@@ -282,9 +288,21 @@ class Client:
         return None
 
 
+def domain_asked():
+    """The argument, or what PERCUSS_DOMAIN says, or else 0."""
+    given = sys.argv[1] if len(sys.argv) > 1 else os.environ.get("PERCUSS_DOMAIN") or "0"
+    if not given.isdecimal() or int(given) > 230:
+        sys.exit(f"domain: {given!r}: 0..230 is allowed")
+    return int(given)
+
+
 def main():
-    client = Client(int(sys.argv[1]) if len(sys.argv) > 1 else 0)
-    client.connect()
+    client = Client(domain_asked(), os.environ.get("PERCUSS_PARTITION", ""))
+    try:
+        client.connect()
+    except TimeoutError as nobody:
+        sys.exit(str(nobody))
+    print(f"domain {client.domain}")
     # a sphere of 15 mm just touches the top of a beam of 10 mm radius, half-way along it
     sphere = BodyMotion("steel-sphere", position=[0.0, 0.0, 0.025], velocity=[0.0, 0.0, -0.2])
     touch = Contact(0, 1, point=[0.0, 0.0, 0.010], normal=[0.0, 0.0, 1.0])
