@@ -33,11 +33,8 @@ static enum percuss_result refuse_name(const char *name)
 
 enum percuss_result percuss_quantity_parse(const char *text, const char *quantity, double *value)
 {
-    if (!text || !quantity || !value)
-        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "%s: NULL is not allowed",
-                         !text       ? "text"
-                         : !quantity ? "quantity"
-                                     : "value");
+    if (ERROR_NULL(text, quantity, value))
+        return PERCUSS_RESULT_INVALID_ARGUMENT;
     const enum quantity kind = quantity_named(quantity);
     if (kind == QUANTITY_COUNT)
         return refuse_name(quantity);
