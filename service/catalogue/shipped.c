@@ -55,14 +55,22 @@ char *shipped_find(const char *name)
     return find(PLACES, sizeof PLACES / sizeof *PLACES, name);
 }
 
+/* It is named to people; NULL stays NULL. */
+static char *as_whole(char *found)
+{
+    char *whole = found ? realpath(found, NULL) : NULL;
+    free(found);
+    return whole;
+}
+
 char *shipped_settings(void)
 {
     static const char *const edited = INSTALLED_SETTINGS;
-    char *found = find(&edited, 1, "percussd.yaml"), *whole;
-    if (!found)
-        found = shipped_find("percussd.yaml");
-    /* it is named to people */
-    whole = found ? realpath(found, NULL) : NULL;
-    free(found);
-    return whole;
+    char *found = find(&edited, 1, "percussd.yaml");
+    return found ? as_whole(found) : shipped_plain_settings();
+}
+
+char *shipped_plain_settings(void)
+{
+    return as_whole(shipped_find("percussd.yaml"));
 }

@@ -15,4 +15,7 @@ char *shipped_find(const char *name);
  */
 char *shipped_settings(void);
 
+/* The same without a look into the folder for configuration. */
+char *shipped_plain_settings(void);
+
 #endif

@@ -17,8 +17,8 @@ const char *argp_program_version = "percussd " PERCUSS_VERSION;
 
 static const struct argp_option options[] = {
     {"config", 'c', "FILE", 0,
-     "Settings; the shipped percussd.yaml explains each key, and is what is read where neither "
-     "this nor --catalogue is given",
+     "Settings; the shipped percussd.yaml explains each key, and is read where no other file is "
+     "given",
      0},
     {"catalogue", 'C', "FILE", 0, "Bodies and materials; goes before the one in the settings", 0},
     {"domain", 'd', "N", 0,
@@ -129,7 +129,8 @@ struct arguments arguments_read(int argc, char **argv)
     struct arguments arguments = {.domain = -1, .log_format = -1};
     argp_err_exit_status = USAGE;
     argp_parse(&argp, argc, argv, 0, NULL, &arguments);
-    if (!arguments.config && !arguments.catalogue && !arguments.check_store)
-        arguments.shipped = shipped_settings();
+    /* an administrator's are of his catalogue, with a store that is not everybody's */
+    if (!arguments.config && !arguments.check_store)
+        arguments.shipped = arguments.catalogue ? shipped_plain_settings() : shipped_settings();
     return arguments;
 }

@@ -9,7 +9,7 @@
 
 struct arguments {
     const char *config, *catalogue; /* NULL: not given */
-    char *shipped;                  /* settings to go by where neither is, for free(); NULL: none */
+    char *shipped;                  /* settings to go by where none are, for free(); NULL: none */
     int domain;                     /* -1: not given */
     const char *partition;          /* NULL: not given; empty: none */
     int log_format;                 /* enum log_format; -1: not given */

@@ -50,12 +50,13 @@ static enum percuss_status gather_settings(const struct arguments *arguments,
                      "%s: catalogue: missing: must be given there or as --catalogue FILE", file);
 }
 
-/* Which settings were found where none were given; `look`: it is all that is asked. */
+/* Which settings were found where none were given; `look`: it is all that is asked, which is about
+ * the catalogue where one is given. */
 static void name_settings(struct arguments *arguments, bool look)
 {
-    if (arguments->shipped && look)
+    if (arguments->shipped && look && !arguments->catalogue)
         fprintf(stderr, "percussd: no settings are given: %s\n", arguments->shipped);
-    else if (arguments->shipped)
+    else if (arguments->shipped && !look)
         log_line(LEVEL_INFO, "no settings are given: %s", arguments->shipped);
     free(arguments->shipped);
 }
