@@ -33,6 +33,32 @@ static enum percuss_status refuse_access(const char *path, const char *what, str
     return refuse(path, problem, fault);
 }
 
+/* Whether this user may make a folder that is missing: by the first one above it that is there. */
+static bool may_make(const char *folder)
+{
+    char above[4096];
+    snprintf(above, sizeof above, "%s", folder);
+    while (access(above, F_OK) != 0) {
+        char *slash = strrchr(above, '/');
+        if (!slash || slash == above)
+            return access(slash ? "/" : ".", W_OK | X_OK) == 0;
+        *slash = '\0';
+    }
+    return access(above, W_OK | X_OK) == 0;
+}
+
+/* With the command that makes the folder. */
+static enum percuss_status refuse_folder(const char *path, const char *folder, struct fault *fault)
+{
+    enum { SHOWN = 240 };
+    char problem[384] = "cannot be made: No such file or directory: its folder is missing";
+    size_t used = strlen(problem);
+    if (strlen(folder) <= SHOWN)
+        snprintf(problem + used, sizeof problem - used, ": %s %s makes it",
+                 may_make(folder) ? "mkdir -p" : "sudo install -d -o \"$(id -un)\"", folder);
+    return refuse(path, problem, fault);
+}
+
 enum percuss_status database_folder_check(const char *path, struct fault *fault)
 {
     char folder[4096] = ".";
@@ -41,7 +67,8 @@ enum percuss_status database_folder_check(const char *path, struct fault *fault)
         snprintf(folder, sizeof folder, "%.*s", slash > path ? (int)(slash - path) : 1, path);
     if (access(folder, W_OK | X_OK) == 0)
         return PERCUSS_OK;
-    return refuse_access(path, "made", fault);
+    return errno == ENOENT ? refuse_folder(path, folder, fault)
+                           : refuse_access(path, "made", fault);
 }
 
 static uint32_t number_at(const unsigned char *octets)

@@ -12,7 +12,8 @@
  * not there and can be made. BAD_REQUEST with "FILE: ..." otherwise. */
 enum percuss_status database_check(const char *path, int version, struct fault *fault);
 
-/* Whether a file or folder of that path, which is not there, can be made. */
+/* Whether a file or folder of that path, which is not there, can be made; BAD_REQUEST names the
+ * command that makes the folder it lacks. */
 enum percuss_status database_folder_check(const char *path, struct fault *fault);
 
 #endif

@@ -5,8 +5,10 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "store/database.h"
+#include "store/database_check.h"
 #include "store/dents.h"
 #include "store/nature.h"
 #include "store/schema.h"
@@ -122,6 +124,9 @@ enum percuss_status specimen_store_open(const char *path, unsigned replies,
     static const struct database_design design = {SCHEMA_VERSION, schema_new, schema_upgrades, fill,
                                                   schema_statements};
     enum percuss_status status = database_open(&created->database, path, &design, fault);
+    /* SQLite does not say that the folder is missing */
+    if (status == PERCUSS_BAD_REQUEST && access(path, F_OK) != 0)
+        (void)database_folder_check(path, fault);
     if (!status)
         status = count_all(created, fault);
     if (status) {

@@ -76,6 +76,15 @@ says "store: $work/no-folder/dents.db: cannot be made: No such file or directory
 says "bodies: $work/no-folder/bodies: cannot be made: No such file or directory"
 says "standby: $work/no-folder/standby.lock: cannot be made: No such file or directory"
 [ ! -s "$out" ] || fail "it prints something on stdout"
+
+say "a start names the missing folder and the command that makes it, with which it starts"
+settings "store: no-folder/dents.db"
+expect 1 "$bin/percussd" --config "$work/percussd.yaml" --domain "$domain"
+sed -n 's/.*its folder is missing: \(.*\) makes it$/\1/p' "$err" >"$work/made"
+[ -s "$work/made" ] || fail "no command"
+sh -euc "$(cat "$work/made")"
+start_daemon
+stop_daemon
 settings "store: catalogue.yaml"
 expect 1 check
 says "catalogue.yaml: cannot be used as a store of specimens: file is not a database"

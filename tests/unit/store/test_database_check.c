@@ -113,9 +113,20 @@ static void a_missing_folder_is_told(void **state)
 {
     (void)state;
     struct fault fault;
-    assert_int_equal(database_check("/nobody/made/this.db", 1, &fault), PERCUSS_BAD_REQUEST);
-    assert_string_equal(fault.text,
-                        "/nobody/made/this.db: cannot be made: No such file or directory");
+    char expected[400];
+    snprintf(path, sizeof path, "%s/not/there/this.db", folder);
+    agrees(PERCUSS_BAD_REQUEST, "cannot be made: No such file or directory");
+    assert_int_equal(database_check(path, 1, &fault), PERCUSS_BAD_REQUEST);
+    snprintf(expected, sizeof expected,
+             "%s: cannot be made: No such file or directory: its folder is missing: mkdir -p "
+             "%s/not/there makes it",
+             path, folder);
+    assert_string_equal(fault.text, expected);
+    /* where this user may not */
+    assert_int_equal(database_check("/proc/not/there/this.db", 1, &fault), PERCUSS_BAD_REQUEST);
+    snprintf(expected, sizeof expected, "missing: %s /proc/not/there makes it",
+             geteuid() ? "sudo install -d -o \"$(id -un)\"" : "mkdir -p");
+    assert_non_null(strstr(fault.text, expected));
     /* a name alone is in the working folder, which tests may write to */
     assert_int_equal(database_folder_check("name", &fault), PERCUSS_OK);
 }
