@@ -11,7 +11,7 @@
 struct look {
     struct neighbours *neighbours;
     const uint8_t *server; /* our own id */
-    const char *revision;
+    const struct neighbours_self *self;
 };
 
 /* The known one of that id, or a place for it at the end; NULL: no room. */
@@ -23,10 +23,11 @@ static struct neighbour *find(struct neighbours *neighbours, const uint8_t serve
     return i < NEIGHBOURS_MOST ? &neighbours->each[i] : NULL;
 }
 
-static void warn(const struct neighbour *neighbour, const percuss_v1_ServerStatus *status,
-                 bool has_our_id)
+static void warn(const struct look *look, const struct neighbour *neighbour,
+                 const percuss_v1_ServerStatus *status)
 {
-    if (has_our_id)
+    const struct neighbours_self *self = look->self;
+    if (memcmp(status->server, look->server, 16) == 0)
         log_line(LEVEL_ERROR,
                  "%s answers in this domain under the id of this one: the file `standby` of its "
                  "settings is a copy of ours: one of the two must end",
@@ -37,10 +38,14 @@ static void warn(const struct neighbour *neighbour, const percuss_v1_ServerStatu
                  "server ask the one that has been up longest",
                  neighbour->name);
     else
-        log_line(LEVEL_WARNING,
-                 "%s answers in this domain too, with ANOTHER CATALOGUE (%s, revision %s): answers "
-                 "depend on which server a client asks",
-                 neighbour->name, status->catalogue, status->catalogue_revision);
+        log_line(
+            LEVEL_WARNING,
+            "%s answers in this domain too, with ANOTHER CATALOGUE: %s (revision %.8s), ours "
+            "is %s (revision %.8s): answers depend on which server a client asks: stop one of "
+            "the two, or start it outside domain %u by --domain N or PERCUSS_DOMAIN=N, and its "
+            "clients too",
+            neighbour->name, *status->catalogue ? status->catalogue : "of an unknown path",
+            status->catalogue_revision, self->catalogue, self->revision, self->domain);
 }
 
 static void note(void *context, const percuss_v1_ServerStatus *status)
@@ -48,7 +53,7 @@ static void note(void *context, const percuss_v1_ServerStatus *status)
     const struct look *look = context;
     struct neighbours *neighbours = look->neighbours;
     struct neighbour *neighbour = find(neighbours, status->server);
-    bool alike = strcmp(status->catalogue_revision, look->revision) == 0;
+    bool alike = strcmp(status->catalogue_revision, look->self->revision) == 0;
     neighbours->others += memcmp(status->server, look->server, 16) != 0;
     if (!neighbour)
         return;
@@ -67,12 +72,13 @@ static void note(void *context, const percuss_v1_ServerStatus *status)
     if (!is_new && alike == neighbour->alike)
         return;
     neighbour->alike = alike;
-    warn(neighbour, status, memcmp(status->server, look->server, 16) == 0);
+    warn(look, neighbour, status);
 }
 
-void neighbours_look(struct neighbours *neighbours, struct endpoint *endpoint, const char *revision)
+void neighbours_look(struct neighbours *neighbours, struct endpoint *endpoint,
+                     const struct neighbours_self *self)
 {
-    struct look look = {neighbours, endpoint_server(endpoint), revision};
+    struct look look = {neighbours, endpoint_server(endpoint), self};
     neighbours->others = 0;
     for (size_t i = 0; i < neighbours->count; i++)
         neighbours->each[i].there = false;

@@ -24,8 +24,14 @@ struct neighbours {
     uint32_t others; /* of all of them, told of or not, those under other ids than ours */
 };
 
-/* Logs who has come or gone, or changed his catalogue, or differs from ours, `revision`, by now. */
+/* This daemon, as the others are held against. */
+struct neighbours_self {
+    unsigned domain;
+    const char *catalogue, *revision;
+};
+
+/* Logs who has come or gone, or changed his catalogue, or differs from ours by now. */
 void neighbours_look(struct neighbours *neighbours, struct endpoint *endpoint,
-                     const char *revision);
+                     const struct neighbours_self *self);
 
 #endif

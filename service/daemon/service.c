@@ -343,8 +343,9 @@ void service_tick(struct service *service)
     identity_look(&service->identity, now, time(NULL));
     status_announce(shared);
     write_metrics(service);
-    neighbours_look(&service->neighbours, shared->endpoint,
-                    shared->snapshots.current->set->revision);
+    const struct neighbours_self self = {shared->settings->domain, shared->catalogue,
+                                         shared->snapshots.current->set->revision};
+    neighbours_look(&service->neighbours, shared->endpoint, &self);
     atomic_store(&shared->others, service->neighbours.others);
 }
 

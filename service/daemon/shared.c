@@ -3,6 +3,9 @@
 
 #include "daemon/shared.h"
 
+#include <stdio.h>
+#include <stdlib.h>
+
 #include "daemon/queue.h"
 #include "daemon/table_log.h"
 #include "exchange/clock.h"
@@ -55,6 +58,9 @@ bool shared_create(struct shared *shared, const struct settings *settings, struc
     if (snapshots_open(&shared->snapshots, settings->catalogue, &shared->tables, settings->bodies,
                        fault))
         return false;
+    /* others may have another working folder */
+    if (!realpath(settings->catalogue, shared->catalogue))
+        snprintf(shared->catalogue, sizeof shared->catalogue, "%s", settings->catalogue);
     if (create_stores(shared))
         return true;
     fault_set(fault, PERCUSS_INTERNAL, "out of memory");

@@ -6,6 +6,7 @@
 #ifndef PERCUSS_DAEMON_SHARED_H
 #define PERCUSS_DAEMON_SHARED_H
 
+#include <limits.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <time.h>
@@ -32,7 +33,8 @@ enum lane { LANE_SHORT, LANE_LONG, LANE_TABLES, LANE_ENSEMBLES, LANE_SPECIMENS, 
 struct shared {
     /* never changed while the threads run */
     const struct settings *settings;
-    double started;      /* monotonic, s */
+    double started;           /* monotonic, s */
+    char catalogue[PATH_MAX]; /* whole path of its file, for others */
     time_t identity_end; /* of a secured daemon's certificates and permissions; 0: not secured */
 
     /* for any thread: each has a lock of its own */

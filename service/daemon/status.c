@@ -86,7 +86,7 @@ void status_announce(struct shared *shared)
     COPY_TEXT(status.version, PERCUSS_VERSION);
     COPY_TEXT(status.state, atomic_load(&shared->draining) ? "draining" : "ready");
     COPY_TEXT(status.catalogue_revision, snapshot->set->revision);
-    COPY_TEXT(status.catalogue, shared->settings->catalogue);
+    COPY_TEXT(status.catalogue, shared->catalogue);
     snapshots_release(&shared->snapshots, snapshot);
     gethostname(status.host, sizeof status.host - 1);
     list_tasks(shared, tasks, &status);

@@ -55,9 +55,9 @@ stop_foreign
 
 # start_second CATALOGUE: beside the first one, in a log of its own
 start_second() {
-    sed "s|catalogue.yaml|$1|" "$work/percussd.yaml" >"$work/second.yaml"
+    # from its folder, where the others are not
     : >"$work/second.log"
-    "$bin/percussd" --config "$work/second.yaml" --domain "$domain" 2>"$work/second.log" 9>&- &
+    (cd "$work" && exec "$bin/percussd" --catalogue "$1" --domain "$domain" 2>"$work/second.log" 9>&-) &
     others=$!
     wait_for 20 grep -q 'ready: domain' "$work/second.log" || fail "$(cat "$work/second.log")"
 }
@@ -80,6 +80,8 @@ wait_for 20 both_log "with the same catalogue" || fail "no warning: $(cat "$work
 sed 's/young: 70e9/young: 80e9/' "$work/catalogue.yaml" >"$work/changing.yaml"
 kill -HUP $others
 wait_for 20 both_log "with ANOTHER CATALOGUE" || fail "no warning: $(cat "$work/second.log")"
+grep -q "with ANOTHER CATALOGUE: $work/changing.yaml (revision [0-9a-f]*), ours is $work/catalogue.yaml (revision [0-9a-f]*): .* outside domain $domain by --domain N or PERCUSS_DOMAIN=N" \
+    "$log" || fail "the way out is not told"
 kill -TERM $others
 wait $others || fail "the second daemon failed"
 wait_for 20 logged "percussd [0-9a-f]* (process $others on .*) has gone" || fail "it is not missed"
