@@ -57,6 +57,7 @@ static enum percuss_result read_settings(const struct percuss_local_config *conf
     char *shipped = config->settings ? NULL : shipped_find("percussd.yaml");
     const char *path = config->settings ? config->settings : shipped;
     *settings = settings_default();
+    settings->shipped = !config->settings;
     enum percuss_status status = path ? settings_load(path, settings, &fault) : PERCUSS_OK;
     free(shipped);
     if (status)
@@ -76,20 +77,21 @@ static enum percuss_result read_settings(const struct percuss_local_config *conf
 }
 
 /* Those that are installed are read only. */
-static enum percuss_result load_tables(struct percuss_client *client, bool installed)
+static enum percuss_result load_tables(struct percuss_client *client)
 {
-    const char *folder = client->settings.tables;
-    if (!table_cache_create(&client->tables, folder, NULL))
+    const struct settings *settings = &client->settings;
+    if (!table_cache_create(&client->tables, settings, NULL))
         return error_set(PERCUSS_RESULT_NO_MEMORY, "contact tables");
-    if (*folder && access(folder, R_OK | X_OK) != 0)
-        return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "tables: %.300s: cannot be read: %s",
-                         folder, strerror(errno));
-    if (installed)
-        client->tables.folder = "";
+    for (size_t i = 0; i < SETTINGS_FOLDERS_MOST && settings->tables[i][0]; i++)
+        if (access(settings->tables[i], R_OK | X_OK) != 0)
+            return error_set(PERCUSS_RESULT_INVALID_ARGUMENT, "tables: %.300s: cannot be read: %s",
+                             settings->tables[i], strerror(errno));
+    if (settings->shipped)
+        client->tables.keep[0] = '\0';
     return PERCUSS_RESULT_OK;
 }
 
-static enum percuss_result load(struct percuss_client *client, bool installed)
+static enum percuss_result load(struct percuss_client *client)
 {
     const struct settings *settings = &client->settings;
     const struct token_limits tokens = {
@@ -108,10 +110,10 @@ static enum percuss_result load(struct percuss_client *client, bool installed)
     if (!client->tokens)
         return error_set(PERCUSS_RESULT_NO_MEMORY, "state tokens");
     /* dents outlive it where the program has said so */
-    if (!installed && settings->store[0])
+    if (!settings->shipped && settings->store[0])
         status = specimen_store_open(settings->store, settings->stored_replies, &client->specimens,
                                      &fault);
-    return status ? refuse(status, &fault) : load_tables(client, installed);
+    return status ? refuse(status, &fault) : load_tables(client);
 }
 
 enum percuss_result percuss_local_open(const struct percuss_local_config *config,
@@ -135,7 +137,7 @@ enum percuss_result percuss_local_open(const struct percuss_local_config *config
     /* what it answers from */
     enum percuss_result result = read_settings(&chosen, &made->settings);
     if (result == PERCUSS_RESULT_OK)
-        result = load(made, !chosen.settings);
+        result = load(made);
     if (result != PERCUSS_RESULT_OK) {
         local_free(made);
         return result;

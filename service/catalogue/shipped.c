@@ -74,3 +74,18 @@ char *shipped_plain_settings(void)
 {
     return as_whole(shipped_find("percussd.yaml"));
 }
+
+char *shipped_program(const char *name)
+{
+    static const char *const places[] = {"../bin", INSTALLED_PROGRAMS};
+    static const char *const common[] = {"/usr/bin/", "/usr/local/bin/", "/bin/"};
+    char *whole = as_whole(find(places, sizeof places / sizeof *places, name));
+    for (size_t i = 0; whole && i < sizeof common / sizeof *common; i++) {
+        size_t length = strlen(common[i]);
+        if (strncmp(whole, common[i], length) == 0 && !strchr(whole + length, '/')) {
+            free(whole);
+            whole = NULL;
+        }
+    }
+    return whole ? whole : strdup(name);
+}

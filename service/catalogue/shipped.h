@@ -18,4 +18,8 @@ char *shipped_settings(void);
 /* The same without a look into the folder for configuration. */
 char *shipped_plain_settings(void);
 
+/* A program that comes with this, as people type it, for free(): its whole path, or its name alone
+ * where it lies in a folder for the commands of all, or is not there. NULL: no memory. */
+char *shipped_program(const char *name);
+
 #endif

@@ -61,12 +61,19 @@ struct contact_pair {
     double curvature[2];
 };
 
+/* How a table that is missing is made, for people. */
+struct contact_table_remedy {
+    const char *command; /* without the bodies it is of; NULL: not known */
+    const char *then;    /* how it comes into use */
+};
+
 /* Where tables come from. `find` returns NULL where there is none; it is called by several threads
  * at once and must not wait. */
 struct contact_table_source {
     void *context;
     const struct contact_curves *(*find)(void *context, const struct contact_pair *pair);
     const struct contact_family *family; /* for pairs without a table of their own; NULL: none */
+    struct contact_table_remedy remedy;
 };
 
 #endif

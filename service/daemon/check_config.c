@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
@@ -15,9 +16,9 @@
 #include "model/body_kind.h"
 #include "model/describe.h"
 #include "percuss/plausible.h"
+#include "respond/table_cache.h"
 #include "store/database_check.h"
 #include "store/schema.h"
-#include "store/table_store.h"
 #include "wire.h"
 #include "wire_security.h"
 
@@ -104,16 +105,23 @@ static bool check_tables(const struct settings *settings)
 {
     struct fault fault;
     size_t count;
-    if (!settings->tables[0])
-        return true;
     struct table_store *store = table_store_create();
-    enum percuss_status status =
-        store ? table_store_load(store, settings->tables, say, &count, &fault)
-              : fault_set(&fault, PERCUSS_INTERNAL, "out of memory");
+    struct table_folders *folders = malloc(sizeof *folders);
+    bool good = store && folders;
+    if (folders)
+        table_folders_find(folders, settings);
+    for (size_t i = 0; store && folders && i < folders->count; i++) {
+        table_store_load_family(store, folders->each[i], say);
+        if (table_store_load(store, folders->each[i], say, &count, &fault)) {
+            fprintf(stderr, "percussd: tables: %s\n", fault.text);
+            good = false;
+        }
+    }
+    if (!store || !folders)
+        fprintf(stderr, "percussd: tables: out of memory\n");
+    free(folders);
     table_store_free(store);
-    if (status)
-        fprintf(stderr, "percussd: tables: %s\n", fault.text);
-    return status == PERCUSS_OK;
+    return good;
 }
 
 /* Where reduced bodies go: a folder to write to, or one that can be made. */

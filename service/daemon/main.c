@@ -30,6 +30,7 @@ static enum percuss_status gather_settings(const struct arguments *arguments,
 {
     const char *file = arguments->config ? arguments->config : arguments->shipped;
     *settings = settings_default();
+    settings->shipped = !arguments->config;
     if (file && settings_load(file, settings, fault))
         return PERCUSS_BAD_REQUEST;
     if (arguments->domain >= 0)

@@ -45,7 +45,7 @@ static bool create_stores(struct shared *shared)
         shared->lanes[lane] = queue_create(settings->queue_capacity, share_of(settings, lane));
         good = good && shared->lanes[lane];
     }
-    return table_cache_create(&shared->tables, settings->tables, &table_log) && good;
+    return table_cache_create(&shared->tables, settings, &table_log) && good;
 }
 
 bool shared_create(struct shared *shared, const struct settings *settings, struct fault *fault)

@@ -18,7 +18,7 @@ enum {
     REPORT_PARTS = 32,
     REPORT_CURVE = 512, /* intervals of the distribution function, at most */
     REPORT_WARNINGS = 32,
-    REPORT_WARNING_SIZE = 384
+    REPORT_WARNING_SIZE = 1152
 };
 
 static const double REPORT_LEVEL = 0.95; /* of all intervals */

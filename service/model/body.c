@@ -121,6 +121,12 @@ struct solid body_solid(const struct body *body)
     return body->kind->solid ? body->kind->solid(body) : (struct solid){.form = SOLID_NONE};
 }
 
+bool body_has_sphere(const struct body *body)
+{
+    struct solid solid = body_solid(body);
+    return solid.form == SOLID_BALL || (solid.form == SOLID_CYLINDER && isfinite(solid.tip_radius));
+}
+
 const char *body_theory(const struct body *body)
 {
     return body->kind->theory && !body->rigid ? body->kind->theory(body) : "rigid";

@@ -99,6 +99,10 @@ double body_smallest_radius(const struct body *body);
 
 /* What closed forms and axisymmetric meshes can take it for, and the theory of its vibration. */
 struct solid body_solid(const struct body *body);
+
+/* Whether it is a sphere or ends in one, so that whatever is flat meets it in a circular contact.
+ */
+bool body_has_sphere(const struct body *body);
 const char *body_theory(const struct body *body);
 
 /* An immutable catalogue. Owns its arrays; loaders fill it, see catalogue/. */

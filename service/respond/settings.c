@@ -18,6 +18,7 @@ enum kind {
     KIND_NUMBER,
     KIND_SWITCH,
     KIND_PATH,
+    KIND_FOLDERS,
     KIND_PARTITION,
     KIND_LEVEL,
     KIND_FORMAT
@@ -82,8 +83,12 @@ static const struct setting table[] = {
      "minutes for which a client that has gone is remembered, with its replies"},
     {"drain_seconds", KIND_NUMBER, AT(drain_seconds), 0, 86400, NULL,
      "seconds for what is queued after SIGTERM"},
-    {"tables", KIND_PATH, AT(tables), 0, 0, "none: metals yield by the closed form",
-     "folder of contact tables and of their family for all metals, percuss-tables(8)"},
+    {"tables", KIND_FOLDERS, AT(tables), 0, 0, "none: metals yield by the closed form",
+     "folders of contact tables and of their family for all metals; beside them stand the shipped "
+     "tables and those of one's own, percuss-tables(8)"},
+    {"tables_alone", KIND_SWITCH, AT(tables_alone), 0, 0, NULL,
+     "whether the folders of `tables` are all: neither the shipped tables nor those of one's own "
+     "are beside them"},
     {"bodies", KIND_PATH, AT(bodies), 0, 0, "none: the catalogue names reduced bodies only",
      "folder of bodies that percussd has reduced from the catalogue's meshes"},
     {"bodies_days", KIND_NUMBER, AT(bodies_days), 0.001, 100000, NULL,
@@ -146,6 +151,8 @@ static struct allowed allowed_of(const struct setting *setting)
         return (struct allowed){"true or false"};
     case KIND_PATH:
         return (struct allowed){"the path of a file"};
+    case KIND_FOLDERS:
+        return (struct allowed){"the path of a folder, or a list of 1 to 8 of them"};
     case KIND_PARTITION:
         return (struct allowed){WIRE_PARTITION_RULE};
     case KIND_LEVEL:
@@ -214,6 +221,25 @@ static enum percuss_status read_path(struct reader *reader, const yaml_node_t *v
     return PERCUSS_OK;
 }
 
+/* A path, or a list of them. */
+static enum percuss_status read_folders(struct reader *reader, const yaml_node_t *value,
+                                        const struct setting *setting,
+                                        char (*field)[SETTINGS_PATH_SIZE])
+{
+    size_t count = reader_count(value);
+    if (value->type != YAML_SEQUENCE_NODE)
+        return read_path(reader, value, setting, field[0]);
+    if (count < 1 || count > SETTINGS_FOLDERS_MOST)
+        return reader_refuse_value(reader, value, allowed_of(setting).text);
+    for (size_t i = 0; i < count; i++) {
+        enum percuss_status status =
+            read_path(reader, reader_element(reader, value, i), setting, field[i]);
+        if (status)
+            return status;
+    }
+    return PERCUSS_OK;
+}
+
 static bool read_partition(const yaml_node_t *value, char *field)
 {
     const char *name =
@@ -235,6 +261,8 @@ static enum percuss_status read_value(struct reader *reader, const yaml_node_t *
         break;
     case KIND_PATH:
         return read_path(reader, value, setting, field);
+    case KIND_FOLDERS:
+        return read_folders(reader, value, setting, field);
     case KIND_PARTITION:
         good = read_partition(value, field);
         break;
@@ -273,7 +301,7 @@ static bool is_section(const char *path)
 
 static enum percuss_status refuse_key(const struct reader *reader, const yaml_node_t *key)
 {
-    char list[400] = "";
+    char list[512] = "";
     size_t used = 0;
     for (size_t i = 0; i < SETTING_COUNT && used < sizeof list; i++)
         used +=

@@ -13,14 +13,17 @@
 #include "respond/log_choice.h"
 #include "wire_partition.h"
 
-enum { SETTINGS_PATH_SIZE = 4096 };
+enum { SETTINGS_PATH_SIZE = 4096, SETTINGS_FOLDERS_MOST = 8 };
 
 struct settings {
-    char catalogue[SETTINGS_PATH_SIZE]; /* empty: not given */
-    char tables[SETTINGS_PATH_SIZE];    /* folder of contact tables; empty: none */
-    char bodies[SETTINGS_PATH_SIZE];    /* folder of reduced bodies; empty: none */
-    double bodies_days;                 /* that one stays there unused */
-    char security[SETTINGS_PATH_SIZE];  /* folder of its identity; empty: without DDS Security */
+    char catalogue[SETTINGS_PATH_SIZE];                     /* empty: not given */
+    char tables[SETTINGS_FOLDERS_MOST][SETTINGS_PATH_SIZE]; /* folders of contact tables, up to the
+                                                               first empty one; none: no tables */
+    bool tables_alone; /* neither the shipped tables nor those of one's own beside them */
+    bool shipped;      /* nobody named a file of settings: these are those that ship */
+    char bodies[SETTINGS_PATH_SIZE];   /* folder of reduced bodies; empty: none */
+    double bodies_days;                /* that one stays there unused */
+    char security[SETTINGS_PATH_SIZE]; /* folder of its identity; empty: without DDS Security */
     unsigned domain;
     char partition[WIRE_PARTITION_SIZE]; /* empty: none */
     unsigned workers;

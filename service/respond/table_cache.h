@@ -12,6 +12,7 @@
 
 #include "model/body.h"
 #include "percuss_wire.h"
+#include "respond/settings.h"
 #include "store/table_store.h"
 
 /* Who hears what becomes of tables, in any thread that makes some. */
@@ -23,14 +24,23 @@ struct table_listener {
 /* For any thread: the stores only grow. */
 struct table_cache {
     struct table_store *loaded, *made;
-    const char *folder; /* empty: none */
+    char keep[SETTINGS_PATH_SIZE]; /* folder where those made go; empty: none */
+    char *command, *then;          /* remedy of tables that are missing */
     const struct table_listener *listener;
     atomic_bool making; /* somebody computes a table: nobody else does */
 };
 
-/* Loads the folder (borrowed); `listener` (borrowed; NULL: nobody) hears of a folder or file that
- * does not do. False: out of memory; release it all the same. */
-bool table_cache_create(struct table_cache *cache, const char *folder,
+/* The folders that settings come to, each once: their own ones, and beside them that of the user's
+ * own tables and the shipped one, where these are there. A family is looked for in this order. */
+struct table_folders {
+    char each[SETTINGS_FOLDERS_MOST + 2][SETTINGS_PATH_SIZE];
+    size_t count;
+};
+void table_folders_find(struct table_folders *folders, const struct settings *settings);
+
+/* Loads the folders of the settings; `listener` (borrowed; NULL: nobody) hears which tables are in
+ * use, and of a folder or file that does not do. False: out of memory; release it all the same. */
+bool table_cache_create(struct table_cache *cache, const struct settings *settings,
                         const struct table_listener *listener);
 void table_cache_release(struct table_cache *cache);
 

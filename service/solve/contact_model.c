@@ -171,6 +171,7 @@ enum percuss_status contact_model_choose(struct problem *problem,
 {
     size_t n = problem->contact_count;
     struct contact_model *model = &problem->contact_model;
+    model->remedy = tables && tables->remedy.command ? &tables->remedy : NULL;
     model->depth = arena_take(problem->arena, n, sizeof *model->depth);
     model->laws = arena_take(problem->arena, n, sizeof *model->laws);
     model->choices = arena_take(problem->arena, n, sizeof *model->choices);

@@ -23,6 +23,7 @@ struct contact_model {
     double *depth;                  /* [contact]: of the dents under it, m */
     struct contact_law *laws;       /* [contact]: in use */
     struct contact_choice *choices; /* [contact] */
+    const struct contact_table_remedy *remedy; /* of tables that are missing; NULL: none is known */
 };
 
 /* What is in series with them, see compliance.h. */

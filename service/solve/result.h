@@ -64,7 +64,7 @@ struct solve_result {
     double time_shift;
     const struct trace *trace; /* in the workspace, until its next solve; NULL: not asked for */
     size_t warning_count;
-    char warnings[40][256]; /* more than validity.h finds */
+    char warnings[40][1024]; /* more than validity.h finds, each as long as warnings.h has them */
 };
 
 #endif

@@ -33,6 +33,8 @@ static const double FAST = 0.01;
 static const double OTHER_BODIES = 0.01;
 /* Error of a contact law, of the restitution, that is worth a warning. */
 static const double WRONG_LAW = 0.05;
+/* Of compact bodies that meet: what tables are deep enough for unless they are told. */
+static const double TABLE_SPEED = 1.0;
 /* A coefficient of friction as of dry metals, to say how much it may be about. */
 static const double FRICTION = 0.3;
 
@@ -131,6 +133,45 @@ static void find_mesh_place(const struct problem *problem, size_t c, unsigned wh
             c, body->id, spot->doubt * 180.0 / M_PI);
 }
 
+/* The command that makes a table of two bodies, as deep as this impact goes, and how the table then
+ * comes into use: to be pasted, so all of it or none. */
+static void tell_remedy(const struct problem *problem, size_t c, char *text, size_t size)
+{
+    const struct contact_table_remedy *remedy = problem->contact_model.remedy;
+    const struct contact_table_remedy unknown = {
+        "percuss-tables --catalogue FILE --folder DIR",
+        "which the next start uses with DIR among the `tables` of its settings"};
+    const char *a = problem_body(problem, c, 0)->id, *b = problem_body(problem, c, 1)->id;
+    double speed = fabs(problem->gap_rate[c]);
+    char deep[40] = "";
+    if (speed > TABLE_SPEED)
+        snprintf(deep, sizeof deep, " --speed %.0f", ceil(speed));
+    /* one that does not fit is told in general */
+    int length = -1;
+    if (remedy)
+        length = snprintf(text, size, ": %s%s --a %s --b %s makes one, %s", remedy->command, deep,
+                          a, b, remedy->then);
+    if (length < 0 || (size_t)length >= size)
+        snprintf(text, size, ": %s%s --a %s --b %s makes one, %s", unknown.command, deep, a, b,
+                 unknown.then);
+}
+
+/* A share of a contact's restitution as a number too, as model.omitted_error has it. */
+static struct share {
+    char text[64];
+} share_of(const struct problem *problem, const struct impact_outcome *outcome, size_t c,
+           double share)
+{
+    struct share told;
+    double compression = problem->impulse_compression[c];
+    int used =
+        snprintf(told.text, sizeof told.text, share < 0.1 ? "%.2g %%" : "%.0f %%", 100.0 * share);
+    if (compression > 0.0)
+        snprintf(told.text + used, sizeof told.text - (size_t)used, " (%.2g)",
+                 share * fabs(outcome->tracks[c].impulse / compression - 1.0));
+    return told;
+}
+
 /* A body that yields by a law which is not of its own material, and how that can be mended. Bodies
  * that only this request has get no table. False: nothing to say. */
 static bool find_table(const struct problem *problem, const struct impact_outcome *outcome,
@@ -146,16 +187,16 @@ static bool find_table(const struct problem *problem, const struct impact_outcom
     if (!may || good || !contact_model_yielded(problem, outcome, c))
         return false;
     /* what makes one */
-    char how[WARNING_SIZE] = "";
-    if (problem->hertz[c].axis_ratio >= HERTZ_CIRCULAR_RATIO && !a->varied && !b->varied)
-        snprintf(how, sizeof how,
-                 ": percuss-tables --catalogue FILE --folder DIR --a %s --b %s makes one", a->id,
-                 b->id);
+    char how[WARNING_SIZE - 400] = "";
+    bool round = body_has_sphere(a) || body_has_sphere(b);
+    if (round && problem->hertz[c].axis_ratio >= HERTZ_CIRCULAR_RATIO && !a->varied && !b->varied)
+        tell_remedy(problem, c, how, sizeof how);
     warnings_add(warnings, WARNING_LAW,
                  "contacts[%zu]: %s yields and there is no table of %s on %s: %s is off by about "
-                 "%.2g of the restitution%s",
+                 "%s of the restitution, a part of the models' own error%s",
                  c, (choice->side == 0 ? a : b)->id, a->material.name, b->material.name,
-                 choice->family ? "the family of tables" : "the closed form", error, how);
+                 choice->family ? "the family of tables" : "the closed form",
+                 share_of(problem, outcome, c, error).text, how);
     return true;
 }
 

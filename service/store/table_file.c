@@ -38,7 +38,7 @@ enum percuss_status table_file_write(const char *folder, const char *text, const
                                      struct fault *fault)
 {
     char aside[TABLE_PATH_SIZE];
-    if (mkdir(folder, 0755) != 0 && errno != EEXIST)
+    if (!folder_make(folder))
         return refuse(fault, folder, "cannot be made");
     /* no .json at its end: not taken for a table */
     if (snprintf(aside, sizeof aside, "%s/.table-XXXXXX", folder) >= (int)sizeof aside) {

@@ -13,7 +13,7 @@
 enum { TABLE_FILE_MAX_BYTES = 16 * 1024 * 1024, TABLE_PATH_SIZE = 4096 };
 
 /* Writes FOLDER/KEY.json, aside first and then in its place, so that readers see all of it or
- * nothing; makes the folder (not its parents) where it is missing. `path` is filled. BAD_REQUEST
+ * nothing; makes the folder where it is missing. `path` is filled. BAD_REQUEST
  * with the path and the system's reason, INTERNAL without memory. */
 enum percuss_status table_file_save(const char *folder, const struct indentation_table *table,
                                     const struct table_origin *origin, char path[TABLE_PATH_SIZE],

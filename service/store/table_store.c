@@ -29,6 +29,7 @@ struct table_entry {
 struct table_store {
     _Atomic(struct table_entry *) first;
     struct contact_family *family;
+    bool has_looked; /* for a family */
     struct contact_table_source source;
 };
 
@@ -50,7 +51,7 @@ struct table_store *table_store_create(void)
     struct table_store *store = calloc(1, sizeof *store);
     if (!store)
         return NULL;
-    store->source = (struct contact_table_source){store, find_pair, NULL};
+    store->source = (struct contact_table_source){.context = store, .find = find_pair};
     return store;
 }
 
@@ -77,6 +78,11 @@ const struct contact_table_source *table_store_source(struct table_store *store)
 void table_store_lend_family(struct table_store *store, const struct table_store *from)
 {
     store->source.family = from->source.family;
+}
+
+void table_store_advise(struct table_store *store, const struct contact_table_remedy *remedy)
+{
+    store->source.remedy = *remedy;
 }
 
 static bool is_of(const struct table_entry *entry, const struct material *a,
@@ -145,19 +151,20 @@ static enum percuss_status load_one(struct table_store *store, const char *path,
     return status;
 }
 
-/* Before any table, as those go on by it. A folder may do without. */
-static void load_family(struct table_store *store, const char *folder,
-                        table_store_complaint *complain)
+bool table_store_load_family(struct table_store *store, const char *folder,
+                             table_store_complaint *complain)
 {
     char path[TABLE_PATH_SIZE];
     struct fault reason;
     snprintf(path, sizeof path, "%s/" FAMILY_FILE_NAME, folder);
+    store->has_looked = true;
     if (store->family || access(path, F_OK) != 0)
-        return;
+        return false;
     store->family = family_file_load(path, &reason);
     store->source.family = store->family;
     if (!store->family)
         complain(&reason);
+    return store->family;
 }
 
 static int is_table_name(const struct dirent *entry)
@@ -177,7 +184,8 @@ enum percuss_status table_store_load(struct table_store *store, const char *fold
     if (found < 0)
         return fault_set(fault, PERCUSS_BAD_REQUEST, "%.300s: cannot be read: %s", folder,
                          strerror(errno));
-    load_family(store, folder, complain);
+    if (!store->has_looked)
+        table_store_load_family(store, folder, complain);
     /* what is no sound table is left out */
     for (int i = 0; i < found; i++) {
         char path[TABLE_PATH_SIZE];

@@ -20,8 +20,14 @@ void table_store_free(struct table_store *store); /* NULL is allowed */
 /* Told what a file is refused for. */
 typedef void table_store_complaint(const struct fault *fault);
 
-/* Takes FOLDER/family.json, where the store has no family yet, and every other FOLDER/ *.json that
- * is a table of this version; what is not is complained about and left out. *count becomes the
+/* Takes FOLDER/family.json, where it is there and the store has no family yet; a damaged one is
+ * complained about and left out. To be called for all folders before a table is taken from any:
+ * tables go on by the family beyond their ends. True: the family is this folder's. */
+bool table_store_load_family(struct table_store *store, const char *folder,
+                             table_store_complaint *complain);
+
+/* Takes every FOLDER/ *.json that is a table of this version, and the family as above unless that
+ * was called for; what is no sound table is complained about and left out. *count becomes the
  * number of tables taken. BAD_REQUEST: the folder cannot be read. */
 enum percuss_status table_store_load(struct table_store *store, const char *folder,
                                      table_store_complaint *complain, size_t *count,
@@ -30,6 +36,9 @@ enum percuss_status table_store_load(struct table_store *store, const char *fold
 /* From now on tables added go on beyond their ends by the other store's family, which must live as
  * long. */
 void table_store_lend_family(struct table_store *store, const struct table_store *from);
+
+/* What its source tells of tables that it lacks; the texts must live as long. */
+void table_store_advise(struct table_store *store, const struct contact_table_remedy *remedy);
 
 /* Takes one table, which stays the caller's. Any thread, also while others look up. BAD_REQUEST,
  * INTERNAL as table_curves_make. */

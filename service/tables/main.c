@@ -132,10 +132,11 @@ static enum percuss_status make_all(const struct options *options, const struct 
 
 int main(int argc, char **argv)
 {
-    struct options options = options_read(argc, argv);
+    struct options options;
     struct fault fault;
     struct body_set *set = NULL;
     enum percuss_status status;
+    options_read(&options, argc, argv);
     if (options.family)
         status = family_compute(options.folder, &fault);
     else

@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "percuss/habits.h"
+#include "store/folder.h"
 #include "store/table_key.h"
 
 enum { USAGE = 2, LEAST_RESOLUTION = 6, MOST_RESOLUTION = 60 };
@@ -17,7 +18,12 @@ const char *argp_program_version = "percuss-tables " PERCUSS_VERSION;
 static const struct argp_option list[] = {
     {"catalogue", 'C', "FILE", 0, "Bodies and materials, as percussd reads them", 0},
     {"bodies", 'B', "DIR", 0, "Bodies reduced from meshes; `bodies` in percussd's settings", 0},
-    {"folder", 'f', "DIR", 0, "Where the tables go; `tables` in percussd's settings", 0},
+    {"folder", 'f', "DIR", 0,
+     "Where the tables go, made if need be: `tables` in percussd's settings; default: the folder "
+     "of "
+     "your own, which stands beside the shipped tables by itself: PERCUSS_TABLES, or "
+     "~/.local/share/percuss/tables",
+     0},
     {"a", 'a', "ID", 0, "Only for the materials of this body ...", 0},
     {"b", 'b', "ID", 0, "... and this one", 0},
     {"speed", 's', "V", 0,
@@ -83,8 +89,13 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (options->family && (options->catalogue || options->a || options->b))
             argp_error(state, "--family: has no catalogue and no bodies");
-        if ((!options->catalogue && !options->family) || !options->folder)
-            argp_error(state, "--catalogue FILE (or --family) and --folder DIR must be given");
+        if (!options->catalogue && !options->family)
+            argp_error(state, "--catalogue FILE (or --family) must be given");
+        if (!options->folder && !folder_own_tables(options->own, sizeof options->own))
+            argp_error(state, "--folder DIR must be given: PERCUSS_TABLES is empty, or neither it "
+                              "nor HOME says where");
+        if (!options->folder)
+            options->folder = options->own;
         if (!options->a != !options->b)
             argp_error(state, "--a ID and --b ID must be given together");
         return 0;
@@ -93,7 +104,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     }
 }
 
-struct options options_read(int argc, char **argv)
+void options_read(struct options *options, int argc, char **argv)
 {
     static const struct argp argp = {
         .options = list,
@@ -106,8 +117,7 @@ struct options options_read(int argc, char **argv)
                "and not reduced yet is left out."
                "\vA table holds for bodies of any size. What is there already is left as it is.",
     };
-    struct options options = {.bodies = "", .speed = 1.0, .resolution = TABLE_RESOLUTION};
+    *options = (struct options){.bodies = "", .speed = 1.0, .resolution = TABLE_RESOLUTION};
     argp_err_exit_status = USAGE;
-    argp_parse(&argp, argc, argv, 0, NULL, &options);
-    return options;
+    argp_parse(&argp, argc, argv, 0, NULL, options);
 }

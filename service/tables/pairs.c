@@ -3,21 +3,14 @@
 
 #include "tables/pairs.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "contact/law_closed_form.h"
 #include "store/table_key.h"
 
-static bool has_sphere(const struct body *body)
-{
-    struct solid solid = body_solid(body);
-    return solid.form == SOLID_BALL || (solid.form == SOLID_CYLINDER && isfinite(solid.tip_radius));
-}
-
 bool table_pair_is_round(const struct body *a, const struct body *b)
 {
-    return has_sphere(a) || has_sphere(b);
+    return body_has_sphere(a) || body_has_sphere(b);
 }
 
 bool table_pair_yields(const struct body *a, const struct body *b)
@@ -36,7 +29,7 @@ static size_t find_materials(const struct body_set *set, const struct body **bod
             k++;
         if (k == count)
             bodies[count++] = body;
-        else if (has_sphere(body) && !has_sphere(bodies[k]))
+        else if (body_has_sphere(body) && !body_has_sphere(bodies[k]))
             bodies[k] = body;
     }
     return count;
@@ -56,7 +49,7 @@ bool table_pairs_find(const struct body_set *set, struct table_pair **pairs, siz
     for (size_t i = 0; i < materials && good; i++) {
         for (size_t k = i; k < materials && good; k++) {
             /* the one with a sphere first */
-            const struct body *a = bodies[has_sphere(bodies[i]) ? i : k];
+            const struct body *a = bodies[body_has_sphere(bodies[i]) ? i : k];
             const struct body *b = a == bodies[i] ? bodies[k] : bodies[i];
             if (!table_pair_is_round(a, b) || !table_pair_yields(a, b))
                 continue;

@@ -169,7 +169,7 @@ static bool compare(const struct settings *settings, struct question *question, 
         if (!curves)
             return false;
     }
-    struct contact_table_source source = {curves, find_curves, NULL};
+    struct contact_table_source source = {.context = curves, .find = find_curves};
     question->workspace = solve_workspace_create();
     if (!question->workspace)
         return fail("out of memory");

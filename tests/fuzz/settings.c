@@ -22,7 +22,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                  "a time that is none");
     FUZZ_REQUIRE(settings.log_level < LEVEL_COUNT, "log level %d", (int)settings.log_level);
     FUZZ_REQUIRE(memchr(settings.catalogue, 0, sizeof settings.catalogue) &&
-                     memchr(settings.tables, 0, sizeof settings.tables) &&
+                     memchr(settings.tables[SETTINGS_FOLDERS_MOST - 1], 0, SETTINGS_PATH_SIZE) &&
                      memchr(settings.store, 0, sizeof settings.store),
                  "a path without an end");
     return 0;

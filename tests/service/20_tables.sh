@@ -44,7 +44,7 @@ say "without a family auto takes the closed form and says so; a damaged family i
 mkdir "$work/alone"
 cp "$work"/tables/[0-9]*.json "$work/tables"/c*.json "$work/alone"
 sed 's/"poisson":\[0.1/"poisson":[0.2/' "$work/tables/family.json" >"$work/alone/family.json"
-settings "tables: alone"
+settings "tables: alone" "tables_alone: true"
 start_daemon
 logged 'table left out: .*/family.json: content: .*damaged' || fail "not complained about"
 logged 'tables: 2 from .*no family there' || fail "not two tables alone"
@@ -74,8 +74,14 @@ expect 0 ask --contact-model table
 [ "$(field restitution)" = "$first" ] || fail "e = $(field restitution), not $first"
 stop_daemon
 
-say "a folder that is not there: served without tables"
+say "a folder that is not there: served by the shipped tables, or without any"
 settings "tables: nowhere"
+start_daemon
+logged 'nowhere: cannot be read' || fail "no warning"
+expect 0 ask
+[ "$(field restitution)" = "$first" ] || fail "e = $(field restitution), not $first"
+stop_daemon
+settings "tables: nowhere" "tables_alone: true"
 start_daemon
 logged 'nowhere: cannot be read' || fail "no warning"
 expect 0 ask

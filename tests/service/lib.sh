@@ -5,6 +5,8 @@
 # Sourced; PERCUSS_BUILD is the build folder, PERCUSS_SOURCE the source folder.
 set -eu
 unset CYCLONEDDS_URI
+# whatever tables a developer has of his own
+export PERCUSS_TABLES=
 here=$(cd "$(dirname "$0")" && pwd)
 source_dir=${PERCUSS_SOURCE:-$(cd "$here/../.." && pwd)}
 build=$(cd "${PERCUSS_BUILD:-$source_dir/build}" && pwd)

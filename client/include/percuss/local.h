@@ -29,9 +29,10 @@ extern "C" {
 #endif
 
 struct percuss_local_config {
-    /* A file as percussd reads it, of which count: catalogue, tables, bodies, store, workers,
-     * tokens, limits.seconds and limits.samples. NULL: the one that is installed beside the
-     * library, if there is one, and nothing is written to disk. */
+    /* A file as percussd reads it, of which count: catalogue, tables, tables_alone, bodies, store,
+     * workers, tokens, limits.seconds and limits.samples. NULL: the one that is installed beside
+     * the library, if there is one, and nothing is written to disk. Contact tables of the user's
+     * own (PERCUSS_TABLES, ~/.local/share/percuss/tables) stand beside those of the settings. */
     const char *settings;
     const char *catalogue;   /* file; NULL: that of the settings */
     uint8_t id[16];          /* of the client; all zero is an id too */

@@ -24,7 +24,8 @@ static bool lacks(unsigned model, uint32_t a, uint32_t b)
     request.contacts._buffer = &contact;
     request.contacts._length = 1;
     struct table_cache cache;
-    assert_true(table_cache_create(&cache, "", NULL));
+    const struct settings settings = settings_default();
+    assert_true(table_cache_create(&cache, &settings, NULL));
     bool result = table_cache_lacks(&cache, &set, &request);
     table_cache_release(&cache);
     return result;

@@ -48,7 +48,8 @@ static void open_world(struct world *world, bool makes)
 {
     memset(world, 0, sizeof *world);
     const struct table_wait wait = {makes ? give_up : NULL, note_end, world};
-    assert_true(table_cache_create(&world->tables, "", NULL));
+    const struct settings settings = settings_default();
+    assert_true(table_cache_create(&world->tables, &settings, NULL));
     world->request.options.contact_model = PERCUSS_CONTACT_TABLE;
     table_maker_init(&world->maker, &wait, 3600.0);
     begin(world);

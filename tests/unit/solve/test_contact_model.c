@@ -43,7 +43,7 @@ static struct tables *tables_create(struct lab *lab, double range)
     sampled_table_make(&sampled, &law, range);
     contact_curves_create(&sampled.table, &tables->curves, &fault);
     assert_non_null(tables->curves);
-    tables->source = (struct contact_table_source){tables, look_up, NULL};
+    tables->source = (struct contact_table_source){.context = tables, .find = look_up};
     lab->means.tables = &tables->source;
     return tables;
 }

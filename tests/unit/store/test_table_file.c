@@ -64,7 +64,8 @@ static void every_bit_comes_back(void **state)
     struct indentation_table back;
     struct fault fault;
     make_folder(top);
-    snprintf(folder, sizeof folder, "%s/tables", top);
+    /* with the folder that it lies in */
+    snprintf(folder, sizeof folder, "%s/own/tables", top);
     /* twice: the second one takes the first one's place */
     for (int i = 0; i < 2; i++) {
         if (table_file_save(folder, &small_table, &origin, path, &fault))
@@ -77,7 +78,9 @@ static void every_bit_comes_back(void **state)
     }
     unlink(path);
     rmdir(folder);
-    rmdir(top);
+    *strrchr(folder, '/') = '\0';
+    rmdir(folder);
+    assert_int_equal(rmdir(top), 0);
 }
 
 static void folders_that_do_not_do_are_named(void **state)
@@ -87,7 +90,9 @@ static void folders_that_do_not_do_are_named(void **state)
     struct indentation_table back;
     struct fault fault;
     make_folder(top);
-    snprintf(folder, sizeof folder, "%s/missing/tables", top);
+    snprintf(folder, sizeof folder, "%s/file", top);
+    fclose(fopen(folder, "w"));
+    snprintf(folder, sizeof folder, "%s/file/tables", top);
     assert_int_equal(table_file_save(folder, &small_table, &origin, path, &fault),
                      PERCUSS_BAD_REQUEST);
     assert_non_null(strstr(fault.text, folder));
@@ -97,7 +102,6 @@ static void folders_that_do_not_do_are_named(void **state)
     assert_non_null(strstr(fault.text, "must be a file"));
     /* a file where the folder should be */
     snprintf(folder, sizeof folder, "%s/file", top);
-    fclose(fopen(folder, "w"));
     assert_int_equal(table_file_save(folder, &small_table, &origin, path, &fault),
                      PERCUSS_BAD_REQUEST);
     unlink(folder);
