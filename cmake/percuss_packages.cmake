@@ -37,7 +37,7 @@ set(CPACK_SET_DESTDIR ON) # for what is in /etc
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/percuss_pack.cmake)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL daemon tools library local development python documents)
+set(CPACK_COMPONENTS_ALL daemon tools library local fmi development python documents)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
@@ -97,6 +97,13 @@ percuss_package(local libpercuss-local0 libs
 library. Its default catalogue and contact tables are those of percuss-daemon."
   RECOMMENDS "percuss-daemon ${alike}"
   CONTROL ${packaging}/library/triggers)
+percuss_package(fmi percuss-fmu science
+  SUMMARY "what an impact does, for simulators that import FMUs"
+  TEXT "Two Functional Mock-up Units of FMI 3.0 in /usr/lib/*/percuss: a law of
+impact, and a body that falls. Each has the solver, the shipped bodies and
+their contact tables in it; the libraries of algebra come with
+libpercuss-local0."
+  DEPENDS "libpercuss-local0 ${alike}")
 percuss_package(development libpercuss-dev libdevel
   SUMMARY "asking what an impact does, from C: headers"
   TEXT "Headers, pkg-config and CMake files of libpercuss, libpercuss-local,

@@ -66,10 +66,32 @@ apt install "$first"/*.deb
 ! pgrep -x percussd >/dev/null 2>&1 || fail "percussd was started"
 [ "$(dpkg-query -W -f '${Conffiles}\n' percuss-daemon | grep -c '^ /etc/percuss/')" -eq 2 ] || fail "no conffiles"
 
-echo "- its settings are good as soon as there is the folder that systemd makes"
+echo "- what the unit calls is there, and so are an ordinary user's commands and the FMUs with their libraries"
+for program in $(sed -n 's/^Exec[A-Za-z]*=\([^ ]*\).*/\1/p' /lib/systemd/system/percussd.service); do
+    [ -x "$program" ] || fail "the unit calls $program"
+done
+for program in percuss percuss-tables; do
+    PATH=/usr/local/bin:/usr/bin:/bin command -v $program >"$said" || fail "$program is not among a user's commands"
+done
+units=$(mktemp -d)
+for unit in percuss_falling_body percuss_impact_law; do
+    python3 -m zipfile -e "$(dpkg -L percuss-fmu | grep "/$unit.fmu\$")" "$units" >"$said" 2>&1 || fail "no $unit.fmu"
+done
+[ "$(find "$units" -name '*.so' | wc -l)" -eq 2 ] || fail "not two FMUs"
+find "$units" -name '*.so' -exec ldd {} + >"$said" 2>&1
+! grep 'not found' "$said" || fail "an FMU lacks a library"
+
+echo "- without systemd a start names the folder that is missing, and the command that makes it"
+! percussd >"$said" 2>&1 || fail "it starts without its folder"
 ! check || fail "a missing folder is not told"
 grep -q 'store: /var/lib/percussd/specimens.db: cannot be made' "$said" || fail "the missing folder is not told"
-mkdir /var/lib/percussd
+! setpriv --reuid 65534 --regid 65534 --clear-groups percussd >"$said" 2>&1 || fail "it starts without its folder"
+grep -qF 'its folder is missing: sudo install -d -o "$(id -un)" /var/lib/percussd makes it' "$said" ||
+    fail "no command for a user"
+! percussd >"$said" 2>&1 || fail "it starts without its folder"
+made=$(sed -n 's/.*its folder is missing: \(.*\) makes it$/\1/p' "$said")
+[ "$made" = "mkdir -p /var/lib/percussd" ] || fail "no command for root"
+sh -euc "$made"
 chown 65534:65534 /var/lib/percussd
 check || fail "percussd --check-config"
 
@@ -135,7 +157,7 @@ grep -q '^rig-beam' "$said" || fail "the specimen is gone"
 end
 
 echo "- removed: settings and specimens stay; purged: only the specimens"
-apt remove percuss-daemon percuss-tools libpercuss0 libpercuss-local0 libpercuss-dev python3-percuss percuss-doc
+apt remove percuss-daemon percuss-tools percuss-fmu libpercuss0 libpercuss-local0 libpercuss-dev python3-percuss percuss-doc
 [ -z "$(find /usr -path '*percuss*' ! -path "$PWD*" ! -name '*.pyc' -type f)" ] || {
     find /usr -path '*percuss*' >"$said"
     fail "files are left"

@@ -138,7 +138,7 @@ stage_systemd() {
     cp -r "$work/packages" "$root/packages"
     cp tests/fresh/unit.sh "$root"
     inside apt-get update || fail "apt-get update"
-    inside sh -c 'apt-get install -y --no-install-recommends systemd systemd-sysv dbus procps \
+    inside sh -c 'apt-get install -y --no-install-recommends systemd systemd-sysv dbus \
         /packages/percuss-daemon_*.deb /packages/percuss-tools_*.deb /packages/libpercuss0_*.deb' || fail "apt-get install"
     umount -R "$root/dev" "$root/proc" "$root/run/domains"
     timeout -s KILL 180 unshare --mount --pid --fork --kill-child --uts --ipc --net --cgroup \
