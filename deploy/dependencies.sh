@@ -41,8 +41,19 @@ command -v apt-get >/dev/null || {
     echo "dependencies: this script knows Debian's apt-get only; install:$missing" >&2
     exit 1
 }
+# without root: by sudo, or the line for somebody who may
 sudo=""
-[ "$(id -u)" -eq 0 ] || sudo=sudo
+refuse() {
+    echo "dependencies: $1; ask the administrator of this machine to run, as root:" >&2
+    echo "  apt-get install --no-install-recommends$missing" >&2
+    exit 1
+}
+if [ "$(id -u)" -ne 0 ]; then
+    sudo=sudo
+    command -v sudo >/dev/null || refuse "packages are missing, and there is no sudo"
+    # not sudo -v: it may be allowed no more than this
+    sudo apt-get --version >/dev/null || refuse "packages are missing, and sudo refuses"
+fi
 echo "installing:$missing" >&2
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT

@@ -156,6 +156,25 @@ percuss dents >"$said" 2>&1 || fail "percuss dents"
 grep -q '^rig-beam' "$said" || fail "the specimen is gone"
 end
 
+echo "- dependencies.sh without root: the line for the administrator"
+scripts=$(mktemp -d)
+chmod 755 "$scripts"
+cp deploy/dependencies.sh "$scripts"
+as_user() {
+    setpriv --reuid 65534 --regid 65534 --clear-groups env PATH="$scripts/bin:$PATH" \
+        sh "$scripts/dependencies.sh" build >"$said" 2>&1
+}
+line='^  apt-get install --no-install-recommends .*cmake.*libsundials-dev'
+! as_user || fail "nothing is missing"
+grep -q 'there is no sudo; ask the administrator' "$said" || fail "a missing sudo is not told"
+grep -q "$line" "$said" || fail "no line for the administrator"
+mkdir "$scripts/bin"
+printf '#!/bin/sh\necho "user is not in the sudoers file" >&2\nexit 1\n' >"$scripts/bin/sudo"
+chmod 755 "$scripts/bin/sudo"
+! as_user || fail "sudo refuses"
+grep -q 'sudo refuses; ask the administrator' "$said" || fail "the refusal is not told"
+grep -q "$line" "$said" || fail "no line for the administrator"
+
 echo "- removed: settings and specimens stay; purged: only the specimens"
 apt remove percuss-daemon percuss-tools percuss-fmu libpercuss0 libpercuss-local0 libpercuss-dev python3-percuss percuss-doc
 [ -z "$(find /usr -path '*percuss*' ! -path "$PWD*" ! -name '*.pyc' -type f)" ] || {
