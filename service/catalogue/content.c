@@ -41,7 +41,8 @@ static enum percuss_status read_material(struct reader *reader, struct entry ent
                                          struct stated_material *stated)
 {
     struct material *material = &stated->material;
-    *stated = (struct stated_material){.material.yield = INFINITY, .loss_factor = NAN};
+    *stated = (struct stated_material){
+        .material.yield = INFINITY, .loss_factor = NAN, .yield_unstated = true};
     memcpy(material->name, entry.key->data.scalar.value, entry.key->data.scalar.length);
     size_t mark = reader_enter(reader, material->name);
     enum percuss_status status = keys_read(reader, entry, &keys_material, stated);
@@ -100,6 +101,7 @@ static enum percuss_status find_material(struct reader *reader, struct entry ent
     if (position < materials->names.count) {
         body->material = materials->list[position].material;
         body->loss_factor = materials->list[position].loss_factor;
+        body->yield_unstated = materials->list[position].yield_unstated;
         return PERCUSS_OK;
     }
     const yaml_node_t *value = reader_find(reader, entry.value, "material").value;
@@ -176,7 +178,8 @@ static enum percuss_status read_bodies(struct reader *reader, const yaml_node_t 
     struct mesh_files files = {NULL};
     for (size_t i = 0; !status && i < count; i++) {
         /* counted with what it owns, whether it is accepted or not */
-        set->bodies[set->count++] = (struct body){.tip_radius = INFINITY, .loss_factor = NAN};
+        set->bodies[set->count++] =
+            (struct body){.tip_radius = INFINITY, .loss_factor = NAN, .yield_unstated = true};
         struct body *body = &set->bodies[set->count - 1];
         status = read_body(reader, reader_entry(reader, mapping, i), materials, &files, set, body);
         /* what is not there yet is no body of the set */

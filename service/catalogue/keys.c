@@ -68,6 +68,14 @@ static bool read_shear(const yaml_node_t *value, const struct key *key, struct b
     return read_number(value, key, &body->shear_number);
 }
 
+/* Infinite where it is said that there is none, as where nothing is said. */
+static bool read_yield(const yaml_node_t *value, const struct key *key,
+                       struct stated_material *stated)
+{
+    stated->yield_unstated = false;
+    return reader_is(value, "none") || read_number(value, key, &stated->material.yield);
+}
+
 static bool read_kind(const yaml_node_t *value, const struct body_kind **field)
 {
     size_t number = 0;
@@ -196,6 +204,9 @@ enum percuss_status keys_read_value(struct reader *reader, const yaml_node_t *va
         break;
     case KEY_DAMPING:
         return read_damping(reader, value, key, object);
+    case KEY_YIELD:
+        good = read_yield(value, key, object);
+        break;
     case KEY_KIND:
         good = read_kind(value, (const struct body_kind **)field);
         break;

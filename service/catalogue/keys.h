@@ -12,7 +12,8 @@
 /* A material as the catalogue states it. */
 struct stated_material {
     struct material material;
-    double loss_factor; /* as struct body's */
+    double loss_factor;  /* as struct body's */
+    bool yield_unstated; /* the same */
 };
 
 extern const struct key_table keys_top;      /* into struct body_set */

@@ -40,8 +40,11 @@ static const struct key material[] = {
      KEY_SAYS(NULL, "Poisson's ratio")},
     {"density", KEY_NUMBER, &limit_density, true, KEY_OF(stated_material, material.density),
      KEY_SAYS(NULL, "mass of a volume")},
-    {"yield", KEY_NUMBER, &limit_yield, false, KEY_OF(stated_material, material.yield),
-     KEY_SAYS("elastic", "yield stress in tension, beyond which a contact leaves a dent")},
+    {"yield", KEY_YIELD, &limit_yield,
+     KEY_SAYS(
+         "elastic, which answers warn of where a metal would yield",
+         "yield stress in tension, beyond which a contact leaves a dent; none: a material that "
+         "is meant to stay elastic")},
     {"tangent", KEY_NUMBER, &limit_tangent, false, KEY_OF(stated_material, material.tangent),
      KEY_SAYS("0", "slope of the stress-strain curve beyond yield; 0: ideally plastic")},
     {"loss_factor", KEY_NUMBER, &limit_loss_factor, false, KEY_OF(stated_material, loss_factor),

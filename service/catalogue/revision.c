@@ -105,6 +105,8 @@ static void hash_body(struct hash *hash, const struct body *body)
         hash_text(hash, "loss_factor");
         hash_double(hash, body->loss_factor);
     }
+    if (isinf(body->material.yield) && !body->yield_unstated)
+        hash_text(hash, "yield: none");
     if (body->mesh)
         hash_mesh(hash, body);
 }

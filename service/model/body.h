@@ -38,6 +38,8 @@ struct body {
     double damping;               /* modal damping ratio, [0, 1); of several the largest */
     double loss_factor;           /* of its material: what a cycle loses over 2 pi of what it
                                    * stores; NAN: not stated */
+    bool yield_unstated;          /* its material states neither a yield nor that it has none: that
+                                   * it stays elastic is taken, not known */
     double *damping_shares;       /* mesh: [damping_count], see damping.h; borrowed from the set */
     unsigned modes;               /* fixed number of modes a family; 0: from the tolerance */
     bool varied;                  /* by body_vary */

@@ -91,7 +91,8 @@ struct key_text key_allowed(const struct key *key)
     case KEY_NUMBER:
     case KEY_TWICE:
     case KEY_WHOLE:
-        grow(&growing, "", key->limit->text);
+    case KEY_YIELD:
+        grow(&growing, key->type == KEY_YIELD ? "none or " : "", key->limit->text);
         break;
     case KEY_NUMBERS:
         grow(&growing, "a list of three, each ", key->limit->text);

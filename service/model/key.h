@@ -21,6 +21,7 @@ enum key_type {
     KEY_ENDS,    /* two enums: one word for both, a list or a word of two, or cantilever */
     KEY_SHEAR,   /* struct body's shear_rule and shear_number */
     KEY_DAMPING, /* struct body's damping, or a list: damping_shares too */
+    KEY_YIELD,   /* struct stated_material's yield, or that there is none */
     KEY_KIND,    /* struct body's kind */
     KEY_NAME,    /* char[PERCUSS_ID_SIZE]; the caller looks it up */
     KEY_SECTION, /* a mapping of `nested` keys into the same struct */

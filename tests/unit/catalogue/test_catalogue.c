@@ -154,6 +154,26 @@ static void losses_damp(void **state)
     body_set_free(set);
 }
 
+/* A material that states that it has no yield is as elastic as one that states nothing, which is
+ * not known of it. */
+static void yields_may_be_none(void **state)
+{
+    (void)state;
+    struct body_set *set =
+        parse_good("materials:\n"
+                   "  m: {young: 70e9, poisson: 0.3, density: 2700}\n"
+                   "  none: {young: 70e9, poisson: 0.3, density: 2700, yield: none, tangent: 0}\n"
+                   "  soft: {young: 70e9, poisson: 0.3, density: 2700, yield: 100 MPa}\n"
+                   "bodies:\n"
+                   "  a: {shape: sphere, material: m, radius: 0.01}\n"
+                   "  b: {shape: sphere, material: none, radius: 0.01}\n"
+                   "  c: {shape: sphere, material: soft, radius: 0.01}\n");
+    assert_true(isinf(get(set, "a")->material.yield) && get(set, "a")->yield_unstated);
+    assert_true(isinf(get(set, "b")->material.yield) && !get(set, "b")->yield_unstated);
+    assert_true(get(set, "c")->material.yield == 1e8 && !get(set, "c")->yield_unstated);
+    body_set_free(set);
+}
+
 /* Numbers mean the same where people write a comma (if such a locale is installed). */
 static void does_not_depend_on_the_locale(void **state)
 {
@@ -247,6 +267,7 @@ static void changes_its_revision_with_the_content(void **state)
         "  r: {shape: rod, material: o, radius: 0.01, length: 1}\n",
         "  r: {shape: rod, material: p, radius: 0.01, length: 1}\n",
         "  r: {shape: rod, material: p, radius: 0.01, length: 1, damping: 0}\n",
+        "  r: {shape: rod, material: q, radius: 0.01, length: 1}\n",
         "  r: {shape: rod, material: m, radius: 0.010000000000000002, length: 1}\n",
         "  r: {shape: rod, material: m, radius: 0.01, length: 2}\n",
         "  R: {shape: rod, material: m, radius: 0.01, length: 1}\n",
@@ -275,7 +296,8 @@ static void changes_its_revision_with_the_content(void **state)
                  "materials: {m: {young: 70e9, poisson: 0.3, density: 2700}, "
                  "n: {young: 70e9, poisson: 0.3, density: 2700, yield: 1e8}, "
                  "o: {young: 70e9, poisson: 0.3, density: 2700, loss_factor: 0}, "
-                 "p: {young: 70e9, poisson: 0.3, density: 2700, loss_factor: 0.1}}\nbodies:\n%s",
+                 "p: {young: 70e9, poisson: 0.3, density: 2700, loss_factor: 0.1}, "
+                 "q: {young: 70e9, poisson: 0.3, density: 2700, yield: none}}\nbodies:\n%s",
                  rods[i]);
         revision_of(text, revisions[i]);
         for (size_t k = 0; k < i; k++)
@@ -408,6 +430,7 @@ int main(void)
         cmocka_unit_test(loads_the_shipped_bodies),
         cmocka_unit_test(loads_a_foreign_catalogue),
         cmocka_unit_test(losses_damp),
+        cmocka_unit_test(yields_may_be_none),
         cmocka_unit_test(does_not_depend_on_the_locale),
         cmocka_unit_test(keeps_its_revision_when_only_the_look_changes),
         cmocka_unit_test(reads_ends_of_two_words),
