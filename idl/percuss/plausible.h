@@ -76,6 +76,31 @@ static inline size_t plausible_material(const struct plausible_body *body,
     return count;
 }
 
+/* Whether a solid may be a metal: lead has 16 GPa and osmium 560, magnesium 1,740 kg/m^3. Plastics
+ * are softer, woods and carbon fibres lighter; glass, stone and ceramics cannot be told from it. */
+static inline bool plausible_metal(double young, double density)
+{
+    return young >= 10e9 && young <= 600e9 && density >= 1700.0;
+}
+
+/* How bodies are described whose material states `yield: none`. */
+#define PLAUSIBLE_ELASTIC "no yield"
+
+/* Not improbable, but worth a word: a metal of which neither a yield is stated nor that it has none
+ * (`none`). False: nothing to say. */
+static inline bool plausible_unstated(const struct plausible_body *body, bool none,
+                                      struct plausible_remark *remark)
+{
+    if (none || !isinf(body->yield) || !plausible_metal(body->young, body->density))
+        return false;
+    remark->key = "yield";
+    snprintf(remark->text, sizeof remark->text,
+             "not stated: it stays elastic in every contact; a metal yields (mostly at %.4g to "
+             "%.4g MPa): state yield, or none",
+             1e-9 * body->young, 1e-8 * body->young);
+    return true;
+}
+
 static inline void plausible_say(struct plausible_remark *remark, const char *key,
                                  const char *format, double value, double bound)
     __attribute__((format(printf, 3, 0)));

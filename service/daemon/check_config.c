@@ -64,10 +64,14 @@ static void remark_numbers(const struct body_set *set)
             body->kind->name, body_parameter(body, PERCUSS_PARAMETER_YOUNG),
             body_parameter(body, PERCUSS_PARAMETER_DENSITY),
             body_parameter(body, PERCUSS_PARAMETER_YIELD), description.half_extents};
-        size_t count = is_first_of_its_material(set, b) ? plausible_material(&numbers, remarks) : 0;
+        bool first = is_first_of_its_material(set, b);
+        size_t count = first ? plausible_material(&numbers, remarks) : 0;
         for (size_t i = 0; i < count; i++)
             fprintf(stderr, "percussd: warning: materials.%s.%s: %s\n", body->material.name,
                     remarks[i].key, remarks[i].text);
+        if (first && plausible_unstated(&numbers, !body->yield_unstated, remarks))
+            fprintf(stderr, "percussd: materials.%s.%s: %s\n", body->material.name, remarks->key,
+                    remarks->text);
         count = plausible_size(&numbers, remarks);
         for (size_t i = 0; i < count; i++)
             fprintf(stderr, "percussd: warning: bodies.%s.%s: %s\n", body->id, remarks[i].key,

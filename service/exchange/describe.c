@@ -3,10 +3,12 @@
 
 #include "exchange/describe.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "model/describe.h"
+#include "percuss/plausible.h"
 
 static void describe_sites(const struct body *body, percuss_v1_Body *wire,
                            percuss_v1_BodySite *sites)
@@ -39,6 +41,8 @@ void describe_body(const struct body *body, percuss_v1_Body *wire,
     body->kind->describe(body, &description);
     if (body->loss_factor > 0.0)
         describe_add(&description, "loss factor %g", body->loss_factor);
+    if (isinf(body->material.yield) && !body->yield_unstated)
+        describe_add(&description, PLAUSIBLE_ELASTIC);
     memcpy(wire->half_extents, description.half_extents, sizeof wire->half_extents);
     wire->tip_radius = description.tip_radius;
     snprintf(wire->description, sizeof wire->description, "%s", description.text);

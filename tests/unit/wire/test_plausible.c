@@ -67,6 +67,34 @@ static void test_materials_in_another_unit(void **state)
     assert_int_equal(material(210e12, 7.8e4, 205e9), 3);
 }
 
+static bool unstated(double young, double density, double yield, bool none)
+{
+    static const double extents[3] = {0.0};
+    const struct plausible_body body = {"sphere", young, density, yield, extents};
+    return plausible_unstated(&body, none, remarks);
+}
+
+/* Metals of which nothing is said; no plastics, woods and carbon fibres, and no mesh of several. */
+static void test_yields_that_are_not_stated(void **state)
+{
+    (void)state;
+    assert_true(unstated(210e9, 7800.0, INFINITY, false));
+    assert_string_equal(remarks[0].key, "yield");
+    assert_string_equal(remarks[0].text,
+                        "not stated: it stays elastic in every contact; a metal yields (mostly at "
+                        "210 to 2100 MPa): state yield, or none");
+    assert_false(unstated(210e9, 7800.0, INFINITY, true) || unstated(210e9, 7800.0, 4e8, false));
+    assert_true(unstated(16e9, 11340.0, INFINITY, false));   /* lead */
+    assert_true(unstated(45e9, 1740.0, INFINITY, false));    /* magnesium */
+    assert_true(unstated(560e9, 22590.0, INFINITY, false));  /* osmium */
+    assert_false(unstated(3e9, 1140.0, INFINITY, false));    /* nylon */
+    assert_false(unstated(4e9, 1800.0, INFINITY, false));    /* filled plastics */
+    assert_false(unstated(12e9, 700.0, INFINITY, false));    /* oak */
+    assert_false(unstated(140e9, 1600.0, INFINITY, false));  /* carbon fibres */
+    assert_false(unstated(1.2e12, 3515.0, INFINITY, false)); /* diamond */
+    assert_false(unstated(NAN, NAN, INFINITY, false) || unstated(70e9, 2700.0, NAN, false));
+}
+
 static void test_sizes(void **state)
 {
     (void)state;
@@ -97,6 +125,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_materials_that_there_are),
         cmocka_unit_test(test_materials_in_another_unit),
+        cmocka_unit_test(test_yields_that_are_not_stated),
         cmocka_unit_test(test_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
