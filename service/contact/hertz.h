@@ -12,6 +12,9 @@
 /* Above this axis ratio it counts as circular: what laws of circles leave out is below 1e-6 then.
  */
 #define HERTZ_CIRCULAR_RATIO 0.999
+/* Peak pressure over the yield stress where metal first flows, below the surface: of a circle at
+ * nu = 0.3 (Johnson, Contact Mechanics, section 6.1); of ellipses it is up to 1.79. */
+#define HERTZ_FIRST_YIELD 1.6
 /* The work of k d^(3/2), of force times indentation. */
 #define HERTZ_WORK 0.4
 

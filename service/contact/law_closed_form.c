@@ -36,15 +36,15 @@ static const double SPRING_FIT = 2670.0;
 static const double gauss_node[] = {0.33998104358485626480, 0.86113631159405257522};
 static const double gauss_weight[] = {0.65214515486254614263, 0.34785484513745385737};
 
-static double yield_share(const struct material *material)
+double closed_form_pressure(const struct material *material)
 {
     return 1.295 * exp(0.736 * material->poisson) * material->yield;
 }
 
 int closed_form_softer(const struct material *a, const struct material *b)
 {
-    double yield_a = yield_share(a);
-    double yield_b = yield_share(b);
+    double yield_a = closed_form_pressure(a);
+    double yield_b = closed_form_pressure(b);
     if (isinf(yield_a) && isinf(yield_b))
         return -1;
     return yield_b < yield_a ? 1 : 0;
@@ -52,7 +52,7 @@ int closed_form_softer(const struct material *a, const struct material *b)
 
 double closed_form_yield_ratio(const struct material *a, const struct material *b)
 {
-    return yield_share(b) / yield_share(a);
+    return closed_form_pressure(b) / closed_form_pressure(a);
 }
 
 double closed_form_radius(const struct hertz_contact *hertz)
@@ -64,8 +64,23 @@ double closed_form_radius(const struct hertz_contact *hertz)
 double closed_form_yield(const struct hertz_contact *hertz, const struct material *a,
                          const struct material *b)
 {
-    double root = 0.5 * M_PI * fmin(yield_share(a), yield_share(b)) / hertz->effective_modulus;
+    double root = 0.5 * M_PI * fmin(closed_form_pressure(a), closed_form_pressure(b)) /
+                  hertz->effective_modulus;
     return root * root * closed_form_radius(hertz);
+}
+
+double closed_form_restitution(double times, double strain)
+{
+    const double first = 60.0, last = 1000.0;
+    double speed = sqrt(times);
+    double within = fmin(speed, last);
+    if (!(speed > 1.0))
+        return 1.0;
+    if (speed <= first)
+        return 1.0 - 0.1 * log(speed) * pow((speed - 1.0) / (first - 1.0), 0.156);
+    double fit =
+        1.0 - 0.1 * log(first) - 0.11 * log(within / first) * pow(within - first, 2.36 * strain);
+    return fmax(fit, 0.0) * sqrt(sqrt(within / speed));
 }
 
 static double hertz_force(const struct contact_law *law, double d, double *slope)
@@ -250,6 +265,6 @@ struct contact_law contact_law_closed_form(const struct hertz_contact *hertz,
                        [YIELD_DEPTH] = closed_form_yield(hertz, a, b),
                        [RADIUS] = closed_form_radius(hertz),
                        [GROWTH] = 0.14 * exp(23.0 * softer->yield / hertz->effective_modulus),
-                       [HARDNESS] = 4.0 * 2.84 * softer->yield / yield_share(softer)},
+                       [HARDNESS] = 4.0 * 2.84 * softer->yield / closed_form_pressure(softer)},
     };
 }

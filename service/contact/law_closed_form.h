@@ -10,11 +10,14 @@
 #include "contact/hertz.h"
 #include "contact/law.h"
 
-/* The body that yields first: the lower C(poisson) yield, C = 1.295 exp(0.736 poisson). 0: a, 1: b,
- * -1: neither. */
+/* Hertz's peak pressure at which a material yields by this law: C(poisson) yield, C = 1.295
+ * exp(0.736 poisson), Pa. */
+double closed_form_pressure(const struct material *material);
+
+/* The body that yields first: the lower one of these pressures. 0: a, 1: b, -1: neither. */
 int closed_form_softer(const struct material *a, const struct material *b);
 
-/* How much later the second body yields: its C(poisson) yield over the first one's. */
+/* How much later the second body yields: its pressure over the first one's. */
 double closed_form_yield_ratio(const struct material *a, const struct material *b);
 
 /* Indentation at which yield begins, m; INFINITY: never. Elliptic contacts: of the sphere that is
@@ -26,6 +29,11 @@ double closed_form_yield(const struct hertz_contact *hertz, const struct materia
  * law_closed_form.c, and for ever where neither body can yield. */
 struct contact_law contact_law_closed_form(const struct hertz_contact *hertz,
                                            const struct material *a, const struct material *b);
+
+/* Restitution of a contact by itself, of the energy that is `times` as large as that at which it
+ * yields: Jackson, Green and Marghitu's fit, for yield / E-star `strain`; beyond a thousand times
+ * the speed of yield by its power -1/4 (Johnson, Contact Mechanics, section 11.5). */
+double closed_form_restitution(double times, double strain);
 
 /* Radius of the sphere on a plane that is as stiff: k = (4/3) E-star sqrt(R), m. */
 double closed_form_radius(const struct hertz_contact *hertz);

@@ -13,6 +13,7 @@
 #include "solve/loss.h"
 #include "solve/model_error.h"
 #include "solve/report.h"
+#include "solve/unstated.h"
 #include "solve/validity.h"
 
 /* Elements across the contact radius: of the finest mesh, which costs half a minute. */
@@ -291,12 +292,16 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
     for (size_t i = 0; i < result->contacts[0].sub_impacts_listed; i++)
         blow.force = fmax(blow.force, result->contacts[0].sub_impacts[i].peak_force);
     double e = result->contacts[0].restitution;
-    report_model_error(model_error_complete(problem, &blow) + loss_of_contact(problem, 0, fabs(e)),
-                       result->complete ? fmax(e, 1.0 - e) : 2.0, result);
+    double range = result->complete ? fmax(e, 1.0 - e) : 2.0;
+    const struct unstated_blow whole = {blow.force, .rebound = fabs(e), .range = range};
+    double model = model_error_complete(problem, &blow) + loss_of_contact(problem, 0, fabs(e)) +
+                   unstated_change(problem, 0, &whole);
+    report_model_error(model, range, result);
     /* where small strains end, and what materials lose of themselves */
     struct warnings warnings = {0};
     validity_find_speed(problem, &warnings);
     loss_find(problem, 0, fabs(e), &warnings);
+    unstated_find(problem, 0, &whole, &warnings);
     report_warnings(&warnings, result);
     return result->status;
 }

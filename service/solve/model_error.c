@@ -12,6 +12,7 @@
 #include "solve/loss.h"
 #include "solve/model_perturbed.h"
 #include "solve/outcome.h"
+#include "solve/unstated.h"
 #include "solve/validity.h"
 
 /* Change of e by a unit of the stiffness's logarithm, of a single contact: by the share s of the
@@ -209,8 +210,10 @@ enum percuss_status model_error_find(const struct problem *problem, const struct
         else if (!status)
             status = model_perturbed_find(&margin, pace, restitution);
     }
-    /* and what the materials lose of themselves */
+    /* what the materials lose of themselves, and what metals would of whose yield nothing is said
+     */
     *restitution += loss_worst(problem, &solution->outcome);
+    *restitution += unstated_worst(problem, &solution->outcome);
     *restitution = fmin(*restitution, outcome_range(problem, &solution->outcome));
     return status;
 }

@@ -16,6 +16,7 @@
 #include "solve/loss.h"
 #include "solve/radiation.h"
 #include "solve/state_out.h"
+#include "solve/unstated.h"
 #include "solve/validity.h"
 
 void report_warn(struct solve_result *result, const char *format, ...)
@@ -31,8 +32,10 @@ void report_warn(struct solve_result *result, const char *format, ...)
 
 void report_warnings(const struct warnings *warnings, struct solve_result *result)
 {
-    for (size_t i = 0; i < warnings->count; i++)
-        report_warn(result, "%s", warnings->text[i]);
+    size_t room = sizeof result->warnings / sizeof *result->warnings;
+    _Static_assert(sizeof *result->warnings == sizeof *warnings->text, "the texts are as long");
+    for (size_t i = 0; i < warnings->count && result->warning_count < room; i++)
+        memcpy(result->warnings[result->warning_count++], warnings->text[i], WARNING_SIZE);
 }
 
 static void fill_contacts(const struct problem *problem, const struct solution *solution,
@@ -194,6 +197,7 @@ static void fill_model(const struct problem *problem, const struct solution *sol
     /* why, in words */
     struct text reason = text_begin(result->reason, sizeof result->reason);
     contact_model_explain(problem, &solution->outcome, &reason);
+    unstated_explain(problem, &solution->outcome, &reason);
     explain_modes(problem, assembly, &reason);
     if (radiation_is_in(problem, &assembly->scene))
         text_add(&reason, "; waves leave through the half-space: their energy counts as damping");

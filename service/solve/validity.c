@@ -14,6 +14,7 @@
 #include "solve/loss.h"
 #include "solve/model_deviation.h"
 #include "solve/outcome.h"
+#include "solve/unstated.h"
 
 /* Contact or dent against the smallest radius: surfaces are no longer parabolas there. */
 static const double LARGEST_CONTACT = 0.3;
@@ -21,9 +22,6 @@ static const double LARGEST_CONTACT = 0.3;
  * take is 1.4 % of the normal impulse whatever the coefficient: a sphere has stopped sliding after
  * sliding / (3.5 (1 + e) approach) of it. */
 static const double SLIDING = 0.05;
-/* Peak pressure over the yield stress where metal first flows below the surface (Johnson, section
- * 6.1). */
-static const double FIRST_YIELD = 1.6;
 /* Share of the energy that the vibration of a sphere takes, times the wave speed over that of the
  * approach: about v/(50 c) (Rayleigh; Goldsmith). */
 static const double SPHERE_VIBRATION = 0.02;
@@ -69,7 +67,7 @@ static void find_yield(const struct problem *problem, size_t c, double pressure,
     for (unsigned which = 0; which < 2; which++) {
         const struct body *body = problem_body(problem, c, which);
         double yield = problem_material(problem, c, (int)which)->yield;
-        if (pressure > FIRST_YIELD * yield)
+        if (pressure > HERTZ_FIRST_YIELD * yield)
             warnings_add(warnings, WARNING_YIELD + which,
                          "contacts[%zu]: the elastic peak pressure of %.3g MPa exceeds 1.6 times "
                          "the yield stress of %s (%.3g MPa): Hertz's law leaves no dent, the true "
@@ -309,6 +307,10 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     find_sliding(problem, outcome, c, approach, warnings);
     loss_find(problem, c, outcome_rebound(problem, outcome, c), warnings);
     askew_find(problem, c, model_blow_of(problem, outcome, c).duration, warnings);
+    if (unstated_any(problem, c)) {
+        struct unstated_blow blow = unstated_blow_of(problem, outcome, c);
+        unstated_find(problem, c, &blow, warnings);
+    }
 }
 
 static void find_delassus(const struct problem *problem, struct warnings *warnings)

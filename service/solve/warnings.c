@@ -4,7 +4,6 @@
 #include "solve/warnings.h"
 
 #include <stdarg.h>
-#include <stdbool.h>
 #include <stdio.h>
 
 /* Places that kinds not found yet may need. */
@@ -16,18 +15,35 @@ static size_t reserved(const struct warnings *warnings)
     return places;
 }
 
-void warnings_add(struct warnings *warnings, enum warning_kind kind, const char *format, ...)
+/* The next text's place, noted as of that kind; NULL: there is none for it. */
+static char *next_text(struct warnings *warnings, enum warning_kind kind)
 {
     uint32_t bit = UINT32_C(1) << kind;
     bool again = warnings->kinds & bit;
     if (again && warnings->count + reserved(warnings) >= WARNINGS_ROOM)
+        return NULL;
+    warnings->kinds |= bit;
+    warnings->kind[warnings->count] = kind;
+    return warnings->text[warnings->count++];
+}
+
+void warnings_add(struct warnings *warnings, enum warning_kind kind, const char *format, ...)
+{
+    char *text = next_text(warnings, kind);
+    if (!text)
         return;
     va_list args;
     va_start(args, format);
-    warnings->kinds |= bit;
-    warnings->kind[warnings->count] = kind;
-    vsnprintf(warnings->text[warnings->count++], WARNING_SIZE, format, args);
+    vsnprintf(text, WARNING_SIZE, format, args);
     va_end(args);
+}
+
+bool warnings_begin(struct warnings *warnings, enum warning_kind kind, struct text *text)
+{
+    char *buffer = next_text(warnings, kind);
+    if (buffer)
+        *text = text_begin(buffer, WARNING_SIZE);
+    return buffer;
 }
 
 const char *warnings_text(const struct warnings *warnings, enum warning_kind kind)

@@ -5,8 +5,11 @@
 #ifndef PERCUSS_SOLVE_WARNINGS_H
 #define PERCUSS_SOLVE_WARNINGS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+#include "base/text.h"
 
 /* Of two in a row the first is of body a, the second of body b. */
 enum warning_kind {
@@ -24,7 +27,8 @@ enum warning_kind {
     WARNING_LOSS,
     WARNING_WAVES = 18,
     WARNING_BENDING,
-    WARNING_KINDS = 21
+    WARNING_UNSTATED = 21,
+    WARNING_KINDS
 };
 _Static_assert(WARNING_KINDS <= 32, "a set of kinds is 32 bits");
 
@@ -41,6 +45,9 @@ struct warnings {
  * other kind keeps its place. */
 void warnings_add(struct warnings *warnings, enum warning_kind kind, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/* The same of one that is put together by pieces, in *text; false: there is no room. */
+bool warnings_begin(struct warnings *warnings, enum warning_kind kind, struct text *text);
 
 /* The first text of a kind, or NULL. */
 const char *warnings_text(const struct warnings *warnings, enum warning_kind kind);

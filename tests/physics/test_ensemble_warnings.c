@@ -152,6 +152,20 @@ static void losses_are_counted(void **state)
     ensemble_lab_close(&e);
 }
 
+/* Metals that state no yield, in those samples that press them beyond an ordinary one. */
+static void unstated_yields_are_counted(void **state)
+{
+    (void)state;
+    struct ensemble_lab e;
+    ensemble_lab_open(&e);
+    e.spec.samples = 20;
+    e.lab->bodies[0].yield_unstated = true;
+    ensemble_lab_run(&e, false);
+    assert_true(warns(&e.report, "samples: 20 of 20, first 0: contacts[0]: no yield (or none) is "
+                                 "stated of steel (sphere): the answer holds for metals"));
+    ensemble_lab_close(&e);
+}
+
 /* Where nothing is to be said nothing is; a refusal is quoted. */
 static void quiet_and_refused(void **state)
 {
@@ -243,6 +257,7 @@ int main(void)
         cmocka_unit_test(order_and_workers_do_not_matter),
         cmocka_unit_test(waves_left_out_are_counted),
         cmocka_unit_test(losses_are_counted),
+        cmocka_unit_test(unstated_yields_are_counted),
         cmocka_unit_test(quiet_and_refused),
         cmocka_unit_test(what_is_quoted_can_be_stopped),
         cmocka_unit_test(coarse_models_are_warned_of),

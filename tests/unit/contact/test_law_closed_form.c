@@ -234,6 +234,56 @@ static void memory_is_carried_to_another_partner_by_its_force(void **state)
     assert_true(other.history.max_force == 0.0 && isinf(contact_law_limit(&other)));
 }
 
+/* Speed that a kilogramme gets back from the law's curves, in steps of velocity Verlet. */
+static double bounce(struct contact_law law, double speed)
+{
+    const double step = 1e-3 * law.operations->curve->yield(&law) / speed;
+    double d = 0.0, v = speed, force = 0.0;
+    while (v > 0.0) {
+        v -= 0.5 * step * force;
+        d += step * v;
+        force = law.operations->curve->force(&law, d, &(double){0.0});
+        v -= 0.5 * step * force;
+    }
+    contact_law_yield(&law, d);
+    d -= law.history.dent;
+    do {
+        force = force_at(&law, d);
+        v -= 0.5 * step * force;
+        d += step * v;
+        force = d > 0.0 ? force_at(&law, d) : 0.0;
+        v -= 0.5 * step * force;
+    } while (d > 0.0);
+    return -v;
+}
+
+/* The published fit of the restitution is that of the published curves. */
+static void what_comes_back_is_the_published_fit(void **state)
+{
+    (void)state;
+    static const struct material *const planes[] = {&soft, &hard};
+    static const double speeds[] = {1.5, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0};
+    for (int p = 0; p < 2; p++) {
+        struct hertz_contact hertz = sphere_on(planes[p]);
+        struct contact_law law = law_on(planes[p]);
+        double depth = closed_form_yield(&hertz, &steel, planes[p]);
+        /* of a kilogramme whose energy is just that of yield */
+        double first = sqrt(2.0 * HERTZ_WORK * hertz.stiffness * pow(depth, 2.5));
+        for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++) {
+            double fit = closed_form_restitution(speeds[i] * speeds[i],
+                                                 planes[p]->yield / hertz.effective_modulus);
+            double moved = bounce(law, speeds[i] * first) / (speeds[i] * first);
+            print_message("%g times the speed of yield: moved %.4f, fit %.4f\n", speeds[i], moved,
+                          fit);
+            near(fit, moved, 0.03);
+        }
+    }
+    /* nothing is lost up to yield, and it falls by Johnson's power beyond the fit */
+    assert_true(closed_form_restitution(1.0, 0.003) == 1.0);
+    near_relative(closed_form_restitution(1e6 * 256.0, 0.003),
+                  0.5 * closed_form_restitution(1e6, 0.003), 1e-12);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -245,6 +295,7 @@ int main(void)
         cmocka_unit_test(rescaled_it_yields_later),
         cmocka_unit_test(what_stays_grows_from_nothing),
         cmocka_unit_test(the_softer_body_yields),
+        cmocka_unit_test(what_comes_back_is_the_published_fit),
         cmocka_unit_test(memory_is_carried_to_another_partner_by_its_force),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
