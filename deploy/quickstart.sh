@@ -49,7 +49,9 @@ done
 
 cat <<EOT
 
-Next: start the daemon and ask it yourself
+Next: a part of your own needs some lines in a file and no daemon ("Your own part" in README.md)
+  build/bin/percuss query --local --catalogue bench.yaml --a ball --b arm --speed 300mm/s
+For several programs start the daemon, and ask it
   build/bin/percussd &
   build/bin/percuss query --a steel-sphere --b al-beam --speed 0.276
   build/bin/percuss sweep --a steel-sphere --b al-beam --speed 0.1:0.4:31

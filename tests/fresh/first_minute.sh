@@ -23,6 +23,14 @@ grep -A "$(wc -l <"$said")" -Fx "\$ $question" "$answers" | sed 1d | diff "$said
     fail "the quickstart does not print what README shows"
 [ "$(grep -c '^  restitution ' "$answers")" -eq 4 ] || fail "the quickstart has not four answers"
 
+# a part of one's own, without a daemon
+began=$(date +%s)
+commands README.md 'bench.yaml' | follow >"$said" || fail "the part of one's own"
+grep -Fx "$(sed -n '/^ball on arm/,/^```/p' README.md | grep '^  restitution')" "$said" ||
+    fail "the answer about one's own part is not README's"
+[ -s arm.svg ] || fail "no picture of one's own part"
+echo "one's own part: $(($(date +%s) - began)) s"
+
 commands README.md 'build/bin/percussd' | follow >"$said" || fail "the commands of the first minute"
 grep -q '^  restitution  0\.' "$said" || fail "no answer"
 [ "$(head -c 4 impact.png | tail -c 3)" = PNG ] || fail "no picture"
