@@ -30,9 +30,11 @@ bool flight_create(struct flight *flight, const struct scene *scene, struct aren
     flight->reach = arena_take(arena, pairs, sizeof *flight->reach);
     flight->bend = arena_take(arena, pairs, sizeof *flight->bend);
     flight->bound = arena_take(arena, scene->contacts, sizeof *flight->bound);
+    flight->unknown = arena_take(arena, scene->contacts, sizeof *flight->unknown);
     flight->followed = arena_take(arena, scene->groups, sizeof *flight->followed);
     flight->swing = arena_reserve(arena, scene->groups, sizeof *flight->swing);
-    if (!flight->reach || !flight->bend || !flight->bound || !flight->followed || !flight->swing)
+    if (!flight->reach || !flight->bend || !flight->bound || !flight->unknown ||
+        !flight->followed || !flight->swing)
         return false;
     for (size_t g = 0; g < scene->groups; g++)
         flight->swing[g] = sqrt(1.0 - scene->group[g].set->most_damping);
@@ -181,17 +183,18 @@ static int open_level(struct flight *flight, const struct scene *scene, const st
 }
 
 /* The instant, from now, from which every rigid gap exceeds its bound for good (or, under a
- * pressing acceleration, first does while it opens); INFINITY: never. */
+ * pressing acceleration, first does while it opens); INFINITY: never within the time `left`. */
 static double completion(const struct flight *flight, const struct scene *scene,
-                         const struct motion *motion)
+                         const struct motion *motion, double left)
 {
     double from = 0.0;
     double until = INFINITY;
     for (size_t c = 0; c < scene->contacts; c++) {
         double first;
         double last;
-        flight_root_exceeds(motion->gap[c] - flight->bound[c], motion->gap_rate[c],
-                            scene->gap_acceleration[c], &first, &last);
+        double excess = motion->gap[c] - flight->bound[c];
+        double rate = flight_root_rate(excess, motion->gap_rate[c], flight->unknown[c], left);
+        flight_root_exceeds(excess, rate, scene->gap_acceleration[c], &first, &last);
         from = fmax(from, first);
         until = fmin(until, last);
     }
@@ -230,8 +233,9 @@ struct scan {
 static void find_end(struct scan *scan)
 {
     find_bounds(scan->flight, scan->scene, scan->now);
+    double passed = scan->now->time - scan->start->time;
     double complete =
-        scan->now->time - scan->start->time + completion(scan->flight, scan->scene, scan->now);
+        passed + completion(scan->flight, scan->scene, scan->now, scan->allowed - passed);
     scan->reason = complete <= scan->allowed ? FLIGHT_COMPLETE : FLIGHT_TIMEOUT;
     scan->end = fmin(complete, scan->allowed);
 }

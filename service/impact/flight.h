@@ -24,6 +24,7 @@ struct flight {
     struct motion probe;     /* of a flight that was found: the motion at its end */
     double **reach, **bend;  /* [group][contact]: see flight_kernel_bounds */
     double *bound;           /* [contact]: sum of participation times amplitude */
+    double *unknown;         /* [contact]: closing rates that may be none, m/s; as created: 0 */
     size_t *followed;        /* [group]: lanes of modes that are, in the interval looked at */
     double *swing;           /* [group]: sqrt(1 - the largest damping) */
     bool damped;             /* amplitudes decay */

@@ -34,6 +34,12 @@ void flight_root_exceeds(double excess, double rate, double acceleration, double
     *last = -rate / acceleration;
 }
 
+double flight_root_rate(double excess, double rate, double unknown, double left)
+{
+    bool none = rate < 0.0 && -rate <= unknown && excess + rate * left > 0.0;
+    return none ? 0.0 : rate;
+}
+
 /* omega t of the fastest mode up to which the series is exact to rounding: 1/20! = 4e-19. */
 static const double SERIES_ANGLE = 1.0;
 

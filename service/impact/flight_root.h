@@ -13,6 +13,10 @@
 void flight_root_exceeds(double excess, double rate, double acceleration, double *first,
                          double *last);
 
+/* The closing rate of a gap as flight_root_exceeds is to take it: 0 where it is within what the
+ * solution leaves `unknown` of it and leaves an excess open for all of the time `left`. */
+double flight_root_rate(double excess, double rate, double unknown, double left);
+
 /* The longest interval that flight_root_touch may look into, s; INFINITY without modes. */
 double flight_root_longest(const struct scene *scene);
 

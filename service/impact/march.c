@@ -3,6 +3,7 @@
 
 #include "impact/march.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "impact/energy.h"
@@ -35,6 +36,26 @@ void march_close(struct march *march, size_t contact, double time, double gap_ra
 {
     march->closed[contact] = false;
     track_close(&march->outcome->tracks[contact], &march->scene.laws[contact], time, gap_rate);
+}
+
+/* Of the impulses, by the sums along their steps, and the coarsest accuracy that is taken for one;
+ * of the stated rates, which are differences of bodies' speeds. */
+static const double ROUNDING_OF_STEPS = 1e-11;
+static const double COARSEST_STEPS = 1e-5;
+static const double ROUNDING_OF_SPEEDS = 8.0 * DBL_EPSILON;
+
+double march_unknown_rate(const struct march *march, size_t contact)
+{
+    const struct scene *scene = march->stated;
+    double changed = 0.0;
+    double fastest = 0.0;
+    for (size_t c = 0; c < scene->contacts; c++) {
+        double w = scene->w[contact * scene->contacts + c];
+        changed += fabs(w) * march->outcome->tracks[c].impulse;
+        fastest = fmax(fastest, fabs(scene->gap_rate[c]));
+    }
+    double steps = fmin(fmax(march->accuracy, ROUNDING_OF_STEPS), COARSEST_STEPS);
+    return steps * changed + ROUNDING_OF_SPEEDS * fastest;
 }
 
 bool march_in_contact(const struct march *march)
@@ -88,6 +109,8 @@ static enum percuss_end_reason fly(struct march *march, size_t *contact)
     double allowed = march->horizon - motion->time;
     /* the last step of a contact phase may have taken more than was left */
     unsigned long left = march->used < march->most ? march->most - march->used : 0;
+    for (size_t c = 0; c < march->scene.contacts; c++)
+        march->flight.unknown[c] = march_unknown_rate(march, c);
     enum flight_end end =
         flight_find(&march->flight, &march->scene, motion, allowed, left, &time, contact);
     march->used += march->flight.intervals - before;

@@ -14,6 +14,7 @@ struct march {
     struct scene scene;         /* the same with the outcome's laws, which change as they yield */
     struct impact_outcome *outcome; /* from impact_create; its motion is the present */
     double horizon;                 /* s from the stated instant */
+    double accuracy;                /* relative, of the impulses; 0: to rounding */
     unsigned long most;             /* contact steps and flight intervals that are allowed */
     struct pace *pace;              /* NULL: nobody waits */
     struct fault *fault;            /* of what makes it fail; NULL: nobody reads it */
@@ -53,6 +54,9 @@ enum percuss_status march_run(struct march *march, const struct march_method *me
 /* A sub-impact of a contact begins at `time`, or ends, with a rigid gap rate. */
 void march_open(struct march *march, size_t contact, double time, double gap_rate);
 void march_close(struct march *march, size_t contact, double time, double gap_rate);
+
+/* How fast a gap may be said to close that does not, m/s: by the errors of the impulses so far. */
+double march_unknown_rate(const struct march *march, size_t contact);
 
 /* Whether any contact is closed. */
 bool march_in_contact(const struct march *march);

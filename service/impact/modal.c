@@ -390,6 +390,7 @@ enum percuss_status impact_modal(const struct scene *scene, const struct impact_
     struct modal_run run = {.march = {.stated = scene,
                                       .outcome = outcome,
                                       .horizon = settings->horizon,
+                                      .accuracy = settings->accuracy,
                                       .most = impact_max_steps(scene, settings),
                                       .pace = settings->pace},
                             .settings = settings,

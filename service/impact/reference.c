@@ -131,6 +131,7 @@ static void open_unreported(struct reference *run, double t)
 static bool is_complete(struct reference *run, const double *y)
 {
     const struct scene *scene = &run->march.scene;
+    double left = run->march.horizon - run->march.outcome->motion.time;
     reference_system_unpack(&run->system, y, &run->system.motion);
     for (size_t c = 0; c < scene->contacts; c++) {
         /* what vibration can bridge: sum |phi| sqrt(q^2 + v^2/omega^2) */
@@ -145,8 +146,10 @@ static bool is_complete(struct reference *run, const double *y)
         /* whether the rigid gap exceeds it from now on */
         double first;
         double last;
-        flight_root_exceeds(run->system.motion.gap[c] - bound, run->system.motion.gap_rate[c],
-                            scene->gap_acceleration[c], &first, &last);
+        double excess = run->system.motion.gap[c] - bound;
+        double rate = flight_root_rate(excess, run->system.motion.gap_rate[c],
+                                       march_unknown_rate(&run->march, c), left);
+        flight_root_exceeds(excess, rate, scene->gap_acceleration[c], &first, &last);
         if (run->march.closed[c] || first > 0.0)
             return false;
     }
@@ -264,6 +267,7 @@ enum percuss_status impact_cvode(const struct scene *scene, const struct impact_
     struct reference run = {.march = {.stated = scene,
                                       .outcome = outcome,
                                       .horizon = settings->horizon,
+                                      .accuracy = settings->accuracy,
                                       .most = impact_max_steps(scene, settings),
                                       .pace = settings->pace},
                             .accuracy = settings->accuracy};

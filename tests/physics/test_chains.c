@@ -193,6 +193,70 @@ static void unequal_masses(void **state)
     compare(&mixed, 1e-6);
 }
 
+/* Equal spheres, one gap between the others: each hands its speed on, and no two of those at rest
+ * approach each other. */
+static void rows_with_gaps_come_to_rest(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static const enum percuss_method methods[] = {PERCUSS_METHOD_MODAL, PERCUSS_METHOD_CVODE};
+    static const double horizons[] = {0.0, 1.0}, tolerances[] = {1e-3, 1e-6};
+    const double gap = 1e-4;
+    for (int i = 0; i < 16; i++) {
+        struct lab *lab = lab_create();
+        struct row row = equal_row(i & 1 ? 5 : 3);
+        row.speed[0] = 1.0;
+        struct solve_request request = row_request(lab, &row);
+        for (int k = 1; k < row.count; k++) {
+            request.bodies[k].position[0] += (k - 1) * gap;
+            request.contacts[k - 1].point[0] += (k - 1) * gap;
+            request.contacts[k - 1].gap = k > 1 ? gap : 0.0;
+        }
+        request.options.method = methods[i >> 1 & 1];
+        request.options.horizon = horizons[i >> 2 & 1];
+        request.options.tolerance = tolerances[i >> 3 & 1];
+        lab_solve(lab, &request, &result);
+        assert_int_equal(result.end_reason, PERCUSS_END_SEPARATED);
+        for (int k = 0; k < row.count; k++)
+            measured("speed", result.bodies[k].velocity[0], k + 1 < row.count ? 0.0 : 1.0, 1e-5);
+        lab_free(lab);
+    }
+}
+
+/* The third sphere flees, so that the second follows it at `slow` m/s, some 30 um behind. */
+static enum percuss_status follow(double slow, double horizon, struct solve_result *result)
+{
+    struct lab *lab = lab_create();
+    struct row row = equal_row(3);
+    row.speed[0] = 1.0;
+    row.speed[2] = 1.0 - slow;
+    struct solve_request request = row_request(lab, &row);
+    request.options.horizon = horizon;
+    request.options.tolerance = 1e-6;
+    enum percuss_status status = solve(lab->workspace, &lab->means, &request, result);
+    lab_free(lab);
+    return status;
+}
+
+/* Speeds that the solution knows, however small, close their gap; those that take longer than the
+ * horizon are not taken for none. */
+static void slow_approaches_are_followed(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    static const double slow[] = {1e-2, 1e-3, 1e-4};
+    for (size_t i = 0; i < COUNT(slow); i++) {
+        assert_int_equal(follow(slow[i], 1.0, &result), PERCUSS_OK);
+        assert_int_equal(result.end_reason, PERCUSS_END_SEPARATED);
+        assert_int_equal(result.contacts[1].sub_impact_count, 1);
+        measured_relative("exchanged", 1.0 - result.bodies[1].velocity[0], slow[i], 1e-4);
+    }
+    assert_int_equal(follow(1e-4, 0.01, &result), PERCUSS_TRUNCATED);
+    assert_int_equal(result.end_reason, PERCUSS_END_HORIZON);
+    assert_int_equal(follow(1e-7, 1.0, &result), PERCUSS_TRUNCATED);
+    assert_int_equal(result.end_reason, PERCUSS_END_HORIZON);
+}
+
 /* Too much for one request: said, and not called accurate. */
 static void effort_is_bounded(void **state)
 {
@@ -216,6 +280,8 @@ int main(void)
         cmocka_unit_test(several_spheres_hit_many),
         cmocka_unit_test(rows_hit_from_both_sides),
         cmocka_unit_test(unequal_masses),
+        cmocka_unit_test(rows_with_gaps_come_to_rest),
+        cmocka_unit_test(slow_approaches_are_followed),
         cmocka_unit_test(effort_is_bounded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

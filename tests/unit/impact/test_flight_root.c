@@ -35,6 +35,18 @@ static void parabolas_exceed(void **state)
     }
 }
 
+/* Closing rates that may be none are, where they leave the gap open for the time left. */
+static void rates_within_what_is_unknown(void **state)
+{
+    (void)state;
+    assert_true(flight_root_rate(1e-4, -1e-9, 2e-9, 1.0) == 0.0);
+    assert_true(flight_root_rate(1e-4, -1e-9, 5e-10, 1.0) == -1e-9);
+    assert_true(flight_root_rate(1e-10, -1e-9, 2e-9, 1.0) == -1e-9);
+    assert_true(flight_root_rate(-1e-4, -1e-9, 2e-9, 1.0) == -1e-9);
+    assert_true(flight_root_rate(1e-4, 1e-9, 2e-9, 1.0) == 1e-9);
+    assert_true(flight_root_rate(0.0, -1e-9, 2e-9, 0.0) == -1e-9);
+}
+
 /* Approach -gap - rate t + cos(omega t) by one mode of unit amplitude that starts at its far end.
  */
 static void ring(struct toy *toy, double omega, double gap, double rate)
@@ -213,9 +225,10 @@ static void the_first_of_three_roots(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parabolas_exceed),          cmocka_unit_test(touches_by_arc_cosine),
-        cmocka_unit_test(tells_a_graze_from_a_miss), cmocka_unit_test(a_touch_at_once),
-        cmocka_unit_test(a_touch_at_rest),           cmocka_unit_test(the_first_of_three_roots),
+        cmocka_unit_test(parabolas_exceed),         cmocka_unit_test(rates_within_what_is_unknown),
+        cmocka_unit_test(touches_by_arc_cosine),    cmocka_unit_test(tells_a_graze_from_a_miss),
+        cmocka_unit_test(a_touch_at_once),          cmocka_unit_test(a_touch_at_rest),
+        cmocka_unit_test(the_first_of_three_roots),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
