@@ -10,6 +10,13 @@
 #include "distance.h"
 
 enum { LEAST_FLIGHT = 3 };
+/* Rounds in which flights and their acceleration are found from each other. */
+enum { ROUNDS = 3 };
+/* Acceleration counts from so many of its standard deviations on. */
+static const double ACCELERATED = 4.0;
+/* Flights miss their lines by no more than so many standard deviations of a reading, or this share
+ * of the largest jump, which is some per cent of e. */
+static const double MISFIT = 4.0, MISFIT_SHARE = 0.01;
 /* A jump counts from so many standard deviations on, and from this share of the largest. */
 static const double SIGNIFICANT = 6.0, LEAST_SHARE = 2e-3;
 
@@ -18,17 +25,36 @@ void history_free(struct history *history)
     free(history->time);
     free(history->velocity_a);
     free(history->velocity_b);
+    free(history->displacement_a);
     *history = (struct history){0};
 }
 
 /* A search under way. */
 struct search {
     const struct history *history;
-    const double *v;
+    double acceleration;  /* of A in flight, m/s^2 */
+    double *v;            /* [count]: A's velocity less what that makes of it */
     size_t count, window; /* readings on each side that are compared */
     double *sum;          /* [count + 1]: running sums of v */
     double noise;
 };
+
+/* Readings that belong to a contact: [first, end). */
+struct range {
+    size_t first, end;
+};
+
+static double time_of(const struct search *search, size_t i)
+{
+    return search->history->time[i] - search->history->time[0];
+}
+
+/* The k-th of the flights before, between and behind `count` contacts. */
+static struct range flight_of(const struct search *search, const struct range *ranges, size_t count,
+                              size_t k)
+{
+    return (struct range){k ? ranges[k - 1].end : 0, k < count ? ranges[k].first : search->count};
+}
 
 static double mean_between(const struct search *search, size_t first, size_t end)
 {
@@ -78,11 +104,6 @@ static void choose_window(struct search *search)
         window += 1 + window / 4;
     search->window = window > 2 ? window / 2 : 1;
 }
-
-/* Readings that belong to a contact: [first, end). */
-struct range {
-    size_t first, end;
-};
 
 /* Lists ranges in which the velocity changes; near ones are one. Returns how many. */
 static size_t find_ranges(const struct search *search, struct range *ranges, size_t room)
@@ -143,6 +164,11 @@ static double crossing(const struct search *search, struct range range, double l
         if ((mean_between(search, i - m, i + m + 1) - low) / (high - low) >= 0.5)
             break;
     previous = (mean_between(search, i - m, i + m + 1) - low) / (high - low);
+    /* one reading later all of it is made: within that */
+    if (way > 0 && previous > level && i > m) {
+        double share = (mean_between(search, i - 1 - m, i + m) - low) / (high - low);
+        return t[i - 1] + (level - share) / (previous - share) * (t[i] - t[i - 1]);
+    }
     /* outwards from there, between two readings in proportion */
     while (i > m + 1 && i + m + 2 < search->count) {
         size_t next = way < 0 ? i - 1 : i + 1;
@@ -173,31 +199,273 @@ static double edge(const struct search *search, struct range range, double low, 
     return (far - ratio * near) / (1.0 - ratio);
 }
 
+/* A flight's line, y = at + rate (t - middle), and how readings depart from it. */
+struct line {
+    double middle, at, rate;
+};
+
+/* Least squares of values over time. */
+static struct line line_of(const struct search *search, const double *y, struct range flight)
+{
+    double n = (double)(flight.end - flight.first);
+    struct line line = {0};
+    double squares = 0.0, products = 0.0;
+    for (size_t i = flight.first; i < flight.end; i++) {
+        line.middle += time_of(search, i) / n;
+        line.at += y[i] / n;
+    }
+    for (size_t i = flight.first; i < flight.end; i++) {
+        double t = time_of(search, i) - line.middle;
+        squares += t * t;
+        products += t * (y[i] - line.at);
+    }
+    line.rate = squares > 0.0 ? products / squares : 0.0;
+    return line;
+}
+
+static double line_at(const struct line *line, double t)
+{
+    return line->at + line->rate * (t - line->middle);
+}
+
+/* Sums of least squares for one acceleration a of all flights: of readings y = (line of the
+ * flight's own) + a p(t), with p and y less their parts in such lines. */
+struct normal {
+    double pp, py, yy;
+    double freedom;
+};
+
+static void add_flight(const struct search *search, const double *y, const double *p, bool sloped,
+                       struct range flight, struct normal *normal)
+{
+    struct line of_y = line_of(search, y, flight);
+    struct line of_p = line_of(search, p, flight);
+    if (!sloped)
+        of_y.rate = of_p.rate = 0.0;
+    for (size_t i = flight.first; i < flight.end; i++) {
+        double left_y = y[i] - line_at(&of_y, time_of(search, i));
+        double left_p = p[i] - line_at(&of_p, time_of(search, i));
+        normal->pp += left_p * left_p;
+        normal->py += left_p * left_y;
+        normal->yy += left_y * left_y;
+    }
+    normal->freedom += (double)(flight.end - flight.first) - (sloped ? 2.0 : 1.0);
+}
+
+/* The acceleration that all flights have in common and its standard deviation: of displacements
+ * by parabolas, of velocities by lines. False: out of memory. */
+static bool fit_acceleration(const struct search *search, const struct range *ranges, size_t count,
+                             double *acceleration, double *deviation)
+{
+    const struct history *history = search->history;
+    bool parabola = history->displacement_a;
+    const double *y = parabola ? history->displacement_a : history->velocity_a;
+    struct normal normal = {0};
+    double *p = calloc(search->count, sizeof *p);
+    if (!p)
+        return false;
+    for (size_t i = 0; i < search->count; i++) {
+        double t = time_of(search, i);
+        p[i] = parabola ? 0.5 * t * t : t;
+    }
+    for (size_t k = 0; k <= count; k++)
+        add_flight(search, y, p, parabola, flight_of(search, ranges, count, k), &normal);
+    free(p);
+    *acceleration = normal.pp > 0.0 ? normal.py / normal.pp : 0.0;
+    double left = fmax(0.0, normal.yy - *acceleration * normal.py);
+    *deviation = sqrt(left / fmax(1.0, normal.freedom - 1.0) / normal.pp);
+    return true;
+}
+
+/* What A's velocity would be without an acceleration. */
+static void level(struct search *search, double acceleration)
+{
+    search->acceleration = acceleration;
+    for (size_t i = 0; i < search->count; i++)
+        search->v[i] = search->history->velocity_a[i] -
+                       (acceleration != 0.0 ? acceleration * time_of(search, i) : 0.0);
+    search->sum[0] = 0.0;
+    for (size_t i = 0; i < search->count; i++)
+        search->sum[i + 1] = search->sum[i] + search->v[i];
+}
+
+/* Contacts of the levelled velocity; their number, 0 with the reason. */
+static size_t find_contacts(struct search *search, struct range *ranges,
+                            struct measured_fault *fault)
+{
+    if (!find_noise(search)) {
+        measured_fail(fault, "out of memory");
+        return 0;
+    }
+    choose_window(search);
+    /* where the velocity changes, if what comes before is a flight */
+    size_t count = find_ranges(search, ranges, HISTORY_SUB_IMPACTS);
+    if (count > 0 && ranges[0].first < search->window + LEAST_FLIGHT) {
+        measured_fail(fault, "time: begins %zu readings before the impact: more are needed",
+                      ranges[0].first);
+        return 0;
+    }
+    /* of these, jumps */
+    count = keep_significant(search, ranges, count);
+    if (count == 0)
+        measured_fail(fault, "velocity_a: no jump stands out of the noise (%.2g m/s a reading)",
+                      search->noise);
+    return count;
+}
+
+/* Median of the slopes over a few readings: contacts are in few of them. */
+static bool guess_acceleration(const struct search *search, double *acceleration)
+{
+    const struct history *history = search->history;
+    size_t lag = search->count / 32 > 4 ? search->count / 32 : 4;
+    double *slope = calloc(search->count, sizeof *slope);
+    if (!slope)
+        return false;
+    for (size_t i = 0; i + lag < search->count; i++)
+        slope[i] = (history->velocity_a[i + lag] - history->velocity_a[i]) /
+                   (history->time[i + lag] - history->time[i]);
+    *acceleration = sample_median(slope, search->count - lag);
+    free(slope);
+    return true;
+}
+
+/* Acceleration of falling bodies, 0 where none stands out of noise and jumps. False: out of memory.
+ */
+static bool find_acceleration(struct search *search, double *acceleration)
+{
+    struct range ranges[HISTORY_SUB_IMPACTS];
+    struct measured_fault fault;
+    double deviation = INFINITY, longest = 0.0, jump = 0.0;
+    if (!guess_acceleration(search, acceleration))
+        return false;
+    for (int round = 0; round < ROUNDS; round++) {
+        level(search, *acceleration);
+        size_t count = find_contacts(search, ranges, &fault);
+        if (count == 0) {
+            *acceleration = 0.0;
+            return true;
+        }
+        if (!fit_acceleration(search, ranges, count, acceleration, &deviation))
+            return false;
+        for (size_t k = 0; k <= count; k++) {
+            struct range flight = flight_of(search, ranges, count, k);
+            longest =
+                fmax(longest, time_of(search, flight.end - 1) - time_of(search, flight.first));
+        }
+        jump = largest_step(search, search->window);
+    }
+    /* what changes the velocity by less than a jump's least share is not told from its ends */
+    double change = fabs(*acceleration) * 0.5 * longest;
+    if (fabs(*acceleration) <= ACCELERATED * deviation || change <= LEAST_SHARE * jump)
+        *acceleration = 0.0;
+    return true;
+}
+
+/* A flight's velocity, levelled: the mean of its readings, or the slope of its displacements. */
+static struct line flight_line(const struct search *search, double *levelled, struct range flight)
+{
+    const double *x = search->history->displacement_a;
+    if (!x)
+        return (struct line){.rate = mean_between(search, flight.first, flight.end)};
+    for (size_t i = flight.first; i < flight.end; i++) {
+        double t = time_of(search, i);
+        levelled[i] = x[i] - 0.5 * search->acceleration * t * t;
+    }
+    return line_of(search, levelled, flight);
+}
+
+/* Root mean square of what the velocities depart from their flights' lines. */
+static double find_misfit(const struct search *search, const struct range *ranges, size_t count)
+{
+    double squares = 0.0, readings = 0.0;
+    for (size_t k = 0; k <= count; k++) {
+        struct range flight = flight_of(search, ranges, count, k);
+        double mean = mean_between(search, flight.first, flight.end);
+        for (size_t i = flight.first; i < flight.end; i++)
+            squares += (search->v[i] - mean) * (search->v[i] - mean);
+        readings += (double)(flight.end - flight.first);
+    }
+    return sqrt(squares / readings);
+}
+
+/* Mean velocity of B in a flight; 0 where it was not measured. */
+static double velocity_of_b(const struct search *search, struct range flight)
+{
+    const double *b = search->history->velocity_b;
+    return b ? sample_mean(b + flight.first, flight.end - flight.first) : 0.0;
+}
+
+/* A contact shorter than so many readings is an instant: its edges are not resolved. */
+static const double RESOLVED = 4.0;
+
+/* When a contact begins, from the first reading on: where the displacements before and after it
+ * meet, or its start, or its middle where its length is that of a few readings. */
+static double touch_of(const struct search *search, struct range range, const struct line lines[2],
+                       const struct history_sub_impact *contact)
+{
+    const struct line *a = &lines[0], *b = &lines[1];
+    const double *time = search->history->time;
+    double met = (line_at(a, 0.0) - line_at(b, 0.0)) / (b->rate - a->rate);
+    bool within = met >= time_of(search, range.first - 1) && met <= time_of(search, range.end);
+    if (search->history->displacement_a && within)
+        return met;
+    double reading = (time[range.end] - time[range.first]) / (double)(range.end - range.first);
+    bool resolved = contact->end - contact->start > RESOLVED * reading;
+    return (resolved ? contact->start : 0.5 * (contact->start + contact->end)) - time[0];
+}
+
+/* The contacts one after another; `lines` has room for the flights. */
+static void take_contacts(const struct search *search, const struct range *ranges, size_t count,
+                          const struct line *lines, struct history_impacts *impacts)
+{
+    double total = 0.0, left_with = 0.0;
+    for (size_t k = 0; k < count; k++)
+        total += lines[k + 1].rate - lines[k].rate;
+    /* whichever way the instrument counts: the contact pushes A back */
+    double sign = impacts->direction = total < 0.0 ? -1.0 : 1.0;
+    double first = search->history->time[0];
+    for (size_t k = 0; k < count; k++) {
+        struct history_sub_impact *contact = &impacts->list[k];
+        double low = lines[k].rate, high = lines[k + 1].rate;
+        double b = velocity_of_b(search, flight_of(search, ranges, count, k));
+        contact->start = edge(search, ranges[k], low, high, -1);
+        contact->end = edge(search, ranges[k], low, high, 1);
+        contact->jump = sign * (high - low);
+        double touch = touch_of(search, ranges[k], &lines[k], contact);
+        contact->approach = sign * (low + search->acceleration * touch - b);
+        /* gravity has turned A that had left */
+        contact->begins =
+            k == 0 || (search->acceleration != 0.0 && left_with > 0.0 && contact->approach < 0.0);
+        b = velocity_of_b(search, flight_of(search, ranges, count, k + 1));
+        left_with = sign * (high + search->acceleration * (contact->end - first) - b);
+    }
+}
+
 static bool measure(const struct search *search, const struct range *ranges, size_t count,
                     struct history_impacts *impacts, struct measured_fault *fault)
 {
-    double total = 0.0, before = mean_between(search, 0, ranges[0].first), low = before;
+    /* lines of one slope */
+    double misfit = find_misfit(search, ranges, count);
+    double allowed =
+        fmax(MISFIT * search->noise, MISFIT_SHARE * largest_step(search, search->window));
+    if (misfit > allowed)
+        return measured_fail(fault,
+                             "velocity_a: between contacts it misses even motion and even "
+                             "acceleration (%.4g m/s^2) by %.2g m/s: must be at most %.2g m/s",
+                             search->acceleration, misfit, allowed);
+    /* and what is between them */
+    struct line lines[HISTORY_SUB_IMPACTS + 1];
+    double *levelled = calloc(search->count, sizeof *levelled);
+    if (!levelled)
+        return measured_fail(fault, "out of memory");
+    for (size_t k = 0; k <= count; k++)
+        lines[k] = flight_line(search, levelled, flight_of(search, ranges, count, k));
+    free(levelled);
     impacts->count = count;
     impacts->noise = search->noise;
-    for (size_t k = 0; k < count; k++) {
-        size_t after = k + 1 < count ? ranges[k + 1].first : search->count;
-        double high = mean_between(search, ranges[k].end, after);
-        impacts->list[k] = (struct history_sub_impact){
-            .start = edge(search, ranges[k], low, high, -1),
-            .end = edge(search, ranges[k], low, high, 1),
-            .jump = high - low,
-        };
-        total += high - low;
-        low = high;
-    }
-    /* whichever way the instrument counts: the contact pushes A back */
-    double sign = total < 0.0 ? -1.0 : 1.0;
-    for (size_t k = 0; k < count; k++)
-        impacts->list[k].jump *= sign;
-    /* the approach, relative to B */
-    if (search->history->velocity_b)
-        before -= sample_mean(search->history->velocity_b, ranges[0].first);
-    impacts->before = sign * before;
+    impacts->acceleration = search->acceleration;
+    take_contacts(search, ranges, count, lines, impacts);
+    impacts->before = impacts->list[0].approach;
     if (!(impacts->before < 0.0))
         return measured_fail(fault, "velocity_a: %g m/s before the impact: it does not approach",
                              impacts->before);
@@ -208,36 +476,26 @@ static bool find(struct search *search, struct history_impacts *impacts,
                  struct measured_fault *fault)
 {
     struct range ranges[HISTORY_SUB_IMPACTS];
-    for (size_t i = 0; i < search->count; i++)
-        search->sum[i + 1] = search->sum[i] + search->v[i];
-    if (!find_noise(search))
+    double acceleration;
+    if (!find_acceleration(search, &acceleration))
         return measured_fail(fault, "out of memory");
-    choose_window(search);
-    /* where the velocity changes, if what comes before is a flight */
-    size_t count = find_ranges(search, ranges, HISTORY_SUB_IMPACTS);
-    if (count > 0 && ranges[0].first < search->window + LEAST_FLIGHT)
-        return measured_fail(fault, "time: begins %zu readings before the impact: more are needed",
-                             ranges[0].first);
-    /* of these, jumps */
-    count = keep_significant(search, ranges, count);
-    if (count == 0)
-        return measured_fail(fault,
-                             "velocity_a: no jump stands out of the noise (%.2g m/s a reading)",
-                             search->noise);
-    return measure(search, ranges, count, impacts, fault);
+    level(search, acceleration);
+    size_t count = find_contacts(search, ranges, fault);
+    return count > 0 && measure(search, ranges, count, impacts, fault);
 }
 
 bool history_find(const struct history *history, struct history_impacts *impacts,
                   struct measured_fault *fault)
 {
-    struct search search = {history, history->velocity_a, history->count, 1, NULL, 0.0};
+    struct search search = {.history = history, .count = history->count, .window = 1};
     if (history->count < HISTORY_LEAST_READINGS)
         return measured_fail(fault, "%zu readings: must be at least %d", history->count,
                              HISTORY_LEAST_READINGS);
+    search.v = calloc(history->count, sizeof *search.v);
     search.sum = calloc(history->count + 1, sizeof *search.sum);
-    if (!search.sum)
-        return measured_fail(fault, "out of memory");
-    bool good = find(&search, impacts, fault);
+    bool good = search.v && search.sum ? find(&search, impacts, fault)
+                                       : measured_fail(fault, "out of memory");
+    free(search.v);
     free(search.sum);
     return good;
 }

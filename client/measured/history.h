@@ -16,6 +16,7 @@ struct history {
     double *time;           /* ascending, s */
     double *velocity_a;     /* of the rigid body A, m/s */
     double *velocity_b;     /* of body B; NULL: not measured (at rest before) */
+    double *displacement_a; /* m, of which velocity_a is the differences; NULL: not measured */
     bool from_displacement; /* velocities are differences of measured displacements */
 };
 
@@ -32,19 +33,25 @@ enum { HISTORY_SUB_IMPACTS = 64 };
 struct history_sub_impact {
     double start, end; /* s */
     double jump;       /* of A's velocity, m/s */
+    double approach;   /* velocity of A until it, of B taken off, m/s: < 0 */
+    bool begins;       /* an impact: the first, and those that gravity brings A back to */
 };
 
 struct history_impacts {
     size_t count;
     struct history_sub_impact list[HISTORY_SUB_IMPACTS];
-    double before; /* velocity of A until the first, of B relative to it taken off, m/s: < 0 */
-    double noise;  /* standard deviation of one velocity reading, m/s */
+    double before;       /* the first one's approach, m/s */
+    double acceleration; /* of A between contacts, m/s^2, as the instrument counts; 0: even */
+    double direction;    /* +1, or -1 where the instrument counts the approach positive */
+    double noise;        /* standard deviation of one velocity reading, m/s */
 };
 
-/* Finds sub-impacts as jumps of A's velocity (a rigid body moves evenly between contacts) that
- * stand out of the noise. Starts and ends are extrapolated with the 5/2 power of time by which a
- * Hertz contact begins to change a velocity. Directions may be either way round. False with the
- * reason: too few readings, no jump, no readings before the first. */
+/* Finds sub-impacts as jumps of A's velocity that stand out of the noise: a rigid body moves evenly
+ * between contacts or, where that stands out of the noise too, with one acceleration, fitted to all
+ * flights; of displacements the flights are parabolas. Starts and ends are extrapolated with the
+ * 5/2 power of time by which a Hertz contact begins to change a velocity. Directions may be either
+ * way round. False with the reason: too few readings, no jump, no readings before the first,
+ * flights that are no such motion. */
 bool history_find(const struct history *history, struct history_impacts *impacts,
                   struct measured_fault *fault);
 

@@ -5,15 +5,6 @@
 
 #include "history.h"
 
-/* +1 or -1: what makes the velocity of approach negative. */
-static double direction(const struct history *history, double start)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < history->count && history->time[i] < start; i++)
-        sum += history->velocity_a[i] - (history->velocity_b ? history->velocity_b[i] : 0.0);
-    return sum > 0.0 ? -1.0 : 1.0;
-}
-
 /* By trapezoids, 0 at time 0 (between two readings: by the line through them). */
 static void integrate(const struct history_motion *motion, const double *velocity,
                       double *displacement)
@@ -35,7 +26,7 @@ bool history_align(const struct history *history, const struct history_impacts *
 {
     const double *measured[2] = {history->velocity_a, history->velocity_b};
     double start = impacts->list[0].start;
-    double sign = direction(history, start);
+    double sign = impacts->direction;
     size_t count = history->count;
     *motion = (struct history_motion){.count = count, .time = calloc(count, sizeof(double))};
     bool good = motion->time;

@@ -132,6 +132,13 @@ static bool derive(const struct choice *choice, struct history *history)
         if (column != HISTORY_DISPLACEMENT_A && column != HISTORY_DISPLACEMENT_B)
             continue;
         history->from_displacement = true;
+        /* A's flights are fitted to the readings themselves */
+        if (i == 1) {
+            history->displacement_a = calloc(history->count, sizeof(double));
+            good = history->displacement_a;
+            if (good)
+                memcpy(history->displacement_a, choice->values[i], history->count * sizeof(double));
+        }
         good = good && differentiate(history->time, choice->values[i], history->count);
     }
     return good;

@@ -34,18 +34,22 @@ struct measured_impact measured_impact_unknown(void)
     return (struct measured_impact){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
-struct measured_impact measured_impact_from(const struct history_impacts *history)
+struct measured_impact measured_impact_from(const struct history_impacts *history, size_t *next)
 {
     struct measured_impact impact = measured_impact_unknown();
-    const struct history_sub_impact *list = history->list;
-    impact.speed = -history->before;
-    impact.sub_impacts = (double)history->count;
+    const struct history_sub_impact *list = &history->list[*next];
+    size_t count = 1;
+    while (*next + count < history->count && !list[count].begins)
+        count++;
+    *next += count;
+    impact.speed = -list[0].approach;
+    impact.sub_impacts = (double)count;
     impact.momentum = 0.0;
-    for (size_t k = 0; k < history->count; k++)
+    for (size_t k = 0; k < count; k++)
         impact.momentum += list[k].jump;
     impact.first_momentum = list[0].jump;
     impact.first_duration = list[0].end - list[0].start;
-    for (size_t k = 1; k < history->count && isnan(impact.second_start); k++)
+    for (size_t k = 1; k < count && isnan(impact.second_start); k++)
         if (list[k].jump >= 0.01 * impact.momentum)
             impact.second_start = list[k].start - list[0].start;
     return impact;
@@ -80,13 +84,12 @@ static bool path_beside(const char *table, const char *name, char *path, size_t 
     return (size_t)snprintf(path, size, "%.*s%s", folder, table, name) < size;
 }
 
-/* What a history says stands where the row says nothing. */
-static bool add_history(const char *file, const char *name, const struct column_map *map,
-                        struct measured_impact *impact, struct measured_remarks *remarks)
+/* The sub-impacts of the history that a row names. */
+static bool find_history(const char *file, const char *name, const struct column_map *map,
+                         struct history_impacts *found, struct measured_remarks *remarks)
 {
     char path[1024];
     struct history history;
-    struct history_impacts found;
     struct measured_fault reason;
     /* beside the file that names it */
     if (!path_beside(file, name, path, sizeof path))
@@ -96,16 +99,34 @@ static bool add_history(const char *file, const char *name, const struct column_
         return remarks_wrong(remarks, "%s", reason.text);
     if (!history_read(path, map, &history, remarks))
         return false;
-    bool good = history_find(&history, &found, &reason);
+    bool good = history_find(&history, found, &reason);
     history_free(&history);
-    if (!good)
-        return remarks_wrong(remarks, "%s: %.400s", path, reason.text);
-    struct measured_impact told = measured_impact_from(&found);
+    return good || remarks_wrong(remarks, "%s: %.400s", path, reason.text);
+}
+
+/* What a history says of an impact stands where the row says nothing. */
+static void fill_unknown(const struct measured_impact *told, struct measured_impact *impact)
+{
     double *to = (double *)impact;
-    const double *from = (const double *)&told;
-    for (size_t i = 0; i < sizeof told / sizeof(double); i++)
+    const double *from = (const double *)told;
+    for (size_t i = 0; i < sizeof *told / sizeof(double); i++)
         if (isnan(to[i]))
             to[i] = from[i];
+}
+
+/* What a row says of one impact, of all of several bounces only the place. */
+static bool check_several(const char *file, size_t line, const struct measured_impact *impact,
+                          struct measured_remarks *remarks)
+{
+    struct measured_impact place = measured_impact_unknown();
+    const double *told = (const double *)impact, *none = (const double *)&place;
+    place.at = impact->at;
+    for (size_t i = 0; i < sizeof *impact / sizeof(double); i++)
+        if (isnan(told[i]) != isnan(none[i]))
+            return remarks_wrong(remarks,
+                                 "%s:%zu: history: holds several impacts: the row may say no more "
+                                 "of them than 'at'",
+                                 text_name(file), line);
     return true;
 }
 
@@ -127,21 +148,26 @@ static bool take_v_out(struct table *table, size_t row, struct measured_impact *
     return true;
 }
 
-/* Reads all of the row, so that all that is wrong with it is said. */
+/* Reads all of the row, so that all that is wrong with it is said: an impact, and the sub-impacts
+ * of its history. */
 static bool read_row(struct table *table, size_t row, struct measured_impact *impact,
-                     struct measured_remarks *remarks)
+                     struct history_impacts *found, struct measured_remarks *remarks)
 {
     const struct table_source *source = table->layout.source;
     const char *history = table_cell(table, row, IMPACT_HISTORY);
     bool good = true;
     *impact = measured_impact_unknown();
+    found->count = 0;
     for (size_t k = 0; k < IMPACT_HISTORY; k++)
         good =
             table_number(table, row, k, (double *)((char *)impact + OFFSETS[k]), remarks) && good;
     good = good && take_v_out(table, row, impact, remarks);
     /* what its history adds */
     if (*history && !cell_is_missing(history))
-        good = add_history(source->file, history, source->map, impact, remarks) && good;
+        good = find_history(source->file, history, source->map, found, remarks) && good;
+    for (size_t k = 1; good && k < found->count; k++)
+        if (found->list[k].begins)
+            return check_several(source->file, table->numbers[row], impact, remarks);
     return good;
 }
 
@@ -202,17 +228,26 @@ static bool take_rows(struct table *table, struct measured_set *set,
     set->left = calloc(table->rows + 1, sizeof *set->left);
     if (!set->left)
         return remarks_wrong(remarks, "%s: out of memory", file);
-    /* an impact a row */
+    /* an impact a row, or several of its history */
     for (size_t row = 0; row < table->rows; row++) {
-        struct measured_impact impact;
-        if (!read_row(table, row, &impact, remarks))
+        struct measured_impact stated;
+        struct history_impacts found;
+        size_t next = 0;
+        if (!read_row(table, row, &stated, &found, remarks))
             continue;
-        int lack = find_lack(&impact);
-        if (lack < LACKS)
-            set->left[set->left_count++] =
-                (struct measured_left){table->numbers[row], REASONS[lack]};
-        else if (!measured_append(set, &impact))
-            return remarks_wrong(remarks, "%s: out of memory", file);
+        do {
+            struct measured_impact impact = stated;
+            if (found.count > 0) {
+                struct measured_impact told = measured_impact_from(&found, &next);
+                fill_unknown(&told, &impact);
+            }
+            int lack = find_lack(&impact);
+            if (lack < LACKS)
+                set->left[set->left_count++] =
+                    (struct measured_left){table->numbers[row], REASONS[lack]};
+            else if (!measured_append(set, &impact))
+                return remarks_wrong(remarks, "%s: out of memory", file);
+        } while (next < found.count);
     }
     note_left(table, set, remarks);
     table_note_unusual(table, remarks);

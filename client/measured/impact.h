@@ -51,8 +51,9 @@ bool measured_read(const char *file, const struct column_map *map, struct measur
 /* Appends an impact. False: out of memory. */
 bool measured_append(struct measured_set *set, const struct measured_impact *impact);
 
-/* An impact as far as its history tells it. */
-struct measured_impact measured_impact_from(const struct history_impacts *history);
+/* The impact that begins with sub-impact *next of a history, as far as that tells it; *next becomes
+ * that of the one after it. */
+struct measured_impact measured_impact_from(const struct history_impacts *history, size_t *next);
 
 /* Fills what follows once the mass of A and the inverse effective mass w (1/kg) are known:
  * impulses from momenta, e = impulse w / speed - 1 (Eq. (6)) and the other way round, and the first

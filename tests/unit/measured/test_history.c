@@ -69,6 +69,7 @@ static void finds_sub_impacts(void **state)
                 fail_msg("%s", fault.text);
             assert_int_equal(found.count, 3);
             /* a mean over hundreds of readings */
+            assert_true(found.acceleration == 0.0);
             measured("before", found.before, -0.3, 1e-6 + 0.2 * noises[n]);
             measured("noise", found.noise, noises[n], 1e-6 + 0.1 * noises[n]);
             for (int k = 0; k < 3; k++) {
@@ -79,7 +80,9 @@ static void finds_sub_impacts(void **state)
                 measured("end", found.list[k].end, pulses[k].start + pulses[k].length,
                          slack + 1.0 / rates[r]);
             }
-            struct measured_impact impact = measured_impact_from(&found);
+            size_t next = 0;
+            struct measured_impact impact = measured_impact_from(&found, &next);
+            assert_int_equal(next, 3);
             measured("second", impact.second_start, 3.99e-3, 20e-6);
             measured("momentum", impact.momentum, 0.44, 1e-5 + noises[n]);
             measured_complete(&impact, 0.11, 10.0);
@@ -158,6 +161,133 @@ static void takes_what_instruments_give(void **state)
     measured("jump", other.list[2].jump, found.list[2].jump, 1e-12);
 }
 
+enum { BOUNCES = 6 };
+
+/* A body that falls from rest at time 0 and bounces off the ground after `until`, again and again:
+ * its place and velocity at t. */
+static void fall(double until, double restitution, double t, double *place, double *velocity)
+{
+    static const double g = 9.81;
+    double start = 0.0, up = 0.0, height = 0.5 * g * until * until;
+    double flight = until;
+    while (t - start > flight) {
+        double speed = start == 0.0 ? g * until : up;
+        start += flight;
+        up = restitution * speed;
+        height = 0.0;
+        flight = 2.0 * up / g;
+    }
+    t -= start;
+    *place = height + up * t - 0.5 * g * t * t;
+    *velocity = up - g * t;
+}
+
+/* Readings from `first` to `last`; velocities, or displacements and their differences as
+ * history_read makes them. */
+static struct history make_falling(double until, double restitution, const double span[2],
+                                   double rate, double noise, bool displacement)
+{
+    static double time[MOST], velocity[MOST], place[MOST];
+    struct random random = {11};
+    struct history history = {.time = time, .velocity_a = velocity};
+    for (double t = span[0]; t < span[1] && history.count < MOST; t += 1.0 / rate) {
+        size_t i = history.count++;
+        time[i] = 3.0 + t;
+        fall(until, restitution, t, &place[i], &velocity[i]);
+        place[i] += noise * random_normal(&random);
+        velocity[i] += noise * random_normal(&random);
+    }
+    if (!displacement)
+        return history;
+    for (size_t i = 0; i < history.count; i++) {
+        size_t a = i > 0 ? i - 1 : 0, b = i + 1 < history.count ? i + 1 : i;
+        velocity[i] = (place[b] - place[a]) / (time[b] - time[a]);
+    }
+    history.displacement_a = place;
+    history.from_displacement = true;
+    return history;
+}
+
+/* A sphere on a wall: e = jump/speed - 1. */
+static void check_bounce(const struct history_sub_impact *bounce, double speed, double restitution,
+                         double slack)
+{
+    assert_true(bounce->begins);
+    measured_relative("speed", -bounce->approach, speed, slack);
+    measured("restitution", -bounce->jump / bounce->approach - 1.0, restitution, 2.0 * slack);
+}
+
+/* The speeds are those at the touch, whatever gravity makes of them before and after. */
+static void falls_between_contacts(void **state)
+{
+    (void)state;
+    struct history_impacts found;
+    struct measured_fault fault;
+    /* slowly, over a few milliseconds, with readings of 0.5 mm/s: two instants 0.1 ms apart */
+    const double drop = 0.2 / 9.81, near_it[2] = {drop - 5.05e-3, drop + 19.8e-3};
+    struct history slow = make_falling(drop, 0.8, near_it, 10e3, 5e-4, false);
+    assert_true(history_find(&slow, &found, &fault));
+    assert_int_equal(found.count, 1);
+    measured_relative("gravity", found.acceleration, -9.81, 0.01);
+    check_bounce(&found.list[0], 0.2, 0.8, 5e-3);
+    /* upside down it is the same */
+    for (size_t i = 0; i < slow.count; i++)
+        slow.velocity_a[i] = -slow.velocity_a[i];
+    assert_true(history_find(&slow, &found, &fault));
+    measured_relative("gravity", found.acceleration, 9.81, 0.01);
+    check_bounce(&found.list[0], 0.2, 0.8, 5e-3);
+    /* displacements of 10 um, a hundred of them: parabolas that meet */
+    const double long_drop = 2.0 / 9.81, span[2] = {long_drop - 0.0505, long_drop + 0.0495};
+    struct history places = make_falling(long_drop, 0.8, span, 1e3, 1e-5, true);
+    assert_true(history_find(&places, &found, &fault));
+    assert_int_equal(found.count, 1);
+    measured_relative("gravity", found.acceleration, -9.81, 0.01);
+    check_bounce(&found.list[0], 2.0, 0.8, 1e-3);
+}
+
+static void bounces_are_impacts(void **state)
+{
+    (void)state;
+    struct history_impacts found;
+    struct measured_fault fault;
+    const double drop = 2.0 / 9.81;
+    double end = drop;
+    for (int k = 1; k < BOUNCES; k++)
+        end += 2.0 * 2.0 * pow(0.8, k) / 9.81;
+    const double span[2] = {drop - 0.05, end + 0.05};
+    for (int displacement = 0; displacement < 2; displacement++) {
+        struct history history = make_falling(drop, 0.8, span, displacement ? 2e3 : 5e3,
+                                              displacement ? 1e-5 : 1e-3, displacement);
+        assert_true(history_find(&history, &found, &fault));
+        assert_int_equal(found.count, BOUNCES);
+        for (size_t k = 0, next = 0; k < BOUNCES; k++) {
+            check_bounce(&found.list[k], 2.0 * pow(0.8, (double)k), 0.8, 2e-3);
+            struct measured_impact impact = measured_impact_from(&found, &next);
+            assert_int_equal(next, k + 1);
+            assert_true(impact.sub_impacts == 1.0 && isnan(impact.second_start));
+            assert_true(impact.speed == -found.list[k].approach);
+        }
+    }
+}
+
+/* A body that is held until shortly before its fall moves by no one acceleration. */
+static void refuses_other_motion(void **state)
+{
+    (void)state;
+    struct history_impacts found;
+    struct measured_fault fault;
+    const double drop = 2.0 / 9.81, span[2] = {0.0, drop + 0.1};
+    struct history history = make_falling(drop, 0.8, span, 5e3, 1e-3, false);
+    assert_true(history_find(&history, &found, &fault));
+    for (size_t i = 0; i < 300; i++)
+        history.velocity_a[i] = history.velocity_a[300];
+    assert_false(history_find(&history, &found, &fault));
+    if (!strstr(fault.text, "velocity_a: between contacts it misses even motion and even "
+                            "acceleration (-7.9") ||
+        !strstr(fault.text, "must be at most 0.0"))
+        fail_msg("%s", fault.text);
+}
+
 /* Displacement readings in millimetres and milliseconds, under names of their own; a reading is
  * missing. */
 static void reads_files(void **state)
@@ -188,6 +318,7 @@ static void reads_files(void **state)
     assert_true(read.from_displacement);
     near(read.time[100], history.time[101], 1e-12);
     near(read.velocity_a[100], -0.3, 1e-4);
+    near(read.displacement_a[99] - read.displacement_a[100], 0.3 * 2e-6, 1e-9);
     assert_true(files_say(remarks.note, remarks.notes,
                           "rows left out: readings that are not there in line 9"));
     assert_true(files_say(remarks.note, remarks.notes, "columns that are not read: 'comment'"));
@@ -238,6 +369,9 @@ int main(void)
         cmocka_unit_test(finds_sub_impacts),
         cmocka_unit_test(invents_nothing),
         cmocka_unit_test(takes_what_instruments_give),
+        cmocka_unit_test(falls_between_contacts),
+        cmocka_unit_test(bounces_are_impacts),
+        cmocka_unit_test(refuses_other_motion),
         cmocka_unit_test(reads_files),
         cmocka_unit_test(refuses_bad_files),
     };

@@ -288,6 +288,40 @@ static void reads_histories(void **state)
                 "short.csv: 2 readings: must be at least 32");
 }
 
+/* A history of bounces is as many impacts, of which the row says no more than the place. */
+static void bounces_are_rows(void **state)
+{
+    (void)state;
+    struct measured_set set;
+    char path[160];
+    snprintf(path, sizeof path, "%s/bounces.csv", files_folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("time,velocity_a\n", file);
+    /* down with 0.5 m/s at 0.05 s, up with 0.4, down with 0.4 at 0.05 + 0.8/9.81 s, up with 0.32 */
+    for (int i = 0; i < 1600; i++) {
+        double t = 1e-4 * i + 3e-5, second = 0.05 + 0.8 / 9.81;
+        double v = t < 0.05     ? -0.5 - 9.81 * (t - 0.05)
+                   : t < second ? 0.4 - 9.81 * (t - 0.05)
+                                : 0.32 - 9.81 * (t - second);
+        fprintf(file, "%.6f,%.6f\n", t, v);
+    }
+    fclose(file);
+    if (!read_with(files_text("good.csv", "at,history\n0.25,bounces.csv\n"), "", &set))
+        fail_msg("%s", remarks.error[0].text);
+    assert_int_equal(set.count, 2);
+    for (int k = 0; k < 2; k++) {
+        /* the instant is that of a reading, 0.1 ms of 9.81 m/s^2 */
+        measured("speed", set.impacts[k].speed, k ? 0.4 : 0.5, 5e-4);
+        measured("momentum", set.impacts[k].momentum, k ? 0.72 : 0.9, 1e-5);
+        assert_true(set.impacts[k].at == 0.25 && set.impacts[k].sub_impacts == 1.0);
+    }
+    measured_set_free(&set);
+    refuse_with("speed,history\n0.5,bounces.csv\n", "", 1,
+                "bad.csv:2: history: holds several impacts: the row may say no more of them than "
+                "'at'");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -297,6 +331,7 @@ int main(void)
         cmocka_unit_test(refuses_bad_values),
         cmocka_unit_test(says_all_that_is_wrong_at_once),
         cmocka_unit_test(reads_histories),
+        cmocka_unit_test(bounces_are_rows),
     };
     return cmocka_run_group_tests(tests, files_begin, files_end);
 }
