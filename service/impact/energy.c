@@ -39,6 +39,47 @@ static double *effective_mass(const struct scene *scene, struct arena *arena)
     return mass;
 }
 
+/* Of motions that W does not yield to: such a share of all of them is rounding. */
+static const double NOT_DRIVEN = 1e-6;
+
+/* What of the rates, or accelerations, no force changes: x - W W^+ x. */
+static void find_driven(const struct scene *scene, const double *mass, const double *x,
+                        double *driven)
+{
+    size_t n = scene->contacts;
+    double momentum[PERCUSS_MAX_CONTACTS] = {0.0};
+    double largest = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j < n; j++)
+            momentum[i] += mass[i * n + j] * x[j];
+        largest = fmax(largest, fabs(x[i]));
+    }
+    for (size_t i = 0; i < n; i++) {
+        driven[i] = x[i];
+        for (size_t j = 0; j < n; j++)
+            driven[i] -= scene->w[i * n + j] * momentum[j];
+        if (fabs(driven[i]) <= NOT_DRIVEN * largest)
+            driven[i] = 0.0;
+    }
+}
+
+/* Work of contacts that close by rates or accelerations which a singular W does not yield to, as if
+ * bodies without end drove them: -int (u + b t) F dt. */
+static double driven_work(const struct scene *scene, const double *mass,
+                          const struct impact_outcome *outcome)
+{
+    double rate[PERCUSS_MAX_CONTACTS];
+    double acceleration[PERCUSS_MAX_CONTACTS];
+    double sum = 0.0;
+    if (scene->contacts == 1)
+        return 0.0;
+    find_driven(scene, mass, scene->gap_rate, rate);
+    find_driven(scene, mass, scene->gap_acceleration, acceleration);
+    for (size_t c = 0; c < scene->contacts; c++)
+        sum -= rate[c] * outcome->tracks[c].impulse + acceleration[c] * outcome->tracks[c].moment;
+    return sum;
+}
+
 static double initial_vibration(const struct scene *scene)
 {
     double sum = 0.0;
@@ -81,6 +122,9 @@ static double rounding_of_work(const struct scene *scene, const double *mass,
     return sum;
 }
 
+/* Of the terms of the energy that is available. */
+static const double ROUNDING_OF_SUM = 32.0 * DBL_EPSILON;
+
 bool energy_audit(const struct scene *scene, const double *indentation, double damping,
                   struct arena *arena, struct impact_outcome *outcome)
 {
@@ -99,7 +143,8 @@ bool energy_audit(const struct scene *scene, const double *indentation, double d
     *energy = (struct impact_energy){.damping = damping, .plastic = outcome->plastic};
     /* the acceleration is a force W^+ a on the gaps: its work is that over the gaps' travel */
     energy->available = 0.5 * form(n, mass, scene->gap_rate, scene->gap_rate) +
-                        initial_vibration(scene) + form(n, mass, scene->gap_acceleration, travel);
+                        initial_vibration(scene) + form(n, mass, scene->gap_acceleration, travel) +
+                        driven_work(scene, mass, outcome);
     /* what the bodies and the laws hold at the end */
     energy->rigid_after = 0.5 * form(n, mass, end->gap_rate, end->gap_rate);
     for (size_t b = 0; b < scene->bodies; b++) {
@@ -111,7 +156,16 @@ bool energy_audit(const struct scene *scene, const double *indentation, double d
     energy->closure = energy->available - energy->rigid_after - energy->vibration -
                       energy->damping - energy->plastic - energy->stored;
     /* what a gap far larger than its travel cannot tell is not missing */
-    if (fabs(energy->closure) <= rounding_of_work(scene, mass, end))
+    double rounding = rounding_of_work(scene, mass, end);
+    if (fabs(energy->closure) <= rounding)
         energy->closure = 0.0;
+    /* nor is what is left where acceleration has taken all of it */
+    double initial = 0.5 * form(n, mass, scene->gap_rate, scene->gap_rate);
+    rounding += ROUNDING_OF_SUM * (initial + initial_vibration(scene));
+    if (energy->available < 0.0 && -energy->available <= rounding) {
+        energy->available = 0.0;
+        if (fabs(energy->closure) <= 2.0 * rounding)
+            energy->closure = 0.0;
+    }
     return true;
 }

@@ -38,6 +38,7 @@ struct reference {
     struct ode *ode; /* NULL: not begun */
     double *y;
     double *opened; /* [contact] impulse when the sub-impact began */
+    double *noted;  /* [contact] impulse whose moment is noted */
 };
 
 static bool reference_create(struct reference *run, struct arena *arena)
@@ -46,8 +47,9 @@ static bool reference_create(struct reference *run, struct arena *arena)
         !reference_system_create(&run->system, &run->march.scene, arena))
         return false;
     run->opened = arena_take(arena, run->march.scene.contacts, sizeof(double));
+    run->noted = arena_take(arena, run->march.scene.contacts, sizeof(double));
     run->y = arena_take(arena, run->system.size, sizeof(double));
-    return run->opened && run->y;
+    return run->opened && run->noted && run->y;
 }
 
 static void open_contact(struct reference *run, size_t c, double t)
@@ -167,6 +169,17 @@ static bool must_restart(const struct reference *run, const int *found)
     return false;
 }
 
+/* Of the impulses of a step, which is far shorter than a contact, about its middle. */
+static void note_moments(struct reference *run, double before, double now)
+{
+    size_t n = run->march.scene.contacts;
+    for (size_t c = 0; c < n; c++) {
+        double impulse = run->y[2 * n + c] - run->noted[c];
+        run->march.outcome->tracks[c].moment += 0.5 * (before + now) * impulse;
+        run->noted[c] += impulse;
+    }
+}
+
 static enum percuss_end_reason integrate(struct reference *run)
 {
     struct march *march = &run->march;
@@ -175,9 +188,11 @@ static enum percuss_end_reason integrate(struct reference *run)
     double cost = PASSES * march->cost;
     for (unsigned long used = 0; used < march->most && pace_keeps(march->pace, cost); used++) {
         /* one step, to a root at most */
+        double before = *now;
         enum ode_event event = ode_step(run->ode, march->horizon, now, run->y, found);
         if (event == ODE_FAILED)
             return PERCUSS_END_LIMIT;
+        note_moments(run, before, *now);
         /* contacts and laws that change, from which the solver starts anew */
         if (event == ODE_ROOT) {
             handle_roots(run, *now, found);

@@ -18,7 +18,7 @@ bool track_create(struct track *track, struct arena *arena)
 void track_clear(struct track *track)
 {
     track->count = 0;
-    track->impulse = 0.0;
+    track->impulse = track->moment = 0.0;
     track->inertia = track->viscosity = 0.0;
     track->end_time = 0.0;
 }
@@ -144,9 +144,13 @@ void track_step(struct track *track, double time, double h, const struct track_v
     const double *d = values->indentation;
     double before = larger(larger(larger(d[0], d[1]), larger(d[2], d[3])), values->start);
     double impulse = 0.0;
-    for (int j = 0; j < NODES; j++)
+    double later = 0.0;
+    for (int j = 0; j < NODES; j++) {
         impulse += collocation.weight[j] * values->force[j];
+        later += collocation.weight[j] * collocation.node[j] * values->force[j];
+    }
     impulse *= h;
+    track->moment += time * impulse + h * h * later;
     /* the largest indentation: where it still rises the end will do, the next step looks closer */
     if (values->end > before && values->end + track->deepened > open->max_indentation) {
         open->max_indentation = values->end + track->deepened;

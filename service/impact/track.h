@@ -18,6 +18,7 @@ struct track {
     struct sub_impact *list; /* PERCUSS_MAX_SUB_IMPACTS */
     size_t count;            /* exact, may exceed the list */
     double impulse;          /* of all of them, N s */
+    double moment;           /* of the force over time from the stated instant, N s^2 */
     double end_time;         /* of the last one */
     struct sub_impact open;  /* the one under way */
     /* what omitted inertia and viscosity would do: integrals of K' F' (N^2/(m s)) and of F'^2

@@ -48,7 +48,8 @@ static void adopt(struct solution *solution, const struct problem *problem,
         .impulse = search->answer_error * problem->impulse_compression[0],
         .energy_defect = outcome_energy_defect(problem, answer),
     };
-    solution->steps.energy_closes = solution->steps.energy_defect <= CLOSURE * problem->tolerance;
+    solution->steps.energy_closes =
+        outcome_energy_closes(problem, answer, CLOSURE * problem->tolerance);
     solution->tolerance_met =
         solution->steps.energy_closes &&
         solution->steps.restitution + solution->modes.restitution <= problem->tolerance;

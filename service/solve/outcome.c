@@ -101,14 +101,30 @@ struct outcome_difference outcome_compare(const struct problem *problem,
     return largest;
 }
 
-double outcome_energy_defect(const struct problem *problem, const struct impact_outcome *outcome)
+/* Energy of the rates at which contacts close, J. */
+static double approach_energy(const struct problem *problem)
 {
     double approach = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++)
         approach += 0.5 * problem->impulse_compression[c] * fabs(problem->gap_rate[c]);
+    return approach;
+}
+
+double outcome_energy_defect(const struct problem *problem, const struct impact_outcome *outcome)
+{
     double lost = fabs(outcome->energy.closure);
     /* the slowest approach of all has no energy that doubles can hold */
-    return lost == 0.0 ? 0.0 : lost / fmax(outcome->energy.available, approach);
+    return lost == 0.0 ? 0.0 : lost / fmax(outcome->energy.available, approach_energy(problem));
+}
+
+/* Of the approach's energy: as closely as any audit must close. */
+static const double ROUNDING = 1e-9;
+
+bool outcome_energy_closes(const struct problem *problem, const struct impact_outcome *outcome,
+                           double share)
+{
+    double lost = fabs(outcome->energy.closure);
+    return lost <= share * outcome->energy.available || lost <= ROUNDING * approach_energy(problem);
 }
 
 bool outcome_keeps_energy(double defect)

@@ -44,6 +44,11 @@ struct outcome_difference outcome_compare(const struct problem *problem,
  * nothing available: the approach counts too. */
 double outcome_energy_defect(const struct problem *problem, const struct impact_outcome *outcome);
 
+/* Whether the energy closes to a share of what is available. What acceleration takes may leave next
+ * to nothing of that: what is rounding of the approach's closes too. */
+bool outcome_energy_closes(const struct problem *problem, const struct impact_outcome *outcome,
+                           double share);
+
 /* More of its energy no solution may gain or lose: an answer that is wrong by half a percent of e.
  */
 static const double OUTCOME_WORST_DEFECT = 0.01;

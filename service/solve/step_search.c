@@ -120,7 +120,8 @@ enum percuss_status step_search(struct attempt_context *context, struct attempt 
         if (status)
             return status;
         error->energy_defect = outcome_energy_defect(context->problem, &best->outcome);
-        error->energy_closes = error->energy_defect <= closure_allowed;
+        error->energy_closes =
+            outcome_energy_closes(context->problem, &best->outcome, closure_allowed);
         bool enough =
             error->restitution <= SEQUENCE_STEPS_SHARE * tolerance && error->energy_closes;
         if (enough || i >= MAX_TIGHTENINGS || !attempt_can_shorten(best->accuracy) ||

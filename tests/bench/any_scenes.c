@@ -97,6 +97,9 @@ static void keep_slowest(struct noted list[KEPT], const struct noted *new)
     list[at] = *new;
 }
 
+/* The energy closes to so many tolerances. */
+static const double CLOSURE = 10.0;
+
 /* What no answer may be; NULL: nothing is wrong. */
 static const char *what_is_wrong(const struct solve_result *result)
 {
@@ -107,6 +110,10 @@ static const char *what_is_wrong(const struct solve_result *result)
         return "no message";
     if (result->end_reason == PERCUSS_END_LIMIT && answered && result->tolerance_met)
         return "cut off, and the tolerance met";
+    double missed = fabs(result->energy.closure);
+    if (answered && result->tolerance_met &&
+        !(missed <= CLOSURE * result->tolerance * result->energy.available))
+        return "the energy does not close, and the tolerance met";
     for (size_t c = 0; answered && c < result->contact_count; c++) {
         const struct solve_contact_result *contact = &result->contacts[c];
         if (!isfinite(contact->impulse) || contact->impulse < 0.0)

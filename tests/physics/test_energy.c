@@ -181,6 +181,52 @@ static void a_ball_laid_down_keeps_its_energy(void **state)
     lab_free(lab);
 }
 
+enum { DRIVEN = 60 };
+
+/* Balls on a body whose W, the client's, yields to one motion of theirs only: they approach by
+ * others too, which no force changes and whose work is in what is available. */
+static void driven_contacts_close_theirs(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    uint64_t seed = 41;
+    size_t solved = 0;
+    for (int i = 0; i < DRIVEN; i++) {
+        size_t n = 2 + (size_t)(i % 2);
+        struct lab *lab = lab_with_damping(i % 4 < 2 ? 0.0 : 0.01, 12);
+        struct solve_request request =
+            strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.2);
+        double w[9], along[3];
+        request.body_count = n + 1;
+        request.contact_count = n;
+        request.bodies[n] = request.bodies[1];
+        request.delassus = w;
+        request.options.tolerance = 1e-3;
+        request.options.method = i % 8 < 6 ? PERCUSS_METHOD_MODAL : PERCUSS_METHOD_CVODE;
+        struct solve_body ball = request.bodies[0];
+        for (size_t c = 0; c < n; c++) {
+            double x = 0.2 * (double)c - 0.3;
+            along[c] = random_between(&seed, 0.5, 4.0);
+            request.bodies[c] = ball;
+            request.bodies[c].position[0] = x;
+            request.bodies[c].velocity[2] = -random_between(&seed, 0.01, 1.0);
+            request.contacts[c] = (struct solve_contact){
+                .a = (unsigned)c, .b = (unsigned)n, .point = {x, 0.0, 0.0}, .normal = {0, 0, 1}};
+            request.contacts[c].gap_acceleration = random_between(&seed, -300.0, 900.0);
+            request.contacts[c].gap = random_between(&seed, 0.0, 1e-6);
+        }
+        for (size_t k = 0; k < n * n; k++)
+            w[k] = along[k / n] * along[k % n];
+        enum percuss_status status = solve(lab->workspace, &lab->means, &request, &result);
+        assert_true(status == PERCUSS_OK || status == PERCUSS_TRUNCATED);
+        if (result.end_reason != PERCUSS_END_LIMIT)
+            measured("closure", share(&result), 0.0, 1e-5);
+        solved += result.end_reason != PERCUSS_END_LIMIT;
+        lab_free(lab);
+    }
+    assert_true(solved > DRIVEN / 2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -189,6 +235,7 @@ int main(void)
         cmocka_unit_test(acceleration_and_gaps_close),
         cmocka_unit_test(an_unfinished_contact_stores_energy),
         cmocka_unit_test(a_ball_laid_down_keeps_its_energy),
+        cmocka_unit_test(driven_contacts_close_theirs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -71,11 +71,32 @@ static void a_restitution_is_wrong_by_no_more_than_it_can_be(void **state)
     assert_true(outcome_range(&at_hand.problem, &at_hand.outcome) == 2.0);
 }
 
+/* What acceleration takes leaves little available: the energy closes to a share of that, or to
+ * rounding of the approach's. */
+static void energy_closes_to_what_is_available(void **state)
+{
+    (void)state;
+    double gap_rate = -2.0, compression = 1.0;
+    struct problem problem = {
+        .contact_count = 1, .gap_rate = &gap_rate, .impulse_compression = &compression};
+    struct impact_outcome outcome = {.energy = {.available = 1.0, .closure = -0.009}};
+    assert_true(outcome_energy_closes(&problem, &outcome, 0.01));
+    assert_false(outcome_energy_closes(&problem, &outcome, 0.005));
+    outcome.energy.available = 0.1;
+    assert_false(outcome_energy_closes(&problem, &outcome, 0.01));
+    assert_true(outcome_energy_defect(&problem, &outcome) < 0.01);
+    outcome.energy = (struct impact_energy){.available = -1e-12, .closure = 5e-10};
+    assert_true(outcome_energy_closes(&problem, &outcome, 1e-6));
+    outcome.energy.closure = 5e-9;
+    assert_false(outcome_energy_closes(&problem, &outcome, 1e-6));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_what_met_no_force_at_all_is_unsolved),
         cmocka_unit_test(a_restitution_is_wrong_by_no_more_than_it_can_be),
+        cmocka_unit_test(energy_closes_to_what_is_available),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
