@@ -100,12 +100,26 @@ static void print_sub_impacts(const struct percuss_contact_result *contact)
         printf("  ... %u more\n", contact->sub_impact_count - contact->sub_impacts_listed);
 }
 
+/* With all that is known to be wrong with it, and the parts of that. A server of 0.1.0 knows no
+ * error of the models. */
+static void print_restitution(const struct percuss_reply *reply, double restitution)
+{
+    double numerical = reply_restitution_error(reply);
+    double model = reply->error.restitution_model;
+    bool whole = reply->error.restitution_total >= numerical || model > 0.0;
+    printf("  restitution  %.6g +- %.2g  (the model ", restitution,
+           whole ? reply->error.restitution_total : numerical);
+    if (whole)
+        printf("%.2g", model);
+    else
+        printf("not known");
+    printf(", modes and steps %.1g)\n", numerical);
+}
+
 static void print_contact(const struct percuss_reply *reply,
                           const struct percuss_contact_result *contact)
 {
-    printf("  restitution  %.6g +- %.2g  (the model %.2g, modes and steps %.1g)\n",
-           contact->restitution, reply->error.restitution_total, reply->error.restitution_model,
-           reply_restitution_error(reply));
+    print_restitution(reply, contact->restitution);
     printf("  impulse      %.6g N s  (%.6g N s stops the approach)\n", contact->impulse,
            contact->impulse_compression);
     printf("  duration     %.4g ms (%s)\n", 1e3 * contact->end_time,
