@@ -19,6 +19,7 @@ from __future__ import annotations
 import ctypes
 import itertools
 import os
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
@@ -330,9 +331,9 @@ def calibrate(
     timeout: float = 60.0,
 ) -> Calibration:
     """Finds parameters of the bodies with which the twins fit the first sub-impact's impulse and duration and the start
-    of the second. fit: up to eight as "young:al-beam" or (Parameter.YOUNG, "al-beam"); or a mapping of "young:al-beam"
-    to where to start, a number or a text with a unit, None: at the catalogue's value. noise: relative standard deviation of the measured numbers to
-    start with. Others as of compare; a tolerance of 0 is 1e-4 here."""
+    of the second. fit: up to eight as "young:al-beam", "young@al-beam" or (Parameter.YOUNG, "al-beam"); or a mapping of
+    "young:al-beam" to where to start, a number or a text with a unit, None: at the catalogue's value. noise: relative
+    standard deviation of the measured numbers to start with. Others as of compare; a tolerance of 0 is 1e-4 here."""
     asked = _ask(a, b, client, options, at, timeout)
     asked.question.noise = noise
     answer = _write_fit(fit)
@@ -362,9 +363,11 @@ def _write_fit(fit: Any) -> abi.Calibration:
         raise ValueError(f"fit: {len(starts)} are too many; up to {abi.MAX_FITTED} are allowed")
     answer = abi.Calibration(parameter_count=len(starts))
     for i, (one, start) in enumerate(starts.items()):
-        parameter, colon, body = one.partition(":") if isinstance(one, str) else (one[0], ":", one[1])
-        if not colon:
+        # an @ may stand for the colon, as on the command line
+        pair = tuple(re.split("[:@]", one, maxsplit=1)) if isinstance(one, str) else one
+        if len(pair) != 2:
             raise ValueError(f"fit: {one!r}: PARAMETER:ID is allowed, as young:al-beam")
+        parameter, body = pair
         target = answer.parameters[i]
         target.parameter = Parameter.of(parameter)
         target.body = _convert._plain(f"fit[{i}]", body)

@@ -162,7 +162,7 @@ class Calibrate(Beside):
         file = str(DATA / "beam.csv")
         expected = told("calibrate", file, "--fit", "young:al-beam")
         for client in (self.client, self.local):
-            ours = measured.calibrate(file, "steel-sphere", "al-beam", client, fit=["young:al-beam"])
+            ours = measured.calibrate(file, "steel-sphere", "al-beam", client, fit=["young@al-beam"])
             self.assert_as(ours, expected)
         # the shipped measurements were made with 72.5 GPa
         (young,) = ours.parameters

@@ -59,10 +59,10 @@ static void says_what_is_allowed(void **state)
 static void names_what_is_missing(void **state)
 {
     (void)state;
-    assert_string_equal(bad(NULL, "speed"), "text: NULL is not allowed");
-    assert_string_equal(bad("3", NULL), "quantity: NULL is not allowed");
+    assert_string_equal(bad(NULL, "speed"), "text: NULL: a pointer is needed");
+    assert_string_equal(bad("3", NULL), "quantity: NULL: a pointer is needed");
     assert_int_equal(percuss_quantity_parse("3", "speed", NULL), PERCUSS_RESULT_INVALID_ARGUMENT);
-    assert_string_equal(percuss_error_text(), "value: NULL is not allowed");
+    assert_string_equal(percuss_error_text(), "value: NULL: a pointer is needed");
 }
 
 int main(void)

@@ -65,9 +65,8 @@ static void names_of_the_contract(void **state)
     expect_names(member(root, "energy"),
                  "available,rigid_after,vibration,damping,plastic,stored,closure");
     expect_names(member(root, "error"),
-                 "restitution_time,restitution_modes,impulse_time,impulse_modes,"
-                 "restitution_by_speed,tolerance_met,"
-                 "restitution_model,restitution_total,total_met");
+                 "restitution_total,total_met,restitution_time,restitution_modes,impulse_time,"
+                 "impulse_modes,restitution_by_speed,tolerance_met,restitution_model");
     expect_names(member(root, "model"),
                  "bodies,contact_model,compliance,method,reason,omitted_error");
     expect_names(json_array_get(member(member(root, "model"), "bodies"), 0),
