@@ -27,6 +27,13 @@ enum { BODY_STATE_MAX_DENTS = 256 };
 struct body_state {
     size_t count[BODY_MOST_FAMILIES];
     size_t dents;
+    /* what the amplitudes may be wrong by, as shares of them: by modes and steps of the answers
+     * that left them, and by their models; 0: nothing is known of it */
+    double unknown, unknown_model;
+    /* modes that took no part in one of those answers, from known[f] of a family on, were struck
+     * all the same: to a speed of phi abruptness omega^(-5/2) (start_error.c), N/s^(3/2) */
+    double abruptness;
+    size_t known[BODY_MOST_FAMILIES];
     double coordinates[];
 };
 

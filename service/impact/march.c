@@ -52,9 +52,12 @@ double march_unknown_rate(const struct march *march, size_t contact)
     for (size_t c = 0; c < scene->contacts; c++) {
         double w = scene->w[contact * scene->contacts + c];
         changed += fabs(w) * march->outcome->tracks[c].impulse;
-        fastest = fmax(fastest, fabs(scene->gap_rate[c]));
+        double speed = fabs(scene->gap_rate[c]);
+        fastest = speed > fastest ? speed : fastest;
     }
-    double steps = fmin(fmax(march->accuracy, ROUNDING_OF_STEPS), COARSEST_STEPS);
+    double steps = march->accuracy < ROUNDING_OF_STEPS ? ROUNDING_OF_STEPS
+                   : march->accuracy > COARSEST_STEPS  ? COARSEST_STEPS
+                                                       : march->accuracy;
     return steps * changed + ROUNDING_OF_SPEEDS * fastest;
 }
 

@@ -15,6 +15,7 @@
 #include "solve/law_error.h"
 #include "solve/loss.h"
 #include "solve/radiation.h"
+#include "solve/start_error.h"
 #include "solve/state_out.h"
 #include "solve/unstated.h"
 #include "solve/validity.h"
@@ -201,6 +202,9 @@ static void fill_model(const struct problem *problem, const struct solution *sol
     explain_modes(problem, assembly, &reason);
     if (radiation_is_in(problem, &assembly->scene))
         text_add(&reason, "; waves leave through the half-space: their energy counts as damping");
+    if (solution->start > 0.0)
+        text_format(&reason, "; what the states are wrong by changes the restitution by %.2g",
+                    solution->start);
     if (problem->compliance.reason[0])
         text_format(&reason, "; half-space: %s", problem->compliance.reason);
     /* what it leaves out */
@@ -231,6 +235,8 @@ static const char *reason_of_error(const struct problem *problem, const struct s
     /* what ended the search */
     if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
         return "the effort allowed is spent";
+    if (solution->tolerance_met)
+        return "the states that the bodies begin from are as wrong as the answers that left them";
     if (!solution->steps.energy_closes)
         return "the shortest steps allowed do not keep the energy";
     /* what limits the modes, or amplifies what they leave out */
@@ -294,12 +300,19 @@ static void fill_errors(const struct problem *problem, const struct solution *so
     /* errors, and what the speed does */
     result->restitution_time = solution->steps.restitution;
     result->restitution_modes = solution->modes.restitution;
+    if (solution->start > 0.0)
+        result->restitution_modes = fmin(result->restitution_modes + solution->start,
+                                         outcome_range(problem, &solution->outcome));
     result->impulse_time = solution->steps.impulse;
     result->impulse_modes = solution->modes.impulse;
+    if (solution->start > 0.0)
+        result->impulse_modes += solution->start * problem_largest_compression(problem);
     result->restitution_by_speed = solution->restitution_by_speed;
     /* what was cut off for its effort was compared with nothing */
-    result->tolerance_met =
-        solution->tolerance_met && solution->outcome.end_reason != PERCUSS_END_LIMIT;
+    double error = result->restitution_time + result->restitution_modes;
+    result->tolerance_met = solution->tolerance_met &&
+                            solution->outcome.end_reason != PERCUSS_END_LIMIT &&
+                            error <= problem->tolerance;
     result->tolerance = problem->tolerance;
     result->energy = solution->outcome.energy;
     result->time_shift = solution->outcome.time_shift;
@@ -308,8 +321,7 @@ static void fill_errors(const struct problem *problem, const struct solution *so
     if (!result->tolerance_met) {
         report_warn(
             result,
-            "error.tolerance_met: false: the estimated error of the restitution is %.2g: %s",
-            solution->steps.restitution + solution->modes.restitution,
+            "error.tolerance_met: false: the estimated error of the restitution is %.2g: %s", error,
             reason_of_error(problem, solution));
         warn_range(problem, solution, result);
     }
@@ -322,6 +334,24 @@ void report_model_error(double model, double range, struct solve_result *result)
     result->restitution_model = model;
     result->restitution_total = fmin(numerical + model, range);
     result->total_met = result->tolerance_met && result->restitution_total <= result->tolerance;
+}
+
+/* Of the largest impulse. */
+void report_state_errors(const struct problem *problem, const struct solution *solution,
+                         struct solve_result *result)
+{
+    double impulse = 0.0;
+    for (size_t c = 0; c < result->contact_count; c++)
+        if (result->contacts[c].impulse > impulse)
+            impulse = result->contacts[c].impulse;
+    double share = impulse > 0.0 ? problem_largest_compression(problem) / impulse : 0.0;
+    const struct start_shares shares = {share *
+                                            (result->restitution_time + result->restitution_modes),
+                                        share * result->restitution_model};
+    for (size_t b = 0; b < result->body_count; b++)
+        if (result->bodies[b].state_after)
+            start_error_after(problem, solution, &shares, b,
+                              (struct body_state *)result->bodies[b].state_after);
 }
 
 static void fill_end(const struct solution *solution, struct solve_result *result)

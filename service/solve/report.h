@@ -18,6 +18,10 @@ void report_fill(const struct problem *problem, const struct solution *solution,
  * answer can be wrong by, `range`. */
 void report_model_error(double model, double range, struct solve_result *result);
 
+/* What the bodies' new states are wrong by, from all errors of `result`. */
+void report_state_errors(const struct problem *problem, const struct solution *solution,
+                         struct solve_result *result);
+
 /* Fills the bodies' velocities after all impulses of result->contacts, by the bodies' own masses.
  */
 void report_velocities(const struct problem *problem, struct solve_result *result);

@@ -29,6 +29,7 @@ struct solution {
     enum impact_care step_care;    /* the same */
     struct mode_error modes;
     struct step_error steps;
+    double start;                /* of the restitution: the states' own errors, start_error.h */
     double restitution_by_speed; /* NAN unless asked for */
     bool tolerance_met;
     bool spent;           /* the effort allowed ended the search */

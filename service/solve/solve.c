@@ -12,6 +12,7 @@
 #include "solve/formulation.h"
 #include "solve/model_error.h"
 #include "solve/report.h"
+#include "solve/start_error.h"
 #include "solve/tracing.h"
 
 struct solve_workspace {
@@ -130,11 +131,17 @@ static enum percuss_status answer(struct solve_workspace *workspace,
         status = concurrent_refine(solution, problem, &pace, &effort, &result->fault);
     /* the answer, and its histories */
     double model = NAN;
+    struct start_error start = {0.0, 0.0};
     if (!status)
         status = pace_fault(&result->fault, model_error_find(problem, solution, &pace, &model));
+    if (!status && !concurrent)
+        status = pace_fault(&result->fault, start_error_find(problem, solution, &pace, &start));
     if (!status) {
+        solution->start = start.restitution;
+        model += start.model;
         report_fill(problem, solution, result);
         report_model_error(model, outcome_range(problem, &solution->outcome), result);
+        report_state_errors(problem, solution, result);
         if (concurrent)
             concurrent_report(&effort, problem, solution, result);
         status = result->status;

@@ -381,6 +381,69 @@ static void questions_on_ringing_beams_take_no_seconds(void **state)
     lab_free(lab);
 }
 
+static bool warns(const struct solve_result *result, const char *words)
+{
+    for (size_t w = 0; w < result->warning_count; w++)
+        if (strstr(result->warnings[w], words))
+            return true;
+    return false;
+}
+
+/* A state knows what the answer that left it was wrong by; what that does to the next one is in its
+ * errors, and in nothing else of it. */
+static void states_carry_their_error(void **state)
+{
+    (void)state;
+    static struct solve_result silent, told, loud;
+    struct ringing ringing = ring(0.0, 0);
+    assert_true(ringing.state->unknown > 0.0 && ringing.state->unknown < 1e-5);
+    assert_true(ringing.state->unknown_model > ringing.state->unknown);
+    assert_true(ringing.state->abruptness > 0.0);
+    assert_true(ringing.state->known[BAR_BENDING_Y] <= ringing.state->count[BAR_BENDING_Y]);
+    struct body_state *other = copy_state(ringing.state);
+    struct solve_request request = blow(0.1, 1e-4);
+    request.bodies[1].elapsed = 0.02;
+    request.bodies[1].state = ringing.state;
+    lab_solve(ringing.lab, &request, &told);
+    /* the same vibration of which nothing is known */
+    request.bodies[1].state = other;
+    other->unknown = other->unknown_model = other->abruptness = 0.0;
+    lab_solve(ringing.lab, &request, &silent);
+    assert_true(told.contacts[0].restitution == silent.contacts[0].restitution);
+    assert_true(told.contacts[0].impulse == silent.contacts[0].impulse);
+    assert_true(told.restitution_modes > silent.restitution_modes);
+    assert_true(told.restitution_model > silent.restitution_model);
+    assert_true(told.tolerance_met && silent.tolerance_met);
+    assert_non_null(strstr(told.reason, "what the states are wrong by"));
+    assert_null(strstr(silent.reason, "what the states are wrong by"));
+    /* and one that is wrong by a per cent */
+    other->unknown = 0.01;
+    lab_solve(ringing.lab, &request, &loud);
+    assert_true(loud.contacts[0].restitution == silent.contacts[0].restitution);
+    assert_true(loud.restitution_modes > 1e-3 && !loud.tolerance_met && !loud.total_met);
+    assert_true(warns(&loud, "the states that the bodies begin from"));
+    free(other);
+    ring_free(&ringing);
+}
+
+/* What a state is wrong by stays so, where nothing is damped: the next state is no better. */
+static void errors_of_states_add_up(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct ringing ringing = ring(0.0, 0);
+    struct solve_request request = blow(0.1, 1e-4);
+    ringing.state->unknown = 0.01;
+    double before = 0.01 * sqrt(ringing.vibration);
+    request.bodies[1].elapsed = 0.02;
+    request.bodies[1].state = ringing.state;
+    lab_solve(ringing.lab, &request, &result);
+    const struct body_state *after = result.bodies[1].state_after;
+    assert_true(after->unknown * sqrt(result.bodies[1].vibration) >= before * (1.0 - 1e-9));
+    assert_true(after->abruptness > ringing.state->abruptness);
+    ring_free(&ringing);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -392,6 +455,8 @@ int main(void)
         cmocka_unit_test(an_old_touch_of_a_ringing_body_asks_for_the_horizon),
         cmocka_unit_test(questions_on_ringing_beams_take_no_seconds),
         cmocka_unit_test(modes_that_take_no_part_ring_on),
+        cmocka_unit_test(states_carry_their_error),
+        cmocka_unit_test(errors_of_states_add_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,6 +31,13 @@ static double seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+static void print_earlier(size_t number, const struct solve_result *result)
+{
+    printf("  blow %zu: e %.9f +- %.3g, met %d, %zu sub-impacts\n", number + 1,
+           result->contacts[0].restitution, result->restitution_time + result->restitution_modes,
+           result->tolerance_met, result->contacts[0].sub_impact_count);
+}
+
 static void print_answer(const struct solve_result *result, const struct verdict *verdict)
 {
     printf("  tolerance %g: %s %s, met %d, true error %.3g, reported %.3g (time %.3g, modes %.3g), "
@@ -47,10 +54,45 @@ static void print_answer(const struct solve_result *result, const struct verdict
         printf("    warning: %s\n", result->warnings[w]);
 }
 
+/* The blows before the one that is judged, by token. False: refused. */
+static bool strike_earlier(struct campaign *campaign, struct scene_drawn *scene, double tolerance,
+                           struct solve_result *result)
+{
+    struct lab *lab = campaign->lab;
+    double window = 0.0;
+    for (size_t i = 0; i <= scene->earlier_count; i++) {
+        /* from where the one before left them, whose end is not that of the reference's */
+        bool last = i == scene->earlier_count;
+        struct solve_request blow = last ? scene->plain : scene->earlier[i];
+        blow.options.tolerance = tolerance;
+        for (size_t b = 0; i && b < blow.body_count; b++) {
+            blow.bodies[b].state = scene->states[b];
+            blow.bodies[b].elapsed -= window;
+            if (blow.bodies[b].state && blow.bodies[b].elapsed < 0.0)
+                return false;
+        }
+        if (last) {
+            scene->request = blow;
+            return true;
+        }
+        enum percuss_status status = solve(lab->workspace, &lab->means, &blow, result);
+        if (status != PERCUSS_OK)
+            return false;
+        if (campaign->settings.chatty)
+            print_earlier(i, result);
+        window = result->window;
+        for (size_t b = 0; b < result->body_count; b++)
+            scene_take_state(result->bodies[b].state_after, &scene->states[b]);
+    }
+    return true;
+}
+
 /* Answers at one tolerance. False: refused. */
 static bool answer(struct campaign *campaign, struct scene_drawn *scene, double tolerance,
                    struct solve_result *result, struct verdict *verdict)
 {
+    if (scene->earlier_count && !strike_earlier(campaign, scene, tolerance, result))
+        return false;
     scene->request.options.tolerance = tolerance;
     double before = seconds();
     enum percuss_status status =
@@ -94,8 +136,11 @@ static void check_by_cvode(struct campaign *campaign, const struct scene_drawn *
                            uint64_t number, size_t modes, const struct truth *truth)
 {
     struct truth other;
-    const struct truth_settings settings = {
-        .effort = CVODE_EFFORT, .modes = modes, .chatty = campaign->settings.chatty};
+    const struct truth_settings settings = {.effort = CVODE_EFFORT,
+                                            .modes = modes,
+                                            .earlier = scene->earlier,
+                                            .earlier_count = scene->earlier_count,
+                                            .chatty = campaign->settings.chatty};
     if (modes > CVODE_MODES)
         return;
     if (!truth_by_cvode(campaign->room, &campaign->lab->set, &scene->plain, &settings, &other))
@@ -159,6 +204,8 @@ static void judge_all(struct campaign *campaign, struct scene_drawn *scene, uint
     const struct truth_settings wanted = {.goal = 0.2 * TALLY_SETTLED * tightest,
                                           .effort = settings->effort,
                                           .modes = answers->modes + 8,
+                                          .earlier = scene->earlier,
+                                          .earlier_count = scene->earlier_count,
                                           .chatty = settings->chatty};
     struct truth truth;
     bool found = truth_find(campaign->room, &campaign->lab->set, &scene->plain, &wanted, &truth);

@@ -142,10 +142,13 @@ static void draw_heavy(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
     say_beam(scene, beam);
 }
 
+/* Classes when their scenes were numbered first: those stay what they are. */
+enum { SEEDS = 7 };
+
 bool scene_draw(struct lab *lab, enum scene_class class, uint64_t number, struct scene_drawn *scene)
 {
     /* xorshift needs some rounds to forget small seeds */
-    uint64_t r = 0x9e3779b97f4a7c15u * (number * CLASS_COUNT + (uint64_t) class + 1);
+    uint64_t r = 0x9e3779b97f4a7c15u * (number * SEEDS + (uint64_t) class + 1);
     for (int i = 0; i < 16; i++)
         random_between(&r, 0.0, 1.0);
     lab->set.count = 0;
@@ -163,11 +166,24 @@ bool scene_draw(struct lab *lab, enum scene_class class, uint64_t number, struct
         drawn = scene_draw_ringing(lab, &r, scene);
     else if (class == CLASS_ECCENTRIC)
         scene_draw_eccentric(lab, &r, scene);
+    else if (class == CLASS_CHAIN)
+        scene_draw_chain(lab, &r, number, scene);
     else
         scene_draw_rolled(lab, &r, scene);
     if (class != CLASS_ROLLED)
         scene->plain = scene->request;
     return drawn;
+}
+
+void scene_take_state(const struct body_state *state, struct body_state **place)
+{
+    size_t size = state ? body_state_size(state) : 0;
+    struct body_state *copy = state ? malloc(size) : NULL;
+    assert_true(copy || !state);
+    if (copy)
+        memcpy(copy, state, size);
+    free(*place);
+    *place = copy;
 }
 
 void scene_release(struct scene_drawn *scene)

@@ -15,7 +15,8 @@
     X(ROW, "row", "two to twenty spheres in a row")                                                \
     X(RINGING, "ringing", "a second blow on bodies that ring from the first")                      \
     X(ECCENTRIC, "eccentric", "a sphere beside the axis of a rectangular bar")                     \
-    X(ROLLED, "rolled", "two flexible bars, rolled about their axes")
+    X(ROLLED, "rolled", "two flexible bars, rolled about their axes")                              \
+    X(CHAIN, "chain", "two to five blows by token, damped or not")
 
 enum scene_class {
 #define X(name, word, text) CLASS_##name,
@@ -24,7 +25,14 @@ enum scene_class {
         CLASS_COUNT
 };
 
+enum { SCENE_MOST_EARLIER = 4 };
+
 struct scene_drawn {
+    /* blows before the request, each from the states that the one before it left, of the answer's
+     * own chain and of the reference's; `elapsed` of all of them is from the stated instant of the
+     * one before */
+    size_t earlier_count;
+    struct solve_request earlier[SCENE_MOST_EARLIER];
     struct solve_request request; /* options.tolerance is the judge's */
     struct solve_request plain;   /* the same impact, for the reference: where a roll must not
                                      matter, the one without it */
@@ -38,6 +46,9 @@ bool scene_draw(struct lab *lab, enum scene_class class, uint64_t number,
                 struct scene_drawn *scene);
 
 void scene_release(struct scene_drawn *scene);
+
+/* Copies the states that a blow left, in place of those that are there. */
+void scene_take_state(const struct body_state *state, struct body_state **place);
 
 /* The class's word on the command line; CLASS_COUNT: none. */
 const char *scene_class_word(enum scene_class class);
@@ -53,6 +64,7 @@ int scene_pick(uint64_t *r, int count);
 void scene_draw_group(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 void scene_draw_row(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 bool scene_draw_ringing(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
+void scene_draw_chain(struct lab *lab, uint64_t *r, uint64_t number, struct scene_drawn *scene);
 void scene_draw_eccentric(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 void scene_draw_rolled(struct lab *lab, uint64_t *r, struct scene_drawn *scene);
 

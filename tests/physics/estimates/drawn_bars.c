@@ -66,6 +66,39 @@ bool scene_draw_ringing(struct lab *lab, uint64_t *r, struct scene_drawn *scene)
     return true;
 }
 
+/* Blows of one sphere on one bar: number % 4 + 2 of them, every other four undamped. */
+void scene_draw_chain(struct lab *lab, uint64_t *r, uint64_t number, struct scene_drawn *scene)
+{
+    bool rod = scene_pick(r, 4) == 0;
+    bool damped = number / 4 % 2;
+    struct body bar = rod ? *tipped_rod(lab, r, "b") : *scene_beam(lab, r, "b");
+    bar.damping = damped ? scene_log(r, 1e-4, 0.05) : 0.0;
+    lab->set.count = 0;
+    lab_add(lab, "b", bar);
+    double radius = bar.radius * scene_log(r, 0.3, 5.0);
+    lab_add(lab, "a", make_sphere(scene_material(r), radius));
+    double speed = scene_log(r, 0.03, 1.0);
+    struct spot striker = sphere_spot("a", radius);
+    struct spot spot = rod ? end_spot("b", bar.length)
+                           : side_spot("b", scene_place(r, bar.length), bar.radius, 0.0);
+    size_t blows = 2 + number % 4;
+    scene_say(scene,
+              "%zu blows of a sphere R %.4g mm on a %s r %.4g mm L %.4g m, zeta %.2g:", blows,
+              1e3 * radius, rod ? "rod" : "beam", 1e3 * bar.radius, bar.length, bar.damping);
+    for (size_t i = 0; i < blows; i++) {
+        struct solve_request *blow = i + 1 < blows ? &scene->earlier[i] : &scene->request;
+        if (!rod && i && scene_pick(r, 2))
+            spot = side_spot("b", scene_place(r, bar.length), bar.radius, 0.0);
+        double v = speed * scene_log(r, 0.2, 2.0);
+        *blow = strike(striker, spot, v);
+        /* from the stated instant of the one before, which is over by then */
+        blow->bodies[1].elapsed = i ? 0.05 + scene_log(r, 1e-5, 0.3) : 0.0;
+        scene_say(scene, " %.3g m/s at %.4g after %.3g s;", v, spot.point[0],
+                  blow->bodies[1].elapsed);
+    }
+    scene->earlier_count = blows - 1;
+}
+
 static const struct body *rectangular_bar(struct lab *lab, uint64_t *r, const char *id)
 {
     struct body bar = make_bar(&beam_kind, scene_material(r), 0.0, 0.0);

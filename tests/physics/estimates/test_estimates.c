@@ -141,6 +141,27 @@ static void what_agrees_by_chance_is_not_met(void **state)
     }
 }
 
+/* Two to five blows, each from the state that the one before it left, against the same chains with
+ * more modes and shorter steps all along. */
+static void chains_of_blows_are_covered(void **state)
+{
+    (void)state;
+    static const struct campaign_settings settings = {
+        .class = CLASS_CHAIN, .first = 0, .count = 24, .effort = 1e8};
+    static struct campaign campaign;
+    campaign_run(&campaign, &settings);
+    assert_int_equal(campaign.answered, 24);
+    assert_int_equal(campaign.wrong + campaign.broken, 0);
+    for (int t = 0; t < CAMPAIGN_TOLERANCES; t++) {
+        const struct tally *tally = &campaign.all[t];
+        assert_true(tally->judged >= 20);
+        /* one of them may be uncovered */
+        assert_true(tally->covered + 1 >= tally->judged);
+        assert_true(2 * tally->met > tally->judged);
+    }
+    campaign_release(&campaign);
+}
+
 /* An honest answer breaks nothing; what is done to it is seen. */
 static void broken_answers_are_seen(void **state)
 {
@@ -174,6 +195,7 @@ int main(void)
         cmocka_unit_test(scenes_are_drawn_again),
         cmocka_unit_test(references_settle_to_known_numbers),
         cmocka_unit_test(what_agrees_by_chance_is_not_met),
+        cmocka_unit_test(chains_of_blows_are_covered),
         cmocka_unit_test(broken_answers_are_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,9 +3,11 @@
 
 #include "physics/estimates/truth.h"
 
+#include "physics/estimates/drawn.h"
 #include "solve/assemble.h"
 #include "solve/attempt.h"
 #include "solve/formulation.h"
+#include "solve/state_out.h"
 
 /* Most modes of a family, and the accuracies of the first solution's steps and of the finest. */
 static const size_t MOST_MODES = 4800;
@@ -18,7 +20,8 @@ struct truth_room {
     struct prepared_cache *cache;
     struct arena arena;
     struct body bodies[32];
-    struct body_set set; /* as the lab's, with fixed numbers of modes */
+    struct body_set set;                           /* as the lab's, with fixed numbers of modes */
+    struct body_state *states[PERCUSS_MAX_BODIES]; /* along a chain of blows */
 };
 
 struct truth_room *truth_room_create(void)
@@ -38,6 +41,8 @@ void truth_room_free(struct truth_room *room)
 {
     if (!room)
         return;
+    for (size_t b = 0; b < PERCUSS_MAX_BODIES; b++)
+        free(room->states[b]);
     prepared_cache_free(room->cache);
     arena_release(&room->arena);
     free(room);
@@ -78,22 +83,68 @@ static bool solve_scene(struct truth_room *room, const struct problem *problem,
            outcome->end_reason != PERCUSS_END_LIMIT;
 }
 
-static bool solve_level(struct truth_room *room, const struct body_set *set,
-                        const struct solve_request *request, const struct level *level,
-                        struct truth *truth)
+/* A request's solution, in the arena until the next one. */
+struct solved {
+    struct problem *problem;
+    struct assembly assembly;
+    struct impact_outcome outcome;
+};
+
+static bool solve_one(struct truth_room *room, const struct solve_request *request,
+                      const struct level *level, struct solved *solved)
 {
     struct fault fault = {0};
-    struct impact_outcome outcome;
-    struct assembly assembly;
     const struct mode_choice choice = {.cut = INFINITY, .most = MODE_CHOICE_MOST};
+    const struct solve_means means = {.catalogue = &room->set};
     arena_reset(&room->arena);
+    struct problem *problem = solved->problem = problem_create(request, room->cache, &room->arena);
+    return problem && !formulate(problem, &means, &fault) &&
+           assemble(&solved->assembly, problem, &choice) &&
+           solve_scene(room, problem, level, &solved->assembly.scene, &solved->outcome);
+}
+
+/* The bodies as the earlier blows leave them, by solutions of this level. */
+static bool solve_earlier(struct truth_room *room, const struct truth_settings *settings,
+                          const struct level *level, struct truth *truth, double *window)
+{
+    struct solved solved;
+    *window = 0.0;
+    for (size_t i = 0; i < settings->earlier_count; i++) {
+        struct solve_request blow = settings->earlier[i];
+        for (size_t b = 0; b < blow.body_count; b++) {
+            blow.bodies[b].state = i ? room->states[b] : NULL;
+            blow.bodies[b].elapsed -= *window;
+        }
+        if (!solve_one(room, &blow, level, &solved))
+            return false;
+        *window = solved.outcome.window;
+        truth->work += impact_work(&solved.assembly.scene, &solved.outcome);
+        for (size_t b = 0; b < blow.body_count; b++)
+            scene_take_state(state_after(&solved.assembly, &solved.outcome, solved.problem, b),
+                             &room->states[b]);
+    }
+    return true;
+}
+
+static bool solve_level(struct truth_room *room, const struct body_set *set,
+                        const struct solve_request *request, const struct truth_settings *settings,
+                        const struct level *level, struct truth *truth)
+{
+    struct solved solved;
+    struct solve_request last = *request;
     prepared_cache_use(room->cache, set->revision);
     fix_modes(room, set, level->modes);
-    struct problem *problem = problem_create(request, room->cache, &room->arena);
-    const struct solve_means means = {.catalogue = &room->set};
-    if (!problem || formulate(problem, &means, &fault) || !assemble(&assembly, problem, &choice) ||
-        !solve_scene(room, problem, level, &assembly.scene, &outcome))
+    double window;
+    if (!solve_earlier(room, settings, level, truth, &window))
         return false;
+    for (size_t b = 0; settings->earlier_count && b < last.body_count; b++) {
+        last.bodies[b].state = room->states[b];
+        last.bodies[b].elapsed -= window;
+    }
+    if (!solve_one(room, &last, level, &solved))
+        return false;
+    const struct problem *problem = solved.problem;
+    const struct impact_outcome outcome = solved.outcome;
     double impulse[PERCUSS_MAX_CONTACTS] = {0};
     bool first = truth->levels == 0;
     truth->contacts = problem->contact_count;
@@ -108,7 +159,7 @@ static bool solve_level(struct truth_room *room, const struct body_set *set,
     memcpy(truth->impulse, impulse, sizeof impulse);
     truth->modes = level->modes;
     truth->levels++;
-    truth->work += impact_work(&assembly.scene, &outcome);
+    truth->work += impact_work(&solved.assembly.scene, &outcome);
     truth->end_reason = outcome.end_reason;
     return true;
 }
@@ -132,7 +183,7 @@ bool truth_find(struct truth_room *room, const struct body_set *set,
     truth->spread = INFINITY;
     for (;;) {
         level.work = settings->effort - truth->work;
-        if (!solve_level(room, set, request, &level, truth))
+        if (!solve_level(room, set, request, settings, &level, truth))
             return truth->levels > 1;
         if (settings->chatty)
             print_level(&level, truth);
@@ -152,7 +203,7 @@ bool truth_by_cvode(struct truth_room *room, const struct body_set *set,
                                 .work = settings->effort,
                                 .cvode = true};
     memset(truth, 0, sizeof *truth);
-    bool solved = solve_level(room, set, request, &level, truth);
+    bool solved = solve_level(room, set, request, settings, &level, truth);
     if (solved && settings->chatty)
         print_level(&level, truth);
     return solved;

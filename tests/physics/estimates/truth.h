@@ -12,7 +12,11 @@ struct truth_settings {
     double goal;   /* two solutions agree on the restitution: within this */
     double effort; /* at most, of all solutions; the unit is impact_settings.max_work's */
     size_t modes;  /* of a family of a body, in the first solution */
-    bool chatty;   /* print each */
+    const struct solve_request *earlier; /* blows before it, each from what the one before left in
+                                            this reference: the request's states do not count,
+                                            and `elapsed` is from the stated instant of that one */
+    size_t earlier_count;                /* 0: the request's states do */
+    bool chatty;                         /* print each */
 };
 
 struct truth {
