@@ -7,6 +7,7 @@
 
 #include "contact/law_closed_form.h"
 #include "contact/plastic.h"
+#include "model/half_space.h"
 #include "solve/contact_model.h"
 #include "solve/law_error.h"
 #include "solve/outcome.h"
@@ -243,4 +244,30 @@ double model_deviation_ringing(const struct problem *problem, size_t contact,
     }
     /* e^2 = 1 - share */
     return 1.0 - sqrt(1.0 - fmin(share, 1.0));
+}
+
+/* Of a half-space's waves, of which a fast blow loses a per cent of e: nothing. */
+static const double NO_WAVES = 0.01;
+
+/* The surface is that of a half-space until waves come back from the other side of a bar, or at its
+ * end from its sides; later the bar's modes have them, by the square of what is left of that way
+ * (as the frequencies of the theory go). */
+double model_deviation_waves(const struct problem *problem, const struct impact_outcome *outcome,
+                             size_t contact, const struct model_blow *blow)
+{
+    double sum = 0.0;
+    for (int which = 0; which < 2; which++) {
+        const struct contact_side *side = &problem->sides[contact][which];
+        const struct body *body = problem->bodies[side->body];
+        if (!is_bar(body) || !(blow->duration > 0.0))
+            continue;
+        double way = (side->site.face == SITE_END ? 2.0 : 4.0) * scale_of(body);
+        double ratio = way / (wave_speed(body) * blow->duration);
+        double weight = ratio < 1.0 ? ratio * ratio : 1.0;
+        if (weight < NO_WAVES)
+            continue;
+        sum +=
+            weight * half_space_waves_of(&body->material).lag * outcome->tracks[contact].viscosity;
+    }
+    return sum;
 }

@@ -61,4 +61,9 @@ struct model_stiffening model_deviation_stiffening(const struct model_deviation 
 double model_deviation_ringing(const struct problem *problem, size_t contact,
                                const struct model_blow *blow);
 
+/* Energy that a blow leaves in waves within bars whose theory has none of them, before they come
+ * back from the far side, J. */
+double model_deviation_waves(const struct problem *problem, const struct impact_outcome *outcome,
+                             size_t contact, const struct model_blow *blow);
+
 #endif

@@ -50,6 +50,23 @@ static double sensitivity(const struct model_margin *margin)
     return LOST * share + SWUNG * sqrt(share);
 }
 
+/* Least restitution that lost energy is counted against. */
+static const double LEAST_REBOUND = 0.1;
+
+/* Change of e by the energy that goes into waves of a bar's whole body. */
+static double by_waves(const struct model_margin *margin, size_t c)
+{
+    const struct problem *problem = margin->problem;
+    const struct impact_outcome *outcome = &margin->solution->outcome;
+    double compression = problem->impulse_compression[c];
+    double lost = model_deviation_waves(problem, outcome, c, &margin->blow[c]);
+    if (!(compression > 0.0) || lost == 0.0)
+        return 0.0;
+    double rebound = fmax(fabs(outcome_restitution(problem, outcome, c)), LEAST_REBOUND);
+    double w = problem->w[c * (problem->contact_count + 1)];
+    return lost / (rebound * compression * compression * w);
+}
+
 /* As if there were one contact after which the bodies part. */
 static double single(const struct model_margin *margin)
 {
@@ -61,7 +78,7 @@ static double single(const struct model_margin *margin)
                       outcome_rebound(margin->problem, &margin->solution->outcome, c);
         double ringing = model_deviation_ringing(margin->problem, c, &margin->blow[c]);
         double bent = askew_loss(margin->problem, c, margin->blow[c].duration);
-        largest = fmax(largest, hypot(hypot(spring, flow), ringing) + bent);
+        largest = fmax(largest, hypot(hypot(spring, flow), ringing) + bent + by_waves(margin, c));
     }
     return largest + validity_wave_loss(margin->problem);
 }
