@@ -78,64 +78,68 @@ struct key_text key_list(const struct key_table *table)
     return list;
 }
 
-struct key_text key_allowed(const struct key *key)
+/* As it reads after "must be", by its type. */
+static void grow_allowed(struct growing *growing, const struct key *key)
 {
-    struct key_text allowed = {{0}};
-    struct growing growing = {allowed.text, sizeof allowed.text, 0};
-    /* as it reads after "must be" */
-    if (key->allowed) {
-        grow(&growing, "", key->allowed);
-        return allowed;
-    }
     switch (key->type) {
     case KEY_NUMBER:
     case KEY_TWICE:
     case KEY_WHOLE:
     case KEY_YIELD:
-        grow(&growing, key->type == KEY_YIELD ? "none or " : "", key->limit->text);
+        grow(growing, key->type == KEY_YIELD ? "none or " : "", key->limit->text);
         break;
     case KEY_NUMBERS:
-        grow(&growing, "a list of three, each ", key->limit->text);
+        grow(growing, "a list of three, each ", key->limit->text);
         break;
     case KEY_FLAG:
-        grow(&growing, "", "true or false");
+        grow(growing, "", "true or false");
         break;
     case KEY_WORD:
-        grow(&growing, "one of ", "");
-        grow_words(&growing, key);
+        grow(growing, "one of ", "");
+        grow_words(growing, key);
         break;
     case KEY_ENDS:
-        grow(&growing, "one of ", "");
-        grow_words(&growing, key);
-        grow_pair(&growing, key);
+        grow(growing, "one of ", "");
+        grow_words(growing, key);
+        grow_pair(growing, key);
         break;
     case KEY_SHEAR:
-        grow_words(&growing, key);
-        grow(&growing, " or ", key->limit->text);
+        grow_words(growing, key);
+        grow(growing, " or ", key->limit->text);
         break;
     case KEY_DAMPING:
-        grow(&growing, key->limit->text,
+        grow(growing, key->limit->text,
              ", or a list of such, of the modes from the lowest up, the last one of all others");
         break;
     case KEY_KIND:
-        grow_kinds(&growing);
+        grow_kinds(growing);
         break;
     case KEY_NAME:
-        grow(&growing, "", "a name of materials");
+        grow(growing, "", "a name of materials");
         break;
     case KEY_SECTION:
-        grow(&growing, "a mapping of ", "");
-        grow_keys(&growing, key->nested);
+        grow(growing, "a mapping of ", "");
+        grow_keys(growing, key->nested);
         break;
     case KEY_TEXT:
-        grow(&growing, "", "a name that is not empty");
+        grow(growing, "", "a name that is not empty");
         break;
     case KEY_LIST:
-        grow(&growing, "", "a list");
+        grow(growing, "", "a list");
         break;
     case KEY_CALLER:
-        grow(&growing, "", "a mapping of ids");
+        grow(growing, "", "a mapping of ids");
         break;
     }
+}
+
+struct key_text key_allowed(const struct key *key)
+{
+    struct key_text allowed = {{0}};
+    struct growing growing = {allowed.text, sizeof allowed.text, 0};
+    if (key->allowed)
+        grow(&growing, "", key->allowed);
+    else
+        grow_allowed(&growing, key);
     return allowed;
 }
