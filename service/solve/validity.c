@@ -293,6 +293,23 @@ static void find_sliding(const struct problem *problem, const struct impact_outc
                  c, speed, speed / approach, FRICTION, impulse, change);
 }
 
+/* Bodies taken as rigid that would not be; of balls see validity_wave_loss. */
+static void find_rigid(const struct problem *problem, const struct impact_outcome *outcome,
+                       size_t c, struct warnings *warnings)
+{
+    const struct model_blow blow = model_blow_of(problem, outcome, c);
+    for (unsigned which = 0; which < 2; which++) {
+        double rings = model_deviation_side(problem, c, (int)which, &blow);
+        bool ball = body_solid(problem_body(problem, c, (int)which)).form == SOLID_BALL;
+        if (rings > problem->tolerance && !ball)
+            warnings_add(warnings, WARNING_RIGID + which,
+                         "contacts[%zu]: %s is taken as rigid: its vibration would take up to "
+                         "about %.2g of the restitution; the tolerance is %.2g: a beam, or a "
+                         "mesh, has its vibration",
+                         c, problem_body(problem, c, (int)which)->id, rings, problem->tolerance);
+    }
+}
+
 static void find_contact(const struct problem *problem, const struct impact_outcome *outcome,
                          size_t c, double approach, struct warnings *warnings)
 {
@@ -305,6 +322,7 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     find_size(problem, outcome, c, axes[0], warnings);
     find_place(problem, outcome, c, axes[0], warnings);
     find_sliding(problem, outcome, c, approach, warnings);
+    find_rigid(problem, outcome, c, warnings);
     loss_find(problem, c, outcome_rebound(problem, outcome, c), warnings);
     askew_find(problem, c, model_blow_of(problem, outcome, c).duration, warnings);
     if (unstated_any(problem, c)) {

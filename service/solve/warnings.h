@@ -28,7 +28,8 @@ enum warning_kind {
     WARNING_WAVES = 18,
     WARNING_BENDING,
     WARNING_UNSTATED = 21,
-    WARNING_KINDS
+    WARNING_RIGID,
+    WARNING_KINDS = 24
 };
 _Static_assert(WARNING_KINDS <= 32, "a set of kinds is 32 bits");
 

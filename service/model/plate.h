@@ -1,0 +1,23 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* An estimate of what bending takes of a blow on a box that is taken as rigid. */
+#ifndef PERCUSS_MODEL_PLATE_H
+#define PERCUSS_MODEL_PLATE_H
+
+#include "model/material.h"
+
+/* A free box hit along its height. */
+struct plate {
+    const struct material *material;
+    double height, sides[2]; /* m */
+    double at[2];            /* place of the blow along the sides from the middle, m */
+    double mass;             /* kg */
+};
+
+/* Share of the energy of an approach with the reduced mass (kg) that a force like half a sine of
+ * this duration (s) leaves in bending: flexural waves of a large plate (Zener 1941), the modes of a
+ * small one or of a bar. To first order: it may exceed 1. */
+double plate_share(const struct plate *plate, double reduced, double duration);
+
+#endif
