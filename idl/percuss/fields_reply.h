@@ -64,7 +64,7 @@
     F(ID, id, "of the body")                                                                       \
     F(COUNT, modes, "kept in the scene")                                                           \
     F(FLAG, rigid, "whether it does not vibrate")                                                  \
-    F(TEXT, theory, "rigid, rod, rayleigh-love, timoshenko, euler-bernoulli")                      \
+    F(TEXT, theory, "rigid, rod, rayleigh-love, timoshenko, euler-bernoulli, ritz, mesh")          \
     F(VALUE, shear_factor, "undefined where there is none")
 
 #define PERCUSS_MODEL_FIELDS(F, L)                                                                 \

@@ -121,7 +121,7 @@ static enum percuss_status read_rest(struct reader *reader, struct entry entry,
     if (!status && body->kind->own_material)
         status = mesh_entry_read(reader, entry, files, set, body);
     /* a mode of the ratio d loses 4 pi d of its energy in a cycle, the material 2 pi loss_factor */
-    if (!status && body->loss_factor > 0.0 && body_is_flexible(body) &&
+    if (!status && body->loss_factor > 0.0 && body_can_vibrate(body) &&
         !reader_find(reader, entry.value, "damping").value)
         body->damping = 0.5 * body->loss_factor;
     return status;

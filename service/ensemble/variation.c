@@ -76,7 +76,7 @@ static enum percuss_status check_damping(const struct variation *variation, size
 {
     const struct ensemble_spec *spec = variation->spec;
     const char *id = spec->request->bodies[spec->inputs[index].body].id;
-    if (body_is_flexible(body_set_find(spec->catalogue, id)))
+    if (body_can_vibrate(body_set_find(spec->catalogue, id)))
         return PERCUSS_OK;
     return fault_set(fault, PERCUSS_BAD_REQUEST,
                      "inputs[%zu].body: %s: must be a body that vibrates for the quantity damping",

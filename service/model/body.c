@@ -98,9 +98,19 @@ enum percuss_status body_complete(struct body *body, struct fault *fault)
     return body->kind->complete(body, fault);
 }
 
-bool body_is_flexible(const struct body *body)
+bool body_can_vibrate(const struct body *body)
 {
     return body->kind->family_count > 0 && !body->rigid;
+}
+
+bool body_is_flexible(const struct body *body)
+{
+    return body_can_vibrate(body) && (!body->kind->box || body->ritz);
+}
+
+bool body_is_solid(const struct body *body)
+{
+    return (body->mesh || body->ritz) && body_is_flexible(body);
 }
 
 bool body_bends(const struct body *body)
@@ -129,7 +139,7 @@ bool body_has_sphere(const struct body *body)
 
 const char *body_theory(const struct body *body)
 {
-    return body->kind->theory && !body->rigid ? body->kind->theory(body) : "rigid";
+    return body->kind->theory && body_is_flexible(body) ? body->kind->theory(body) : "rigid";
 }
 
 const struct body *body_set_find(const struct body_set *set, const char *id)

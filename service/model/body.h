@@ -45,7 +45,8 @@ struct body {
     bool varied;                  /* by body_vary */
     const struct mesh_body *mesh; /* mesh: borrowed from the set */
     double scale;                 /* mesh: its size over the file's; 0: not stated, 1 */
-    bool rigid;                   /* mesh: its vibration is left out */
+    bool rigid;                   /* mesh, block: its vibration is left out */
+    const struct ritz *ritz;      /* block: its vibration, lent by what solves; NULL: none */
     struct body_site *sites;      /* mesh: [site_count], borrowed from the set */
     size_t site_count, damping_count;
 
@@ -83,10 +84,15 @@ double body_parameter(const struct body *body, enum percuss_parameter parameter)
 /* Whether two variants of one body of the catalogue have the same modes. */
 bool body_same_modes(const struct body *a, const struct body *b);
 
-/* Whether it can vibrate: its kind has families of modes. And whether it can be hit on its side
+/* Whether it vibrates: its kind has families of modes, and they are there. Whether it can, once
+ * they are made for it (body_kind.h, `box`). And whether it can be hit on its side
  * anywhere along x and bends then: a beam. */
 bool body_is_flexible(const struct body *body);
+bool body_can_vibrate(const struct body *body);
 bool body_bends(const struct body *body);
+
+/* Whether it vibrates in three dimensions, its static flexibility included: a mesh or a box. */
+bool body_is_solid(const struct body *body);
 
 /* The material of its surface at a site: of a mesh of several, one of them. */
 struct material body_material_at(const struct body *body, const struct site *site);

@@ -61,6 +61,10 @@ struct body_kind {
     /* Why no model covers a site that the surface has; NULL: one does. NULL: all are. */
     const char *(*why_not)(const struct body *body, const struct site *site);
 
+    /* The sides of a box whose vibration is Ritz's (ritz.h), made when a scene asks for it; false:
+     * beyond what that reaches. NULL: no such body. */
+    bool (*box)(const struct body *body, double sides[3]);
+
     /* Its families of modes, see mode_family.h; none: it is rigid. */
     const struct mode_family *const *families;
     size_t family_count;

@@ -4,14 +4,30 @@
 #include <math.h>
 
 #include "model/body.h"
+#include "model/damping.h"
 #include "model/describe.h"
 #include "model/face.h"
 #include "model/key.h"
+#include "model/mesh_family.h"
+#include "model/modal_basis.h"
+#include "model/ritz.h"
+#include "model/site.h"
 
 static const struct key keys[] = {
     {"size", KEY_NUMBERS, &limit_length, true, KEY_OF(body, size),
-     KEY_SAYS(NULL, "its edges along x, y and z; it is compact: stiff but for the contact")},
+     KEY_SAYS(NULL, "its edges along x, y and z")},
+    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping),
+     KEY_SAYS("half of its material's loss_factor; 0 where that states none",
+              "damping ratio of every elastic mode")},
+    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),
+     KEY_SAYS("as many as the tolerance asks for",
+              "fixed number of modes, of those that are computed")},
+    {"rigid", KEY_FLAG, KEY_OF(body, rigid),
+     KEY_SAYS("false",
+              "mass, inertia and surface only: the error states what its vibration takes")},
 };
+
+static const struct mode_family *const families[] = {&mesh_family};
 
 static enum percuss_status complete(struct body *body, struct fault *fault)
 {
@@ -36,6 +52,38 @@ static int find_faces(const struct body *body, const double p[3], struct face *f
     return face_box(half, p, faces);
 }
 
+static bool box(const struct body *body, double sides[3])
+{
+    for (int d = 0; d < 3; d++)
+        sides[d] = body->size[d];
+    return ritz_reaches(sides);
+}
+
+/* Flexibility is for who lends the modes to say. */
+static void load_family(const struct body *body, const struct site *site, const double direction[3],
+                        struct site_load *load)
+{
+    struct family_load *family = &load->family[0];
+    double longest = fmax(body->size[0], fmax(body->size[1], body->size[2]));
+    if (!body_is_flexible(body))
+        return;
+    family->acts = true;
+    for (int d = 0; d < 3; d++) {
+        family->mesh.direction[d] = direction[d];
+        family->mesh.point[d] = site->point[d] / longest;
+        if (fabs(site->outward[d]) > 0.5) {
+            family->mesh.axis = d;
+            family->mesh.side = site->outward[d] > 0.0 ? 1 : -1;
+        }
+    }
+}
+
+static const char *theory(const struct body *body)
+{
+    (void)body;
+    return "ritz";
+}
+
 /* Hit on its faces along z. */
 static struct solid solid(const struct body *body)
 {
@@ -53,6 +101,11 @@ static void describe(const struct body *body, struct body_description *descripti
     const double *size = body->size;
     describe_extents(description, 0.5 * size[0], 0.5 * size[1], 0.5 * size[2]);
     describe_add(description, "%g m x %g m x %g m", size[0], size[1], size[2]);
+    if (body->rigid)
+        describe_add(description, "rigid");
+    damping_describe(body, description);
+    if (body->modes > 0)
+        describe_add(description, "%u modes taking part", body->modes);
 }
 
 const struct body_kind block_kind = {
@@ -63,5 +116,10 @@ const struct body_kind block_kind = {
     .smallest_radius = smallest_radius,
     .faces = find_faces,
     .solid = solid,
+    .box = box,
+    .families = families,
+    .family_count = sizeof families / sizeof *families,
+    .load = load_family,
+    .theory = theory,
     .describe = describe,
 };

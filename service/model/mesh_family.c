@@ -9,6 +9,7 @@
 #include "base/vector_clones.h"
 #include "model/mesh_between.h"
 #include "model/modal_basis.h"
+#include "model/ritz.h"
 #include "model/vector.h"
 
 /* Modes beyond the file's: sum phi^2/omega^4 of an octave falls with the frequency as omega^-p,
@@ -22,8 +23,13 @@ static const double LEAST_PART = 1e-9;
 /* Modes whose shapes are summed up at once. */
 enum { AT_ONCE = 64 };
 
+/* Of a file's body, or of a box of modulus, density and longest side 1. */
 struct mesh_ratio mesh_ratio_of(const struct body *body)
 {
+    if (!body->mesh) {
+        double longest = fmax(body->size[0], fmax(body->size[1], body->size[2]));
+        return (struct mesh_ratio){body->material.young, body->material.density, longest};
+    }
     const struct material *file = &body->mesh->materials[0];
     return (struct mesh_ratio){body->material.young / file->young,
                                body->material.density / file->density, body->scale};
@@ -37,7 +43,16 @@ double mesh_ratio_flexibility(const struct body *body)
 
 static size_t most(const struct body *body)
 {
-    return body->mesh->mode_count;
+    if (!body->ritz && !body->mesh) /* a box that stays rigid */
+        return 0;
+    return body->ritz ? ritz_mode_count(body->ritz) : body->mesh->mode_count;
+}
+
+static const double *frequencies(const struct body *body)
+{
+    if (!body->ritz && !body->mesh)
+        return NULL;
+    return body->ritz ? ritz_omega(body->ritz) : body->mesh->omega;
 }
 
 /* Lengths grow by s, moduli by e, densities by d: omega by sqrt(e/d)/s. */
@@ -45,14 +60,15 @@ static void find(const struct body *body, struct modal_family *modes)
 {
     struct mesh_ratio ratio = mesh_ratio_of(body);
     double factor = sqrt(ratio.young / ratio.density) / ratio.size;
-    size_t all = body->mesh->mode_count;
+    size_t all = most(body);
+    const double *omega = frequencies(body);
     if (modes->count > all)
         modes->count = all;
     for (size_t k = 0; k < modes->count; k++)
-        modes->omega[k] = factor * body->mesh->omega[k];
+        modes->omega[k] = factor * omega[k];
     /* the next one: of the file, or no lower than its last */
     size_t next = modes->count < all ? modes->count : all - 1;
-    modes->omega[modes->count] = all > 0 ? factor * body->mesh->omega[next] : INFINITY;
+    modes->omega[modes->count] = all > 0 ? factor * omega[next] : INFINITY;
 }
 
 /* row += share shape, mode by mode: the same bits for any vector unit. */
@@ -70,6 +86,12 @@ static void fill_row(const struct body *body, size_t first, size_t count,
     const struct mesh_load *at = &load->mesh;
     struct mesh_ratio ratio = mesh_ratio_of(body);
     double factor = 1.0 / sqrt(ratio.density * ratio.size * ratio.size * ratio.size);
+    if (body->ritz) {
+        ritz_shapes(body->ritz, at->point, at->direction, first, count, row);
+        for (size_t k = 0; k < count; k++)
+            row[k] *= factor;
+        return;
+    }
     memset(row, 0, count * sizeof *row);
     for (int i = 0; i < at->count; i++) {
         size_t node = mesh->faces[at->face].nodes[i];
@@ -112,7 +134,7 @@ static double held_by(const struct body *body, size_t from, size_t to, const str
         if (i != j)
             fill_row(body, to, count, j, rows[1]);
         for (size_t k = count; k-- > 0;) {
-            double omega = body->mesh->omega[to + k];
+            double omega = frequencies(body)[to + k];
             sum += rows[0][k] * other[k] / (omega * omega);
         }
     }
@@ -128,13 +150,16 @@ static struct mesh_push push_of(const struct mesh_load *load)
     return push;
 }
 
-/* At one place: the regular flexibility with what the removed modes hold. Between two: likewise of
+/* Of a box all modes; between two places those that it has. Of a mesh at one place: the regular
+ * flexibility with what the removed modes hold. Between two: likewise of
  * the file's sites; without any, the modes' sum, which converges there as no field is singular. */
 static double compliance(const struct body *body, size_t family, const struct family_load *i,
                          const struct family_load *j)
 {
     (void)family;
     const struct mesh_body *mesh = body->mesh;
+    if (body->ritz)
+        return i == j ? i->mesh.flexibility : held_by(body, 0, most(body), i, j);
     double removed = held_by(body, 0, mesh->removed, i, j);
     if (i == j)
         return i->mesh.flexibility + removed;
@@ -157,8 +182,8 @@ VECTOR_CLONES static void find_inertias(size_t count, const double *row, const d
 static double beyond(const struct body *body, const struct modal_family *modes, size_t first,
                      const struct family_load *load)
 {
-    const double *omega = body->mesh->omega;
-    size_t all = body->mesh->mode_count;
+    const double *omega = frequencies(body);
+    size_t all = most(body);
     struct mesh_ratio ratio = mesh_ratio_of(body);
     double factor = sqrt(ratio.young / ratio.density) / ratio.size;
     double row[AT_ONCE], inertia[AT_ONCE];

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The elastic modes of a body that was reduced from a mesh, with the static compliance that they do
- * not hold: one family, of as many modes as its file has. */
+/* The elastic modes of a body that was reduced from a mesh, or of a box (ritz.h), with the static
+ * compliance that they do not hold: one family, of as many modes as there are. */
 #ifndef PERCUSS_MODEL_MESH_FAMILY_H
 #define PERCUSS_MODEL_MESH_FAMILY_H
 

@@ -10,14 +10,16 @@
 #include "model/mode_family.h"
 #include "model/site.h"
 
-/* A force on a face of a mesh. */
+/* A force on a face of a mesh, or of a box (ritz.h). */
 struct mesh_load {
+    int axis, side; /* box: of the face */
     unsigned face;
     int count;                          /* nodes of the face */
     double share[MESH_BODY_FACE_NODES]; /* shape functions */
     double direction[3];                /* unit */
     double point[3];                    /* mesh's frame and size, m */
     double flexibility;                 /* regular, of the body's own size and material, m/N */
+    double unknown;                     /* of that, m/N */
 };
 
 /* What one newton at a contact does to one family of a body. Kinds that are no bars keep what they

@@ -5,6 +5,8 @@
 
 #include <lapacke.h>
 #include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "numeric/turn.h"
@@ -38,4 +40,34 @@ double linear_pseudo_inverse(size_t n, const double *a, double relative, double 
                 inverse[i * n + j] += vectors[k * n + i] * vectors[k * n + j] / values[k];
     }
     return values[0] / largest;
+}
+
+size_t linear_eigen_between(size_t n, double *a, double low, double high, double *eigenvalues,
+                            double *vectors)
+{
+    lapack_int order = (lapack_int)n, found = 0, result = -1;
+    lapack_int *support = calloc(2 * n + 1, sizeof *support);
+    if (support) {
+        turn_begin();
+        result = LAPACKE_dsyevr(LAPACK_COL_MAJOR, 'V', 'V', 'L', order, a, order, low, high, 0, 0,
+                                0.0, &found, eigenvalues, vectors, order, support);
+        turn_end();
+    }
+    free(support);
+    return result == 0 ? (size_t)found : SIZE_MAX;
+}
+
+bool linear_packed_factor(size_t n, double *a)
+{
+    turn_begin();
+    lapack_int result = LAPACKE_dpptrf(LAPACK_COL_MAJOR, 'L', (lapack_int)n, a);
+    turn_end();
+    return result == 0;
+}
+
+void linear_packed_solve(size_t n, const double *factor, double *x)
+{
+    turn_begin();
+    LAPACKE_dpptrs(LAPACK_COL_MAJOR, 'L', (lapack_int)n, 1, factor, x, (lapack_int)n);
+    turn_end();
 }

@@ -22,4 +22,15 @@ bool linear_symmetric_eigen(size_t n, double *a, double *eigenvalues);
 double linear_pseudo_inverse(size_t n, const double *a, double relative, double *inverse,
                              double *scratch);
 
+/* Eigenvalues of a symmetric matrix within (low, high], ascending, and their vectors, one after the
+ * other; only the lower triangle, by columns, is read, and the matrix is lost. `vectors` and
+ * `eigenvalues` have room for all. Their number; SIZE_MAX: none converged, or out of memory. */
+size_t linear_eigen_between(size_t n, double *a, double low, double high, double *eigenvalues,
+                            double *vectors);
+
+/* Cholesky's factor of a positive definite matrix in its own place, the lower triangle packed by
+ * columns, and the solution with it. False: it is not positive definite. */
+bool linear_packed_factor(size_t n, double *a);
+void linear_packed_solve(size_t n, const double *factor, double *x);
+
 #endif

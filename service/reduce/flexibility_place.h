@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-#include "reduce/boussinesq3.h"
+#include "model/boussinesq3.h"
 #include "reduce/surface_rule.h"
 
 struct flexibility_place {

@@ -145,7 +145,7 @@ static bool add_group(const struct addition *add, const struct prepared_group *s
     }
     /* without those of a mesh that hardly take part: families of bars are what a place excites */
     assembly->offered[add->body] += group->count;
-    if (add->problem->bodies[add->body]->mesh &&
+    if (body_is_solid(add->problem->bodies[add->body]) &&
         !mode_share_leave_out(add->problem, add->state, add->family, &source, group))
         return false;
     if (group->count == 0)
@@ -250,7 +250,7 @@ static size_t wanted(const struct addition *add, const struct scene *rigid,
                          : mode_choice_count(choice, add->problem, rigid, add->body, add->family,
                                              add->compliance);
     size_t allowed = add->problem->compliance.most;
-    if (add->problem->bodies[add->body]->mesh && allowed > 0 && count > allowed)
+    if (body_is_solid(add->problem->bodies[add->body]) && allowed > 0 && count > allowed)
         count = allowed;
     if (add->state && add->state->count[add->family] > count)
         count = add->state->count[add->family];
@@ -310,7 +310,7 @@ bool assemble(struct assembly *assembly, const struct problem *problem,
                 return false;
             assembly->adjustable = assembly->adjustable || body->modes == 0;
             assembly->capped = assembly->capped || add.count == choice->most ||
-                               (body->mesh && add.count == problem->compliance.most) ||
+                               (body_is_solid(body) && add.count == problem->compliance.most) ||
                                add.count == modal_family_most(body, f);
             add.prepared = prepared_family_get(problem->cache, body, add.family, add.count + 1);
             if (!add.prepared || !add_family(&add, residual))

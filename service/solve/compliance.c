@@ -42,10 +42,10 @@ static bool is_central(const struct body *body, const double point[3])
     return off <= CENTRAL * body->radius && length > END * body->length;
 }
 
-/* A mesh's static compliance is the real body's beyond the half-space. */
+/* A mesh's or a box's static compliance is the real body's beyond the half-space. */
 static bool is_matched_by_nature(const struct body *body)
 {
-    return body->mesh && body_is_flexible(body);
+    return body_is_solid(body);
 }
 
 /* The correction of one side of a contact, m/N. NAN: none is known. False: out of memory. */
@@ -58,7 +58,7 @@ static bool side_compliance(struct problem *problem, size_t c, int which, double
     if (is_matched_by_nature(body)) {
         const struct face_spot *spot = &side->site.spot;
         *compliance = 0.0;
-        if (spot->slope != 0.0 && body->mesh->cut > 0.0) {
+        if (body->mesh && spot->slope != 0.0 && body->mesh->cut > 0.0) {
             problem->compliance.by_speed = true;
             *compliance =
                 spot->slope * log(body->scale * body->mesh->cut / patch_radius(problem, c));
@@ -167,7 +167,7 @@ static size_t mesh_modes(const struct problem *problem, const struct scene *scen
 {
     size_t most = 0;
     for (size_t g = 0; g < scene->groups; g++)
-        if (problem->bodies[scene->group[g].body]->mesh && scene->group[g].count > most)
+        if (body_is_solid(problem->bodies[scene->group[g].body]) && scene->group[g].count > most)
             most = scene->group[g].count;
     size_t allowed = problem->compliance.most;
     return allowed > 0 && allowed < most ? allowed : most;

@@ -7,6 +7,7 @@
 #include "solve/contact_model.h"
 #include "solve/model_shift.h"
 #include "solve/placement.h"
+#include "solve/vibration.h"
 
 enum percuss_status formulate(struct problem *problem, const struct solve_means *means,
                               struct fault *fault)
@@ -14,6 +15,8 @@ enum percuss_status formulate(struct problem *problem, const struct solve_means 
     enum percuss_status status = placement_find(problem, means->catalogue, fault);
     if (!status)
         status = contact_model_choose(problem, means->tables, fault);
+    if (!status && problem->request->options.contact_model != PERCUSS_CONTACT_COMPLETE_FE)
+        status = vibration_lend(problem, fault);
     if (!status)
         status = compliance_choose(problem, means->catalogue->compliance, fault);
     if (!status)

@@ -64,7 +64,7 @@ static double scale_of(const struct body *body)
  * included. */
 static bool is_bar(const struct body *body)
 {
-    return body_is_flexible(body) && body->length > 0.0;
+    return body_is_flexible(body) && body->length > 0.0 && !body_is_solid(body);
 }
 
 static bool without_shear(const struct body *body)
@@ -105,7 +105,7 @@ static double compliance_of(const struct problem *problem, size_t contact, bool 
         double size = scale_of(body);
         if (isfinite(size) && (all || body_is_flexible(body)))
             sum += unknown_compliance(problem, side) / (body->material.young * size) +
-                   near_edge(problem, contact, which);
+                   near_edge(problem, contact, which) + side->load.family[0].mesh.unknown;
     }
     return sum;
 }
@@ -202,17 +202,29 @@ struct model_blow model_blow_of(const struct problem *problem, const struct impa
     return blow;
 }
 
+/* By Hertz's law. */
+static struct model_blow elastic_blow(const struct problem *problem, size_t contact, double speed)
+{
+    const struct hertz_contact *hertz = &problem->hertz[contact];
+    double work = 0.5 * speed * speed / problem->w[contact * (problem->contact_count + 1)];
+    double depth = pow(work / (HERTZ_WORK * hertz->stiffness), 0.4);
+    return (struct model_blow){.force = hertz->stiffness * depth * sqrt(depth),
+                               .indentation = depth,
+                               .duration = speed > 0.0 ? DURATION * depth / speed : INFINITY};
+}
+
+struct model_blow model_blow_fastest(const struct problem *problem, size_t contact)
+{
+    return elastic_blow(problem, contact, problem_approach(problem));
+}
+
 /* The work of the approach, taken up by the contact's law from the beginning. */
 struct model_blow model_blow_expected(const struct problem *problem, size_t contact)
 {
-    /* by Hertz's law */
-    const struct hertz_contact *hertz = &problem->hertz[contact];
     double speed = fmax(-problem->gap_rate[contact], 0.0);
     double work = 0.5 * speed * speed / problem->w[contact * (problem->contact_count + 1)];
-    double depth = pow(work / (HERTZ_WORK * hertz->stiffness), 0.4);
-    struct model_blow blow = {.force = hertz->stiffness * depth * sqrt(depth),
-                              .indentation = depth,
-                              .duration = speed > 0.0 ? DURATION * depth / speed : INFINITY};
+    struct model_blow blow = elastic_blow(problem, contact, speed);
+    double depth = blow.indentation;
     /* by the law that yields, where it does */
     const struct contact_choice *choice = &problem->contact_model.choices[contact];
     if (choice->side < 0 || !(depth > choice->yield))

@@ -37,6 +37,10 @@ struct model_blow model_blow_of(const struct problem *problem, const struct impa
 /* That of bodies which would be rigid but for the contact, before anything is solved. */
 struct model_blow model_blow_expected(const struct problem *problem, size_t contact);
 
+/* The same of an elastic contact that closes as the fastest of all does: what rests on a body hands
+ * on the blow that it gets. */
+struct model_blow model_blow_fastest(const struct problem *problem, size_t contact);
+
 struct model_deviation model_deviation_of(const struct problem *problem, size_t contact,
                                           const struct model_blow *blow);
 

@@ -11,6 +11,7 @@
 
 #include "fe/matched.h"
 #include "model/damping.h"
+#include "model/ritz.h"
 #include "model/roll.h"
 
 /* Patches from a half of a sphere's radius down to 1/1024; smaller ones are extrapolated. */
@@ -49,7 +50,21 @@ struct entry {
 /* Contacts whose ellipse is kept: those of a scene, and of some scenes asked by turns. */
 enum { CONTACTS = 16 };
 
+/* Boxes that are kept, and places on each. A varied Poisson's ratio makes another one. */
+enum { BOXES = 8, PLACES = 64 };
+
+struct box {
+    struct box *next; /* the one asked for before */
+    struct ritz *ritz;
+    size_t next_place;
+    struct box_place {
+        int axis, side; /* 0: none yet */
+        double point[3], flexibility;
+    } places[PLACES];
+};
+
 struct prepared_cache {
+    struct box *boxes;                       /* the one asked for last first */
     struct hertz_contact contacts[CONTACTS]; /* by what they are made of; all zero: none */
     char revision[PERCUSS_ID_SIZE];
     struct entry *buckets[BUCKETS];
@@ -191,10 +206,25 @@ static void free_retired(struct prepared_cache *cache)
     }
 }
 
+/* All but the first ones. */
+static void free_boxes(struct prepared_cache *cache, size_t kept)
+{
+    struct box **link = &cache->boxes;
+    for (size_t i = 0; *link && i < kept; i++)
+        link = &(*link)->next;
+    while (*link) {
+        struct box *box = *link;
+        *link = box->next;
+        ritz_free(box->ritz);
+        free(box);
+    }
+}
+
 void prepared_cache_free(struct prepared_cache *cache)
 {
     if (!cache)
         return;
+    free_boxes(cache, 0);
     free_retired(cache);
     forget(cache, false);
     placed_store_free(cache->places);
@@ -204,6 +234,7 @@ void prepared_cache_free(struct prepared_cache *cache)
 void prepared_cache_use(struct prepared_cache *cache, const char *revision)
 {
     free_retired(cache);
+    free_boxes(cache, BOXES);
     if (cache->parts.count > MOST_PARTS)
         prepared_parts_clear(&cache->parts);
     if (cache->varied > MOST_VARIED)
@@ -337,6 +368,53 @@ struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double e
         known->curvature[1] != curvature[1])
         *known = hertz_contact_make(effective_modulus, curvature[0], curvature[1]);
     return *known;
+}
+
+const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const double sides[3],
+                                     double poisson)
+{
+    /* to the front */
+    for (struct box **link = &cache->boxes; *link; link = &(*link)->next) {
+        struct box *box = *link;
+        if (!ritz_is_of(box->ritz, sides, poisson))
+            continue;
+        *link = box->next;
+        box->next = cache->boxes;
+        cache->boxes = box;
+        return box->ritz;
+    }
+    struct box *made = calloc(1, sizeof *made);
+    if (!made)
+        return NULL;
+    made->ritz = ritz_create(sides, poisson);
+    if (!made->ritz) {
+        free(made);
+        return NULL;
+    }
+    made->next = cache->boxes;
+    cache->boxes = made;
+    return made->ritz;
+}
+
+double prepared_ritz_flexibility(struct prepared_cache *cache, const struct ritz *ritz, int axis,
+                                 int side, const double point[3])
+{
+    struct box *box = cache->boxes;
+    while (box && box->ritz != ritz)
+        box = box->next;
+    if (!box)
+        return ritz_flexibility(ritz, axis, side, point);
+    for (size_t i = 0; i < PLACES; i++) {
+        const struct box_place *place = &box->places[i];
+        if (place->axis == axis && place->side == side &&
+            memcmp(place->point, point, sizeof place->point) == 0)
+            return place->flexibility;
+    }
+    struct box_place *place = &box->places[box->next_place++ % PLACES];
+    *place = (struct box_place){.axis = axis, .side = side};
+    memcpy(place->point, point, sizeof place->point);
+    place->flexibility = ritz_flexibility(ritz, axis, side, point);
+    return place->flexibility;
 }
 
 struct placed_store *prepared_places(struct prepared_cache *cache)

@@ -64,6 +64,15 @@ struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const s
 struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double effective_modulus,
                                           const double curvature[2]);
 
+/* The vibration of a box of these sides (ritz.h), made when first asked for and valid until the
+ * next prepared_cache_use; a few are kept. NULL: out of memory. */
+const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const double sides[3],
+                                     double poisson);
+
+/* ritz_flexibility of one of those; of the last places it is kept. */
+double prepared_ritz_flexibility(struct prepared_cache *cache, const struct ritz *ritz, int axis,
+                                 int side, const double point[3]);
+
 /* How contacts lie on their bodies. */
 struct placed_store *prepared_places(struct prepared_cache *cache);
 

@@ -214,14 +214,14 @@ static void fill_model(const struct problem *problem, const struct solution *sol
         loss_worst(problem, &solution->outcome);
 }
 
-/* Whether every mode that a file holds of some body takes part. */
-static bool all_of_a_file(const struct problem *problem, const struct assembly *assembly)
+/* A body of which every mode that a file holds or that is computed takes part, or NULL. */
+static const struct body *all_of_one(const struct problem *problem, const struct assembly *assembly)
 {
     for (size_t b = 0; b < problem->body_count; b++)
-        if (problem->bodies[b]->mesh && assembly->offered[b] > 0 &&
-            assembly->offered[b] == problem->bodies[b]->mesh->mode_count)
-            return true;
-    return false;
+        if (body_is_solid(problem->bodies[b]) && assembly->offered[b] > 0 &&
+            assembly->offered[b] == modal_family_most(problem->bodies[b], 0))
+            return problem->bodies[b];
+    return NULL;
 }
 
 /* Why the estimated error is no smaller: of its larger part what ended the search, or else what
@@ -243,7 +243,10 @@ static const char *reason_of_error(const struct problem *problem, const struct s
     if (modes && omitted && problem->compliance.most > 0)
         return "more modes of the mesh would leave too negative a compliance for so stiff a "
                "contact";
-    if (modes && omitted && all_of_a_file(problem, assembly))
+    const struct body *all = all_of_one(problem, assembly);
+    if (modes && omitted && all && all->ritz)
+        return "the modes that are computed of so thin a body are too few: a mesh may have more";
+    if (modes && omitted && all)
         return "the modes in the body's file are too few: reduce its mesh to a higher frequency";
     if (modes && omitted && assembly->capped)
         return sequence ? "the most modes that are tried of a body are too few for what the "

@@ -93,9 +93,10 @@ static void a_soft_wall_gives_back_what_its_dent_does(void **state)
         struct lab *lab = lab_create();
         struct soft_law law = make_law(yields[y], 0.015);
         const struct body *ball = lab_add(lab, "ball", make_sphere(STEEL, 0.015));
-        /* a block, through which no waves leave */
+        /* a rigid block, through which no waves leave */
         struct body block = make_body(&block_kind, soft_metal(yields[y]));
         memcpy(block.size, (double[]){1.0, 1.0, 1.0}, sizeof block.size);
+        block.rigid = true;
         double mass = 1.0 / (1.0 / ball->mass + 1.0 / lab_add(lab, "wall", block)->mass);
         double before = 1.0 + 1e-9;
         for (size_t v = 0; v < COUNT(speeds); v++) {

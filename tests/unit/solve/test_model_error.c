@@ -179,6 +179,7 @@ static void rigid_bodies_that_bend(void **state)
         struct lab *lab = lab_create();
         struct body body = make_body(cases[i].round ? &cylinder_kind : &block_kind, material);
         struct spot top = {"body", {0.0, 0.0, 0.5 * size[2]}, {0.0, 0.0, 1.0}, 0.0};
+        body.rigid = true;
         if (cases[i].round) {
             body.radius = size[0];
             body.length = size[1];

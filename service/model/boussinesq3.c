@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-#include "reduce/boussinesq3.h"
+#include "model/boussinesq3.h"
 
 #include <math.h>
 #include <string.h>

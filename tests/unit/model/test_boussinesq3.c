@@ -1,12 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Mirrors service/reduce/boussinesq3.c: the axisymmetric field of fe/boussinesq.c in another frame;
+/* Mirrors service/model/boussinesq3.c: the axisymmetric field of fe/boussinesq.c in another frame;
  * stress from displacement by Hooke's law, in equilibrium, with and without a reach. */
 #include "check.h"
 #include "fe/boussinesq.h"
+#include "model/boussinesq3.h"
 #include "model/vector.h"
-#include "reduce/boussinesq3.h"
 
 /* a load in general position */
 static const struct boussinesq3 LOAD = {

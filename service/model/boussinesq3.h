@@ -14,8 +14,8 @@
  * regular wherever the body is. Tractions of the order 1 / L^2 are left on the half-space's
  * surface.
  */
-#ifndef PERCUSS_REDUCE_BOUSSINESQ3_H
-#define PERCUSS_REDUCE_BOUSSINESQ3_H
+#ifndef PERCUSS_MODEL_BOUSSINESQ3_H
+#define PERCUSS_MODEL_BOUSSINESQ3_H
 
 struct boussinesq3 {
     double point[3], inward[3]; /* m, unit */

@@ -1,0 +1,72 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/vibration.h"
+
+#include <math.h>
+
+#include "model/mesh_family.h"
+#include "model/ritz.h"
+#include "solve/model_deviation.h"
+
+/* What a body may keep of the restitution and stay rigid, in tolerances. */
+static const double KEPT = 0.1;
+
+/* Whether a body vibrates, or would. */
+static bool matters(const struct problem *problem, size_t body)
+{
+    const struct body_state *state = problem->states[body];
+    if (state && state->count[0] > 0)
+        return true;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        for (int which = 0; which < 2; which++) {
+            if (problem->sides[c][which].body != body)
+                continue;
+            struct model_blow blow = model_blow_fastest(problem, c);
+            if (model_deviation_side(problem, c, which, &blow) > KEPT * problem->tolerance)
+                return true;
+        }
+    return false;
+}
+
+/* Its static flexibility at a contact: without the half-space's. */
+static bool lend_load(struct problem *problem, size_t c, int which)
+{
+    struct contact_side *side = &problem->sides[c][which];
+    const struct body *body = problem->bodies[side->body];
+    side->load = site_load_make(body, &side->site, side->direction);
+    struct mesh_load *load = &side->load.family[0].mesh;
+    double unit = mesh_ratio_flexibility(body);
+    struct ritz_unresolved unresolved = ritz_unresolved_at(body->ritz, load->axis, load->point);
+    double flexibility =
+        prepared_ritz_flexibility(problem->cache, body->ritz, load->axis, load->side, load->point);
+    load->flexibility = unit * (flexibility + unresolved.lacks);
+    load->unknown = unit * unresolved.doubt;
+    return isfinite(flexibility);
+}
+
+enum percuss_status vibration_lend(struct problem *problem, struct fault *fault)
+{
+    bool good = true;
+    for (size_t b = 0; good && b < problem->body_count; b++) {
+        const struct body *body = problem->bodies[b];
+        double sides[3];
+        if (!body->kind->box || body->rigid || !body->kind->box(body, sides) ||
+            !matters(problem, b))
+            continue;
+        /* a copy that has it */
+        struct body *lent = arena_take(problem->arena, 1, sizeof *lent);
+        if (lent) {
+            *lent = *body;
+            lent->ritz = prepared_ritz_get(problem->cache, sides, body->material.poisson);
+        }
+        good = lent && lent->ritz;
+        if (!good)
+            break;
+        problem->bodies[b] = lent;
+        for (size_t i = 0; good && i < 2 * problem->contact_count; i++)
+            if (problem->sides[i / 2][i % 2].body == b)
+                good = lend_load(problem, i / 2, (int)(i % 2));
+    }
+    return good ? PERCUSS_OK : fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+}

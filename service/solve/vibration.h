@@ -1,0 +1,16 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Boxes get their vibration where a scene needs it (model/ritz.h). */
+#ifndef PERCUSS_SOLVE_VIBRATION_H
+#define PERCUSS_SOLVE_VIBRATION_H
+
+#include "base/fault.h"
+#include "solve/problem.h"
+
+/* Of the bodies that can vibrate once that is computed, those that vibrate already or would keep
+ * more of a blow than a tenth of the tolerance, by the fastest approach of all; the others stay
+ * rigid, and their error holds it. PERCUSS_OK or PERCUSS_INTERNAL. */
+enum percuss_status vibration_lend(struct problem *problem, struct fault *fault);
+
+#endif
