@@ -17,6 +17,7 @@ struct body_description;
 struct face;
 struct key;
 struct mode_family;
+struct ritz_shape;
 struct site;
 struct site_load;
 
@@ -61,9 +62,9 @@ struct body_kind {
     /* Why no model covers a site that the surface has; NULL: one does. NULL: all are. */
     const char *(*why_not)(const struct body *body, const struct site *site);
 
-    /* The sides of a box whose vibration is Ritz's (ritz.h), made when a scene asks for it; false:
+    /* The box or cylinder whose vibration is Ritz's (ritz.h), made when a scene asks for it; false:
      * beyond what that reaches. NULL: no such body. */
-    bool (*box)(const struct body *body, double sides[3]);
+    bool (*box)(const struct body *body, struct ritz_shape *shape);
 
     /* Its families of modes, see mode_family.h; none: it is rigid. */
     const struct mode_family *const *families;

@@ -9,9 +9,7 @@
 #include "model/face.h"
 #include "model/key.h"
 #include "model/mesh_family.h"
-#include "model/modal_basis.h"
 #include "model/ritz.h"
-#include "model/site.h"
 
 static const struct key keys[] = {
     {"size", KEY_NUMBERS, &limit_length, true, KEY_OF(body, size),
@@ -52,36 +50,10 @@ static int find_faces(const struct body *body, const double p[3], struct face *f
     return face_box(half, p, faces);
 }
 
-static bool box(const struct body *body, double sides[3])
+static bool box(const struct body *body, struct ritz_shape *shape)
 {
-    for (int d = 0; d < 3; d++)
-        sides[d] = body->size[d];
-    return ritz_reaches(sides);
-}
-
-/* Flexibility is for who lends the modes to say. */
-static void load_family(const struct body *body, const struct site *site, const double direction[3],
-                        struct site_load *load)
-{
-    struct family_load *family = &load->family[0];
-    double longest = fmax(body->size[0], fmax(body->size[1], body->size[2]));
-    if (!body_is_flexible(body))
-        return;
-    family->acts = true;
-    for (int d = 0; d < 3; d++) {
-        family->mesh.direction[d] = direction[d];
-        family->mesh.point[d] = site->point[d] / longest;
-        if (fabs(site->outward[d]) > 0.5) {
-            family->mesh.axis = d;
-            family->mesh.side = site->outward[d] > 0.0 ? 1 : -1;
-        }
-    }
-}
-
-static const char *theory(const struct body *body)
-{
-    (void)body;
-    return "ritz";
+    *shape = (struct ritz_shape){.side = {body->size[0], body->size[1], body->size[2]}};
+    return ritz_reaches(shape);
 }
 
 /* Hit on its faces along z. */
@@ -119,7 +91,7 @@ const struct body_kind block_kind = {
     .box = box,
     .families = families,
     .family_count = sizeof families / sizeof *families,
-    .load = load_family,
-    .theory = theory,
+    .load = mesh_family_load,
+    .theory = mesh_family_theory,
     .describe = describe,
 };

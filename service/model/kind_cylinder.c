@@ -4,7 +4,10 @@
 #include <math.h>
 
 #include "model/bar.h"
+#include "model/damping.h"
 #include "model/key.h"
+#include "model/mesh_family.h"
+#include "model/ritz.h"
 
 static const struct key keys[] = {
     {"radius", KEY_NUMBER, &limit_length, true, KEY_OF(body, radius), .instead = {"diameter"},
@@ -12,8 +15,19 @@ static const struct key keys[] = {
     {"diameter", KEY_TWICE, &limit_diameter, KEY_OF(body, radius),
      KEY_SAYS("radius stands instead", "twice the radius")},
     {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length),
-     KEY_SAYS(NULL, "along its axis, which is x; it is compact: stiff but for the contact")},
+     KEY_SAYS(NULL, "along its axis, which is x")},
+    {"damping", KEY_NUMBER, &limit_damping, KEY_OF(body, damping),
+     KEY_SAYS("half of its material's loss_factor; 0 where that states none",
+              "damping ratio of every elastic mode")},
+    {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),
+     KEY_SAYS("as many as the tolerance asks for",
+              "fixed number of modes, of those that are computed")},
+    {"rigid", KEY_FLAG, KEY_OF(body, rigid),
+     KEY_SAYS("false",
+              "mass, inertia and surface only: the error states what its vibration takes")},
 };
+
+static const struct mode_family *const families[] = {&mesh_family};
 
 static enum percuss_status complete(struct body *body, struct fault *fault)
 {
@@ -32,6 +46,13 @@ static int find_faces(const struct body *body, const double p[3], struct face *f
     return bar_round_faces(body, INFINITY, p, faces);
 }
 
+static bool box(const struct body *body, struct ritz_shape *shape)
+{
+    double diameter = 2.0 * body->radius;
+    *shape = (struct ritz_shape){{body->length, diameter, diameter}, true};
+    return ritz_reaches(shape);
+}
+
 static struct solid solid(const struct body *body)
 {
     return (struct solid){.form = SOLID_CYLINDER,
@@ -46,6 +67,11 @@ static void describe(const struct body *body, struct body_description *descripti
     describe_extents(description, 0.5 * body->length, body->radius, body->radius);
     describe_add(description, "length %g m", body->length);
     describe_add(description, "radius %g m", body->radius);
+    if (body->rigid)
+        describe_add(description, "rigid");
+    damping_describe(body, description);
+    if (body->modes > 0)
+        describe_add(description, "%u modes taking part", body->modes);
 }
 
 const struct body_kind cylinder_kind = {
@@ -56,5 +82,10 @@ const struct body_kind cylinder_kind = {
     .smallest_radius = smallest_radius,
     .faces = find_faces,
     .solid = solid,
+    .box = box,
+    .families = families,
+    .family_count = sizeof families / sizeof *families,
+    .load = mesh_family_load,
+    .theory = mesh_family_theory,
     .describe = describe,
 };

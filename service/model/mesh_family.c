@@ -10,6 +10,7 @@
 #include "model/mesh_between.h"
 #include "model/modal_basis.h"
 #include "model/ritz.h"
+#include "model/site.h"
 #include "model/vector.h"
 
 /* Modes beyond the file's: sum phi^2/omega^4 of an octave falls with the frequency as omega^-p,
@@ -27,7 +28,9 @@ enum { AT_ONCE = 64 };
 struct mesh_ratio mesh_ratio_of(const struct body *body)
 {
     if (!body->mesh) {
-        double longest = fmax(body->size[0], fmax(body->size[1], body->size[2]));
+        struct ritz_shape shape;
+        body->kind->box(body, &shape);
+        double longest = fmax(shape.side[0], fmax(shape.side[1], shape.side[2]));
         return (struct mesh_ratio){body->material.young, body->material.density, longest};
     }
     const struct material *file = &body->mesh->materials[0];
@@ -39,6 +42,32 @@ double mesh_ratio_flexibility(const struct body *body)
 {
     struct mesh_ratio ratio = mesh_ratio_of(body);
     return 1.0 / (ratio.young * ratio.size);
+}
+
+void mesh_family_load(const struct body *body, const struct site *site, const double direction[3],
+                      struct site_load *load)
+{
+    struct family_load *family = &load->family[0];
+    if (!body_is_flexible(body))
+        return;
+    double longest = mesh_ratio_of(body).size;
+    family->acts = true;
+    family->mesh.axis = RITZ_ROUND;
+    for (int d = 0; d < 3; d++) {
+        family->mesh.direction[d] = direction[d];
+        family->mesh.point[d] = site->point[d] / longest;
+        /* a face across an axis: the others of a cylinder are its side */
+        if (fabs(site->outward[d]) > 0.5 && (d == 0 || !(body->radius > 0.0))) {
+            family->mesh.axis = d;
+            family->mesh.side = site->outward[d] > 0.0 ? 1 : -1;
+        }
+    }
+}
+
+const char *mesh_family_theory(const struct body *body)
+{
+    (void)body;
+    return "ritz";
 }
 
 static size_t most(const struct body *body)

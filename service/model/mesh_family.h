@@ -8,7 +8,16 @@
 
 #include "model/mode_family.h"
 
+struct site;
+struct site_load;
+
 extern const struct mode_family mesh_family;
+
+/* Of kinds with a box: the load but for its flexibility, which who lends the modes says; the name
+ * of the theory. */
+void mesh_family_load(const struct body *body, const struct site *site, const double direction[3],
+                      struct site_load *load);
+const char *mesh_family_theory(const struct body *body);
 
 /* What a body is of the one in its file: young, density and size over its own. */
 struct mesh_ratio {

@@ -12,7 +12,7 @@
 
 /* A force on a face of a mesh, or of a box (ritz.h). */
 struct mesh_load {
-    int axis, side; /* box: of the face */
+    int axis, side; /* box: of the face, see ritz_flexibility */
     unsigned face;
     int count;                          /* nodes of the face */
     double share[MESH_BODY_FACE_NODES]; /* shape functions */
@@ -20,6 +20,8 @@ struct mesh_load {
     double point[3];                    /* mesh's frame and size, m */
     double flexibility;                 /* regular, of the body's own size and material, m/N */
     double unknown;                     /* of that, m/N */
+    double slope, cut; /* box: its change with the logarithm of the contact's radius from `cut` (m)
+                        * down, m/N; 0: none */
 };
 
 /* What one newton at a contact does to one family of a body. Kinds that are no bars keep what they

@@ -9,18 +9,20 @@
 #include <string.h>
 
 #include "model/boussinesq3.h"
+#include "model/polynomial.h"
 #include "model/vector.h"
+#include "numeric/dense.h"
 #include "numeric/linear.h"
 
 /* Thinner boxes would take polynomials of higher degree than are numerically good. */
 static const double THINNEST = 1.0 / 200.0;
 /* Polynomials along a side: so many and so many more for each thickness in it. Of a plate of 10 the
  * flexibility in its middle is good to 0.002/(E h), of a cube to 2e-5/(E L). */
-static const double LEAST = 7.0, MORE = 1.6;
+static const double LEAST = 9.5, MORE = 1.6;
 /* The most of a class, for which those along the longer sides are taken off in proportion. */
 enum { CLASSES = 8, MOST_OF_CLASS = 1400, MOST_ORDERS = 64 };
 /* Across a thin body, and along the shorter sides of a compact one. */
-enum { ACROSS = 6, ACROSS_THIN = 5, COMPACT = 8 };
+enum { ACROSS = 6, ACROSS_THIN = 5, COMPACT = 11 };
 static const double THIN = 0.12;
 /* In classes of plates that stretch, which have longer waves. */
 static const double STRETCHED = 0.7;
@@ -40,9 +42,13 @@ struct ritz_class {
 };
 
 struct ritz {
-    double asked[3], poisson; /* as asked for */
+    struct ritz_shape asked;
+    double poisson;
+    bool round;
     double side[3], mass;
     size_t orders[3];
+    size_t *place, places; /* of Zernike's polynomials, [q][r] */
+    double *means[5];      /* of a circle, until the classes are solved */
     struct ritz_class class[CLASSES];
     size_t count;
     double *omega; /* [count] */
@@ -52,27 +58,56 @@ struct ritz {
     } * mode; /* [count] */
 };
 
-/* Legendre's, of mean square 1 over [-1, 1]. */
-static void fill_polynomials(size_t count, double x, double *value)
+/* Gauss' rule of six points on panels that grow away from a place. */
+enum { GAUSS = 6, MOST_PANELS = 40, MOST_POINTS = GAUSS * MOST_PANELS };
+static const double GROWTH = 2.2;
+static const double GAUSS_POINT[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
+static const double GAUSS_WEIGHT[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
+
+struct rule {
+    size_t count;
+    double x[MOST_POINTS], weight[MOST_POINTS];
+};
+
+static void add_panel(struct rule *rule, double from, double to)
 {
-    double before = 0.0, now = 1.0;
-    for (size_t n = 0; n < count; n++) {
-        value[n] = sqrt(2.0 * (double)n + 1.0) * now;
-        double next = ((2.0 * (double)n + 1.0) * x * now - (double)n * before) / ((double)n + 1.0);
-        before = now;
-        now = next;
+    double half = 0.5 * (to - from);
+    if (!(half > 0.0) || rule->count + GAUSS > MOST_POINTS)
+        return;
+    for (int i = 0; i < GAUSS; i++) {
+        int k = i < 3 ? 2 - i : i - 3;
+        rule->x[rule->count] = 0.5 * (from + to) + (i < 3 ? -half : half) * GAUSS_POINT[k];
+        rule->weight[rule->count++] = half * GAUSS_WEIGHT[k];
     }
 }
 
-bool ritz_reaches(const double sides[3])
+/* Over [-half, half], fine at `place` for what varies over `scale`. */
+static void make_rule(double half, double place, double scale, struct rule *rule)
 {
-    double longest = fmax(sides[0], fmax(sides[1], sides[2]));
-    return fmin(sides[0], fmin(sides[1], sides[2])) >= THINNEST * longest;
+    rule->count = 0;
+    scale = fmax(scale, 1e-3 * half);
+    for (int side = -1; side <= 1; side += 2) {
+        double way = half - side * place, from = 0.0;
+        for (double to = scale; from < way; to *= GROWTH) {
+            double end = to * GROWTH > way ? way : to;
+            add_panel(rule, place + side * (side > 0 ? from : end),
+                      place + side * (side > 0 ? end : from));
+            from = end;
+        }
+    }
 }
 
-bool ritz_is_of(const struct ritz *ritz, const double sides[3], double poisson)
+bool ritz_reaches(const struct ritz_shape *shape)
 {
-    return ritz->poisson == poisson && memcmp(ritz->asked, sides, sizeof ritz->asked) == 0;
+    const double *side = shape->side;
+    double longest = fmax(side[0], fmax(side[1], side[2]));
+    return fmin(side[0], fmin(side[1], side[2])) >= THINNEST * longest;
+}
+
+bool ritz_is_of(const struct ritz *ritz, const struct ritz_shape *shape, double poisson)
+{
+    return ritz->poisson == poisson && ritz->round == shape->round &&
+           memcmp(ritz->asked.side, shape->side, sizeof shape->side) == 0;
 }
 
 size_t ritz_mode_count(const struct ritz *ritz)
@@ -122,7 +157,7 @@ static void choose_orders(struct ritz *ritz)
         if (ritz->side[d] < 2.0 * least)
             wanted[d] = fmin(wanted[d], across);
     /* no more than can be afforded */
-    double of_class = 3.0 / 8.0 * wanted[0] * wanted[1] * wanted[2];
+    double of_class = (ritz->round ? 0.5 : 1.0) * 3.0 / 8.0 * wanted[0] * wanted[1] * wanted[2];
     if (of_class > MOST_OF_CLASS) {
         int longs = 0;
         for (int d = 0; d < 3; d++)
@@ -132,7 +167,8 @@ static void choose_orders(struct ritz *ritz)
     for (int d = 0; d < 3; d++) {
         if (wanted[d] > 2.0 * ACROSS)
             wanted[d] = fmax(wanted[d] * shrink, 2.0 * ACROSS);
-        ritz->orders[d] = (size_t)fmin(ceil(wanted[d]), MOST_ORDERS);
+        ritz->orders[d] =
+            (size_t)fmin(ceil(wanted[d]), ritz->round && d > 0 ? POLYNOMIAL_MOST : MOST_ORDERS);
     }
 }
 
@@ -143,12 +179,14 @@ static bool is_taken(const struct ritz *ritz, const double share, const unsigned
     for (int d = 0; d < 3; d++) {
         if (order[d] >= ritz->orders[d])
             return false;
+        if (ritz->round && d > 0)
+            continue;
         if (ritz->orders[d] <= 2 * ACROSS)
             continue;
         double part = order[d] / (share * (double)ritz->orders[d]);
         sum += part * part;
     }
-    return sum < 1.0;
+    return sum < 1.0 && (!ritz->round || order[1] + order[2] < ritz->orders[1]);
 }
 
 static bool list_orders(struct ritz *ritz, int number)
@@ -192,12 +230,93 @@ static double slopes_mean(unsigned i, unsigned j)
     return (i - j) % 2 == 0 ? 0.5 * sqrt((2.0 * i + 1.0) * (2.0 * j + 1.0)) * m * (m + 1.0) : 0.0;
 }
 
-/* Mean over the box of the derivative of one product along axis c and of the other along d. */
+/* Means over a circle of radius 1 of Zernike's and their derivatives: [i][j] by pairs, see
+ * section_mean. */
+enum { Y_NONE, Z_NONE, Y_Y, Z_Z, Y_Z, SECTION_MEANS };
+
+static size_t section_index(const unsigned char order[3])
+{
+    return (size_t)order[1] * POLYNOMIAL_MOST + order[2];
+}
+
+/* Of the derivative of one along c (0: none) and of the other along d. */
+static double section_mean(const struct ritz *ritz, const unsigned char a[3], int c,
+                           const unsigned char b[3], int d)
+{
+    size_t i = ritz->place[section_index(a)], j = ritz->place[section_index(b)];
+    if (c == 0 && d == 0)
+        return i == j ? 1.0 : 0.0;
+    double scale = 2.0 / ritz->side[1];
+    if (c == 0 || (c == 2 && d == 1)) { /* the other way round */
+        size_t k = i;
+        int e = c;
+        i = j;
+        j = k;
+        c = d;
+        d = e;
+    }
+    int which = d == 0 ? (c == 1 ? Y_NONE : Z_NONE) : c != d ? Y_Z : c == 1 ? Y_Y : Z_Z;
+    double mean = ritz->means[which][j * ritz->places + i];
+    return mean * (d == 0 ? scale : scale * scale);
+}
+
+/* Values and derivatives along y and z at the points of a rule, times the root of its weight:
+ * [3][places][points]. */
+static void fill_rows(const struct ritz *ritz, size_t radii, size_t angles, double *rows)
+{
+    size_t n = ritz->orders[1], count = 0, points = radii * angles;
+    double x[POLYNOMIAL_MOST + 2], weight[POLYNOMIAL_MOST + 2];
+    double table[3][POLYNOMIAL_MOST * POLYNOMIAL_MOST];
+    polynomial_gauss(radii, x, weight);
+    for (size_t i = 0; i < radii; i++)
+        for (size_t j = 0; j < angles; j++, count++) {
+            double angle = 2.0 * M_PI * ((double)j + 0.5) / (double)angles;
+            double root = sqrt(2.0 * x[i] * weight[i] / (double)angles);
+            polynomial_zernike(n, x[i] * cos(angle), x[i] * sin(angle), table[0], table[1],
+                               table[2]);
+            for (size_t q = 0; q < n; q++)
+                for (size_t r = 0; q + r < n; r++)
+                    for (size_t d = 0; d < 3; d++) {
+                        size_t at = q * POLYNOMIAL_MOST + r;
+                        rows[(d * ritz->places + ritz->place[at]) * points + count] =
+                            root * table[d][at];
+                    }
+        }
+}
+
+/* By Gauss' rule in the radius and equal angles, which are exact. False: out of memory. */
+static bool make_section(struct ritz *ritz)
+{
+    static const size_t FIRST[SECTION_MEANS] = {1, 2, 1, 2, 1};
+    static const size_t SECOND[SECTION_MEANS] = {0, 0, 1, 2, 2};
+    size_t n = ritz->orders[1], angles = 2 * n + 2, radii = n + 2;
+    ritz->place = calloc(POLYNOMIAL_MOST * POLYNOMIAL_MOST, sizeof *ritz->place);
+    for (size_t q = 0; ritz->place && q < n; q++)
+        for (size_t r = 0; q + r < n; r++)
+            ritz->place[q * POLYNOMIAL_MOST + r] = ritz->places++;
+    size_t all = radii * angles * ritz->places;
+    double *rows = calloc(3 * all + 1, sizeof *rows);
+    bool good = ritz->place && rows;
+    if (good)
+        fill_rows(ritz, radii, angles, rows);
+    for (int k = 0; good && k < SECTION_MEANS; k++) {
+        const struct dense a = {radii * angles, ritz->places, rows + FIRST[k] * all};
+        const struct dense b = {radii * angles, ritz->places, rows + SECOND[k] * all};
+        ritz->means[k] = calloc(ritz->places * ritz->places, sizeof **ritz->means);
+        good = ritz->means[k] != NULL;
+        if (good)
+            dense_products(a, b, ritz->means[k]);
+    }
+    free(rows);
+    return good;
+}
+
+/* Mean over the body of the derivative of one product along axis c and of the other along d. */
 static double mean_of(const struct ritz *ritz, const unsigned char a[3], int c,
                       const unsigned char b[3], int d)
 {
     double product = 1.0;
-    for (int e = 0; e < 3 && product != 0.0; e++) {
+    for (int e = 0; e < (ritz->round ? 1 : 3) && product != 0.0; e++) {
         double scale = 2.0 / ritz->side[e];
         if (e == c && e == d)
             product *= scale * scale * slopes_mean(a[e], b[e]);
@@ -208,7 +327,7 @@ static double mean_of(const struct ritz *ritz, const unsigned char a[3], int c,
         else
             product *= a[e] == b[e] ? 1.0 : 0.0;
     }
-    return product;
+    return ritz->round && product != 0.0 ? product * section_mean(ritz, a, c, b, d) : product;
 }
 
 static int component_of(const struct ritz_class *class, size_t i)
@@ -263,6 +382,13 @@ static bool add_rigid(struct ritz_class *class, size_t i, double one, size_t j, 
     return true;
 }
 
+/* A coordinate over the polynomial of degree one, of all alike but for a factor: sqrt(12) of a
+ * side, 4 of a diameter. */
+static double spread(const struct ritz *ritz, int axis)
+{
+    return ritz->side[axis] * (ritz->round && axis > 0 ? sqrt(0.75) : 1.0);
+}
+
 /* Translations, and rotations u_b = -x_c, u_c = x_b. */
 static bool find_rigids(const struct ritz *ritz, struct ritz_class *class)
 {
@@ -274,7 +400,7 @@ static bool find_rigids(const struct ritz *ritz, struct ritz_class *class)
         if (along < class->count)
             good = add_rigid(class, along, 1.0, class->count, 0.0);
         if (good && i < class->count && j < class->count)
-            good = add_rigid(class, i, -ritz->side[c], j, ritz->side[b]);
+            good = add_rigid(class, i, -spread(ritz, c), j, spread(ritz, b));
     }
     return good;
 }
@@ -358,23 +484,29 @@ static bool merge(struct ritz *ritz)
     return true;
 }
 
-struct ritz *ritz_create(const double sides[3], double poisson)
+struct ritz *ritz_create(const struct ritz_shape *shape, double poisson)
 {
     struct ritz *ritz = calloc(1, sizeof *ritz);
-    double longest = fmax(sides[0], fmax(sides[1], sides[2]));
+    const double *side = shape->side;
+    double longest = fmax(side[0], fmax(side[1], side[2]));
     if (!ritz)
         return NULL;
+    ritz->asked = *shape;
+    ritz->round = shape->round;
     ritz->poisson = poisson;
-    ritz->mass = 1.0;
+    ritz->mass = shape->round ? 0.25 * M_PI : 1.0;
     for (int d = 0; d < 3; d++) {
-        ritz->asked[d] = sides[d];
-        ritz->side[d] = sides[d] / longest;
+        ritz->side[d] = side[d] / longest;
         ritz->mass *= ritz->side[d];
     }
     choose_orders(ritz);
-    bool good = true;
+    bool good = !ritz->round || make_section(ritz);
     for (int c = 0; good && c < CLASSES; c++)
         good = list_orders(ritz, c) && solve_class(ritz, &ritz->class[c], highest(ritz));
+    for (int k = 0; k < SECTION_MEANS; k++) {
+        free(ritz->means[k]);
+        ritz->means[k] = NULL;
+    }
     if (good && merge(ritz))
         return ritz;
     ritz_free(ritz);
@@ -393,22 +525,40 @@ void ritz_free(struct ritz *ritz)
         free(class->vectors);
     }
     if (ritz) {
+        for (int k = 0; k < SECTION_MEANS; k++)
+            free(ritz->means[k]);
+        free(ritz->place);
         free(ritz->omega);
         free(ritz->mode);
     }
     free(ritz);
 }
 
-/* A class' coordinates at a point, along a direction. */
+/* All polynomials at a point: along the axes, and those of a circle. */
+struct functions {
+    double along[3][MOST_ORDERS];
+    double section[POLYNOMIAL_MOST * POLYNOMIAL_MOST];
+};
+
+static void fill_point(const struct ritz *ritz, const double point[3], struct functions *at)
+{
+    for (int d = 0; d < (ritz->round ? 1 : 3); d++)
+        polynomial_legendre(ritz->orders[d], 2.0 * point[d] / ritz->side[d], at->along[d]);
+    if (ritz->round)
+        polynomial_zernike(ritz->orders[1], 2.0 * point[1] / ritz->side[1],
+                           2.0 * point[2] / ritz->side[2], at->section, NULL, NULL);
+}
+
+/* A class' coordinates there, along a direction. */
 static void fill_functions(const struct ritz *ritz, const struct ritz_class *class,
-                           const double table[3][MOST_ORDERS], const double direction[3],
-                           double *functions)
+                           const struct functions *at, const double direction[3], double *functions)
 {
     double scale = 1.0 / sqrt(ritz->mass);
     for (size_t i = 0; i < class->count; i++) {
         const unsigned char *order = class->order[i];
-        functions[i] = scale * direction[component_of(class, i)] * table[0][order[0]] *
-                       table[1][order[1]] * table[2][order[2]];
+        double across = ritz->round ? at->section[section_index(order)]
+                                    : at->along[1][order[1]] * at->along[2][order[2]];
+        functions[i] = scale * direction[component_of(class, i)] * at->along[0][order[0]] * across;
     }
 }
 
@@ -416,9 +566,9 @@ void ritz_shapes(const struct ritz *ritz, const double point[3], const double di
                  size_t first, size_t count, double *row)
 {
     enum { LARGEST = 4 * MOST_OF_CLASS };
-    double table[3][MOST_ORDERS], functions[LARGEST];
-    for (int d = 0; d < 3; d++)
-        fill_polynomials(ritz->orders[d], 2.0 * point[d] / ritz->side[d], table[d]);
+    double functions[LARGEST];
+    struct functions at;
+    fill_point(ritz, point, &at);
     for (int c = 0; c < CLASSES; c++) {
         const struct ritz_class *class = &ritz->class[c];
         bool filled = false;
@@ -427,7 +577,7 @@ void ritz_shapes(const struct ritz *ritz, const double point[3], const double di
             if (mode->class != c)
                 continue;
             if (!filled)
-                fill_functions(ritz, class, table, direction, functions);
+                fill_functions(ritz, class, &at, direction, functions);
             filled = true;
             const double *vector = class->vectors + mode->number * class->count;
             double sum = 0.0;
@@ -438,50 +588,12 @@ void ritz_shapes(const struct ritz *ritz, const double point[3], const double di
     }
 }
 
-/* Gauss' rule of six points on panels that grow away from a place. */
-enum { GAUSS = 6, MOST_PANELS = 40, MOST_POINTS = GAUSS * MOST_PANELS };
-static const double GROWTH = 2.2;
-static const double GAUSS_POINT[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
-static const double GAUSS_WEIGHT[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
-
-struct rule {
-    size_t count;
-    double x[MOST_POINTS], weight[MOST_POINTS];
-};
-
-static void add_panel(struct rule *rule, double from, double to)
-{
-    double half = 0.5 * (to - from);
-    if (!(half > 0.0) || rule->count + GAUSS > MOST_POINTS)
-        return;
-    for (int i = 0; i < GAUSS; i++) {
-        int k = i < 3 ? 2 - i : i - 3;
-        rule->x[rule->count] = 0.5 * (from + to) + (i < 3 ? -half : half) * GAUSS_POINT[k];
-        rule->weight[rule->count++] = half * GAUSS_WEIGHT[k];
-    }
-}
-
-/* Over [-half, half], fine at `place` for what varies over `scale`. */
-static void make_rule(double half, double place, double scale, struct rule *rule)
-{
-    rule->count = 0;
-    scale = fmax(scale, 1e-3 * half);
-    for (int side = -1; side <= 1; side += 2) {
-        double way = half - side * place, from = 0.0;
-        for (double to = scale; from < way; to *= GROWTH) {
-            double end = to * GROWTH > way ? way : to;
-            add_panel(rule, place + side * (side > 0 ? from : end),
-                      place + side * (side > 0 ? end : from));
-            from = end;
-        }
-    }
-}
-
 /* A unit force along the inward normal of a face, and what is summed up over the other five. */
 struct push {
     const struct ritz *ritz;
     int axis, side; /* the face */
     struct boussinesq3 load;
+    bool inside;      /* of the cut: what is summed up is not the surface */
     double surface;   /* of the half-space's traction times its displacement */
     double motion[3]; /* of the half-space's field times the density, along the outward normal and
                        * in the two rotations that the force takes part in */
@@ -536,7 +648,7 @@ static void add_point(struct push *push, const double at[3], const double outwar
     double u[3], stress[6];
     boussinesq3_field(&push->load, at, u, stress);
     boussinesq3_traction(stress, outward, traction);
-    push->surface += weight * dot3(traction, u);
+    push->surface += push->inside ? 0.0 : weight * dot3(traction, u);
     for (int i = 0; i < 3; i++) {
         double field[3], pulled[3];
         int other = (push->axis + i) % 3;
@@ -571,19 +683,19 @@ static bool add_face(struct push *push, int axis, int side)
         for (size_t j = 0; j < rules[1].count; j++) {
             at[along] = rules[1].x[j];
             add_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j], traction);
-            fill_polynomials(n[2], 2.0 * at[along] / half[along], table);
+            polynomial_legendre(n[2], 2.0 * at[along] / half[along], table);
             for (int c = 0; c < 3; c++)
                 for (size_t q = 0; q < n[2]; q++)
                     line[c][q] += traction[c] * table[q];
         }
-        fill_polynomials(n[1], 2.0 * at[across] / half[across], table);
+        polynomial_legendre(n[1], 2.0 * at[across] / half[across], table);
         for (int c = 0; c < 3; c++)
             for (size_t p = 0; p < n[1]; p++)
                 for (size_t q = 0; q < n[2]; q++)
                     products[(c * MOST_ORDERS + p) * MOST_ORDERS + q] += table[p] * line[c][q];
     }
     /* times those of the face's own place */
-    fill_polynomials(n[0], side, table);
+    polynomial_legendre(n[0], side, table);
     double scale = -1.0 / sqrt(ritz->mass);
     size_t order[3];
     const size_t *all = ritz->orders;
@@ -599,6 +711,132 @@ static bool add_face(struct push *push, int axis, int side)
     free(rules);
     free(products);
     return good;
+}
+
+/* A point of a cylinder's surface, with all products. */
+static void add_round_point(struct push *push, const double at[3], const double outward[3],
+                            double weight)
+{
+    const struct ritz *ritz = push->ritz;
+    const size_t *all = ritz->orders;
+    struct functions functions;
+    double traction[3], scale = -1.0 / sqrt(ritz->mass);
+    add_point(push, at, outward, weight, traction);
+    fill_point(ritz, at, &functions);
+    for (size_t c = 0; c < 3; c++)
+        for (size_t p = 0; p < all[0]; p++) {
+            double line = scale * traction[c] * functions.along[0][p];
+            for (size_t q = 0; q < all[1]; q++)
+                for (size_t r = 0; q + r < all[1]; r++)
+                    push->force[((c * all[0] + p) * all[1] + q) * all[2] + r] +=
+                        line * functions.section[q * POLYNOMIAL_MOST + r];
+        }
+}
+
+/* Radii from 0 on, fine for what varies over `scale`, with an end of a panel at `cut`. */
+static void make_radii(double most, double scale, double cut, struct rule *rule)
+{
+    double from = 0.0;
+    rule->count = 0;
+    if (cut > 0.0 && cut < most) {
+        add_panel(rule, 0.0, cut);
+        from = cut;
+        scale = GROWTH * cut;
+    }
+    for (double to = fmax(scale, 1e-3 * most); from < most; to *= GROWTH) {
+        double end = to * GROWTH > most ? most : to;
+        add_panel(rule, from, end);
+        from = end;
+    }
+}
+
+/* The end face at side * length / 2, in polar coordinates about the foot of the load's point. */
+static void add_end(struct push *push, int side, struct rule rules[2])
+{
+    const double *place = push->load.point;
+    double radius = 0.5 * push->ritz->side[1], x = 0.5 * side * push->ritz->side[0];
+    double own = atan2(place[2], place[1]), square = place[1] * place[1] + place[2] * place[2];
+    const double outward[3] = {side, 0.0, 0.0};
+    rules[0].count = 0;
+    for (int i = 0; i < 8; i++)
+        add_panel(&rules[0], own + 0.25 * M_PI * i, own + 0.25 * M_PI * (i + 1));
+    for (size_t i = 0; i < rules[0].count; i++) {
+        double y = cos(rules[0].x[i]), z = sin(rules[0].x[i]), along = place[1] * y + place[2] * z;
+        double most = sqrt(fmax(along * along + radius * radius - square, 0.0)) - along;
+        make_radii(most, fabs(x - place[0]), 0.0, &rules[1]);
+        for (size_t j = 0; j < rules[1].count; j++) {
+            double r = rules[1].x[j];
+            const double at[3] = {x, place[1] + r * y, place[2] + r * z};
+            add_round_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j] * r);
+        }
+    }
+}
+
+/* The side, of a load on an end. */
+static void add_other_side(struct push *push, struct rule rules[2])
+{
+    const struct ritz *ritz = push->ritz;
+    const double *place = push->load.point;
+    double radius = 0.5 * ritz->side[1], own = atan2(place[2], place[1]);
+    double distance = radius - hypot(place[1], place[2]);
+    make_rule(0.5 * ritz->side[0], place[0], distance, &rules[0]);
+    make_rule(M_PI, 0.0, distance / radius, &rules[1]);
+    for (size_t i = 0; i < rules[0].count; i++)
+        for (size_t j = 0; j < rules[1].count; j++) {
+            const double outward[3] = {0.0, cos(own + rules[1].x[j]), sin(own + rules[1].x[j])};
+            const double at[3] = {rules[0].x[i], radius * outward[1], radius * outward[2]};
+            add_round_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j] * radius);
+        }
+}
+
+/* The side that the load acts on, rolled out, in polar coordinates about its point, which has z =
+ * 0: angles between the corners, radii with an end at the cut. */
+static void add_own_side(struct push *push, struct rule rules[2])
+{
+    const struct ritz *ritz = push->ritz;
+    double radius = 0.5 * ritz->side[1], half = M_PI * radius, x0 = push->load.point[0];
+    double ahead = 0.5 * ritz->side[0] - x0, behind = 0.5 * ritz->side[0] + x0;
+    const double corner[9] = {
+        0.0,       atan2(half, ahead),         0.5 * M_PI, M_PI - atan2(half, behind),
+        M_PI,      M_PI + atan2(half, behind), 1.5 * M_PI, 2.0 * M_PI - atan2(half, ahead),
+        2.0 * M_PI};
+    double cut = RITZ_CUT * ritz->side[1];
+    rules[0].count = 0;
+    for (int i = 0; i < 8; i++)
+        for (int part = 0; part < 2; part++) {
+            double middle = 0.5 * (corner[i] + corner[i + 1]);
+            add_panel(&rules[0], part ? middle : corner[i], part ? corner[i + 1] : middle);
+        }
+    for (size_t i = 0; i < rules[0].count; i++) {
+        double x = cos(rules[0].x[i]), s = sin(rules[0].x[i]);
+        double most = fmin((x > 0.0 ? ahead : behind) / fabs(x), half / fabs(s));
+        make_radii(most, radius, cut, &rules[1]);
+        for (size_t j = 0; j < rules[1].count; j++) {
+            double r = rules[1].x[j], angle = r * s / radius;
+            const double outward[3] = {0.0, cos(angle), sin(angle)};
+            const double at[3] = {x0 + r * x, radius * outward[1], radius * outward[2]};
+            push->inside = r < cut;
+            add_round_point(push, at, outward, rules[0].weight[i] * rules[1].weight[j] * r);
+        }
+    }
+    push->inside = false;
+}
+
+/* All but an end's own face. */
+static bool add_round(struct push *push, bool on_side)
+{
+    struct rule *rules = calloc(2, sizeof *rules);
+    if (!rules)
+        return false;
+    for (int side = -1; side <= 1; side += 2)
+        if (on_side || side != push->side)
+            add_end(push, side, rules);
+    if (on_side)
+        add_own_side(push, rules);
+    else
+        add_other_side(push, rules);
+    free(rules);
+    return true;
 }
 
 /* f K^-1 f of a class, without its rigid motions. */
@@ -626,38 +864,71 @@ static double energy_of(const struct push *push, const struct ritz_class *class,
     return sum;
 }
 
-/* MESH.md: f_d K^-1 f_d - (t_B, u_B) - 2 p gamma of the rigid motions. */
+/* Mean square of a coordinate. */
+static double mean_square(const struct ritz *ritz, int axis)
+{
+    return ritz->side[axis] * ritz->side[axis] / (ritz->round && axis > 0 ? 16.0 : 12.0);
+}
+
+/* Where and how the load acts; of a cylinder's side turned to z = 0. */
+static void place_load(struct push *push, int axis, const double point[3])
+{
+    const struct ritz *ritz = push->ritz;
+    push->load = (struct boussinesq3){.young = 1.0, .poisson = ritz->poisson, .reach = INFINITY};
+    push->load.inward[push->axis] = -push->side;
+    double *at = push->load.point;
+    memcpy(at, point, sizeof push->load.point);
+    at[push->axis] = 0.5 * push->side * ritz->side[push->axis];
+    if (axis == RITZ_ROUND)
+        at[2] = 0.0;
+    /* a rim is as good as the edge */
+    double off = hypot(at[1], at[2]), most = 0.5 * ritz->side[1];
+    if (ritz->round && axis == 0 && off > most) {
+        at[1] *= most / off;
+        at[2] *= most / off;
+    }
+}
+
+/* As of meshes: f_d K^-1 f_d - (t_B, u_B) - 2 p gamma of the rigid motions. */
 double ritz_flexibility(const struct ritz *ritz, int axis, int side, const double point[3])
 {
     const size_t *n = ritz->orders;
-    struct push push = {.ritz = ritz, .axis = axis, .side = side};
-    push.load = (struct boussinesq3){.young = 1.0, .poisson = ritz->poisson, .reach = INFINITY};
-    push.load.inward[axis] = -side;
-    memcpy(push.load.point, point, sizeof push.load.point);
-    push.load.point[axis] = 0.5 * side * ritz->side[axis];
+    bool on_side = axis == RITZ_ROUND;
+    struct push push = {.ritz = ritz, .axis = on_side ? 1 : axis, .side = on_side ? 1 : side};
+    place_load(&push, axis, point);
+    /* the other faces */
     push.force = calloc(3 * n[0] * n[1] * n[2], sizeof *push.force);
     bool good = push.force != NULL;
-    size_t largest = 0;
-    for (int face = 0; good && face < 6; face++)
+    for (int face = 0; good && !ritz->round && face < 6; face++)
         if (face / 2 != axis || (face % 2 ? 1 : -1) != side)
             good = add_face(&push, face / 2, face % 2 ? 1 : -1);
-    for (int c = 0; c < CLASSES; c++)
-        largest = ritz->class[c].count > largest ? ritz->class[c].count : largest;
-    double *f = calloc(2 * largest + 1, sizeof *f);
+    if (good && ritz->round)
+        good = add_round(&push, on_side);
     /* rigid motions: the force is -1 along the outward normal z, x along it in the rotation */
     double sum = -push.surface + 2.0 * push.motion[0] / ritz->mass;
     for (int i = 1; i < 3; i++) {
-        int other = (axis + i) % 3;
-        double square = ritz->side[other] * ritz->side[other] + ritz->side[axis] * ritz->side[axis];
-        sum -= 2.0 * point[other] * push.motion[i] / (ritz->mass * square / 12.0);
+        int other = (push.axis + i) % 3;
+        double inertia = ritz->mass * (mean_square(ritz, other) + mean_square(ritz, push.axis));
+        sum -= 2.0 * push.load.point[other] * push.motion[i] / inertia;
     }
+    /* and the elastic ones */
+    size_t largest = 0;
+    for (int c = 0; c < CLASSES; c++)
+        largest = ritz->class[c].count > largest ? ritz->class[c].count : largest;
+    double *f = calloc(2 * largest + 1, sizeof *f);
     for (int c = 0; good && f && c < CLASSES; c++)
         sum += energy_of(&push, &ritz->class[c], f);
-    if (!f)
-        good = false;
+    good = good && f;
     free(push.force);
     free(f);
     return good ? sum : NAN;
+}
+
+/* (1 + nu)(1 - 2 nu)^2/(2 pi) of the mean curvature, 1/(2 R). */
+double ritz_slope(const struct ritz *ritz)
+{
+    double side = 1.0 - 2.0 * ritz->poisson;
+    return (1.0 + ritz->poisson) * side * side / (2.0 * M_PI * ritz->side[1]);
 }
 
 /* Of a plate hit in its middle the flexibility lacks 0.11 exp(-4 (s - 1))/(E h) with s polynomials
@@ -669,6 +940,8 @@ static double lacking(const struct ritz *ritz, int axis, const double point[3], 
     for (int i = 1; i < 3; i++) {
         int d = (axis + i) % 3;
         double x = 2.0 * point[d] / ritz->side[d];
+        if (ritz->round && axis == 0)
+            x = 2.0 * hypot(point[1], point[2]) / ritz->side[1];
         double spacing = ritz->side[d] * sqrt(fmax(1.0 - x * x, 1e-4)) / (double)ritz->orders[d];
         least = fmin(least, distance / spacing);
     }
@@ -678,12 +951,19 @@ static double lacking(const struct ritz *ritz, int axis, const double point[3], 
 struct ritz_unresolved ritz_unresolved_at(const struct ritz *ritz, int axis, const double point[3])
 {
     static const double DOUBT = 0.3;
-    struct ritz_unresolved unresolved = {lacking(ritz, axis, point, ritz->side[axis]), 0.0};
+    int along = axis == RITZ_ROUND ? 1 : axis;
+    const double turned[3] = {point[0], 0.5 * ritz->side[1], 0.0};
+    const double *at = axis == RITZ_ROUND ? turned : point;
+    struct ritz_unresolved unresolved = {lacking(ritz, along, at, ritz->side[along]), 0.0};
     unresolved.doubt = DOUBT * unresolved.lacks;
     for (int i = 1; i < 3; i++) {
-        int d = (axis + i) % 3;
-        double near = fmax(0.5 * ritz->side[d] - fabs(point[d]), 1e-3 * ritz->side[d]);
-        unresolved.doubt += lacking(ritz, axis, point, near);
+        int d = (along + i) % 3;
+        double off = ritz->round && axis == 0 ? hypot(point[1], point[2]) : fabs(at[d]);
+        double near = fmax(0.5 * ritz->side[d] - off, 1e-3 * ritz->side[d]);
+        /* of a circle the rim counts once, of its side the ends */
+        if (ritz->round && d == 2)
+            continue;
+        unresolved.doubt += lacking(ritz, along, at, near);
     }
     return unresolved;
 }

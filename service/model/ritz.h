@@ -1,13 +1,16 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The vibration of a free elastic box by Ritz's method in three dimensions: displacements are sums
- * of products of Legendre polynomials in x, y and z, which are orthonormal in the box, so that the
- * mass matrix is the identity and the stiffness matrix a sum of products of integrals in closed
- * form (Leissa and Zhang, J. Acoust. Soc. Am. 73 (1983) 2013). Displacements even and odd about
- * the three planes of symmetry do not mix: eight classes.
+/* The vibration of a free elastic box or cylinder by Ritz's method in three dimensions:
+ * displacements are sums of products of Legendre polynomials in x, y and z, which are orthonormal
+ * in the box, so that the mass matrix is the identity and the stiffness matrix a sum of products of
+ * integrals in closed form (Leissa and Zhang, J. Acoust. Soc. Am. 73 (1983) 2013). Displacements
+ * even and odd about the three planes of symmetry do not mix: eight classes.
  *
- * A box has Young's modulus 1, density 1 and a longest side of 1; its origin is its centre. */
+ * Of a cylinder along x the polynomials in y and z are Zernike's, which are orthonormal in the
+ * circle: harmonics of the angle times polynomials of the radius, with the same eight classes.
+ *
+ * A body has Young's modulus 1, density 1 and a longest side of 1; its origin is its centre. */
 #ifndef PERCUSS_MODEL_RITZ_H
 #define PERCUSS_MODEL_RITZ_H
 
@@ -16,16 +19,25 @@
 
 struct ritz;
 
-/* Whether a box is within what polynomials reach: no thinner than 1/200 of its length. */
-bool ritz_reaches(const double sides[3]);
+/* What it is of: sides along x, y, z; a round one has its diameter twice. */
+struct ritz_shape {
+    double side[3];
+    bool round;
+};
+
+/* Names the side of a cylinder, whose normal is no axis. */
+enum { RITZ_ROUND = 3 };
+
+/* Whether it is within what polynomials reach: no thinner than 1/200 of its length. */
+bool ritz_reaches(const struct ritz_shape *shape);
 
 /* Of these proportions. It takes milliseconds for a compact box and seconds for a thin plate, and
  * is immutable. NULL: out of memory. */
-struct ritz *ritz_create(const double sides[3], double poisson);
+struct ritz *ritz_create(const struct ritz_shape *shape, double poisson);
 void ritz_free(struct ritz *ritz); /* NULL is allowed */
 
 /* Whether it is of these proportions, to the last bit. */
-bool ritz_is_of(const struct ritz *ritz, const double sides[3], double poisson);
+bool ritz_is_of(const struct ritz *ritz, const struct ritz_shape *shape, double poisson);
 
 /* Elastic modes, ascending: as many as the polynomials resolve to some 1e-3. */
 size_t ritz_mode_count(const struct ritz *ritz);
@@ -38,9 +50,13 @@ void ritz_shapes(const struct ritz *ritz, const double point[3], const double di
 
 /* Static compliance to a force of 1 along the inward normal at a point of the face whose outward
  * normal is `side` (-1, 1) times the axis `axis`, beyond that of a half-space, the load being
- * balanced by the inertia of the rigid motions (MESH: C without any mode taken off). NAN: out of
+ * balanced by the inertia of the rigid motions. Of a cylinder's own side, RITZ_ROUND, it is that of
+ * a contact of the radius RITZ_CUT, and changes by ritz_slope with its logarithm. NAN: out of
  * memory. */
 double ritz_flexibility(const struct ritz *ritz, int axis, int side, const double point[3]);
+
+static const double RITZ_CUT = 0.02; /* diameters */
+double ritz_slope(const struct ritz *ritz);
 
 /* What of it the polynomials do not resolve there, being coarser than the other faces are near:
  * from the opposite face, which is to be added, and an uncertainty of all. */

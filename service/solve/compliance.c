@@ -57,7 +57,12 @@ static bool side_compliance(struct problem *problem, size_t c, int which, double
     /* the family holds it, for one contact radius */
     if (is_matched_by_nature(body)) {
         const struct face_spot *spot = &side->site.spot;
+        const struct mesh_load *load = &side->load.family[0].mesh;
         *compliance = 0.0;
+        if (load->slope != 0.0) {
+            problem->compliance.by_speed = true;
+            *compliance = load->slope * log(load->cut / patch_radius(problem, c));
+        }
         if (body->mesh && spot->slope != 0.0 && body->mesh->cut > 0.0) {
             problem->compliance.by_speed = true;
             *compliance =

@@ -370,13 +370,13 @@ struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double e
     return *known;
 }
 
-const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const double sides[3],
+const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const struct ritz_shape *shape,
                                      double poisson)
 {
     /* to the front */
     for (struct box **link = &cache->boxes; *link; link = &(*link)->next) {
         struct box *box = *link;
-        if (!ritz_is_of(box->ritz, sides, poisson))
+        if (!ritz_is_of(box->ritz, shape, poisson))
             continue;
         *link = box->next;
         box->next = cache->boxes;
@@ -386,7 +386,7 @@ const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const double 
     struct box *made = calloc(1, sizeof *made);
     if (!made)
         return NULL;
-    made->ritz = ritz_create(sides, poisson);
+    made->ritz = ritz_create(shape, poisson);
     if (!made->ritz) {
         free(made);
         return NULL;

@@ -13,6 +13,8 @@
 #include "solve/placed.h"
 #include "solve/prepared_part.h"
 
+struct ritz_shape;
+
 struct prepared_family {
     struct modal_family *modes;
     size_t group_count;
@@ -64,9 +66,9 @@ struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const s
 struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double effective_modulus,
                                           const double curvature[2]);
 
-/* The vibration of a box of these sides (ritz.h), made when first asked for and valid until the
+/* The vibration of a box or cylinder (ritz.h), made when first asked for and valid until the
  * next prepared_cache_use; a few are kept. NULL: out of memory. */
-const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const double sides[3],
+const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const struct ritz_shape *shape,
                                      double poisson);
 
 /* ritz_flexibility of one of those; of the last places it is kept. */

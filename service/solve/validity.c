@@ -300,13 +300,15 @@ static void find_rigid(const struct problem *problem, const struct impact_outcom
     const struct model_blow blow = model_blow_of(problem, outcome, c);
     for (unsigned which = 0; which < 2; which++) {
         double rings = model_deviation_side(problem, c, (int)which, &blow);
-        bool ball = body_solid(problem_body(problem, c, (int)which)).form == SOLID_BALL;
+        const struct body *body = problem_body(problem, c, (int)which);
+        bool ball = body_solid(body).form == SOLID_BALL;
         if (rings > problem->tolerance && !ball)
             warnings_add(warnings, WARNING_RIGID + which,
                          "contacts[%zu]: %s is taken as rigid: its vibration would take up to "
-                         "about %.2g of the restitution; the tolerance is %.2g: a beam, or a "
-                         "mesh, has its vibration",
-                         c, problem_body(problem, c, (int)which)->id, rings, problem->tolerance);
+                         "about %.2g of the restitution; the tolerance is %.2g: %s",
+                         c, body->id, rings, problem->tolerance,
+                         body->rigid ? "without rigid: true the answer has it"
+                                     : "a beam, or a mesh, has its vibration");
     }
 }
 

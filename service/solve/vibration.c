@@ -11,19 +11,22 @@
 
 /* What a body may keep of the restitution and stay rigid, in tolerances. */
 static const double KEPT = 0.1;
+/* And whatever the tolerance: the unknown compliance of a compact body does as much. */
+static const double LEAST_KEPT = 2e-5;
 
 /* Whether a body vibrates, or would. */
 static bool matters(const struct problem *problem, size_t body)
 {
     const struct body_state *state = problem->states[body];
-    if (state && state->count[0] > 0)
+    if ((state && state->count[0] > 0) || problem->bodies[body]->modes > 0)
         return true;
+    double kept = fmax(KEPT * problem->tolerance, LEAST_KEPT);
     for (size_t c = 0; c < problem->contact_count; c++)
         for (int which = 0; which < 2; which++) {
             if (problem->sides[c][which].body != body)
                 continue;
             struct model_blow blow = model_blow_fastest(problem, c);
-            if (model_deviation_side(problem, c, which, &blow) > KEPT * problem->tolerance)
+            if (model_deviation_side(problem, c, which, &blow) > kept)
                 return true;
         }
     return false;
@@ -42,6 +45,10 @@ static bool lend_load(struct problem *problem, size_t c, int which)
         prepared_ritz_flexibility(problem->cache, body->ritz, load->axis, load->side, load->point);
     load->flexibility = unit * (flexibility + unresolved.lacks);
     load->unknown = unit * unresolved.doubt;
+    if (load->axis == RITZ_ROUND) {
+        load->slope = unit * ritz_slope(body->ritz);
+        load->cut = RITZ_CUT * 2.0 * body->radius;
+    }
     return isfinite(flexibility);
 }
 
@@ -50,15 +57,15 @@ enum percuss_status vibration_lend(struct problem *problem, struct fault *fault)
     bool good = true;
     for (size_t b = 0; good && b < problem->body_count; b++) {
         const struct body *body = problem->bodies[b];
-        double sides[3];
-        if (!body->kind->box || body->rigid || !body->kind->box(body, sides) ||
+        struct ritz_shape shape;
+        if (!body->kind->box || body->rigid || !body->kind->box(body, &shape) ||
             !matters(problem, b))
             continue;
         /* a copy that has it */
         struct body *lent = arena_take(problem->arena, 1, sizeof *lent);
         if (lent) {
             *lent = *body;
-            lent->ritz = prepared_ritz_get(problem->cache, sides, body->material.poisson);
+            lent->ritz = prepared_ritz_get(problem->cache, &shape, body->material.poisson);
         }
         good = lent && lent->ritz;
         if (!good)

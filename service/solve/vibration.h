@@ -8,9 +8,10 @@
 #include "base/fault.h"
 #include "solve/problem.h"
 
-/* Of the bodies that can vibrate once that is computed, those that vibrate already or would keep
- * more of a blow than a tenth of the tolerance, by the fastest approach of all; the others stay
- * rigid, and their error holds it. PERCUSS_OK or PERCUSS_INTERNAL. */
+/* Of the bodies that can vibrate once that is computed, those that vibrate already, have a stated
+ * number of modes, or would keep more of a blow than a tenth of the tolerance and 2e-5, by the
+ * fastest approach of all; the others stay rigid, and their error holds it. PERCUSS_OK or
+ * PERCUSS_INTERNAL. */
 enum percuss_status vibration_lend(struct problem *problem, struct fault *fault);
 
 #endif

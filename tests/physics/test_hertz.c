@@ -79,8 +79,7 @@ static void a_sphere_rebounds_from_a_rigid_wall(void **state)
     lab_free(lab);
 }
 
-/* Curved bodies on each other and on a block without vibration, off centre too, so that they spin:
- * e stays one. */
+/* Bodies without vibration on each other, off centre too, so that they spin: e stays one. */
 static void compact_bodies_return_everything(void **state)
 {
     (void)state;
@@ -91,7 +90,9 @@ static void compact_bodies_return_everything(void **state)
     block.rigid = true;
     lab_add(lab, "block", block);
     lab_add(lab, "ball", make_sphere(STEEL, 0.012));
-    lab_add(lab, "drum", make_bar(&cylinder_kind, STEEL, 0.02, 0.05));
+    struct body drum = make_bar(&cylinder_kind, STEEL, 0.02, 0.05);
+    drum.rigid = true;
+    lab_add(lab, "drum", drum);
     const struct spot ball = sphere_spot("ball", 0.012);
     const struct spot block_off_centre = {"block", {0.01, -0.02, 0.015}, {0.0, 0.0, 1.0}, 0.3};
     const struct spot drum_side = side_spot("drum", 0.01, 0.02, 0.7);

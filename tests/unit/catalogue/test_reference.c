@@ -64,8 +64,9 @@ static void defaults_hold_where_they_are_written(void **state)
             written++;
         }
     }
-    /* ends of rod and beam, lateral inertia, theory, shear factor, a rigid block; tangent of each */
-    assert_int_equal(written, 6 + COUNT(BODIES));
+    /* ends of rod and beam, lateral inertia, theory, shear factor, rigid blocks and cylinders;
+     * tangent of each */
+    assert_int_equal(written, 7 + COUNT(BODIES));
 }
 
 static void check_meanings(const struct key_table *table)

@@ -1,0 +1,26 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Orthogonal polynomials on a line and in a circle. */
+#ifndef PERCUSS_MODEL_POLYNOMIAL_H
+#define PERCUSS_MODEL_POLYNOMIAL_H
+
+#include <stddef.h>
+
+/* Most of a circle along y or z. */
+enum { POLYNOMIAL_MOST = 40 };
+
+/* Legendre's, of mean square 1 over [-1, 1]. */
+void polynomial_legendre(size_t count, double x, double *value);
+
+/* Zernike's of mean square 1 over the circle of radius 1, in the place of y^q z^r, q + r < count:
+ * sqrt((2) (n + 1)) R_n^m(radius) cos(m angle) or sin, n = q + r; cosines where r is even, whose
+ * parities are those of y^q z^r. R_n^m(s) = s^m P_k(2 s^2 - 1), P_k Jacobi's of (0, m), k = (n -
+ * m)/2. With derivatives along y and z where these are not NULL; [q][r], POLYNOMIAL_MOST long. */
+void polynomial_zernike(size_t count, double y, double z, double *value, double *along_y,
+                        double *along_z);
+
+/* Gauss' rule of n points on [0, 1], by Newton's method on Legendre's polynomial. */
+void polynomial_gauss(size_t n, double *x, double *weight);
+
+#endif
