@@ -29,7 +29,7 @@ static const struct key contact[] = {
     {"compliance", KEY_WORD, KEY_OF(body_set, compliance), KEY_WORDS(compliances),
      KEY_SAYS("matched",
               "local compliance: Hertz's of a half-space, or corrected for the finite body where "
-              "that is known (rods, cylinders, spheres)")},
+              "that is known (rods, cylinders, spheres; a beam's side has its own either way)")},
 };
 const struct key_table keys_contact = {"contact", TABLE(contact)};
 

@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "contact/plastic.h"
+#include "impact/contact_step.h"
 #include "impact/flight_root.h"
 #include "impact/impact_scale.h"
 #include "impact/march.h"
@@ -91,6 +92,9 @@ static void yield(struct reference *run, size_t c)
     run->y[c] += deeper;
     run->system.indentation[c] -= deeper;
     outcome->tracks[c].deepened += deeper;
+    /* as the modal method finds it; here the solution goes on */
+    if (!contact_bears(&run->march.scene, c, contact_law_unloading(law)))
+        outcome->too_stiff = true;
 }
 
 /* Bookkeeping at a root: contacts open and close, indentations peak. */

@@ -86,8 +86,11 @@ void bar_load_along(const struct body *body, const struct site *site, const doub
 void bar_load_settle(const struct body *body, struct family_load *load)
 {
     double moment = fabs(load->bar.moment);
-    load->acts = fabs(load->bar.force) > NEGLIGIBLE ||
-                 (moment > 0.0 && moment / body_smallest_radius(body) > NEGLIGIBLE);
+    bool pushes = fabs(load->bar.force) > NEGLIGIBLE;
+    /* of second order in the section's size without a force beside it */
+    if (!pushes)
+        load->bar.curvature = 0.0;
+    load->acts = pushes || (moment > 0.0 && moment / body_smallest_radius(body) > NEGLIGIBLE);
 }
 
 void bar_describe_ends(const struct body *body, struct body_description *description)

@@ -56,13 +56,36 @@ void beam_mode_at(const struct beam_plane *plane, const struct beam_mode *mode, 
 /* One plane of bending of a completed beam: 0 along y, 1 along z. */
 struct beam_plane beam_plane_of(const struct body *body, int plane);
 
-/* A transverse force and a moment (conjugate to psi) acting at x. Other waves of a bar have a force
- * along it or a moment about it. */
+/* A transverse force and a moment (conjugate to psi) acting at x, and a load (N m^2) conjugate to
+ * the mean of psi' over `window` about x, as far as that is on the beam. Other waves of a bar have
+ * a force along it or a moment about it. */
 struct beam_load {
     double x;
     double force;
     double moment;
+    double curvature, window;
 };
+
+/* Displacement of a mode at a load, along it, for unit modal coordinate. */
+double beam_mode_on(const struct beam_plane *plane, const struct beam_mode *mode,
+                    const struct beam_load *load);
+
+/* The section of a bent bar deforms. With z along the deflection, y across and nu Poisson's ratio,
+ * a plane of bending moves a point by
+ *
+ *     u_z = w + nu/2 (z^2 - y^2 - m) psi',    u_y = nu y z psi',    m = (I_z - I_y)/A,
+ *
+ * w being the mean over the section (Love, Mathematical Theory of Elasticity, section 87; I_z the
+ * integral of z^2). The load that a force along `direction` at `point` (body frame) of the side is
+ * to the plane 0 (along y) or 1 (along z); body completed. None by Euler and Bernoulli's theory,
+ * which is the textbook's, of rigid sections, and in strips, which bend across as plates do. */
+struct beam_load beam_side_load(const struct body *body, int plane, const double point[3],
+                                const double direction[3]);
+
+/* What a point of the side gives way beyond its half-space and the bar's own compliance there (that
+ * of beam_side_load and of twist), m/N; negative as a rule. */
+double beam_side_compliance(const struct body *body, const double point[3],
+                            const double outward[3]);
 
 /* Static compliance between two loads, m/N for unit forces: work of load `i` on the displacement
  * due to load `j`. Rigid motions that the supports allow are balanced by the inertia of that

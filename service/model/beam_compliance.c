@@ -47,6 +47,8 @@ static double energy_between(const struct statics *statics, const struct field *
     static const double weight[2] = {0.65214515486254614263, 0.34785484513745385737};
     double centre = 0.5 * (from + to), half = 0.5 * (to - from), sum = 0.0;
 
+    if (!(half > 0.0))
+        return 0.0;
     for (int k = 0; k < 4; k++) {
         double s = centre + (k % 2 ? half : -half) * node[k / 2];
         sum +=
@@ -117,6 +119,22 @@ static struct field field_of(const struct statics *statics, const struct beam_pl
     return field;
 }
 
+/* A load as forces and moments at places: the mean of psi' is a difference of rotations. */
+static size_t parts_of(const struct beam_plane *plane, const struct beam_load *load,
+                       struct beam_load parts[3])
+{
+    double end = 0.5 * plane->length;
+    double from = fmax(load->x - 0.5 * load->window, -end);
+    double to = fmin(load->x + 0.5 * load->window, end);
+
+    parts[0] = (struct beam_load){.x = load->x, .force = load->force, .moment = load->moment};
+    if (load->curvature == 0.0)
+        return 1;
+    parts[1] = (struct beam_load){.x = from, .moment = -load->curvature / (to - from)};
+    parts[2] = (struct beam_load){.x = to, .moment = load->curvature / (to - from)};
+    return 3;
+}
+
 double beam_compliance(const struct beam_plane *plane, const struct beam_load *i,
                        const struct beam_load *j)
 {
@@ -127,8 +145,17 @@ double beam_compliance(const struct beam_plane *plane, const struct beam_load *i
         .shear = plane->bending_stiffness / (plane->shear_stiffness * square),
         .supports = {plane->supports[mirrored], plane->supports[!mirrored]},
     };
-    struct field field_i = field_of(&statics, plane, i, mirrored);
-    struct field field_j = field_of(&statics, plane, j, mirrored);
+    struct beam_load parts[2][3];
+    struct field fields[2][3];
+    size_t counts[2] = {parts_of(plane, i, parts[0]), parts_of(plane, j, parts[1])};
+    double sum = 0.0;
 
-    return square * plane->length / plane->bending_stiffness * energy(&statics, &field_i, &field_j);
+    for (int side = 0; side < 2; side++)
+        for (size_t k = 0; k < counts[side]; k++)
+            fields[side][k] = field_of(&statics, plane, &parts[side][k], mirrored);
+    /* of a load on itself each pair once */
+    for (size_t k = 0; k < counts[0]; k++)
+        for (size_t l = i == j ? k : 0; l < counts[1]; l++)
+            sum += (i == j && l > k ? 2.0 : 1.0) * energy(&statics, &fields[0][k], &fields[1][l]);
+    return square * plane->length / plane->bending_stiffness * sum;
 }

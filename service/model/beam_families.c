@@ -34,12 +34,8 @@ static void bending_participations(const struct body *body, const struct modal_f
 {
     struct beam_plane plane = beam_plane_of(body, plane_number(modes->family));
     const struct beam_mode *shapes = modes->shapes;
-    for (size_t i = 0; i < count; i++) {
-        double w;
-        double psi;
-        beam_mode_at(&plane, &shapes[which[i]], load->bar.x, &w, &psi);
-        row[i] = load->bar.force * w + load->bar.moment * psi;
-    }
+    for (size_t i = 0; i < count; i++)
+        row[i] = beam_mode_on(&plane, &shapes[which[i]], &load->bar);
 }
 
 static double bending_compliance(const struct body *body, size_t family,

@@ -281,20 +281,77 @@ static void hyperbolic(double alpha, double s, double *c, double *sn)
     *sn = copysign(-scale * fall, s);
 }
 
+/* The four solutions at s: C or cos(alpha s), S or sin(alpha s), cos(beta s), sin(beta s). */
+struct solutions {
+    double c, sn, cosine, sine;
+};
+
+static struct solutions solutions_at(const struct beam_mode *mode, double s)
+{
+    struct solutions at = {.cosine = cos(mode->beta * s), .sine = sin(mode->beta * s)};
+
+    if (mode->above_cutoff) {
+        at.c = cos(mode->alpha * s);
+        at.sn = sin(mode->alpha * s);
+    } else {
+        hyperbolic(mode->alpha, s, &at.c, &at.sn);
+    }
+    return at;
+}
+
+static double deflection(const struct beam_mode *mode, const struct solutions *at)
+{
+    return mode->even[0] * at->c + mode->even[1] * at->cosine + mode->odd[0] * at->sn +
+           mode->odd[1] * at->sine;
+}
+
+static double rotation(const struct beam_mode *mode, const struct solutions *at)
+{
+    return mode->even_slope[0] * at->sn + mode->even_slope[1] * at->sine +
+           mode->odd_slope[0] * at->c + mode->odd_slope[1] * at->cosine;
+}
+
 void beam_mode_at(const struct beam_plane *plane, const struct beam_mode *mode, double x, double *w,
                   double *psi)
 {
-    double s = x / plane->length;
-    double c, sn;
-    double cosine = cos(mode->beta * s), sine = sin(mode->beta * s);
+    struct solutions at = solutions_at(mode, x / plane->length);
 
-    if (mode->above_cutoff) {
-        c = cos(mode->alpha * s);
-        sn = sin(mode->alpha * s);
+    *w = deflection(mode, &at);
+    *psi = rotation(mode, &at);
+}
+
+/* Difference of the rotations `half` (in lengths) beyond and before the place, by the solutions'
+ * addition theorems. */
+static double rotation_across(const struct beam_mode *mode, const struct solutions *at, double half)
+{
+    double wave = 2.0 * sin(mode->beta * half);
+    double sign = mode->above_cutoff ? -1.0 : 1.0;
+    double other = 2.0 * (mode->above_cutoff ? sin(mode->alpha * half) : sinh(mode->alpha * half));
+
+    return other * (mode->even_slope[0] * at->c + sign * mode->odd_slope[0] * at->sn) +
+           wave * (mode->even_slope[1] * at->cosine - mode->odd_slope[1] * at->sine);
+}
+
+double beam_mode_on(const struct beam_plane *plane, const struct beam_mode *mode,
+                    const struct beam_load *load)
+{
+    double s = load->x / plane->length;
+    struct solutions at = solutions_at(mode, s);
+    double work = load->force * deflection(mode, &at);
+    if (load->moment != 0.0)
+        work += load->moment * rotation(mode, &at);
+    if (load->curvature == 0.0)
+        return work;
+
+    /* mean of psi' about the place, or about what of that is on the beam */
+    double half = 0.5 * load->window / plane->length;
+    double from = fmax(s - half, -0.5), to = fmin(s + half, 0.5);
+    double across;
+    if (from == s - half && to == s + half) {
+        across = rotation_across(mode, &at, half);
     } else {
-        hyperbolic(mode->alpha, s, &c, &sn);
+        struct solutions first = solutions_at(mode, from), last = solutions_at(mode, to);
+        across = rotation(mode, &last) - rotation(mode, &first);
     }
-    *w = mode->even[0] * c + mode->even[1] * cosine + mode->odd[0] * sn + mode->odd[1] * sine;
-    *psi = mode->even_slope[0] * sn + mode->even_slope[1] * sine + mode->odd_slope[0] * c +
-           mode->odd_slope[1] * cosine;
+    return work + load->curvature * across / ((to - from) * plane->length);
 }

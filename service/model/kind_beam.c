@@ -214,6 +214,8 @@ static void load_families(const struct body *body, const struct site *site,
     /* across it, in both planes */
     for (int plane = 0; plane < 2; plane++) {
         struct family_load *bending = &load->family[BAR_BENDING_Y + plane];
+        if (!on_end)
+            bending->bar = beam_side_load(body, plane, point, direction);
         bending->bar.x = at;
         bending->bar.force = direction[1 + plane];
         if (on_end)

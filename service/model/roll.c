@@ -53,6 +53,7 @@ void roll_load(const struct body *body, const struct roll *roll, struct site_loa
     struct family_load *z = y + 1;
     roll_coordinates(roll, 1, &y->bar.force, &z->bar.force);
     roll_coordinates(roll, 1, &y->bar.moment, &z->bar.moment);
+    roll_coordinates(roll, 1, &y->bar.curvature, &z->bar.curvature);
     bar_load_settle(body, y);
     bar_load_settle(body, z);
 }

@@ -48,6 +48,21 @@ static bool is_matched_by_nature(const struct body *body)
     return body_is_solid(body);
 }
 
+/* So is that of a beam's side: its theory lacks the place's own. */
+static bool is_side_of_beam(const struct contact_side *side, const struct body *body)
+{
+    return side->site.face == SITE_BEAM_SIDE && body_bends(body) &&
+           body->theory == THEORY_TIMOSHENKO;
+}
+
+static double side_of_beam(const struct problem *problem, const struct contact_side *side)
+{
+    const struct site *site = &side->site;
+    return problem->compliance.bare
+               ? 0.0
+               : beam_side_compliance(problem->bodies[side->body], site->point, site->outward);
+}
+
 /* The correction of one side of a contact, m/N. NAN: none is known. False: out of memory. */
 static bool side_compliance(struct problem *problem, size_t c, int which, double *compliance)
 {
@@ -70,6 +85,10 @@ static bool side_compliance(struct problem *problem, size_t c, int which, double
         }
         return true;
     }
+    if (is_side_of_beam(side, body)) {
+        *compliance = side_of_beam(problem, side);
+        return true;
+    }
     *compliance = NAN;
     if (form == SOLID_CYLINDER && !is_central(body, side->site.point))
         return true;
@@ -81,6 +100,7 @@ static bool side_compliance(struct problem *problem, size_t c, int which, double
     return prepared_matched_get(problem->cache, body, patch, compliance);
 }
 
+/* Also without the corrections of bodies a beam keeps its own. */
 static void use_half_space(struct problem *problem, const char *why)
 {
     struct compliance *compliance = &problem->compliance;
@@ -88,6 +108,13 @@ static void use_half_space(struct problem *problem, const char *why)
     compliance->by_speed = false;
     memset(compliance->series, 0, problem->contact_count * sizeof *compliance->series);
     memset(compliance->sides, 0, problem->contact_count * sizeof *compliance->sides);
+    for (size_t c = 0; c < problem->contact_count; c++)
+        for (int which = 0; which < 2; which++) {
+            const struct contact_side *side = &problem->sides[c][which];
+            if (is_side_of_beam(side, problem->bodies[side->body]))
+                compliance->sides[c][which] = side_of_beam(problem, side);
+            compliance->series[c] += compliance->sides[c][which];
+        }
     compliance->reason[0] = '\0';
     if (*why) /* usually nothing is to be said */
         snprintf(compliance->reason, sizeof compliance->reason, "%s", why);
@@ -178,20 +205,28 @@ static size_t mesh_modes(const struct problem *problem, const struct scene *scen
     return allowed > 0 && allowed < most ? allowed : most;
 }
 
+static bool any_side(const struct problem *problem)
+{
+    for (size_t i = 0; i < 2 * problem->contact_count; i++)
+        if (is_side_of_beam(&problem->sides[i / 2][i % 2], problem_body(problem, i / 2, i % 2)))
+            return !problem->compliance.bare;
+    return false;
+}
+
 bool compliance_revise(struct problem *problem, const struct scene *scene,
                        const struct impact_outcome *outcome)
 {
     /* nothing else is ever taken back */
     bool radiates = radiation_is_in(problem, scene);
-    if (problem->compliance.used != PERCUSS_COMPLIANCE_MATCHED && !radiates &&
-        mesh_modes(problem, scene) <= LEAST_MODES)
+    bool matched = problem->compliance.used == PERCUSS_COMPLIANCE_MATCHED;
+    if (!matched && !radiates && !any_side(problem) && mesh_modes(problem, scene) <= LEAST_MODES)
         return false;
     /* waves that contacts share may take all of the effort */
     if (outcome->end_reason == PERCUSS_END_LIMIT && radiation_is_shared(problem, scene)) {
         problem->compliance.still = true;
         return true;
     }
-    /* too stiff a contact: without waves, and then without matched compliance */
+    /* too stiff a contact: without waves, then without matched compliance, then without a beam's */
     for (size_t c = 0; c < scene->contacts; c++) {
         if (!outcome->too_stiff && contact_bears(scene, c, largest_stiffness(problem, outcome, c)))
             continue;
@@ -199,9 +234,11 @@ bool compliance_revise(struct problem *problem, const struct scene *scene,
             problem->compliance.still = true;
         else if (mesh_modes(problem, scene) > LEAST_MODES)
             problem->compliance.most = mesh_modes(problem, scene) * 2 / 3;
-        else
+        else {
+            problem->compliance.bare = !matched;
             use_half_space(problem,
                            "the matched compliance is too negative for so stiff a contact");
+        }
         return true;
     }
     return false;

@@ -18,20 +18,34 @@
  * body that is rigid but for its contact (-0.3 of a sphere). */
 static const double MATCHED = 0.03;
 static const double HALF_SPACE = 0.8;
-static const double SIDE = 0.05;
+static const double SIDE = 0.6;
 static const double SIDE_WITHOUT_SHEAR = 1.0;
+/* Of a beam's side where it is matched (beam_side.c): on the axis; more by the square of the
+ * distance from the axis over half the breadth; nearer to an edge than the fit goes, by (half
+ * thickness / distance) beyond 6.5; and near an end, by the square of that. */
+static const double SIDE_MATCHED = 0.03;
+static const double SIDE_ASIDE = 0.08;
+static const double SIDE_EDGE = 0.2;
+static const double SIDE_KNOWN = 6.5;
+static const double SIDE_END = 0.015;
+/* And of sections broader than 2.5 depths, by what they are broader: they bend across. */
+static const double SIDE_BROAD = 0.4;
+static const double BROAD = 2.5;
+/* No contact is nearer to an edge than this, half thicknesses. */
+static const double SIDE_NEAREST = 0.05;
 static const double COMPACT = 0.3;
 /* Of a mesh's regular flexibility nearer to a sharp edge than an element, times E and the distance:
  * what neighbouring points of a wall of one element were seen to differ by (there an edge itself is
  * worth 0.27) */
 static const double NEAR_EDGE = 0.5;
-/* Frequencies of a bar's theory, share by (radius / way of a wave during the contact) and its
- * square: rods without and with lateral inertia, beams with Hutchinson's shear factor (1e-3 at 29
- * kHz of a bar of 10 mm) and another one (1e-2 there), and without shear. */
+/* Frequencies of a bar's theory, share by (radius / way of a wave during the contact): its square
+ * for rods without and with lateral inertia and beams with Hutchinson's shear factor (1e-3 at 29
+ * kHz of a bar of 10 mm); itself for another one (1e-2 there) and without shear, where the error
+ * goes with the wave number's square, that is with the frequency. */
 static const double ROD = 1.0;
 static const double RAYLEIGH_LOVE = 0.5;
 static const double HUTCHINSON = 1.0;
-static const double COWPER = 10.0;
+static const double COWPER = 0.25;
 static const double EULER_BERNOULLI = 5.0;
 /* Size and shape of contacts that flow: what is estimated of them (law_error.h) is a mean. */
 static const double ROUND = 1.25;
@@ -72,17 +86,37 @@ static bool without_shear(const struct body *body)
     return body_bends(body) && body->theory == THEORY_EULER_BERNOULLI;
 }
 
+/* Of a beam's side whose own compliance is in series. */
+static double unknown_of_side(const struct body *body, const struct site *site)
+{
+    double size = scale_of(body);
+    double end = fmax((0.5 * body->length - fabs(site->point[0])) / size, SIDE_NEAREST);
+    double sum = SIDE_MATCHED + SIDE_END / (end * end);
+    if (body->radius > 0.0)
+        return sum;
+    /* across the face that is hit */
+    int across = fabs(site->outward[2]) > fabs(site->outward[1]) ? 1 : 2;
+    double half = 0.5 * (across == 1 ? body->width : body->height);
+    double aside = fabs(site->point[across]) / half;
+    double edge = fmax((half - fabs(site->point[across])) / size, SIDE_NEAREST);
+    double breadth = half / (0.5 * (across == 1 ? body->height : body->width));
+    sum += SIDE_BROAD * fmax(breadth - BROAD, 0.0);
+    return sum + SIDE_ASIDE * aside * aside + SIDE_EDGE * fmax(1.0 / edge - SIDE_KNOWN, 0.0);
+}
+
 /* Times E and the radius of the body. */
 static double unknown_compliance(const struct problem *problem, const struct contact_side *side)
 {
     const struct body *body = problem->bodies[side->body];
+    if (body_bends(body) && side->site.face == SITE_BEAM_SIDE && !without_shear(body))
+        return problem->compliance.bare ? SIDE : unknown_of_side(body, &side->site);
     if (problem->compliance.used == PERCUSS_COMPLIANCE_MATCHED)
         return MATCHED;
     if (!is_bar(body))
         return body_is_flexible(body) ? MATCHED : COMPACT;
     if (side->site.face == SITE_END)
         return HALF_SPACE;
-    return without_shear(body) ? SIDE_WITHOUT_SHEAR : SIDE;
+    return SIDE_WITHOUT_SHEAR;
 }
 
 /* Of a mesh, nearer to an edge than its element there is long, m/N. */
@@ -121,7 +155,7 @@ static double theory_of(const struct body *body, const struct site *site, double
     if (without_shear(body))
         return EULER_BERNOULLI * ratio;
     bool hutchinson = body->shear_rule == SHEAR_HUTCHINSON || body->shear_rule == SHEAR_ABSENT;
-    return (hutchinson ? HUTCHINSON : COWPER) * ratio * ratio;
+    return hutchinson ? HUTCHINSON * ratio * ratio : COWPER * ratio;
 }
 
 static double force_of(const struct problem *problem, size_t contact, const struct model_blow *blow)

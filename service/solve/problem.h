@@ -34,6 +34,7 @@ struct compliance {
     bool by_speed;                /* a part depends on the speed of approach: a sphere's */
     bool still;                   /* no waves leave through half-spaces, see radiation.h: a contact
                                      is too stiff for them, or too many share them */
+    bool bare;                    /* without that of beams' sides: a contact is too stiff for it */
     size_t most;                  /* modes of a mesh that may take part: fewer leave more of its
                                      flexibility in series; 0: all */
     char reason[128];             /* why half-space although matched was asked for, or empty */

@@ -48,47 +48,63 @@ static void list_modes(struct making *making)
         making->body->omega[k] = making->ones[k].omega;
 }
 
-/* Displacement at a place of the axis, along x or across. */
-static double shape_of(const struct making *making, const struct one *one, double x)
+/* A unit force along `n` at a point: bending moves ends as plane figures, and sides as
+ * beam_side_load says. Families come as x, y, z. */
+static struct family_load load_at(const struct body *bar, size_t family, const double point[3],
+                                  const double n[3], bool end)
+{
+    struct family_load load = {.acts = true};
+    if (!end && family != BAR_LONGITUDINAL)
+        load.bar = beam_side_load(bar, (int)(family - BAR_BENDING_Y), point, n);
+    load.bar.x = point[0];
+    load.bar.force = n[family];
+    return load;
+}
+
+/* Displacement at a point, along `n`. */
+static double shape_of(const struct making *making, const struct one *one, const double point[3],
+                       const double n[3], bool end)
 {
     const struct body *bar = making->wanted->bar;
-    struct family_load load = {.acts = true, .bar = {.x = x, .force = 1.0}};
+    struct family_load load = load_at(bar, one->family, point, n, end);
     /* along: cosines, free at both ends, or sines */
-    double phase = (double)(one->number + 1) * M_PI * (x / bar->length + 0.5);
+    double phase = (double)(one->number + 1) * M_PI * (point[0] / bar->length + 0.5);
     if (one->family == BAR_LONGITUDINAL)
-        return sqrt(2.0 / bar->mass) * (bar->supports[0] ? sin(phase) : cos(phase));
+        return sqrt(2.0 / bar->mass) * (bar->supports[0] ? sin(phase) : cos(phase)) * n[0];
     return modal_participation(bar, making->families[one->family], one->number, &load);
 }
 
-static unsigned add_node(struct making *making, double x, double y, double z)
+static unsigned add_node(struct making *making, double x, double y, double z, bool end)
 {
+    static const double axes[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     struct mesh_body *body = making->body;
     unsigned node = (unsigned)body->node_count++;
     const double point[3] = {x, y, z};
     memcpy(body->points[node], point, sizeof point);
-    for (size_t k = 0; k < body->mode_count; k++) {
-        size_t axis = making->ones[k].family; /* x, y, z as the families come */
-        body->shapes[(3 * node + axis) * body->mode_count + k] =
-            (float)shape_of(making, &making->ones[k], x);
-    }
+    for (size_t axis = 0; axis < 3; axis++)
+        for (size_t k = 0; k < body->mode_count; k++)
+            if (axis == making->ones[k].family || (axis > 0 && making->ones[k].family > 0))
+                body->shapes[(3 * node + axis) * body->mode_count + k] =
+                    (float)shape_of(making, &making->ones[k], point, axes[axis], end);
     return node;
 }
 
 /* Static compliance along a normal, less that of the first modes. */
-static double flexibility_at(const struct making *making, double x, const double n[3], bool end)
+static double flexibility_at(const struct making *making, const double point[3], const double n[3],
+                             bool end)
 {
     const struct body *bar = making->wanted->bar;
-    double sum = 0.0;
+    double sum = end ? making->wanted->end_flexibility : beam_side_compliance(bar, point, n);
     for (size_t f = 0; f < bar->kind->family_count && f != BAR_TWIST; f++) {
-        struct family_load load = {.acts = true, .bar = {.x = x, .force = n[f]}};
+        struct family_load load = load_at(bar, f, point, n, end);
         if (end == (f == BAR_LONGITUDINAL) && n[f] != 0.0)
             sum += modal_compliance(bar, f, &load, &load);
     }
     for (size_t k = 0; k < making->wanted->removed; k++) {
-        double shape = shape_of(making, &making->ones[k], x) * n[making->ones[k].family];
+        double shape = shape_of(making, &making->ones[k], point, n, end);
         sum -= shape * shape / (making->ones[k].omega * making->ones[k].omega);
     }
-    return end ? sum + making->wanted->end_flexibility : sum;
+    return sum;
 }
 
 /* A face of nine nodes, given as a grid of three by three. */
@@ -114,7 +130,7 @@ static void add_face(struct making *making, const unsigned grid[3][3], unsigned 
         for (int k = 0; k < 3; k++)
             face->normal[i][k] = (float)n[k];
         face->nodes[i] = node;
-        face->flexibility[i] = flexibility_at(making, p[0], n, patch != 0);
+        face->flexibility[i] = flexibility_at(making, p, n, patch != 0);
     }
 }
 
@@ -128,7 +144,7 @@ static void add_side(struct making *making)
         for (size_t j = 0; j < around; j++) {
             double turn = 2.0 * M_PI * (double)j / (double)around;
             add_node(making, length * ((double)i / (double)along - 0.5), r * cos(turn),
-                     r * sin(turn));
+                     r * sin(turn), false);
         }
     for (size_t i = 0; i < along; i += 2)
         for (size_t j = 0; j < around; j += 2) {
@@ -160,7 +176,7 @@ static void add_end(struct making *making, unsigned patch)
             double t = 2.0 * (double)j / (double)(nodes - 1) - 1.0;
             double size = fmax(fabs(s), fabs(t)), norm = hypot(s, t);
             double scale = norm > 0.0 ? r * size / norm : 0.0;
-            add_node(making, x, scale * s, scale * t);
+            add_node(making, x, scale * s, scale * t, true);
         }
     for (size_t i = 0; i + 2 < nodes; i += 2)
         for (size_t j = 0; j + 2 < nodes; j += 2) {

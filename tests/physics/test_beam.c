@@ -43,58 +43,66 @@ static struct lab *paper_beam(void)
     return lab;
 }
 
-/* With Cowper's shear factor, as the notes have it. */
+/* Against the beam as a mesh (docs/mesh.md, `mesh_values.sh ... beam`, 4 mm, 220 modes): what the
+ * answer states covers the difference, which the later blows amplify; the first impulse by itself
+ * is within the 2e-6 N s that meshes leave. The digits are our own, for a change to be seen. */
 static void the_paper_s_beam_at_four_speeds(void **state)
 {
     (void)state;
     static const struct {
-        double speed, e, digits, second, grazes;
-    } rows[] = {{0.200, 0.7341, 5e-5, 5.230, 0},
-                {0.276, 0.737, 5e-4, 4.000, 0},
-                {0.287, 0.306, 1e-3, 3.983, 0}, /* 0.30652 cut, not rounded, in the notes */
-                {0.303, 0.2450, 5e-5, 3.960, 1}};
+        double speed, mesh, e;
+    } rows[] = {{0.200, 0.7397, 0.73940},
+                {0.276, 0.7036, 0.71004},
+                {0.287, 0.3204, 0.32753},
+                {0.303, 0.2430, 0.24534}};
     static struct solve_result result;
     struct lab *lab = paper_beam();
-    lab_add(lab, "beam", make_cowper(lab->bodies[1]));
     for (size_t i = 0; i < COUNT(rows); i++) {
         struct solve_request request =
             strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), rows[i].speed);
         request.options.tolerance = 1e-6;
+        request.options.compliance = PERCUSS_COMPLIANCE_MATCHED;
         lab_solve(lab, &request, &result);
         const struct solve_contact_result *contact = &result.contacts[0];
-        const struct sub_impact *sub = contact->sub_impacts;
-        const struct sub_impact *second = &sub[1 + (rows[i].grazes > 0)];
-        measured("e", contact->restitution, rows[i].e, rows[i].digits);
-        /* the notes' digits; 2 us asked of the second start */
-        measured("second start, ms", 1e3 * second->start, rows[i].second, 2e-3);
+        measured("e, of the mesh", contact->restitution, rows[i].mesh, result.restitution_total);
+        assert_true(result.restitution_total < 0.1);
+        measured("e", contact->restitution, rows[i].e, 5e-5);
         assert_int_equal(result.end_reason, PERCUSS_END_SEPARATED);
-        if (rows[i].speed == 0.2)
-            measured("first impulse", sub->impulse, 0.0195055, 1e-7);
-        if (rows[i].grazes) {
-            measured("graze, ms", 1e3 * sub[1].start, 1.415, 2e-3);
-            measured("graze, impulse", sub[1].impulse, 1e-5, 5e-6);
-            assert_true(sub[1].negligible && !sub[0].negligible && !second->negligible);
+        if (rows[i].speed == 0.2) {
+            measured("first impulse", contact->sub_impacts[0].impulse, 0.019513, 2e-6);
+            measured("second start, ms", 1e3 * contact->sub_impacts[1].start, 5.247, 2e-3);
         }
     }
     lab_free(lab);
 }
 
-/* With the shear factor that three-dimensional finite elements confirm. The digits are another
- * program's; after a second sub-impact, which amplifies, its number of modes moves e by 2e-4. */
-static void the_same_with_hutchinsons_shear_factor(void **state)
+/* Cowper's shear factor moves e by less than what is stated for it; a graze beside the second blow
+ * is a sub-impact of its own. */
+static void the_same_with_cowper_s_shear_factor(void **state)
 {
     (void)state;
     static const double rows[][2] = {
-        {0.200, 0.7390}, {0.276, 0.7313}, {0.287, 0.3411}, {0.303, 0.2453}};
+        {0.200, 0.7397}, {0.276, 0.7036}, {0.287, 0.3204}, {0.303, 0.2430}};
     static struct solve_result result;
     struct lab *lab = paper_beam();
+    lab_add(lab, "beam", make_cowper(lab->bodies[1]));
     for (size_t i = 0; i < COUNT(rows); i++) {
         struct solve_request request =
             strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), rows[i][0]);
         request.options.tolerance = 1e-6;
+        request.options.compliance = PERCUSS_COMPLIANCE_MATCHED;
         lab_solve(lab, &request, &result);
-        measured("e", result.contacts[0].restitution, rows[i][1], i == 0 ? 5e-5 : 2.5e-4);
+        measured("e", result.contacts[0].restitution, rows[i][1], result.restitution_total);
     }
+    struct solve_request request =
+        strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.31);
+    request.options.tolerance = 1e-6;
+    lab_solve(lab, &request, &result);
+    const struct sub_impact *sub = result.contacts[0].sub_impacts;
+    assert_int_equal(result.contacts[0].sub_impact_count, 3);
+    measured("graze, ms", 1e3 * sub[1].start, 1.415, 2e-3);
+    measured("graze, impulse", sub[1].impulse, 5e-6, 3e-6);
+    assert_true(sub[1].negligible && !sub[0].negligible && !sub[2].negligible);
     lab_free(lab);
 }
 
@@ -212,7 +220,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(timoshenko_1913),
         cmocka_unit_test(the_paper_s_beam_at_four_speeds),
-        cmocka_unit_test(the_same_with_hutchinsons_shear_factor),
+        cmocka_unit_test(the_same_with_cowper_s_shear_factor),
         cmocka_unit_test(every_beam_against_its_converged_solution),
         cmocka_unit_test(every_beam_against_cvode),
         cmocka_unit_test(a_beam_hit_on_its_end_is_the_rod),

@@ -82,7 +82,7 @@ static void a_heavy_ball_at_the_tip_of_a_cantilever(void **state)
 }
 
 /* Beside a pinned end there is one impact: what is near a support is no sequence. The
- * references: twice and four times as many modes agree to 3e-8. */
+ * references: 320 and 640 modes agree to 1.2e-8. */
 static void a_heavy_ball_beside_a_support(void **state)
 {
     (void)state;
@@ -90,7 +90,7 @@ static void a_heavy_ball_beside_a_support(void **state)
     struct lab *lab = lab_of_heavy_ball(SUPPORT_PINNED, SUPPORT_PINNED);
     for (double tolerance = 1e-2; tolerance > 5e-5; tolerance *= 0.1) {
         double e = answer(lab, 0.49, tolerance, &result);
-        measured("e", e, 0.5830444, result.restitution_time + result.restitution_modes);
+        measured("e", e, 0.5661155, result.restitution_time + result.restitution_modes);
         assert_true(result.tolerance_met);
     }
     lab_free(lab);

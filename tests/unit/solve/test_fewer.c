@@ -72,7 +72,9 @@ static void a_beam(void **state)
 {
     (void)state;
     struct search *search = search_create();
-    struct solve_request request = search_on_beam(1e-6);
+    struct solve_request request =
+        strike(sphere_spot("ball", 0.015), side_spot("beam", 0.0, 0.010, 0.0), 0.303);
+    request.options.tolerance = 1e-6;
     search_begin(search, &request);
     struct attempt full = search_attempt(search, 100, 1e-8);
     struct scene fewer;
