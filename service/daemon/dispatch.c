@@ -150,6 +150,18 @@ static enum percuss_status is_quick(void *context, struct fault *fault)
     return limit->over ? fault_set(fault, PERCUSS_BUSY, "for the workers") : PERCUSS_OK;
 }
 
+/* Whether a body's vibration may have to be computed first, which takes up to a second and asks
+ * nobody on the way. */
+static bool may_prepare(const struct snapshot *snapshot, const percuss_v1_Request *request)
+{
+    for (uint32_t i = 0; i < request->bodies._length; i++) {
+        const struct body *body = body_set_find(snapshot->set, request->bodies._buffer[i].id);
+        if (body && body->kind->box && body_can_vibrate(body))
+            return true;
+    }
+    return false;
+}
+
 /* False: it takes longer than the reading thread has; nothing is answered yet. */
 static bool answer_here(struct dispatch *dispatch, const struct request_name *name,
                         const percuss_v1_Request *request, double arrival)
@@ -157,6 +169,10 @@ static bool answer_here(struct dispatch *dispatch, const struct request_name *na
     struct shared *shared = dispatch->shared;
     struct time_limit limit = {.end = arrival + INLINE_SECONDS};
     struct snapshot *snapshot = snapshots_hold(&shared->snapshots);
+    if (may_prepare(snapshot, request)) {
+        snapshots_release(&shared->snapshots, snapshot);
+        return false;
+    }
     /* wanted as long as it is quick */
     struct question question = {
         .request = request,

@@ -63,19 +63,31 @@ static double larger_side(const struct body *body)
     return body->radius > 0.0 ? 2.0 * body->radius : fmax(body->width, body->height);
 }
 
+/* A held section keeps its outline: from half the window away on it is free to deform. */
+static double freed(const struct body *body, double x, double window)
+{
+    double share = 1.0;
+    for (int end = 0; end < 2; end++)
+        if (body->supports[end] != SUPPORT_FREE)
+            share = fmin(share, (0.5 * body->span + (end == 0 ? x : -x)) / (0.5 * window));
+    return fmax(share, 0.0);
+}
+
 struct beam_load beam_side_load(const struct body *body, int plane, const double point[3],
                                 const double direction[3])
 {
     double along = point[1 + plane], across = point[2 - plane];
     double mean = (body->second_moment[plane] - body->second_moment[1 - plane]) / body->area;
     double nu = body->theory == THEORY_TIMOSHENKO ? body->material.poisson : 0.0;
+    double window = WINDOW * larger_side(body);
+    nu *= freed(body, point[0], window);
     if (body->radius == 0.0)
         nu *= plane == 1 ? kept(body->height, body->width) : kept(body->width, body->height);
 
     return (struct beam_load){
         .curvature = nu * (0.5 * (along * along - across * across - mean) * direction[1 + plane] +
                            along * across * direction[2 - plane]),
-        .window = WINDOW * larger_side(body),
+        .window = window,
     };
 }
 

@@ -12,7 +12,8 @@ for how in list total; do
     printf '\n\n\n\n' | expect 0 "$peers/slow_client" "$domain" "$how" 5
     grep -c '^percuss e' "$out" | grep -qx 5 || fail "not every impact was answered ($how)"
     shows "5 impacts, 5 requests, 0 repeated, 0 declared"
-    grep '^percuss' "$out" >"$work/$how"
+    # without notes, such as of an impulse that is applied late
+    sed -n 's|^\(percuss e = [^ ]* after = [^ ]*\).*|\1|p' "$out" >"$work/$how"
 done
 paste "$work/list" "$work/total" | awk '{ if ($4 - $11 > 1e-12 || $11 - $4 > 1e-12 ||
     $7 - $14 > 1e-12 || $14 - $7 > 1e-12) exit 1 }' || fail "$(cat "$work/list" "$work/total")"

@@ -122,6 +122,6 @@ stop_daemon
 
 say "README: the commands of the first minute"
 PATH=$prefix/bin:$prefix/sbin:$PATH
-in_tree README.md --plot
+in_tree README.md 'impact.png'
 file=$prefix/impact.png
 [ "$(head -c 4 "$file" | tail -c 3)" = PNG ] || fail "no picture"

@@ -92,7 +92,7 @@ class Plots(unittest.TestCase):
         self.drawn(velocity, contact.velocity_b[on])
         self.drawn(force, contact.force[on])
         self.drawn(depth, 1e6 * contact.indentation[on])
-        self.assertEqual(displacement.get_title(), "steel-sphere on al-beam: e = 0.7390, 2 sub-impacts")
+        self.assertEqual(displacement.get_title(), "steel-sphere on al-beam: e = 0.7394, 2 sub-impacts")
         names = [text.get_text() for text in figure.legends[0].get_texts()]
         self.assertEqual(names, ["steel-sphere", "al-beam", "gap rate of the rigid bodies"])
         self.assertEqual(len(figure.legends), 1)
