@@ -35,7 +35,7 @@ say "a daemon asked: the snippet prints what stands beside its lines"
 start_daemon
 snippet 1
 expect 0 python snippet.py
-prints "0\.738.* 0\.0339"
+prints "0\.739.* 0\.0339"
 prints "5\.23"
 stop_daemon
 

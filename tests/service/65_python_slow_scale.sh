@@ -67,10 +67,15 @@ others=
 stop_daemon
 grep -q "Counts(impacts=1, .*declared=0)" bench.out || fail "$(cat bench.out)"
 
-say "the impact is the one that it would have been, to the bit"
+# the touch is found anew when it is asked again, and its gap may be another one within rounding (1e-16 m)
+say "the impact is the one that it would have been, but for rounding"
 expect 0 python bench.py catalogue.yaml
 grep "^impact" bench.out >waited
-grep "^impact" "$out" | cmp - waited || fail "another impact"
+grep "^impact" "$out" | paste - waited | python -c '
+numbers = [float.fromhex(one) for one in input().split() if one != "impact"]
+half = len(numbers) // 2
+assert half == 4 and all(abs(a - b) < 1e-11 for a, b in zip(numbers[:half], numbers[half:])), numbers' ||
+    fail "another impact"
 
 say "Ctrl-C ends a simulation within its callbacks"
 cat >interrupted.py <<'END'

@@ -38,7 +38,7 @@ picture() {
 }
 
 say "one impact: its bodies, what was measured, the force"
-picture impact "steel-sphere, history-2.csv|al-beam|e = 0.3411, 3 sub-impacts|contact force / N" \
+picture impact "steel-sphere, history-2.csv|al-beam|e = 0.3276, 3 sub-impacts|contact force / N" \
     query $pair --speed 0.287 --measured "$data/history-2.csv"
 head -n 1 "$work/impact/impact_1_1.csv" | grep -qx 'time,force,displacement_a,displacement_b,velocity_a,velocity_b' ||
     fail "the columns have other names"
