@@ -76,7 +76,7 @@ static void quote(struct ensemble_report *report, const struct witness *witness,
                   const struct occurrence *occurrence, enum warning_kind kind)
 {
     bool refusal = kind == WARNING_KINDS;
-    warn(report, "samples: %llu of %llu%s, first %llu: %.256s",
+    warn(report, "samples: %llu of %llu%s, first %llu: %s",
          (unsigned long long)occurrence->count, (unsigned long long)report->done,
          refusal ? " were refused and are left out" : "", (unsigned long long)occurrence->first,
          words_of(witness, kind));

@@ -33,20 +33,26 @@ int bar_round_faces(const struct body *body, double tip_radius, const double p[3
     return 3;
 }
 
-enum percuss_status bar_check_tips(const struct body *body, struct fault *fault)
-{
-    if (body->tip_radius >= body->radius)
-        return PERCUSS_OK;
-    return fault_set(fault, PERCUSS_BAD_REQUEST,
-                     "tip_radius: %.9g: must be at least radius (%.9g m); absent: flat ends",
-                     body->tip_radius, body->radius);
-}
-
 /* tip - sqrt(tip^2 - r^2), without the difference of large numbers. */
 static double cap_height(const struct body *body)
 {
     double r = body->radius, tip = body->tip_radius;
     return isfinite(tip) ? r * r / (tip + sqrt(tip * tip - r * r)) : 0.0;
+}
+
+enum percuss_status bar_check_tips(const struct body *body, struct fault *fault)
+{
+    bool covered = body->tip_radius >= body->radius;
+    if (covered && body->length >= 2.0 * cap_height(body))
+        return PERCUSS_OK;
+    if (covered)
+        return fault_set(fault, PERCUSS_BAD_REQUEST,
+                         "length: %.9g: must be at least %.9g m, the height of both caps of "
+                         "tip_radius %.9g m",
+                         body->length, 2.0 * cap_height(body), body->tip_radius);
+    return fault_set(fault, PERCUSS_BAD_REQUEST,
+                     "tip_radius: %.9g: must be at least radius (%.9g m); absent: flat ends",
+                     body->tip_radius, body->radius);
 }
 
 /* Of a cap of height h: pi h (3 r^2 + h^2) / 6. */

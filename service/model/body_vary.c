@@ -24,7 +24,7 @@ static double *find_parameter(struct body *body, unsigned parameter)
         return &body->material.tangent;
     /* of the body: only some kinds */
     case PERCUSS_PARAMETER_DAMPING:
-        return body_is_flexible(body) ? &body->damping : NULL;
+        return body_can_vibrate(body) ? &body->damping : NULL;
     case PERCUSS_PARAMETER_RADIUS:
         return body->radius > 0.0 ? &body->radius : NULL;
     case PERCUSS_PARAMETER_SCALE:

@@ -59,7 +59,7 @@ static struct mobility mobility_of(const struct body *body)
     /* pinned at one: turns about that end; all else is held */
     int held = free[0] ? 1 : 0;
     if (body->supports[held] == SUPPORT_PINNED && free[1 - held]) {
-        double arm = held == 0 ? -0.5 * body->length : 0.5 * body->length;
+        double arm = held == 0 ? -0.5 * body->span : 0.5 * body->span;
         mobility.centre[0] = arm;
         for (int i = 1; i < 3; i++)
             mobility.inverse_inertia[i] = 1.0 / (body->inertia[i] + body->mass * arm * arm);

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include "model/ritz.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -406,11 +407,12 @@ static bool find_rigids(const struct ritz *ritz, struct ritz_class *class)
 }
 
 /* Up to the frequency whose slowest waves the polynomials resolve: 1/omega^2 = 1/(bending k^2)^2 +
- * 1/(c_R k)^2 of waves along each side, c_R being Rayleigh's speed. */
+ * 1/(c_R k)^2 of waves along each side, c_R being Rayleigh's speed,
+ * whose formula ends below poisson -0.4 where it is 0.69 of the shear wave's at least. */
 static double highest(const struct ritz *ritz)
 {
     double shear = sqrt(0.5 / (1.0 + ritz->poisson));
-    double surface = shear * (0.87 + 1.12 * ritz->poisson) / (1.0 + ritz->poisson);
+    double surface = shear * fmax((0.87 + 1.12 * ritz->poisson) / (1.0 + ritz->poisson), 0.69);
     double least = INFINITY, thickness = ritz->side[thinnest_axis(ritz->side)];
     double bending = thickness / sqrt(12.0 * (1.0 - ritz->poisson * ritz->poisson));
     for (int d = 0; d < 3; d++) {
@@ -447,7 +449,10 @@ static bool solve_class(const struct ritz *ritz, struct ritz_class *class, doubl
         hold_rigids(class, k, class->factor);
         /* above the rigid motions' rounding, below the lowest bending */
         double bottom = 0.5 * ritz->side[thinnest_axis(ritz->side)];
-        if (linear_packed_factor(n, class->factor))
+        bool factored = linear_packed_factor(n, class->factor);
+        if (factored && top <= bottom)
+            found = 0;
+        else if (factored)
             found = linear_eigen_between(n, k, bottom * bottom, top * top, class->omega, vectors);
     }
     class->modes = found == SIZE_MAX ? 0 : found;
@@ -484,7 +489,7 @@ static bool merge(struct ritz *ritz)
     return true;
 }
 
-struct ritz *ritz_create(const struct ritz_shape *shape, double poisson)
+struct ritz *ritz_create(const struct ritz_shape *shape, double poisson, struct pace *pace)
 {
     struct ritz *ritz = calloc(1, sizeof *ritz);
     const double *side = shape->side;
@@ -502,7 +507,8 @@ struct ritz *ritz_create(const struct ritz_shape *shape, double poisson)
     choose_orders(ritz);
     bool good = !ritz->round || make_section(ritz);
     for (int c = 0; good && c < CLASSES; c++)
-        good = list_orders(ritz, c) && solve_class(ritz, &ritz->class[c], highest(ritz));
+        good = pace_ask(pace, 0.0) && list_orders(ritz, c) &&
+               solve_class(ritz, &ritz->class[c], highest(ritz));
     for (int k = 0; k < SECTION_MEANS; k++) {
         free(ritz->means[k]);
         ritz->means[k] = NULL;
@@ -511,6 +517,16 @@ struct ritz *ritz_create(const struct ritz_shape *shape, double poisson)
         return ritz;
     ritz_free(ritz);
     return NULL;
+}
+
+size_t ritz_size(const struct ritz *ritz)
+{
+    size_t numbers = 0;
+    for (int c = 0; c < CLASSES; c++) {
+        size_t n = ritz->class[c].count;
+        numbers += n * (n + 1) / 2 + n * ritz->class[c].modes;
+    }
+    return numbers * sizeof(double);
 }
 
 void ritz_free(struct ritz *ritz)

@@ -17,6 +17,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+struct pace;
 struct ritz;
 
 /* What it is of: sides along x, y, z; a round one has its diameter twice. */
@@ -31,10 +32,14 @@ enum { RITZ_ROUND = 3 };
 /* Whether it is within what polynomials reach: no thinner than 1/200 of its length. */
 bool ritz_reaches(const struct ritz_shape *shape);
 
-/* Of these proportions. It takes milliseconds for a compact box and seconds for a thin plate, and
- * is immutable. NULL: out of memory. */
-struct ritz *ritz_create(const struct ritz_shape *shape, double poisson);
+/* Of these proportions. It takes milliseconds for a compact box and up to five seconds for a thin
+ * plate or a long bar, and is immutable. The pace (NULL: nobody waits) is asked between the eight
+ * classes. NULL: out of memory, or stopped. */
+struct ritz *ritz_create(const struct ritz_shape *shape, double poisson, struct pace *pace);
 void ritz_free(struct ritz *ritz); /* NULL is allowed */
+
+/* What it holds, but for small things, bytes. */
+size_t ritz_size(const struct ritz *ritz);
 
 /* Whether it is of these proportions, to the last bit. */
 bool ritz_is_of(const struct ritz *ritz, const struct ritz_shape *shape, double poisson);

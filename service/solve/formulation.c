@@ -3,6 +3,7 @@
 
 #include "solve/formulation.h"
 
+#include "base/watch.h"
 #include "solve/compliance.h"
 #include "solve/contact_model.h"
 #include "solve/model_shift.h"
@@ -12,11 +13,12 @@
 enum percuss_status formulate(struct problem *problem, const struct solve_means *means,
                               struct fault *fault)
 {
+    struct pace pace = {.watch = &means->watch};
     enum percuss_status status = placement_find(problem, means->catalogue, fault);
     if (!status)
         status = contact_model_choose(problem, means->tables, fault);
     if (!status && problem->request->options.contact_model != PERCUSS_CONTACT_COMPLETE_FE)
-        status = vibration_lend(problem, fault);
+        status = vibration_lend(problem, &pace, fault);
     if (!status)
         status = compliance_choose(problem, means->catalogue->compliance, fault);
     if (!status)

@@ -10,8 +10,8 @@
 #include "solve/problem.h"
 
 /* Places the bodies of an empty problem, and chooses its contacts' laws and what is in series with
- * them. PERCUSS_OK, or the refusals of placement_find, contact_model_choose and compliance_choose.
- */
+ * them. PERCUSS_OK, PERCUSS_TIMEOUT where nobody waits any more, or the refusals of placement_find,
+ * contact_model_choose and compliance_choose. */
 enum percuss_status formulate(struct problem *problem, const struct solve_means *means,
                               struct fault *fault);
 

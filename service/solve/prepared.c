@@ -50,8 +50,9 @@ struct entry {
 /* Contacts whose ellipse is kept: those of a scene, and of some scenes asked by turns. */
 enum { CONTACTS = 16 };
 
-/* Boxes that are kept, and places on each. A varied Poisson's ratio makes another one. */
-enum { BOXES = 8, PLACES = 64 };
+/* What is kept of boxes, bytes (a compact one has some 1 MB, so that an ensemble's pilots of a
+ * varied size or Poisson's ratio find theirs again), and places on each. */
+enum { BOX_BYTES = 128 << 20, PLACES = 64 };
 
 struct box {
     struct box *next; /* the one asked for before */
@@ -206,11 +207,12 @@ static void free_retired(struct prepared_cache *cache)
     }
 }
 
-/* All but the first ones. */
-static void free_boxes(struct prepared_cache *cache, size_t kept)
+/* All but the first ones, up to so many bytes. */
+static void free_boxes(struct prepared_cache *cache, size_t bytes)
 {
     struct box **link = &cache->boxes;
-    for (size_t i = 0; *link && i < kept; i++)
+    size_t held = 0;
+    for (; *link && (held += ritz_size((*link)->ritz)) <= bytes;)
         link = &(*link)->next;
     while (*link) {
         struct box *box = *link;
@@ -234,7 +236,7 @@ void prepared_cache_free(struct prepared_cache *cache)
 void prepared_cache_use(struct prepared_cache *cache, const char *revision)
 {
     free_retired(cache);
-    free_boxes(cache, BOXES);
+    free_boxes(cache, BOX_BYTES);
     if (cache->parts.count > MOST_PARTS)
         prepared_parts_clear(&cache->parts);
     if (cache->varied > MOST_VARIED)
@@ -371,7 +373,7 @@ struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double e
 }
 
 const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const struct ritz_shape *shape,
-                                     double poisson)
+                                     double poisson, struct pace *pace)
 {
     /* to the front */
     for (struct box **link = &cache->boxes; *link; link = &(*link)->next) {
@@ -386,7 +388,7 @@ const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const struct 
     struct box *made = calloc(1, sizeof *made);
     if (!made)
         return NULL;
-    made->ritz = ritz_create(shape, poisson);
+    made->ritz = ritz_create(shape, poisson, pace);
     if (!made->ritz) {
         free(made);
         return NULL;

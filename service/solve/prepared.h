@@ -67,9 +67,9 @@ struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double e
                                           const double curvature[2]);
 
 /* The vibration of a box or cylinder (ritz.h), made when first asked for and valid until the
- * next prepared_cache_use; a few are kept. NULL: out of memory. */
+ * next prepared_cache_use; some are kept. NULL: out of memory, or stopped by the pace. */
 const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const struct ritz_shape *shape,
-                                     double poisson);
+                                     double poisson, struct pace *pace);
 
 /* ritz_flexibility of one of those; of the last places it is kept. */
 double prepared_ritz_flexibility(struct prepared_cache *cache, const struct ritz *ritz, int axis,

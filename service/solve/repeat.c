@@ -87,10 +87,13 @@ static enum percuss_status judge(struct repeat *repeat, size_t contact,
 }
 
 /* Whether another blow on the same bodies is the same problem but for its rates: it chooses the
- * laws of bodies that yield, the waves of half-spaces and a sphere's matched compliance. */
+ * laws of bodies that yield, the waves of half-spaces, a sphere's matched compliance and whether a
+ * block or cylinder vibrates (vibration.h). */
 static bool lasts(const struct problem *problem)
 {
     bool lasts = !radiation_is_possible(problem) && !problem->compliance.by_speed;
+    for (size_t b = 0; b < problem->body_count; b++)
+        lasts = lasts && !(problem->bodies[b]->kind->box && body_can_vibrate(problem->bodies[b]));
     for (size_t c = 0; c < problem->contact_count; c++)
         lasts = lasts && problem->contact_model.choices[c].side < 0;
     return lasts;

@@ -149,7 +149,7 @@ static const struct body *body_at_node(const struct problem *problem)
                 continue;
             double x = bar_place(body, &problem->sides[c][which].site);
             bool held = body->supports[x > 0.0] != SUPPORT_FREE;
-            if (held && fabs(x) >= (0.5 - near) * body->length)
+            if (held && fabs(x) >= (0.5 - near) * body->span)
                 return body;
         }
     return NULL;
@@ -164,7 +164,7 @@ static void explain_no_modes(const struct problem *problem, const struct assembl
         text_format(reason, "; the modes of %s have a node at the contact, where it is held",
                     held->id);
     } else {
-        text_add(reason, "; every mode is too fast to matter (lowest ");
+        text_add(reason, "; no mode takes enough of the blow to matter (lowest ");
         text_add_number(reason, assembly->lowest_omitted / (2.0 * M_PI), 4);
         text_add(reason, " Hz)");
     }
@@ -245,7 +245,8 @@ static const char *reason_of_error(const struct problem *problem, const struct s
                "contact";
     const struct body *all = all_of_one(problem, assembly);
     if (modes && omitted && all && all->ritz)
-        return "the modes that are computed of so thin a body are too few: a mesh may have more";
+        return "the modes that are computed of a block or cylinder are too few for so short a "
+               "contact: a mesh may have more, a half-space lets waves leave";
     if (modes && omitted && all)
         return "the modes in the body's file are too few: reduce its mesh to a higher frequency";
     if (modes && omitted && assembly->capped)

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "model/rigid.h"
 #include "model/vector.h"
@@ -33,6 +34,8 @@ static const double OTHER_BODIES = 0.01;
 static const double WRONG_LAW = 0.05;
 /* Of compact bodies that meet: what tables are deep enough for unless they are told. */
 static const double TABLE_SPEED = 1.0;
+/* Breadth of a section over its depth up to which beams are held against meshes (beam_side.c). */
+static const double BROADEST = 2.5;
 /* A coefficient of friction as of dry metals, to say how much it may be about. */
 static const double FRICTION = 0.3;
 
@@ -131,6 +134,13 @@ static void find_mesh_place(const struct problem *problem, size_t c, unsigned wh
             c, body->id, spot->doubt * 180.0 / M_PI);
 }
 
+/* A quotation mark about an id that a shell would take apart. */
+static const char *mark(const char *id)
+{
+    return id[strspn(id, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-")] ? "'"
+                                                                                               : "";
+}
+
 /* The command that makes a table of two bodies, as deep as this impact goes, and how the table then
  * comes into use: to be pasted, so all of it or none. */
 static void tell_remedy(const struct problem *problem, size_t c, char *text, size_t size)
@@ -147,8 +157,8 @@ static void tell_remedy(const struct problem *problem, size_t c, char *text, siz
     /* one that does not fit is told in general */
     int length = -1;
     if (remedy)
-        length = snprintf(text, size, ": %s%s --a %s --b %s makes one, %s", remedy->command, deep,
-                          a, b, remedy->then);
+        length = snprintf(text, size, ": %s%s --a %s%s%s --b %s%s%s makes one, %s", remedy->command,
+                          deep, mark(a), a, mark(a), mark(b), b, mark(b), remedy->then);
     if (length < 0 || (size_t)length >= size)
         snprintf(text, size, ": %s%s --a %s --b %s makes one, %s", unknown.command, deep, a, b,
                  unknown.then);
@@ -312,6 +322,25 @@ static void find_rigid(const struct problem *problem, const struct impact_outcom
     }
 }
 
+/* Plates that are declared as beams. */
+static void find_breadth(const struct problem *problem, size_t c, struct warnings *warnings)
+{
+    for (unsigned which = 0; which < 2; which++) {
+        const struct body *body = problem_body(problem, c, (int)which);
+        const struct site *site = &problem->sides[c][which].site;
+        if (site->face != SITE_BEAM_SIDE || !(body->width > 0.0))
+            continue;
+        bool on_top = fabs(site->outward[2]) > fabs(site->outward[1]);
+        double broad = on_top ? body->width / body->height : body->height / body->width;
+        if (broad > BROADEST)
+            warnings_add(warnings, WARNING_BREADTH + which,
+                         "contacts[%zu]: the section of %s is %.3g times as broad as deep, and "
+                         "bends across its breadth as well, which a beam leaves out: a free one is "
+                         "better a block",
+                         c, body->id, broad);
+    }
+}
+
 static void find_contact(const struct problem *problem, const struct impact_outcome *outcome,
                          size_t c, double approach, struct warnings *warnings)
 {
@@ -325,6 +354,7 @@ static void find_contact(const struct problem *problem, const struct impact_outc
     find_place(problem, outcome, c, axes[0], warnings);
     find_sliding(problem, outcome, c, approach, warnings);
     find_rigid(problem, outcome, c, warnings);
+    find_breadth(problem, c, warnings);
     loss_find(problem, c, outcome_rebound(problem, outcome, c), warnings);
     askew_find(problem, c, model_blow_of(problem, outcome, c).duration, warnings);
     if (unstated_any(problem, c)) {

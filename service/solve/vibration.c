@@ -52,7 +52,7 @@ static bool lend_load(struct problem *problem, size_t c, int which)
     return isfinite(flexibility);
 }
 
-enum percuss_status vibration_lend(struct problem *problem, struct fault *fault)
+enum percuss_status vibration_lend(struct problem *problem, struct pace *pace, struct fault *fault)
 {
     bool good = true;
     for (size_t b = 0; good && b < problem->body_count; b++) {
@@ -65,7 +65,7 @@ enum percuss_status vibration_lend(struct problem *problem, struct fault *fault)
         struct body *lent = arena_take(problem->arena, 1, sizeof *lent);
         if (lent) {
             *lent = *body;
-            lent->ritz = prepared_ritz_get(problem->cache, &shape, body->material.poisson);
+            lent->ritz = prepared_ritz_get(problem->cache, &shape, body->material.poisson, pace);
         }
         good = lent && lent->ritz;
         if (!good)
@@ -75,5 +75,7 @@ enum percuss_status vibration_lend(struct problem *problem, struct fault *fault)
             if (problem->sides[i / 2][i % 2].body == b)
                 good = lend_load(problem, i / 2, (int)(i % 2));
     }
-    return good ? PERCUSS_OK : fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    if (good)
+        return PERCUSS_OK;
+    return pace_fault(fault, pace && pace->stopped ? PERCUSS_TIMEOUT : PERCUSS_INTERNAL);
 }

@@ -6,12 +6,13 @@
 #define PERCUSS_SOLVE_VIBRATION_H
 
 #include "base/fault.h"
+#include "base/watch.h"
 #include "solve/problem.h"
 
 /* Of the bodies that can vibrate once that is computed, those that vibrate already, have a stated
  * number of modes, or would keep more of a blow than a tenth of the tolerance and 2e-5, by the
- * fastest approach of all; the others stay rigid, and their error holds it. PERCUSS_OK or
- * PERCUSS_INTERNAL. */
-enum percuss_status vibration_lend(struct problem *problem, struct fault *fault);
+ * fastest approach of all; the others stay rigid, and their error holds it. PERCUSS_OK,
+ * PERCUSS_INTERNAL, or PERCUSS_TIMEOUT where the pace was stopped. */
+enum percuss_status vibration_lend(struct problem *problem, struct pace *pace, struct fault *fault);
 
 #endif

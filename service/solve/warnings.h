@@ -29,7 +29,8 @@ enum warning_kind {
     WARNING_BENDING,
     WARNING_UNSTATED = 21,
     WARNING_RIGID,
-    WARNING_KINDS = 24
+    WARNING_BREADTH = 24,
+    WARNING_KINDS = 26
 };
 _Static_assert(WARNING_KINDS <= 32, "a set of kinds is 32 bits");
 

@@ -3,6 +3,7 @@
 
 #include "store/dents.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,6 +35,9 @@ enum percuss_status dents_read(struct database *database, int64_t id, struct bod
     if (!read)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     *read = sizes;
+    /* it is at rest: no mode is left out */
+    for (size_t f = 0; f < sizeof read->known / sizeof *read->known; f++)
+        read->known[f] = SIZE_MAX;
     /* their numbers, in the order of the struct */
     sqlite3_stmt *statement = database_statement(database, STATEMENT_DENTS);
     sqlite3_bind_int64(statement, 1, id);

@@ -61,6 +61,19 @@ awk -v d="$(field standard_deviation)" 'BEGIN { exit !(d > 0 && d < 0.002) }' ||
 expect 5 percuss ensemble --a steel-sphere --b al-beam --speed 0.2 --input model-force=9 --samples 10
 says "must be -6 to 6 standard deviations"
 
+say "a block that a slow blow leaves rigid vibrates under a fast one, in one process as in many"
+cat >"$work/block.yaml" <<'END'
+materials:
+  glass: {young: 70e9, poisson: 0.22, density: 2500, yield: none}
+bodies:
+  ball: {shape: sphere, material: glass, radius: 5 mm}
+  block: {shape: block, material: glass, size: [40 mm, 40 mm, 40 mm], damping: 0.01}
+END
+expect 0 percuss ensemble --local --catalogue "$work/block.yaml" --a ball --b block --speed uniform:0.05:3 \
+    --samples 128 --csv "$work/block.csv"
+awk -F, 'NR > 1 && $1 > 1 { fast++; if ($2 > 0.99999) rigid++ } END { exit !(fast > 60 && rigid == 0) }' \
+    "$work/block.csv" || fail "fast blows leave the block rigid"
+
 say "what does not vary is a value, not a distribution"
 expect 0 percuss ensemble --a steel-sphere --b al-rod-1 --speed 0.3 --samples 16
 grep -q '^  restitution 0\.[0-9]* from each of 16 samples: it does not vary$' "$out" || fail "no value"

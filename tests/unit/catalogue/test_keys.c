@@ -38,6 +38,9 @@ static void refuses_impossible_sizes(void **state)
         {"  r: {shape: rod, material: steel, radius: 0.01, length: 0}", "bodies.r.length: 0"},
         {"  r: {shape: rod, material: steel, radius: 0.01, length: 1, tip_radius: 0.005}",
          "bodies.r.tip_radius: 0.005: must be at least radius (0.01 m)"},
+        {"  b: {shape: beam, material: steel, radius: 0.01, length: 0.015, tip_radius: 0.01}",
+         "bodies.b.length: 0.015: must be at least 0.02 m, the height of both caps of tip_radius "
+         "0.01 m"},
         {"  b: {shape: beam, material: steel, radius: 0.01, length: 1, tip_radius: 0.005}",
          "bodies.b.tip_radius: 0.005: must be at least radius (0.01 m)"},
         {"  b: {shape: beam, material: steel, section: {width: 0.01, height: 0.01}, length: 1, "

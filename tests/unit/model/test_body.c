@@ -212,6 +212,24 @@ static void knows_its_smallest_radius(void **state)
     assert_false(body_is_flexible(&block) || body_is_flexible(&disc));
 }
 
+/* Its vibration is computed when a scene asks for it; until then the body says that it can have it.
+ */
+static void a_block_s_damping_can_be_changed(void **state)
+{
+    (void)state;
+    const struct body_kind *kinds[] = {&block_kind, &cylinder_kind};
+    for (size_t i = 0; i < 2; i++) {
+        struct fault fault = {0};
+        struct body body = aluminium(kinds[i]), varied;
+        const struct body_variation damping = {PERCUSS_PARAMETER_DAMPING, 0.02};
+        complete(&body);
+        assert_int_equal(body_vary(&body, &damping, 1, &varied, &fault), PERCUSS_OK);
+        near(varied.damping, 0.02, 0.0);
+        body.rigid = true;
+        assert_int_equal(body_vary(&body, &damping, 1, &varied, &fault), PERCUSS_BAD_REQUEST);
+    }
+}
+
 static void refuse(struct body body, const char *message)
 {
     struct fault fault = {0};
@@ -282,6 +300,7 @@ int main(void)
         cmocka_unit_test(follows_the_shear_rule),
         cmocka_unit_test(a_strip_without_hutchinsons_factor_takes_cowpers),
         cmocka_unit_test(knows_its_smallest_radius),
+        cmocka_unit_test(a_block_s_damping_can_be_changed),
         cmocka_unit_test(refuses_impossible_bodies),
         cmocka_unit_test(refuses_impossible_materials),
     };
