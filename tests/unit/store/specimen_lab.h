@@ -28,6 +28,9 @@ static inline struct body_state *dented(size_t count, double seed)
     double *numbers = (double *)body_state_dents(state);
     for (size_t i = 0; i < 8 * count; i++)
         numbers[i] = sin(seed + (double)i) * 1e-5;
+    /* a specimen is at rest before each blow */
+    for (size_t f = 0; f < BODY_MOST_FAMILIES; f++)
+        state->known[f] = SIZE_MAX;
     return state;
 }
 
