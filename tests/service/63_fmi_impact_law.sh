@@ -16,5 +16,5 @@ expect 0 "$venv/bin/fmpy" validate "$fmu"
 shows "No problems found."
 expect 0 "$venv/bin/python" "$here/fmi_impact_law.py" "$fmu" "$bin/percuss" \
     "$build/client/libpercuss.so.0" "$domain"
-shows "e = 0.1663"
+shows "e = 0.1662"
 stop_daemon

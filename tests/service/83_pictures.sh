@@ -67,7 +67,7 @@ for place in 0.5 1; do
 done
 
 say "several speeds beside each other, each with its measured history; several models over each other"
-picture speeds "0.276 m/s: e = 0.7313|0.303 m/s: e = 0.2454|history-1.csv|history-3.csv" query $pair \
+picture speeds "0.276 m/s: e = 0.7102|0.303 m/s: e = 0.2455|history-1.csv|history-3.csv" query $pair \
     --speed 0.276 --speed 0.287 --speed 0.303 --measured "$data/history-1.csv" \
     --measured "$data/history-2.csv" --measured "$data/history-3.csv"
 picture models "steel-sphere, closed-form|al-rod-1, hertz" query --a steel-sphere --b al-rod-1 --speed 0.3 \
