@@ -150,8 +150,8 @@ static enum percuss_status is_quick(void *context, struct fault *fault)
     return limit->over ? fault_set(fault, PERCUSS_BUSY, "for the workers") : PERCUSS_OK;
 }
 
-/* Whether a body's vibration may have to be computed first, which takes up to a second and asks
- * nobody on the way. */
+/* Whether a body's vibration may have to be computed first, which takes up to some seconds and
+ * asks eight times on the way. */
 static bool may_prepare(const struct snapshot *snapshot, const percuss_v1_Request *request)
 {
     for (uint32_t i = 0; i < request->bodies._length; i++) {
