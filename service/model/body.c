@@ -10,6 +10,7 @@
 
 #include "model/key.h"
 #include "model/mode_family.h"
+#include "model/ritz_store.h"
 
 static enum percuss_status refuse_number(const struct key *key, unsigned number,
                                          struct fault *fault)
@@ -187,6 +188,7 @@ void body_set_clear(struct body_set *set)
         mesh_body_free(set->meshes[i]);
     for (size_t i = 0; i < set->order_count; i++)
         body_order_clear(&set->orders[i]);
+    ritz_store_free(set->boxes);
     free(set->orders);
     free(set->meshes);
     free(set->bodies);

@@ -16,6 +16,8 @@
 #include "model/mesh_body.h"
 #include "model/named_site.h"
 
+struct ritz_store; /* ritz_store.h */
+
 enum support { SUPPORT_FREE, SUPPORT_PINNED, SUPPORT_CLAMPED }; /* a rod's `fixed` is CLAMPED */
 enum beam_theory { THEORY_TIMOSHENKO, THEORY_EULER_BERNOULLI };
 /* Absent: Hutchinson's, and Cowper's where that is no fraction (a wide section, kind_beam.c). */
@@ -121,6 +123,7 @@ struct body_set {
     size_t mesh_count;
     struct body_order *orders; /* of bodies that are given as meshes, or lack */
     size_t order_count;
+    struct ritz_store *boxes; /* vibration of its blocks and cylinders; NULL: each worker's own */
     enum percuss_compliance compliance; /* HALF_SPACE; MATCHED: where it is known */
     bool begin, end; /* marks of the text it came from: one without the other was cut off */
     char revision[PERCUSS_ID_SIZE]; /* hash of everything that can change an answer */

@@ -6,10 +6,11 @@
 #include <stdlib.h>
 
 #include "catalogue/catalogue.h"
+#include "model/ritz_store.h"
 
 static enum percuss_status snapshot_load(const char *path, const char *folder,
-                                         struct table_cache *tables, struct snapshot **snapshot,
-                                         struct fault *fault)
+                                         struct table_cache *tables, struct ritz_store *boxes,
+                                         struct snapshot **snapshot, struct fault *fault)
 {
     struct snapshot *loaded = calloc(1, sizeof *loaded);
     *snapshot = NULL;
@@ -20,6 +21,7 @@ static enum percuss_status snapshot_load(const char *path, const char *folder,
         free(loaded);
         return status;
     }
+    loaded->set->boxes = ritz_store_share(boxes);
     loaded->tables = tables;
     loaded->holders = 1;
     *snapshot = loaded;
@@ -32,7 +34,12 @@ enum percuss_status snapshots_open(struct snapshots *snapshots, const char *path
 {
     pthread_mutex_init(&snapshots->lock, NULL);
     snapshots->folder = folder[0] ? folder : NULL;
-    return snapshot_load(path, snapshots->folder, tables, &snapshots->current, fault);
+    struct ritz_store *boxes = ritz_store_create(RITZ_STORE_BYTES);
+    enum percuss_status status =
+        boxes ? snapshot_load(path, snapshots->folder, tables, boxes, &snapshots->current, fault)
+              : fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    ritz_store_free(boxes);
+    return status;
 }
 
 void snapshots_close(struct snapshots *snapshots)
@@ -47,8 +54,9 @@ enum percuss_status snapshots_reload(struct snapshots *snapshots, const char *pa
 {
     struct snapshot *fresh;
     *before = NULL;
+    const struct snapshot *current = snapshots->current;
     enum percuss_status status =
-        snapshot_load(path, snapshots->folder, snapshots->current->tables, &fresh, fault);
+        snapshot_load(path, snapshots->folder, current->tables, current->set->boxes, &fresh, fault);
     if (status)
         return status;
     pthread_mutex_lock(&snapshots->lock);

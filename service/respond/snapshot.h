@@ -2,7 +2,8 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* What requests are answered from: a loaded catalogue, and the contact tables. A reload makes a new
- * snapshot; jobs that have begun keep theirs. */
+ * snapshot; jobs that have begun keep theirs. All snapshots share the vibration of blocks and
+ * cylinders (model/ritz_store.h). */
 #ifndef PERCUSS_RESPOND_SNAPSHOT_H
 #define PERCUSS_RESPOND_SNAPSHOT_H
 

@@ -18,7 +18,7 @@ enum percuss_status formulate(struct problem *problem, const struct solve_means 
     if (!status)
         status = contact_model_choose(problem, means->tables, fault);
     if (!status && problem->request->options.contact_model != PERCUSS_CONTACT_COMPLETE_FE)
-        status = vibration_lend(problem, &pace, fault);
+        status = vibration_lend(problem, means->catalogue->boxes, &pace, fault);
     if (!status)
         status = compliance_choose(problem, means->catalogue->compliance, fault);
     if (!status)

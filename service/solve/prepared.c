@@ -11,7 +11,7 @@
 
 #include "fe/matched.h"
 #include "model/damping.h"
-#include "model/ritz.h"
+#include "model/ritz_store.h"
 #include "model/roll.h"
 
 /* Patches from a half of a sphere's radius down to 1/1024; smaller ones are extrapolated. */
@@ -50,22 +50,15 @@ struct entry {
 /* Contacts whose ellipse is kept: those of a scene, and of some scenes asked by turns. */
 enum { CONTACTS = 16 };
 
-/* What is kept of boxes, bytes (a compact one has some 1 MB, so that an ensemble's pilots of a
- * varied size or Poisson's ratio find theirs again), and places on each. */
-enum { BOX_BYTES = 128 << 20, PLACES = 64 };
-
-struct box {
-    struct box *next; /* the one asked for before */
-    struct ritz *ritz;
-    size_t next_place;
-    struct box_place {
-        int axis, side; /* 0: none yet */
-        double point[3], flexibility;
-    } places[PLACES];
+/* A box that a scene may use. */
+struct held {
+    struct held *next;
+    struct ritz_box *box;
 };
 
 struct prepared_cache {
-    struct box *boxes;                       /* the one asked for last first */
+    struct ritz_store *boxes; /* where those held come from; NULL: none was asked for */
+    struct held *held;
     struct hertz_contact contacts[CONTACTS]; /* by what they are made of; all zero: none */
     char revision[PERCUSS_ID_SIZE];
     struct entry *buckets[BUCKETS];
@@ -207,18 +200,13 @@ static void free_retired(struct prepared_cache *cache)
     }
 }
 
-/* All but the first ones, up to so many bytes. */
-static void free_boxes(struct prepared_cache *cache, size_t bytes)
+static void release_boxes(struct prepared_cache *cache)
 {
-    struct box **link = &cache->boxes;
-    size_t held = 0;
-    for (; *link && (held += ritz_size((*link)->ritz)) <= bytes;)
-        link = &(*link)->next;
-    while (*link) {
-        struct box *box = *link;
-        *link = box->next;
-        ritz_free(box->ritz);
-        free(box);
+    while (cache->held) {
+        struct held *next = cache->held->next;
+        ritz_store_release(cache->boxes, cache->held->box);
+        free(cache->held);
+        cache->held = next;
     }
 }
 
@@ -226,7 +214,8 @@ void prepared_cache_free(struct prepared_cache *cache)
 {
     if (!cache)
         return;
-    free_boxes(cache, 0);
+    release_boxes(cache);
+    ritz_store_free(cache->boxes);
     free_retired(cache);
     forget(cache, false);
     placed_store_free(cache->places);
@@ -236,7 +225,7 @@ void prepared_cache_free(struct prepared_cache *cache)
 void prepared_cache_use(struct prepared_cache *cache, const char *revision)
 {
     free_retired(cache);
-    free_boxes(cache, BOX_BYTES);
+    release_boxes(cache);
     if (cache->parts.count > MOST_PARTS)
         prepared_parts_clear(&cache->parts);
     if (cache->varied > MOST_VARIED)
@@ -372,51 +361,41 @@ struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double e
     return *known;
 }
 
-const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const struct ritz_shape *shape,
-                                     double poisson, struct pace *pace)
+/* The store in use from now on; without one the cache has its own. False: out of memory. */
+static bool use_boxes(struct prepared_cache *cache, struct ritz_store *store)
 {
-    /* to the front */
-    for (struct box **link = &cache->boxes; *link; link = &(*link)->next) {
-        struct box *box = *link;
-        if (!ritz_is_of(box->ritz, shape, poisson))
-            continue;
-        *link = box->next;
-        box->next = cache->boxes;
-        cache->boxes = box;
-        return box->ritz;
-    }
-    struct box *made = calloc(1, sizeof *made);
-    if (!made)
+    if (cache->boxes && (cache->boxes == store || !store))
+        return true;
+    release_boxes(cache);
+    ritz_store_free(cache->boxes);
+    cache->boxes = store ? ritz_store_share(store) : ritz_store_create(RITZ_STORE_BYTES);
+    return cache->boxes != NULL;
+}
+
+const struct ritz *prepared_ritz_get(struct prepared_cache *cache, struct ritz_store *store,
+                                     const struct ritz_shape *shape, double poisson,
+                                     struct pace *pace)
+{
+    struct held *held = calloc(1, sizeof *held);
+    if (held && use_boxes(cache, store))
+        held->box = ritz_store_hold(cache->boxes, shape, poisson, pace);
+    if (!held || !held->box) {
+        free(held);
         return NULL;
-    made->ritz = ritz_create(shape, poisson, pace);
-    if (!made->ritz) {
-        free(made);
-        return NULL;
     }
-    made->next = cache->boxes;
-    cache->boxes = made;
-    return made->ritz;
+    held->next = cache->held;
+    cache->held = held;
+    return ritz_box_vibration(held->box);
 }
 
 double prepared_ritz_flexibility(struct prepared_cache *cache, const struct ritz *ritz, int axis,
                                  int side, const double point[3])
 {
-    struct box *box = cache->boxes;
-    while (box && box->ritz != ritz)
-        box = box->next;
-    if (!box)
-        return ritz_flexibility(ritz, axis, side, point);
-    for (size_t i = 0; i < PLACES; i++) {
-        const struct box_place *place = &box->places[i];
-        if (place->axis == axis && place->side == side &&
-            memcmp(place->point, point, sizeof place->point) == 0)
-            return place->flexibility;
-    }
-    struct box_place *place = &box->places[box->next_place++ % PLACES];
-    *place = (struct box_place){.axis = axis, .side = side};
-    memcpy(place->point, point, sizeof place->point);
-    place->flexibility = ritz_flexibility(ritz, axis, side, point);
-    return place->flexibility;
+    struct held *held = cache->held;
+    while (held && ritz_box_vibration(held->box) != ritz)
+        held = held->next;
+    return held ? ritz_box_flexibility(cache->boxes, held->box, axis, side, point)
+                : ritz_flexibility(ritz, axis, side, point);
 }
 
 struct placed_store *prepared_places(struct prepared_cache *cache)

@@ -14,6 +14,7 @@
 #include "solve/prepared_part.h"
 
 struct ritz_shape;
+struct ritz_store;
 
 struct prepared_family {
     struct modal_family *modes;
@@ -66,10 +67,12 @@ struct oscillators *prepared_radiation_get(struct prepared_cache *cache, const s
 struct hertz_contact prepared_contact_get(struct prepared_cache *cache, double effective_modulus,
                                           const double curvature[2]);
 
-/* The vibration of a box or cylinder (ritz.h), made when first asked for and valid until the
- * next prepared_cache_use; some are kept. NULL: out of memory, or stopped by the pace. */
-const struct ritz *prepared_ritz_get(struct prepared_cache *cache, const struct ritz_shape *shape,
-                                     double poisson, struct pace *pace);
+/* The vibration of a box or cylinder (ritz.h) from a store (NULL: one of the cache's own), made
+ * when first asked for and valid until the next prepared_cache_use, and to be asked of one store
+ * until then. NULL: out of memory, or stopped by the pace. */
+const struct ritz *prepared_ritz_get(struct prepared_cache *cache, struct ritz_store *store,
+                                     const struct ritz_shape *shape, double poisson,
+                                     struct pace *pace);
 
 /* ritz_flexibility of one of those; of the last places it is kept. */
 double prepared_ritz_flexibility(struct prepared_cache *cache, const struct ritz *ritz, int axis,

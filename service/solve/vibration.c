@@ -52,7 +52,8 @@ static bool lend_load(struct problem *problem, size_t c, int which)
     return isfinite(flexibility);
 }
 
-enum percuss_status vibration_lend(struct problem *problem, struct pace *pace, struct fault *fault)
+enum percuss_status vibration_lend(struct problem *problem, struct ritz_store *boxes,
+                                   struct pace *pace, struct fault *fault)
 {
     bool good = true;
     for (size_t b = 0; good && b < problem->body_count; b++) {
@@ -65,7 +66,8 @@ enum percuss_status vibration_lend(struct problem *problem, struct pace *pace, s
         struct body *lent = arena_take(problem->arena, 1, sizeof *lent);
         if (lent) {
             *lent = *body;
-            lent->ritz = prepared_ritz_get(problem->cache, &shape, body->material.poisson, pace);
+            lent->ritz =
+                prepared_ritz_get(problem->cache, boxes, &shape, body->material.poisson, pace);
         }
         good = lent && lent->ritz;
         if (!good)

@@ -1,0 +1,233 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "model/ritz_store.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <threads.h>
+
+#include "base/watch.h"
+
+/* Places on one whose flexibility is kept. */
+enum { PLACES = 64 };
+
+struct ritz_box {
+    struct ritz_box *next;
+    struct ritz_shape shape;
+    double poisson;
+    struct ritz *ritz; /* NULL: a thread computes it */
+    unsigned holders;
+    size_t next_place;
+    struct place {
+        int axis, side; /* 0: none yet */
+        double point[3], flexibility;
+    } places[PLACES];
+};
+
+struct ritz_store {
+    atomic_flag taken; /* of all below, for as long as a list is searched */
+    unsigned owners;
+    size_t bytes;
+    unsigned long computed;
+    struct ritz_box *boxes; /* the one asked for last first */
+};
+
+static void take(struct ritz_store *store)
+{
+    while (atomic_flag_test_and_set_explicit(&store->taken, memory_order_acquire))
+        thrd_yield();
+}
+
+static void give_back(struct ritz_store *store)
+{
+    atomic_flag_clear_explicit(&store->taken, memory_order_release);
+}
+
+struct ritz_store *ritz_store_create(size_t bytes)
+{
+    struct ritz_store *store = calloc(1, sizeof *store);
+    if (!store)
+        return NULL;
+    atomic_flag_clear(&store->taken);
+    store->bytes = bytes;
+    store->owners = 1;
+    return store;
+}
+
+struct ritz_store *ritz_store_share(struct ritz_store *store)
+{
+    if (!store)
+        return NULL;
+    take(store);
+    store->owners++;
+    give_back(store);
+    return store;
+}
+
+static void free_box(struct ritz_box *box)
+{
+    ritz_free(box->ritz);
+    free(box);
+}
+
+/* While it is taken: what nobody holds beyond so many bytes, oldest ones. */
+static void trim(struct ritz_store *store, size_t bytes)
+{
+    size_t kept = 0;
+    for (struct ritz_box **link = &store->boxes; *link;) {
+        struct ritz_box *box = *link;
+        kept += box->ritz ? ritz_size(box->ritz) : 0;
+        if (kept <= bytes || box->holders > 0) {
+            link = &box->next;
+            continue;
+        }
+        kept -= ritz_size(box->ritz);
+        *link = box->next;
+        free_box(box);
+    }
+}
+
+void ritz_store_free(struct ritz_store *store)
+{
+    if (!store)
+        return;
+    take(store);
+    bool last = --store->owners == 0;
+    give_back(store);
+    if (!last)
+        return;
+    trim(store, 0);
+    free(store);
+}
+
+/* While it is taken: the one of these proportions, taken out; or NULL. */
+static struct ritz_box *take_out(struct ritz_store *store, const struct ritz_shape *shape,
+                                 double poisson)
+{
+    for (struct ritz_box **link = &store->boxes; *link; link = &(*link)->next) {
+        struct ritz_box *box = *link;
+        if (box->poisson != poisson || box->shape.round != shape->round ||
+            memcmp(box->shape.side, shape->side, sizeof shape->side) != 0)
+            continue;
+        *link = box->next;
+        return box;
+    }
+    return NULL;
+}
+
+static void put_first(struct ritz_store *store, struct ritz_box *box)
+{
+    box->next = store->boxes;
+    store->boxes = box;
+}
+
+/* The one of these proportions, held: to be computed by the caller where *mine, else by another
+ * thread while it has no vibration; then it is not held. NULL: out of memory. */
+static struct ritz_box *find(struct ritz_store *store, const struct ritz_shape *shape,
+                             double poisson, bool *mine, bool *ready)
+{
+    take(store);
+    struct ritz_box *box = take_out(store, shape, poisson);
+    *mine = !box;
+    if (!box && (box = calloc(1, sizeof *box))) {
+        box->shape = *shape;
+        box->poisson = poisson;
+    }
+    *ready = box && box->ritz;
+    if (box) {
+        box->holders += *mine || *ready;
+        put_first(store, box);
+    }
+    give_back(store);
+    return box;
+}
+
+/* What find left to the caller. */
+static struct ritz_box *compute(struct ritz_store *store, struct ritz_box *box, struct pace *pace)
+{
+    struct ritz *made = ritz_create(&box->shape, box->poisson, pace);
+    take(store);
+    if (made) {
+        box->ritz = made;
+        store->computed++;
+        trim(store, store->bytes);
+    } else {
+        take_out(store, &box->shape, box->poisson);
+    }
+    give_back(store);
+    if (made)
+        return box;
+    free_box(box);
+    return NULL;
+}
+
+struct ritz_box *ritz_store_hold(struct ritz_store *store, const struct ritz_shape *shape,
+                                 double poisson, struct pace *pace)
+{
+    const struct timespec millisecond = {.tv_nsec = 1000000};
+    for (;;) {
+        bool mine, ready;
+        struct ritz_box *box = find(store, shape, poisson, &mine, &ready);
+        if (!box || ready)
+            return box;
+        if (mine)
+            return compute(store, box, pace);
+        if (!pace_ask(pace, 0.0))
+            return NULL;
+        thrd_sleep(&millisecond, NULL);
+    }
+}
+
+void ritz_store_release(struct ritz_store *store, struct ritz_box *box)
+{
+    take(store);
+    box->holders--;
+    trim(store, store->bytes);
+    give_back(store);
+}
+
+const struct ritz *ritz_box_vibration(const struct ritz_box *box)
+{
+    return box->ritz;
+}
+
+/* While it is taken. */
+static const struct place *find_place(const struct ritz_box *box, int axis, int side,
+                                      const double point[3])
+{
+    for (size_t i = 0; i < PLACES; i++) {
+        const struct place *place = &box->places[i];
+        if ((place->axis || place->side) && place->axis == axis && place->side == side &&
+            memcmp(place->point, point, sizeof place->point) == 0)
+            return place;
+    }
+    return NULL;
+}
+
+double ritz_box_flexibility(struct ritz_store *store, struct ritz_box *box, int axis, int side,
+                            const double point[3])
+{
+    take(store);
+    const struct place *known = find_place(box, axis, side, point);
+    double flexibility = known ? known->flexibility : 0.0;
+    give_back(store);
+    if (known)
+        return flexibility;
+    flexibility = ritz_flexibility(box->ritz, axis, side, point);
+    take(store);
+    struct place *place = &box->places[box->next_place++ % PLACES];
+    *place = (struct place){.axis = axis, .side = side, .flexibility = flexibility};
+    memcpy(place->point, point, sizeof place->point);
+    give_back(store);
+    return flexibility;
+}
+
+unsigned long ritz_store_computed(struct ritz_store *store)
+{
+    take(store);
+    unsigned long computed = store->computed;
+    give_back(store);
+    return computed;
+}

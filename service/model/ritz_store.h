@@ -1,0 +1,40 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/* Vibrations of boxes and cylinders (ritz.h) that threads share: each is computed once, and kept
+ * while somebody holds it, or while there is room. */
+#ifndef PERCUSS_MODEL_RITZ_STORE_H
+#define PERCUSS_MODEL_RITZ_STORE_H
+
+#include "model/ritz.h"
+
+struct ritz_store;
+struct ritz_box; /* one of it: a vibration, and its flexibility at some places */
+
+/* Keeps what nobody holds while all take no more than so many bytes: RITZ_STORE_BYTES lets the
+ * pilots of an ensemble of a varied size or Poisson's ratio find theirs again, of some 4 to 30 MB.
+ * NULL: out of memory. */
+struct ritz_store *ritz_store_create(size_t bytes);
+enum { RITZ_STORE_BYTES = 128 << 20 };
+
+/* One more owner of it; it goes with the last one, who has released all that he holds. NULL is
+ * allowed in both. */
+struct ritz_store *ritz_store_share(struct ritz_store *store);
+void ritz_store_free(struct ritz_store *store);
+
+/* The vibration of these proportions, to be released. The first thread to ask computes it; others
+ * wait and ask their pace once a millisecond. Where the first one is stopped another one goes on
+ * from the beginning. NULL: out of memory, or stopped by the pace. */
+struct ritz_box *ritz_store_hold(struct ritz_store *store, const struct ritz_shape *shape,
+                                 double poisson, struct pace *pace);
+void ritz_store_release(struct ritz_store *store, struct ritz_box *box);
+
+/* Of one that is held. ritz_flexibility is kept of the last places. */
+const struct ritz *ritz_box_vibration(const struct ritz_box *box);
+double ritz_box_flexibility(struct ritz_store *store, struct ritz_box *box, int axis, int side,
+                            const double point[3]);
+
+/* How many it has computed so far. */
+unsigned long ritz_store_computed(struct ritz_store *store);
+
+#endif
