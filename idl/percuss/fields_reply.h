@@ -25,12 +25,15 @@
     F(VALUE, inverse_effective_mass, "1/kg")                                                       \
     F(VALUE, end_time, "s; end of the last sub-impact")                                            \
     F(COUNT, sub_impact_count, "exact, however many are listed")                                   \
-    L(LIST, sub_impacts, sub_impacts_listed, sub_impact, "at most 256; 16 in a batch")
+    L(LIST, sub_impacts, sub_impacts_listed, sub_impact, "at most 256; 16 in a batch")             \
+    F(VALUE, impulse_error, "N s; of the impulse: time, modes and models together")
 
 #define PERCUSS_BODY_VELOCITY_FIELDS(F, ...)                                                       \
     F(ID, id, "of the body")                                                                       \
     F(VECTOR, velocity, INFINITY, "m/s; of the centre of mass, world")                             \
-    F(VECTOR, angular_velocity, INFINITY, "rad/s; world")
+    F(VECTOR, angular_velocity, INFINITY, "rad/s; world")                                          \
+    F(VALUE, velocity_error, "m/s; of the velocity: time, modes and models together")              \
+    F(VALUE, angular_velocity_error, "rad/s; the same of the angular velocity")
 
 #define PERCUSS_BODY_STATE_FIELDS(F, ...)                                                          \
     F(ID, id, "of the body")                                                                       \
@@ -58,7 +61,9 @@
     F(FLAG, tolerance_met, "by these estimates of the solution")                                   \
     F(VALUE, restitution_model, "of the restitution, by the models of contact and bodies")         \
     F(VALUE, restitution_total, "of the restitution: time, modes and models together")             \
-    F(FLAG, total_met, "the tolerance, by that total")
+    F(FLAG, total_met, "the tolerance, by that total")                                             \
+    F(VALUE, restitution_yield,                                                                    \
+      "of the restitution, of `restitution_model`: if metals whose yield is not stated do yield")
 
 #define PERCUSS_BODY_MODEL_FIELDS(F, ...)                                                          \
     F(ID, id, "of the body")                                                                       \

@@ -9,8 +9,8 @@
 #include "solve/problem.h"
 #include "solve/warnings.h"
 
-/* By how much the restitution of a contact that lasts `duration` (s) is lower for the bending of its
- * rods; 0: neither body is a rod that is hit across its axis. */
+/* By how much the restitution of a contact that lasts `duration` (s) is lower for the bending of
+ * its rods; 0: neither body is a rod that is hit across its axis. */
 double askew_loss(const struct problem *problem, size_t contact, double duration);
 
 /* Says so where that is more than the tolerance. */

@@ -10,6 +10,7 @@
 #include "fe/complete_body.h"
 #include "fe/complete_converge.h"
 #include "model/vector.h"
+#include "solve/impulse_error.h"
 #include "solve/loss.h"
 #include "solve/model_error.h"
 #include "solve/report.h"
@@ -294,9 +295,11 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
     double e = result->contacts[0].restitution;
     double range = result->complete ? fmax(e, 1.0 - e) : 2.0;
     const struct unstated_blow whole = {blow.force, .rebound = fabs(e), .range = range};
+    result->restitution_yield = unstated_change(problem, 0, &whole);
     double model = model_error_complete(problem, &blow) + loss_of_contact(problem, 0, fabs(e)) +
-                   unstated_change(problem, 0, &whole);
+                   result->restitution_yield;
     report_model_error(model, range, result);
+    impulse_error_alone(problem, result);
     /* where small strains end, and what materials lose of themselves */
     struct warnings warnings = {0};
     validity_find_speed(problem, &warnings);

@@ -67,20 +67,29 @@ static double by_waves(const struct model_margin *margin, size_t c)
     return lost / (rebound * compression * compression * w);
 }
 
-/* As if there were one contact after which the bodies part. */
-static double single(const struct model_margin *margin)
+static double of_contact(const struct model_margin *margin, size_t c)
 {
-    double largest = 0.0;
+    double spring =
+        sensitivity(margin) * model_deviation_stiffness(&margin->deviation[c], &margin->blow[c]);
+    double flow = margin->deviation[c].yield *
+                  outcome_rebound(margin->problem, &margin->solution->outcome, c);
+    double ringing = model_deviation_ringing(margin->problem, c, &margin->blow[c]);
+    double bent = askew_loss(margin->problem, c, margin->blow[c].duration);
+    return hypot(hypot(spring, flow), ringing) + bent + by_waves(margin, c);
+}
+
+/* As if there were one contact after which the bodies part. */
+static void single(const struct model_margin *margin, struct model_error *error)
+{
+    const struct impact_outcome *outcome = &margin->solution->outcome;
+    double waves = validity_wave_loss(margin->problem);
+    error->restitution = 0.0;
     for (size_t c = 0; c < margin->problem->contact_count; c++) {
-        double spring = sensitivity(margin) *
-                        model_deviation_stiffness(&margin->deviation[c], &margin->blow[c]);
-        double flow = margin->deviation[c].yield *
-                      outcome_rebound(margin->problem, &margin->solution->outcome, c);
-        double ringing = model_deviation_ringing(margin->problem, c, &margin->blow[c]);
-        double bent = askew_loss(margin->problem, c, margin->blow[c].duration);
-        largest = fmax(largest, hypot(hypot(spring, flow), ringing) + bent + by_waves(margin, c));
+        double change = of_contact(margin, c);
+        error->restitution = fmax(error->restitution, change);
+        error->impulse[c] = (change + waves) * outcome_impulse_scale(margin->problem, outcome, c);
     }
-    return largest + validity_wave_loss(margin->problem);
+    error->restitution += waves;
 }
 
 /* All of what is uncertain of a contact, as it makes it stiffer or softer. */
@@ -94,8 +103,9 @@ static struct tangent_source source_of(const struct model_margin *margin, size_t
 
 /* What all of it together, stiffer, does by the orders along the answer. */
 struct by_orders {
-    double first, second; /* derivatives of e */
-    double strain;        /* of a sub-impact's impulse; INFINITY: none is known */
+    double first, second;                 /* derivatives of e */
+    double strain;                        /* of a sub-impact's impulse; INFINITY: none is known */
+    double impulse[PERCUSS_MAX_CONTACTS]; /* derivatives of each, of a group */
 };
 
 /* Of several contacts, all of them stiffer, and every other one: the larger change. */
@@ -117,12 +127,15 @@ static enum percuss_status follow_group(const struct model_margin *margin, struc
     enum percuss_status status = tangent_group_follow(&task, problem->arena, pace, tangent);
     if (status)
         return status;
-    *orders = (struct by_orders){.strain = fmax(tangent[0].strain, tangent[1].strain)};
-    for (size_t c = 0; c < problem->contact_count; c++)
-        if (problem->impulse_compression[c] > 0.0)
-            for (int i = 0; i < 2; i++)
-                orders->first = fmax(orders->first,
-                                     fabs(tangent[i].impulse[c]) / problem->impulse_compression[c]);
+    orders->first = orders->second = 0.0;
+    orders->strain = fmax(tangent[0].strain, tangent[1].strain);
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        double compression = problem->impulse_compression[c];
+        double change = fmax(fabs(tangent[0].impulse[c]), fabs(tangent[1].impulse[c]));
+        orders->impulse[c] = change;
+        if (compression > 0.0)
+            orders->first = fmax(orders->first, change / compression);
+    }
     return PERCUSS_OK;
 }
 
@@ -147,16 +160,18 @@ static enum percuss_status follow(const struct model_margin *margin, struct tang
     source.curved = curved;
     enum percuss_status status = tangent_follow(path, &source, pace, &tangent);
     double compression = margin->problem->impulse_compression[0];
-    if (!status)
-        *orders = (struct by_orders){tangent.impulse / compression, tangent.curvature / compression,
-                                     tangent.strain};
-    return status;
+    if (status)
+        return status;
+    orders->first = tangent.impulse / compression;
+    orders->second = tangent.curvature / compression;
+    orders->strain = tangent.strain;
+    return PERCUSS_OK;
 }
 
 /* Of a single contact: second order at once where what is left out of the modes lets expect that
  * first order is not enough. */
 static enum percuss_status single_by_order(const struct model_margin *margin, struct pace *pace,
-                                           double *change)
+                                           struct by_orders *orders, double *change)
 {
     const struct solution *solution = margin->solution;
     double all = model_deviation_stiffness(&margin->deviation[0], &margin->blow[0]);
@@ -165,31 +180,29 @@ static enum percuss_status single_by_order(const struct model_margin *margin, st
         return PERCUSS_OK;
     bool bends = solution->scene->laws[0].operations->three_halves;
     bool curved = bends && expected > STRAIN;
-    struct by_orders orders;
     struct tangent_path *path = find_path(margin);
-    enum percuss_status status = follow(margin, path, curved, pace, &orders);
-    if (!status && !curved && bends && orders.strain > STRAIN && orders.strain <= STRAIN_CURVED) {
+    enum percuss_status status = follow(margin, path, curved, pace, orders);
+    if (!status && !curved && bends && orders->strain > STRAIN && orders->strain <= STRAIN_CURVED) {
         curved = true;
-        status = follow(margin, path, curved, pace, &orders);
+        status = follow(margin, path, curved, pace, orders);
     }
-    if (!status && orders.strain <= (curved ? STRAIN_CURVED : STRAIN))
-        *change = fabs(orders.first) + 0.5 * fabs(orders.second);
+    if (!status && orders->strain <= (curved ? STRAIN_CURVED : STRAIN))
+        *change = fabs(orders->first) + 0.5 * fabs(orders->second);
     return status;
 }
 
 /* What e may change by, where first or second order tells it; INFINITY: neither does. */
 static enum percuss_status by_order(const struct model_margin *margin, struct pace *pace,
-                                    double *change)
+                                    struct by_orders *orders, double *change)
 {
     *change = INFINITY;
     if (!margin->solution->log)
         return PERCUSS_OK;
     if (margin->problem->contact_count == 1)
-        return single_by_order(margin, pace, change);
-    struct by_orders orders;
-    enum percuss_status status = follow_group(margin, pace, &orders);
-    if (!status && orders.strain <= STRAIN_GROUP)
-        *change = orders.first;
+        return single_by_order(margin, pace, orders, change);
+    enum percuss_status status = follow_group(margin, pace, orders);
+    if (!status && orders->strain <= STRAIN_GROUP)
+        *change = orders->first;
     return status;
 }
 
@@ -199,8 +212,26 @@ static bool is_sequence(const struct model_margin *margin)
     return margin->problem->contact_count > 1 || outcome->tracks[0].count > 1;
 }
 
+/* As sequences amplify it: along the answer where that will do. */
+static enum percuss_status amplify(const struct model_margin *margin, struct pace *pace,
+                                   struct model_error *error)
+{
+    struct by_orders orders;
+    double change;
+    enum percuss_status status = by_order(margin, pace, &orders, &change);
+    if (status)
+        return status;
+    if (!isfinite(change))
+        return model_perturbed_find(margin, pace, &error->restitution, error->impulse);
+    error->restitution = fmax(error->restitution, MODEL_PERTURBED_BETWEEN * change);
+    for (size_t c = 0; margin->problem->contact_count > 1 && c < margin->problem->contact_count;
+         c++)
+        error->impulse[c] = fmax(error->impulse[c], MODEL_PERTURBED_BETWEEN * orders.impulse[c]);
+    return PERCUSS_OK;
+}
+
 enum percuss_status model_error_find(const struct problem *problem, const struct solution *solution,
-                                     struct pace *pace, double *restitution)
+                                     struct pace *pace, struct model_error *error)
 {
     /* what of each contact is uncertain */
     size_t n = problem->contact_count;
@@ -216,22 +247,21 @@ enum percuss_status model_error_find(const struct problem *problem, const struct
         margin.blow[c] = model_blow_of(problem, &solution->outcome, c);
         margin.deviation[c] = model_deviation_of(problem, c, &margin.blow[c]);
     }
-    /* as of one blow, and as sequences amplify it: along the answer where that will do */
+    /* as of one blow, and of a sequence of them */
     enum percuss_status status = PERCUSS_OK;
-    *restitution = single(&margin);
-    if (is_sequence(&margin)) {
-        double change;
-        status = by_order(&margin, pace, &change);
-        if (!status && isfinite(change))
-            *restitution = fmax(*restitution, MODEL_PERTURBED_BETWEEN * change);
-        else if (!status)
-            status = model_perturbed_find(&margin, pace, restitution);
-    }
+    single(&margin, error);
+    if (is_sequence(&margin))
+        status = amplify(&margin, pace, error);
     /* what the materials lose of themselves, and what metals would of whose yield nothing is said
      */
-    *restitution += loss_worst(problem, &solution->outcome);
-    *restitution += unstated_worst(problem, &solution->outcome);
-    *restitution = fmin(*restitution, outcome_range(problem, &solution->outcome));
+    double loss = loss_worst(problem, &solution->outcome);
+    error->yield = unstated_worst(problem, &solution->outcome);
+    error->restitution += loss;
+    error->restitution += error->yield;
+    error->restitution = fmin(error->restitution, outcome_range(problem, &solution->outcome));
+    for (size_t c = 0; c < n; c++)
+        error->impulse[c] +=
+            (loss + error->yield) * outcome_impulse_scale(problem, &solution->outcome, c);
     return status;
 }
 

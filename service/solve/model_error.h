@@ -13,10 +13,15 @@
 #include "solve/model_deviation.h"
 #include "solve/solution.h"
 
-/* On the restitution, of the contact where it is largest. PERCUSS_OK, PERCUSS_INTERNAL or
- * PERCUSS_TIMEOUT. */
+struct model_error {
+    double restitution;                   /* of the contact where it is largest */
+    double yield;                         /* the part of metals whose yield is not stated */
+    double impulse[PERCUSS_MAX_CONTACTS]; /* of each contact, N s; INFINITY: nobody knows */
+};
+
+/* PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT. */
 enum percuss_status model_error_find(const struct problem *problem, const struct solution *solution,
-                                     struct pace *pace, double *restitution);
+                                     struct pace *pace, struct model_error *error);
 
 /* The same of complete finite elements, which have neither modes nor a law: strains that are not
  * small, a block that is taken as round. */

@@ -77,14 +77,21 @@ struct beside {
     struct scene scene;                  /* that they deviate from */
 };
 
-/* Solves a scene, and how far its restitutions are from the answer's; INFINITY: nobody knows. */
+/* How far solutions are from the answer; INFINITY: nobody knows. */
+struct distance {
+    double restitution; /* largest of a contact */
+    double *impulse;    /* [contact], N s */
+};
+
+/* Solves a scene, and widens the distance to its own. */
 static enum percuss_status solve_beside(struct beside *beside, const struct scene *scene,
-                                        struct attempt *attempt, double *distance)
+                                        struct attempt *attempt, struct distance *distance)
 {
     const struct solution *solution = beside->margin->solution;
     double left = beside->context.work;
     double allowed = EFFORT * impact_work(solution->scene, &solution->outcome);
-    *distance = INFINITY;
+    double before = distance->restitution;
+    distance->restitution = INFINITY;
     if (solution->spent || solution->outcome.end_reason == PERCUSS_END_LIMIT)
         return PERCUSS_OK;
     /* no more than a few times the answer's own effort, where that is of the same kind */
@@ -97,34 +104,46 @@ static enum percuss_status solve_beside(struct beside *beside, const struct scen
     beside->context.work = allowed;
     enum percuss_status status = attempt_run(&beside->context, attempt, scene);
     beside->context.work += left - allowed;
-    if (!status && !attempt_is_spent(attempt) && !attempt->outcome.always_overlapped)
-        *distance =
-            outcome_compare(beside->margin->problem, beside->answer, &attempt->outcome).restitution;
-    return status;
+    if (status || attempt_is_spent(attempt) || attempt->outcome.always_overlapped)
+        return status;
+    const struct problem *problem = beside->margin->problem;
+    distance->restitution =
+        fmax(before, outcome_compare(problem, beside->answer, &attempt->outcome).restitution);
+    outcome_widen_impulses(problem, beside->answer, &attempt->outcome, distance->impulse);
+    return PERCUSS_OK;
 }
 
 /* The larger one of two distances along a direction and against it. */
-static enum percuss_status along(struct beside *beside, bool flow, double *largest)
+static enum percuss_status along(struct beside *beside, bool flow, struct distance *largest)
 {
     bool group = beside->margin->problem->contact_count > 1;
-    for (int i = 0; i < 2 && !isinf(*largest); i++) {
+    for (int i = 0; i < 2 && !isinf(largest->restitution); i++) {
         struct direction direction = {
             .alternate = group && i, .flow = flow, .sign = i && !group ? 1.0 : -1.0};
         struct scene scene = beside->scene;
         struct attempt attempt;
-        double distance;
         if (!make_scene(beside->margin, &direction, &scene))
             return PERCUSS_INTERNAL;
-        enum percuss_status status = solve_beside(beside, &scene, &attempt, &distance);
+        enum percuss_status status = solve_beside(beside, &scene, &attempt, largest);
         if (status)
             return status;
-        *largest = fmax(*largest, distance);
     }
     return PERCUSS_OK;
 }
 
+static void widen(const struct problem *problem, const struct distance *spring,
+                  const struct distance *flow, double *restitution, double *impulse)
+{
+    double both = hypot(spring->restitution, flow->restitution);
+    *restitution = fmax(*restitution, MODEL_PERTURBED_BETWEEN * both);
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        double change = isinf(both) ? INFINITY : hypot(spring->impulse[c], flow->impulse[c]);
+        impulse[c] = fmax(impulse[c], MODEL_PERTURBED_BETWEEN * change);
+    }
+}
+
 enum percuss_status model_perturbed_find(const struct model_margin *margin, struct pace *pace,
-                                         double *restitution)
+                                         double *restitution, double *impulse)
 {
     const struct problem *problem = margin->problem;
     const struct solution *solution = margin->solution;
@@ -133,26 +152,29 @@ enum percuss_status model_perturbed_find(const struct model_margin *margin, stru
         {.problem = problem, .arena = problem->arena, .pace = pace, .work = solution->work},
         &solution->outcome,
         {0}};
-    if (!fewer_modes(problem, solution->scene, &solution->outcome, FEWER_SEQUENCE, &beside.scene))
+    size_t n = problem->contact_count;
+    struct distance spring = {0.0, arena_take(problem->arena, n, sizeof *spring.impulse)};
+    struct distance flow = {0.0, arena_take(problem->arena, n, sizeof *flow.impulse)};
+    if (!spring.impulse || !flow.impulse ||
+        !fewer_modes(problem, solution->scene, &solution->outcome, FEWER_SEQUENCE, &beside.scene))
         return PERCUSS_INTERNAL;
     enum percuss_status status = PERCUSS_OK;
-    double spring = 0.0;
-    double flow = 0.0;
     /* by finite elements in the contact: the law's own answer to compare with */
     struct attempt base;
     if (by_finite_elements(problem)) {
         status = solve_beside(&beside, solution->scene, &base, &spring);
-        spring = isinf(spring) ? spring : 0.0;
+        spring.restitution = isinf(spring.restitution) ? INFINITY : 0.0;
+        memset(spring.impulse, 0, n * sizeof *spring.impulse);
         beside.answer = &base.outcome;
     }
     /* with other stiffnesses, and where metal flows with other yield stresses */
     bool flows = false;
-    for (size_t c = 0; c < problem->contact_count; c++)
+    for (size_t c = 0; c < n; c++)
         flows = flows || margin->deviation[c].yield > 0.0;
     if (!status)
         status = along(&beside, false, &spring);
-    if (!status && flows && !isinf(spring))
+    if (!status && flows && !isinf(spring.restitution))
         status = along(&beside, true, &flow);
-    *restitution = fmax(*restitution, MODEL_PERTURBED_BETWEEN * hypot(spring, flow));
+    widen(problem, &spring, &flow, restitution, impulse);
     return status;
 }

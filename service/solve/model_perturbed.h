@@ -21,9 +21,10 @@ struct model_margin {
 /* Between the answer and those beside it e need not lie between theirs. */
 static const double MODEL_PERTURBED_BETWEEN = 1.5;
 
-/* Widens the error of e to how far such solutions are from the answer, the farthest of them.
- * INFINITY: nobody knows. PERCUSS_OK, PERCUSS_INTERNAL or PERCUSS_TIMEOUT. */
+/* Widens the error of e, and those of the contacts' impulses (N s), to how far such solutions are
+ * from the answer, the farthest of them. INFINITY: nobody knows. PERCUSS_OK, PERCUSS_INTERNAL or
+ * PERCUSS_TIMEOUT. */
 enum percuss_status model_perturbed_find(const struct model_margin *margin, struct pace *pace,
-                                         double *restitution);
+                                         double *restitution, double *impulse);
 
 #endif

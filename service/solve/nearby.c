@@ -13,6 +13,7 @@ void nearby_begin(struct nearby *nearby, const struct problem *problem,
     nearby->solutions = 1;
     for (size_t c = 0; c < problem->contact_count; c++) {
         nearby->low[c] = nearby->high[c] = outcome_restitution(problem, answer, c);
+        nearby->weakest[c] = nearby->strongest[c] = answer->tracks[c].impulse;
         nearby->fewest[c] = nearby->most[c] = answer->tracks[c].count;
     }
 }
@@ -26,6 +27,8 @@ void nearby_add(struct nearby *nearby, const struct problem *problem,
         size_t count = other->tracks[c].count;
         nearby->low[c] = fmin(nearby->low[c], e);
         nearby->high[c] = fmax(nearby->high[c], e);
+        nearby->weakest[c] = fmin(nearby->weakest[c], other->tracks[c].impulse);
+        nearby->strongest[c] = fmax(nearby->strongest[c], other->tracks[c].impulse);
         if (count < nearby->fewest[c])
             nearby->fewest[c] = count;
         if (count > nearby->most[c])
@@ -44,4 +47,13 @@ double nearby_distance(const struct nearby *nearby, const struct problem *proble
         largest = fmax(largest, fmax(e - nearby->low[c], nearby->high[c] - e));
     }
     return largest;
+}
+
+double nearby_impulse_distance(const struct nearby *nearby, const struct impact_outcome *answer,
+                               size_t contact)
+{
+    double impulse = answer->tracks[contact].impulse;
+    if (nearby->solutions < 2)
+        return INFINITY;
+    return fmax(impulse - nearby->weakest[contact], nearby->strongest[contact] - impulse);
 }

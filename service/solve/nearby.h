@@ -13,7 +13,8 @@
 struct nearby {
     size_t solutions;
     double low[PERCUSS_MAX_CONTACTS], high[PERCUSS_MAX_CONTACTS]; /* restitution; NAN: has none */
-    size_t fewest[PERCUSS_MAX_CONTACTS], most[PERCUSS_MAX_CONTACTS]; /* sub-impacts */
+    double weakest[PERCUSS_MAX_CONTACTS], strongest[PERCUSS_MAX_CONTACTS]; /* impulse, N s */
+    size_t fewest[PERCUSS_MAX_CONTACTS], most[PERCUSS_MAX_CONTACTS];       /* sub-impacts */
 };
 
 /* The range of one solution alone. */
@@ -28,5 +29,9 @@ void nearby_add(struct nearby *nearby, const struct problem *problem,
  * where there is no other solution. */
 double nearby_distance(const struct nearby *nearby, const struct problem *problem,
                        const struct impact_outcome *answer);
+
+/* The same of one contact's impulse, N s. */
+double nearby_impulse_distance(const struct nearby *nearby, const struct impact_outcome *answer,
+                               size_t contact);
 
 #endif

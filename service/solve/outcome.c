@@ -101,6 +101,23 @@ struct outcome_difference outcome_compare(const struct problem *problem,
     return largest;
 }
 
+void outcome_widen_impulses(const struct problem *problem, const struct impact_outcome *a,
+                            const struct impact_outcome *b, double *change)
+{
+    for (size_t c = 0; c < problem->contact_count; c++)
+        change[c] = fmax(change[c], fabs(a->tracks[c].impulse - b->tracks[c].impulse));
+}
+
+double outcome_impulse_scale(const struct problem *problem, const struct impact_outcome *outcome,
+                             size_t contact)
+{
+    const struct track *track = &outcome->tracks[contact];
+    double compressed = 0.0;
+    for (size_t i = 0; i < listed(track); i++)
+        compressed += track->list[i].compression_impulse;
+    return fmax(problem->impulse_compression[contact], compressed);
+}
+
 /* Energy of the rates at which contacts close, J. */
 static double approach_energy(const struct problem *problem)
 {

@@ -40,6 +40,15 @@ struct outcome_difference outcome_compare(const struct problem *problem,
                                           const struct impact_outcome *a,
                                           const struct impact_outcome *b);
 
+/* Raises each contact's change of impulse (N s) to that between the two. */
+void outcome_widen_impulses(const struct problem *problem, const struct impact_outcome *a,
+                            const struct impact_outcome *b, double *change);
+
+/* Impulse that the shares of a contact's restitution are of, N s: that which stops its approach, or
+ * what has compressed it where that is more, by way of others. */
+double outcome_impulse_scale(const struct problem *problem, const struct impact_outcome *outcome,
+                             size_t contact);
+
 /* Share of the energy that a solution gains or loses. What acceleration takes may leave next to
  * nothing available: the approach counts too. */
 double outcome_energy_defect(const struct problem *problem, const struct impact_outcome *outcome);

@@ -24,14 +24,17 @@ struct solve_contact_result {
     size_t sub_impact_count;              /* exact */
     size_t sub_impacts_listed;            /* at most PERCUSS_MAX_SUB_IMPACTS */
     const struct sub_impact *sub_impacts; /* in the workspace, until its next solve */
+    double impulse_error;                 /* N s, all that is known together */
+    double impulse_error_model;           /* what models have of it */
 };
 
 struct solve_body_result {
     char id[PERCUSS_ID_SIZE];
     double velocity[3]; /* after; only with the service's own W */
     double angular_velocity[3];
-    double vibration; /* J */
-    unsigned modes;   /* kept in the scene */
+    double velocity_error, angular_velocity_error; /* m/s, rad/s, all that is known together */
+    double vibration;                              /* J */
+    unsigned modes;                                /* kept in the scene */
     bool rigid;
     const char *theory; /* rigid, rod, rayleigh-love, timoshenko, euler-bernoulli */
     double shear_factor;
@@ -55,7 +58,8 @@ struct solve_result {
     bool tolerance_met;
     double restitution_model, restitution_total; /* of the models; of all that is known */
     bool total_met;
-    double tolerance; /* on the restitution, as asked for */
+    double restitution_yield; /* of the models': of metals whose yield is not stated */
+    double tolerance;         /* on the restitution, as asked for */
     enum percuss_contact_model contact_model;
     enum percuss_compliance compliance;
     enum percuss_method method;

@@ -108,6 +108,7 @@ static void conclude(const struct attempt_context *context, const struct attempt
     solution->tolerance_met =
         solution->steps.energy_closes && !unknown &&
         solution->steps.restitution + solution->modes.restitution <= context->problem->tolerance;
+    solution->farther = solution->tolerance_met ? SEQUENCE_FACTOR : distance_factor(context, best);
     if (!solution->tolerance_met && (attempt_is_sequence(best) || unknown))
         widen(context, best, unknown, solution);
     /* what sequences amplify beyond all bounds */

@@ -34,6 +34,7 @@ struct solution {
     bool tolerance_met;
     bool spent;           /* the effort allowed ended the search */
     double work;          /* that it left of it (impact.h) */
+    double farther;       /* times its distance from those beside it an answer may be wrong by */
     struct nearby nearby; /* the answer, and those that it was compared with */
 };
 

@@ -10,6 +10,7 @@
 #include "solve/complete.h"
 #include "solve/concurrent.h"
 #include "solve/formulation.h"
+#include "solve/impulse_error.h"
 #include "solve/model_error.h"
 #include "solve/report.h"
 #include "solve/start_error.h"
@@ -130,7 +131,7 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     if (!status && concurrent)
         status = concurrent_refine(solution, problem, &pace, &effort, &result->fault);
     /* the answer, and its histories */
-    double model = NAN;
+    struct model_error model;
     struct start_error start = {0.0, 0.0};
     if (!status)
         status = pace_fault(&result->fault, model_error_find(problem, solution, &pace, &model));
@@ -138,9 +139,11 @@ static enum percuss_status answer(struct solve_workspace *workspace,
         status = pace_fault(&result->fault, start_error_find(problem, solution, &pace, &start));
     if (!status) {
         solution->start = start.restitution;
-        model += start.model;
         report_fill(problem, solution, result);
-        report_model_error(model, outcome_range(problem, &solution->outcome), result);
+        report_model_error(model.restitution + start.model,
+                           outcome_range(problem, &solution->outcome), result);
+        result->restitution_yield = model.yield;
+        impulse_error_report(problem, solution, &model, start.model, result);
         report_state_errors(problem, solution, result);
         if (concurrent)
             concurrent_report(&effort, problem, solution, result);

@@ -29,11 +29,14 @@ struct percuss_contact_result {
     uint32_t sub_impact_count;     /* exact */
     uint32_t sub_impacts_listed;   /* at most PERCUSS_MAX_SUB_IMPACTS; 16 in a batch */
     struct percuss_sub_impact *sub_impacts;
+    double impulse_error; /* N s; by time, modes and models together; 0 from servers before it */
 };
 
 struct percuss_body_velocity {
     char id[PERCUSS_ID_SIZE];
     double velocity[3], angular_velocity[3]; /* world */
+    double velocity_error;                   /* m/s; by time, modes and models together */
+    double angular_velocity_error;           /* rad/s */
 };
 
 struct percuss_body_state {
@@ -61,6 +64,7 @@ struct percuss_error_estimate {
     double restitution_model;                   /* by the models of contact and bodies */
     double restitution_total;                   /* all three */
     bool total_met;                             /* the tolerance, by that */
+    double restitution_yield; /* of the models': if metals whose yield is not stated do yield */
 };
 
 struct percuss_body_model {

@@ -113,6 +113,7 @@ class ContactResult(IdlStruct, typename="percuss::v1::ContactResult"):
     end_time: float64
     sub_impact_count: uint32
     sub_impacts: sequence[SubImpact, 256]
+    impulse_error: float64
 
 
 @dataclass
@@ -122,6 +123,8 @@ class BodyVelocity(IdlStruct, typename="percuss::v1::BodyVelocity"):
     id: Name
     velocity: Vector
     angular_velocity: Vector
+    velocity_error: float64
+    angular_velocity_error: float64
 
 
 @dataclass
@@ -166,6 +169,7 @@ class ErrorEstimate(IdlStruct, typename="percuss::v1::ErrorEstimate"):
     restitution_model: float64
     restitution_total: float64
     total_met: bool
+    restitution_yield: float64
 
 
 @dataclass

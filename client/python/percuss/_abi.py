@@ -118,11 +118,18 @@ class ContactResult(ctypes.Structure):
         ("sub_impact_count", c_uint32),
         ("sub_impacts_listed", c_uint32),
         ("sub_impacts", POINTER(SubImpact)),
+        ("impulse_error", c_double),
     ]
 
 
 class BodyVelocity(ctypes.Structure):
-    _fields_ = [("id", _Id), ("velocity", _Vector), ("angular_velocity", _Vector)]
+    _fields_ = [
+        ("id", _Id),
+        ("velocity", _Vector),
+        ("angular_velocity", _Vector),
+        ("velocity_error", c_double),
+        ("angular_velocity_error", c_double),
+    ]
 
 
 class BodyState(ctypes.Structure):
@@ -157,6 +164,7 @@ class ErrorEstimate(ctypes.Structure):
         ("restitution_model", c_double),
         ("restitution_total", c_double),
         ("total_met", c_bool),
+        ("restitution_yield", c_double),
     ]
 
 

@@ -58,6 +58,8 @@ class ContactResult:
     """Exact, however many are listed."""
     sub_impacts: NDArray[np.void]
     """Those listed (at most 256; 16 in a batch), of dtype SUB_IMPACT: sub_impacts["impulse"] is an array."""
+    impulse_error: float
+    """Of the impulse, by time, modes and models together, N s."""
 
     @property
     def significant(self) -> int:
@@ -74,6 +76,10 @@ class BodyVelocity:
     """Of the centre of mass, world, m/s."""
     angular_velocity: FloatArray
     """World, rad/s."""
+    velocity_error: float
+    """Of the velocity, by time, modes and models together, m/s."""
+    angular_velocity_error: float
+    """Of the angular velocity, rad/s."""
 
 
 @dataclass(frozen=True)
@@ -128,6 +134,8 @@ class ErrorEstimate:
     """All three."""
     total_met: bool
     """The tolerance, by that total."""
+    restitution_yield: float
+    """Of restitution_model: if metals whose yield is not stated do yield."""
 
     @property
     def restitution(self) -> float:

@@ -48,8 +48,10 @@ static void print_answer(const struct solve_result *result, const struct verdict
            verdict->sub_impacts, 1e3 * verdict->seconds,
            result->status ? result->fault.text : result->reason);
     for (size_t c = 0; c < result->contact_count; c++)
-        printf("    contact %zu: e %.9f, %zu sub-impacts\n", c, result->contacts[c].restitution,
-               result->contacts[c].sub_impact_count);
+        printf("    contact %zu: e %.9f, %zu sub-impacts, impulse %.9g +- %.2g (models %.2g) N s\n",
+               c, result->contacts[c].restitution, result->contacts[c].sub_impact_count,
+               result->contacts[c].impulse, result->contacts[c].impulse_error,
+               result->contacts[c].impulse_error_model);
     for (size_t w = 0; w < result->warning_count; w++)
         printf("    warning: %s\n", result->warnings[w]);
 }
@@ -117,9 +119,11 @@ static void judge(const struct campaign *campaign, const struct truth *truth, bo
                   const struct solve_result *result, struct verdict *verdict)
 {
     double impulse[PERCUSS_MAX_CONTACTS];
+    double given[PERCUSS_MAX_CONTACTS]; /* by modes and steps */
     bool solved = true;
     for (size_t c = 0; c < result->contact_count; c++) {
         impulse[c] = result->contacts[c].impulse;
+        given[c] = result->contacts[c].impulse_error - result->contacts[c].impulse_error_model;
         solved = solved && !(isnan(result->contacts[c].restitution) &&
                              result->contacts[c].impulse_compression > 0.0);
     }
@@ -127,6 +131,8 @@ static void judge(const struct campaign *campaign, const struct truth *truth, bo
     verdict->true_error = !solved ? NAN : found ? truth_distance(truth, impulse) : INFINITY;
     verdict->true_impulse_error = found ? truth_impulse_distance(truth, impulse) : INFINITY;
     verdict->impulse_spread = found ? truth->impulse_spread : INFINITY;
+    verdict->impulses = found && truth_covers_impulses(truth, impulse, given);
+    verdict->velocities = found && truth_covers_velocities(truth, impulse, given);
     verdict->true_sub_impacts = truth->sub_impacts;
     if (campaign->settings.chatty)
         print_answer(result, verdict);

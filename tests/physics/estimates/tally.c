@@ -53,6 +53,8 @@ bool tally_add(struct tally *tally, const struct verdict *verdict)
     tally->impulse_covered +=
         verdict->true_impulse_error <=
         (verdict->reported_impulse + verdict->impulse_spread) * (1.0 + 1e-9) + 1e-300;
+    tally->impulses += verdict->impulses;
+    tally->velocities += verdict->velocities;
     tally->miscounted += verdict->sub_impacts != verdict->true_sub_impacts;
     bool wrong = verdict->met && error > verdict->tolerance;
     if (wrong)
@@ -86,12 +88,12 @@ void tally_head(FILE *file, bool csv)
         fprintf(file, "class,tolerance,judged,met,covered,impulse_covered,median_over,worst_under,"
                       "worst_scene,"
                       "met_and_wrong,miscounted,unsettled,unsettled_met,unsolved,cpu_mean,cpu_max,"
-                      "wrong_scenes\n");
+                      "impulses_covered,velocities_covered,wrong_scenes\n");
     else
-        fprintf(file, "%-22s %6s %6s %6s %8s %8s %6s %9s %8s %6s %6s %13s %8s %8s %s\n", "class",
-                "tol", "judged", "met %", "covered%", "impulse%", "over", "under", "(scene)",
-                "wrong", "count%", "unsettled/met", "unsolved", "ms mean",
-                "ms max; scenes met and wrong");
+        fprintf(file, "%-22s %6s %6s %6s %8s %8s %8s %8s %6s %9s %8s %6s %6s %13s %8s %8s %s\n",
+                "class", "tol", "judged", "met %", "covered%", "largest%", "impuls.%", "veloc.%",
+                "over", "under", "(scene)", "wrong", "count%", "unsettled/met", "unsolved",
+                "ms mean", "ms max; scenes met and wrong");
 }
 
 void tally_print(FILE *file, const struct tally *tally, const char *name, double tolerance,
@@ -101,21 +103,24 @@ void tally_print(FILE *file, const struct tally *tally, const char *name, double
     size_t all = tally->judged + tally->unsettled + tally->unsolved;
     double mean = all ? tally->seconds / (double)all : 0.0;
     if (csv)
-        fprintf(file, "%s,%g,%zu,%zu,%zu,%zu,%.4g,%.4g,%llu,%zu,%zu,%zu,%zu,%zu,%.4g,%.4g,", name,
-                tolerance, tally->judged, tally->met, tally->covered, tally->impulse_covered,
+        fprintf(file, "%s,%g,%zu,%zu,%zu,%zu,%.4g,%.4g,%llu,%zu,%zu,%zu,%zu,%zu,%.4g,%.4g,%zu,%zu,",
+                name, tolerance, tally->judged, tally->met, tally->covered, tally->impulse_covered,
                 tally_median_over(tally), tally->worst_share,
                 (unsigned long long)tally->worst_scene, tally->wrong, tally->miscounted,
-                tally->unsettled, tally->unsettled_met, tally->unsolved, mean, tally->slowest);
+                tally->unsettled, tally->unsettled_met, tally->unsolved, mean, tally->slowest,
+                tally->impulses, tally->velocities);
     else
-        fprintf(
-            file,
-            "%-22s %6.0e %6zu %6.1f %8.1f %8.1f %6.3g %9.3g %8llu %6zu %6.1f %9zu/%-3zu %8zu %8.2f "
-            "%.0f",
-            name, tolerance, tally->judged, share * (double)tally->met,
-            share * (double)tally->covered, share * (double)tally->impulse_covered,
-            tally_median_over(tally), tally->worst_share, (unsigned long long)tally->worst_scene,
-            tally->wrong, share * (double)tally->miscounted, tally->unsettled, tally->unsettled_met,
-            tally->unsolved, 1e3 * mean, 1e3 * tally->slowest);
+        fprintf(file,
+                "%-22s %6.0e %6zu %6.1f %8.1f %8.1f %8.1f %8.1f %6.3g %9.3g %8llu %6zu %6.1f "
+                "%9zu/%-3zu %8zu %8.2f "
+                "%.0f",
+                name, tolerance, tally->judged, share * (double)tally->met,
+                share * (double)tally->covered, share * (double)tally->impulse_covered,
+                share * (double)tally->impulses, share * (double)tally->velocities,
+                tally_median_over(tally), tally->worst_share,
+                (unsigned long long)tally->worst_scene, tally->wrong,
+                share * (double)tally->miscounted, tally->unsettled, tally->unsettled_met,
+                tally->unsolved, 1e3 * mean, 1e3 * tally->slowest);
     for (size_t i = 0; i < tally->wrong && i < TALLY_NAMED; i++)
         fprintf(file, "%s%llu", i || !csv ? " " : "", (unsigned long long)tally->wrong_scenes[i]);
     fprintf(file, "\n");

@@ -19,6 +19,7 @@ struct verdict {
     double spread;     /* of the reference, see truth.h; INFINITY: none was found */
     double reported_impulse, true_impulse_error, impulse_spread; /* N s, of any contact */
     bool met;
+    bool impulses, velocities; /* each contact's and each body's own error covers it */
     size_t sub_impacts, true_sub_impacts;
     size_t modes;   /* of all bodies */
     double seconds; /* processor time */
@@ -29,9 +30,10 @@ enum { TALLY_NAMED = 12 };
 /* One line of the table. */
 struct tally {
     size_t judged, met, covered, impulse_covered, wrong, miscounted;
-    size_t unsettled;     /* the reference did not converge to a tenth of the tolerance */
-    size_t unsettled_met; /* and the answer claims to be within its tolerance */
-    size_t unsolved;      /* no restitution in the answer */
+    size_t impulses, velocities; /* covered of every contact, of every body */
+    size_t unsettled;            /* the reference did not converge to a tenth of the tolerance */
+    size_t unsettled_met;        /* and the answer claims to be within its tolerance */
+    size_t unsolved;             /* no restitution in the answer */
     uint64_t wrong_scenes[TALLY_NAMED];
     double worst_share; /* largest true error over the reported one */
     uint64_t worst_scene;

@@ -162,6 +162,24 @@ static void chains_of_blows_are_covered(void **state)
     campaign_release(&campaign);
 }
 
+/* Groups state what each impulse and each body's velocity may be wrong by. */
+static void impulses_and_velocities_are_covered(void **state)
+{
+    (void)state;
+    static const struct campaign_settings settings = {
+        .class = CLASS_ROW, .first = 3000, .count = 24, .effort = 1e8};
+    static struct campaign campaign;
+    campaign_run(&campaign, &settings);
+    for (int t = 0; t < CAMPAIGN_TOLERANCES; t++) {
+        const struct tally *tally = &campaign.all[t];
+        assert_true(tally->judged >= 20);
+        /* one of them may be uncovered */
+        assert_true(tally->impulses + 1 >= tally->judged);
+        assert_true(tally->velocities + 1 >= tally->judged);
+    }
+    campaign_release(&campaign);
+}
+
 /* An honest answer breaks nothing; what is done to it is seen. */
 static void broken_answers_are_seen(void **state)
 {
@@ -196,6 +214,7 @@ int main(void)
         cmocka_unit_test(references_settle_to_known_numbers),
         cmocka_unit_test(what_agrees_by_chance_is_not_met),
         cmocka_unit_test(chains_of_blows_are_covered),
+        cmocka_unit_test(impulses_and_velocities_are_covered),
         cmocka_unit_test(broken_answers_are_seen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

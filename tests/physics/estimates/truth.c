@@ -3,6 +3,8 @@
 
 #include "physics/estimates/truth.h"
 
+#include "model/rigid.h"
+#include "model/vector.h"
 #include "physics/estimates/drawn.h"
 #include "solve/assemble.h"
 #include "solve/attempt.h"
@@ -126,6 +128,18 @@ static bool solve_earlier(struct truth_room *room, const struct truth_settings *
     return true;
 }
 
+static void find_effects(const struct problem *problem, struct truth *truth)
+{
+    for (size_t c = 0; c < problem->contact_count; c++)
+        for (int which = 0; which < 2; which++) {
+            const struct contact_side *side = &problem->sides[c][which];
+            struct truth_effect *effect = &truth->effect[c][which];
+            *effect = (struct truth_effect){.body = side->body};
+            rigid_apply_impulse(problem->bodies[side->body], side->site.point, side->direction,
+                                effect->velocity, effect->angular_velocity);
+        }
+}
+
 static bool solve_level(struct truth_room *room, const struct body_set *set,
                         const struct solve_request *request, const struct truth_settings *settings,
                         const struct level *level, struct truth *truth)
@@ -157,6 +171,7 @@ static bool solve_level(struct truth_room *room, const struct body_set *set,
     truth->spread = first ? INFINITY : truth_distance(truth, impulse);
     truth->impulse_spread = first ? INFINITY : truth_impulse_distance(truth, impulse);
     memcpy(truth->impulse, impulse, sizeof impulse);
+    find_effects(problem, truth);
     truth->modes = level->modes;
     truth->levels++;
     truth->work += impact_work(&solved.assembly.scene, &outcome);
@@ -224,4 +239,55 @@ double truth_impulse_distance(const struct truth *truth, const double *impulse)
     for (size_t c = 0; c < truth->contacts; c++)
         distance = fmax(distance, fabs(impulse[c] - truth->impulse[c]));
     return distance;
+}
+
+/* Of the spread of a reference: what it leaves open is in the answer's favour. */
+static double left_open(const struct truth *truth, size_t contact)
+{
+    return fmin(truth->impulse_spread, truth->spread * truth->compression[contact]) +
+           1e-9 * truth->impulse[contact];
+}
+
+bool truth_covers_impulses(const struct truth *truth, const double *impulse, const double *given)
+{
+    for (size_t c = 0; c < truth->contacts; c++)
+        if (!(fabs(impulse[c] - truth->impulse[c]) <= given[c] + left_open(truth, c)))
+            return false;
+    return true;
+}
+
+/* What the contacts' changes make of a body's velocity and turning, and what is given for both. */
+struct sway {
+    double velocity[3], angular_velocity[3];
+    double given, given_angular;
+};
+
+static struct sway sway_of(const struct truth *truth, const double *impulse, const double *given,
+                           size_t body)
+{
+    struct sway sway = {0};
+    for (size_t c = 0; c < truth->contacts; c++)
+        for (int which = 0; which < 2; which++) {
+            const struct truth_effect *effect = &truth->effect[c][which];
+            double change = impulse[c] - truth->impulse[c];
+            double stated = given[c] + left_open(truth, c);
+            if (effect->body != body)
+                continue;
+            add_scaled3(change, effect->velocity, sway.velocity);
+            add_scaled3(change, effect->angular_velocity, sway.angular_velocity);
+            sway.given += stated * norm3(effect->velocity);
+            sway.given_angular += stated * norm3(effect->angular_velocity);
+        }
+    return sway;
+}
+
+bool truth_covers_velocities(const struct truth *truth, const double *impulse, const double *given)
+{
+    for (size_t b = 0; b < PERCUSS_MAX_BODIES; b++) {
+        struct sway sway = sway_of(truth, impulse, given, b);
+        if (!(norm3(sway.velocity) <= sway.given) ||
+            !(norm3(sway.angular_velocity) <= sway.given_angular))
+            return false;
+    }
+    return true;
 }

@@ -19,10 +19,17 @@ struct truth_settings {
     bool chatty;                         /* print each */
 };
 
+/* What a unit impulse of a contact does to one of its bodies, body frame. */
+struct truth_effect {
+    size_t body;
+    double velocity[3], angular_velocity[3];
+};
+
 struct truth {
     size_t contacts, sub_impacts; /* of all contacts together */
     double impulse[PERCUSS_MAX_CONTACTS];
     double compression[PERCUSS_MAX_CONTACTS]; /* impulses, Eq. (4) */
+    struct truth_effect effect[PERCUSS_MAX_CONTACTS][2];
     double spread;         /* between the last two solutions, in restitution; INFINITY: no two */
     double impulse_spread; /* in impulse, N s */
     size_t modes;          /* of a family, in the last one */
@@ -50,6 +57,11 @@ bool truth_by_cvode(struct truth_room *room, const struct body_set *set,
 
 /* Largest difference in restitution of any contact that approached, from a set of impulses. */
 double truth_distance(const struct truth *truth, const double *impulse);
+
+/* Whether errors of the impulses, `given` of each contact, cover the difference from a set of them:
+ * of all contacts; and what they make of the bodies' velocities together, of all bodies. */
+bool truth_covers_impulses(const struct truth *truth, const double *impulse, const double *given);
+bool truth_covers_velocities(const struct truth *truth, const double *impulse, const double *given);
 
 /* The same in impulse, of any contact, N s. */
 double truth_impulse_distance(const struct truth *truth, const double *impulse);

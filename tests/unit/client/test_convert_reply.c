@@ -48,6 +48,7 @@ static void contacts(void **state)
     assert_true(contact[0].impulse_compression == 14 && contact[0].restitution == 0.5);
     assert_true(contact[1].inverse_effective_mass == 15 && contact[1].end_time == 16);
     assert_true(isnan(contact[1].restitution));
+    assert_true(contact[0].impulse_error == 43);
     assert_int_equal(contact[0].sub_impact_count, 300);
     assert_int_equal(contact[0].sub_impacts_listed, 2);
     assert_int_equal(contact[1].sub_impacts_listed, 0);
@@ -65,6 +66,8 @@ static void bodies_after(void **state)
     assert_string_equal(reply.velocity_after[0].id, "sphere");
     assert_true(reply.velocity_after[0].velocity[0] == 17);
     assert_true(reply.velocity_after[0].angular_velocity[2] == 22);
+    assert_true(reply.velocity_after[0].velocity_error == 44);
+    assert_true(reply.velocity_after[0].angular_velocity_error == 45);
     assert_int_equal(reply.states_after_count, 2);
     assert_string_equal(reply.states_after[1].id, "beam");
     assert_string_equal(reply.states_after[1].state, "t2");
@@ -83,7 +86,7 @@ static void energy_error_and_model(void **state)
     assert_true(reply.error.impulse_time == 37 && reply.error.impulse_modes == 38);
     assert_true(isnan(reply.error.restitution_by_speed) && reply.error.tolerance_met);
     assert_true(reply.error.restitution_model == 40 && reply.error.restitution_total == 41);
-    assert_true(reply.error.total_met);
+    assert_true(reply.error.total_met && reply.error.restitution_yield == 42);
     assert_int_equal(reply.model.body_count, 1);
     assert_string_equal(reply.model.bodies[0].theory, "timoshenko");
     assert_int_equal(reply.model.bodies[0].modes, 24);

@@ -58,7 +58,8 @@ static void names_of_the_contract(void **state)
                        "energy,error,model,time_shift,warnings,timing");
     const json_t *contact = json_array_get(member(root, "contacts"), 0);
     expect_names(contact, "impulse,impulse_vector,impulse_compression,restitution,"
-                          "inverse_effective_mass,end_time,sub_impact_count,sub_impacts");
+                          "inverse_effective_mass,end_time,sub_impact_count,sub_impacts,"
+                          "impulse_error");
     expect_names(json_array_get(member(contact, "sub_impacts"), 0),
                  "start,compression_end,end,impulse,compression_impulse,peak_force,"
                  "max_indentation,gap_rate_before,gap_rate_after,negligible");
@@ -66,12 +67,14 @@ static void names_of_the_contract(void **state)
                  "available,rigid_after,vibration,damping,plastic,stored,closure");
     expect_names(member(root, "error"),
                  "restitution_total,total_met,restitution_time,restitution_modes,impulse_time,"
-                 "impulse_modes,restitution_by_speed,tolerance_met,restitution_model");
+                 "impulse_modes,restitution_by_speed,tolerance_met,restitution_model,"
+                 "restitution_yield");
     expect_names(member(root, "model"),
                  "bodies,contact_model,compliance,method,reason,omitted_error");
     expect_names(json_array_get(member(member(root, "model"), "bodies"), 0),
                  "id,modes,rigid,theory,shear_factor");
-    expect_names(json_array_get(member(root, "velocity_after"), 0), "id,velocity,angular_velocity");
+    expect_names(json_array_get(member(root, "velocity_after"), 0),
+                 "id,velocity,angular_velocity,velocity_error,angular_velocity_error");
     expect_names(json_array_get(member(root, "states_after"), 0), "id,state");
     expect_names(member(root, "timing"), "queue,solve");
 }

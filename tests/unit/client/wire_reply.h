@@ -50,6 +50,9 @@ static inline percuss_v1_Reply wire_reply(void)
                              .timing = {27, 28}};
     subs[1].negligible = true;
     contacts[0].restitution = 0.5;
+    contacts[0].impulse_error = 43;
+    velocities[0].velocity_error = 44;
+    velocities[0].angular_velocity_error = 45;
     contacts[0].sub_impact_count = 300; /* more than are listed */
     contacts[1].restitution = NAN;
     FILL(contacts[0].sub_impacts, subs);
@@ -63,7 +66,7 @@ static inline percuss_v1_Reply wire_reply(void)
                                       .stored = 33,
                                       .closure = 34};
     FILL(wire.energy.vibration, vibration);
-    wire.error = (percuss_v1_ErrorEstimate){35, 36, 37, 38, NAN, true, 40, 41, true};
+    wire.error = (percuss_v1_ErrorEstimate){35, 36, 37, 38, NAN, true, 40, 41, true, 42};
     FILL(wire.model.bodies, models);
     wire.model.contact_model = percuss_v1_CONTACT_MODEL_HERTZ;
     wire.model.compliance = percuss_v1_COMPLIANCE_HALF_SPACE;

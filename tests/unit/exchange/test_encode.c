@@ -75,6 +75,7 @@ static void all_undefined(const percuss_v1_Reply *reply)
         error->restitution_by_speed,
         error->restitution_model,
         error->restitution_total,
+        error->restitution_yield,
         reply->model.omitted_error,
     };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)

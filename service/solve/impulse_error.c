@@ -1,0 +1,101 @@
+/* Copyright 2026 The percuss authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+#include "solve/impulse_error.h"
+
+#include <math.h>
+
+#include "model/rigid.h"
+#include "model/vector.h"
+#include "solve/attempt.h"
+#include "solve/outcome.h"
+
+/* Solutions beside an answer agree on a contact by chance: no impulse is known better than so much
+ * of the largest change that they make of any, relative to its own. */
+static const double AGREED = 0.2;
+
+/* What the errors of the impulses make of a body's velocities, none of which is known to balance
+ * another. */
+static void find_velocities(const struct problem *problem, struct solve_result *result, size_t b)
+{
+    struct solve_body_result *body = &result->bodies[b];
+    body->velocity_error = body->angular_velocity_error = 0.0;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        for (int which = 0; which < 2; which++) {
+            const struct contact_side *side = &problem->sides[c][which];
+            double impulse[3];
+            double velocity[3] = {0.0, 0.0, 0.0};
+            double angular[3] = {0.0, 0.0, 0.0};
+            if (side->body != b)
+                continue;
+            scale3(result->contacts[c].impulse_error, side->direction, impulse);
+            rigid_apply_impulse(problem->bodies[b], side->site.point, impulse, velocity, angular);
+            body->velocity_error += norm3(velocity);
+            body->angular_velocity_error += norm3(angular);
+        }
+}
+
+static void report_velocity_errors(const struct problem *problem, struct solve_result *result)
+{
+    for (size_t b = 0; result->velocities_known && b < problem->body_count; b++)
+        find_velocities(problem, result, b);
+}
+
+void impulse_error_alone(const struct problem *problem, struct solve_result *result)
+{
+    struct solve_contact_result *contact = &result->contacts[0];
+    contact->impulse_error_model = result->restitution_model * contact->impulse_compression;
+    contact->impulse_error = result->restitution_total * contact->impulse_compression;
+    report_velocity_errors(problem, result);
+}
+
+/* Of all contacts of a group, the largest change that solutions beside the answer make, relative to
+ * the contact's scale. */
+static double largest_share(const struct problem *problem, const struct solution *solution)
+{
+    double largest = 0.0;
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        double scale = outcome_impulse_scale(problem, &solution->outcome, c);
+        double distance = nearby_impulse_distance(&solution->nearby, &solution->outcome, c);
+        if (scale > 0.0)
+            largest = fmax(largest, distance / scale);
+    }
+    return largest;
+}
+
+/* By modes and steps. */
+static double numerical(const struct problem *problem, const struct solution *solution, size_t c,
+                        double largest)
+{
+    double scale = outcome_impulse_scale(problem, &solution->outcome, c);
+    double distance = nearby_impulse_distance(&solution->nearby, &solution->outcome, c);
+    double error = solution->farther * fmax(distance, AGREED * largest * scale);
+    double steps = attempt_steps_leave(solution->step_accuracy);
+    return fmax(error, steps * scale) + solution->start * scale;
+}
+
+void impulse_error_report(const struct problem *problem, const struct solution *solution,
+                          const struct model_error *model, double start,
+                          struct solve_result *result)
+{
+    if (problem->contact_count == 1 && problem->impulse_compression[0] > 0.0) {
+        impulse_error_alone(problem, result);
+        return;
+    }
+    double largest = largest_share(problem, solution);
+    double most = 0.0;
+    bool alone = problem->contact_count == 1;
+    for (size_t c = 0; c < problem->contact_count; c++)
+        most = fmax(most, 2.0 * outcome_impulse_scale(problem, &solution->outcome, c));
+    for (size_t c = 0; c < problem->contact_count; c++) {
+        struct solve_contact_result *contact = &result->contacts[c];
+        double scale = outcome_impulse_scale(problem, &solution->outcome, c);
+        double solved = alone ? result->impulse_time + result->impulse_modes
+                              : numerical(problem, solution, c, largest);
+        /* from none to a full rebound of the hardest blow */
+        double range = fmax(contact->impulse, most - contact->impulse);
+        contact->impulse_error_model = fmin(model->impulse[c] + start * scale, range);
+        contact->impulse_error = fmin(contact->impulse_error_model + solved, range);
+    }
+    report_velocity_errors(problem, result);
+}
