@@ -83,15 +83,15 @@ percuss_package(tools percuss-tools science
   SUMMARY "questions about impacts on the command line"
   TEXT "percuss asks a percussd about impacts, percuss-reduce makes bodies from
 meshes, and percuss-tables computes contact tables ahead of time."
-  DEPENDS "libpercuss0 ${alike}"
-  RECOMMENDS "percuss-daemon ${alike}" "libpercuss-local0 ${alike}" "gnuplot-nox | gnuplot")
-percuss_package(library libpercuss0 libs
+  DEPENDS "libpercuss${PERCUSS_SOVERSION} ${alike}"
+  RECOMMENDS "percuss-daemon ${alike}" "libpercuss-local${PERCUSS_SOVERSION} ${alike}" "gnuplot-nox | gnuplot")
+percuss_package(library libpercuss${PERCUSS_SOVERSION} libs
   SUMMARY "asking what an impact does, from C"
   TEXT "libpercuss asks a percussd over DDS, which it hides,
 libpercuss-slowscale applies the answers in a multibody engine, and
 libpercuss-measured puts measured impacts beside simulated ones."
   CONTROL ${packaging}/library/triggers)
-percuss_package(local libpercuss-local0 libs
+percuss_package(local libpercuss-local${PERCUSS_SOVERSION} libs
   SUMMARY "what an impact does, computed in a program's own process"
   TEXT "libpercuss-local answers as percussd does, without one: the solver is in the
 library. Its default catalogue and contact tables are those of percuss-daemon."
@@ -102,18 +102,18 @@ percuss_package(fmi percuss-fmu science
   TEXT "Two Functional Mock-up Units of FMI 3.0 in /usr/lib/*/percuss: a law of
 impact, and a body that falls. Each has the solver, the shipped bodies and
 their contact tables in it; the libraries of algebra come with
-libpercuss-local0."
-  DEPENDS "libpercuss-local0 ${alike}")
+libpercuss-local${PERCUSS_SOVERSION}."
+  DEPENDS "libpercuss-local${PERCUSS_SOVERSION} ${alike}")
 percuss_package(development libpercuss-dev libdevel
   SUMMARY "asking what an impact does, from C: headers"
   TEXT "Headers, pkg-config and CMake files of libpercuss, libpercuss-local,
 libpercuss-slowscale and libpercuss-measured, the IDL of what percussd reads and writes, and examples."
-  DEPENDS "libpercuss0 ${alike}" "libpercuss-local0 ${alike}")
+  DEPENDS "libpercuss${PERCUSS_SOVERSION} ${alike}" "libpercuss-local${PERCUSS_SOVERSION} ${alike}")
 percuss_package(python python3-percuss python ANY_MACHINE
   SUMMARY "asking what an impact does, from Python"
   TEXT "A package around libpercuss: requests and replies as dataclasses, arrays
 by numpy."
-  DEPENDS "libpercuss0 ${alike}" "python3:any" "python3-numpy"
+  DEPENDS "libpercuss${PERCUSS_SOVERSION} ${alike}" "python3:any" "python3-numpy"
   CONTROL ${packaging}/python/postinst ${packaging}/python/prerm)
 percuss_package(documents percuss-doc doc ANY_MACHINE
   SUMMARY "what percuss computes and how it is used"

@@ -44,14 +44,14 @@ tree=$(echo "$work"/unpacked/percuss-*)
 # with libraries, each once by the name that is loaded, and what they find from where they lie
 mkdir -p "$work/plain" "$tree/percuss/lib" "$tree/percuss/share/percuss" "$tree/percuss/licences"
 for library in libpercuss libpercuss-local libpercuss-measured libpercuss-slowscale; do
-    cp -L "$(find "$work/prefix" -name "$library.so.0")" "$tree/percuss/lib"
+    cp -L "$(find "$work/prefix" -name "$library.so.[0-9]")" "$tree/percuss/lib"
 done
 for name in percussd.yaml catalogue.yaml tables bodies; do
     cp -R "$work/prefix/share/percuss/$name" "$tree/percuss/share/percuss"
 done
 
 # with the licences of what comes along
-ldd "$tree"/percuss/lib/*.so.0 | awk '$3 ~ /^\// { print $3 }' | sort -u | while read -r library; do
+ldd "$tree"/percuss/lib/*.so.[0-9] | awk '$3 ~ /^\// { print $3 }' | sort -u | while read -r library; do
     path=$(readlink -f "$library")
     package=$(dpkg-query -S "$path" "${path#/usr}" 2>/dev/null | sed -n '1s/:.*//p')
     case $package in

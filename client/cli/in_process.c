@@ -17,7 +17,7 @@ struct library {
 /* It stays loaded till the end. False: it is not there, which is complained of. */
 static bool load(struct library *library)
 {
-    void *handle = dlopen("libpercuss-local.so.0", RTLD_NOW | RTLD_LOCAL);
+    void *handle = dlopen("libpercuss-local.so." PERCUSS_SOVERSION, RTLD_NOW | RTLD_LOCAL);
     if (handle) {
         *(void **)&library->config_default = dlsym(handle, "percuss_local_config_default");
         *(void **)&library->open = dlsym(handle, "percuss_local_open");

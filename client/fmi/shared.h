@@ -62,8 +62,9 @@ struct shared {
                           "whether a percussd is asked, instead of solving in this process")},     \
         {"domain", SHARED_PARAMETER(INT32, source.domain, NULL, 0.0, NULL,                         \
                                     "DDS domain of that percussd, 0..230")},                       \
-        {"library", SHARED_PARAMETER(STRING, source.library, NULL, 0.0, "libpercuss.so.0",         \
-                                     "the client library that asks it")},                          \
+        {"library",                                                                                \
+         SHARED_PARAMETER(STRING, source.library, NULL, 0.0, "libpercuss.so." PERCUSS_SOVERSION,   \
+                          "the client library that asks it")},                                     \
         {"impulse", SHARED_RESULT(FLOAT64, last.impulse, "N.s",                                    \
                                   "of the last impact, along the normal: on A, against it on B")}, \
         {"restitution", SHARED_RESULT(FLOAT64, last.restitution, NULL,                             \

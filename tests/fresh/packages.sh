@@ -176,7 +176,7 @@ grep -q 'sudo refuses; ask the administrator' "$said" || fail "the refusal is no
 grep -q "$line" "$said" || fail "no line for the administrator"
 
 echo "- removed: settings and specimens stay; purged: only the specimens"
-apt remove percuss-daemon percuss-tools percuss-fmu libpercuss0 libpercuss-local0 libpercuss-dev python3-percuss percuss-doc
+apt remove percuss-daemon percuss-tools percuss-fmu libpercuss1 libpercuss-local1 libpercuss-dev python3-percuss percuss-doc
 [ -z "$(find /usr -path '*percuss*' ! -path "$PWD*" ! -name '*.pyc' -type f)" ] || {
     find /usr -path '*percuss*' >"$said"
     fail "files are left"

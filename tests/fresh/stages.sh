@@ -139,7 +139,7 @@ stage_systemd() {
     cp tests/fresh/unit.sh "$root"
     inside apt-get update || fail "apt-get update"
     inside sh -c 'apt-get install -y --no-install-recommends systemd systemd-sysv dbus \
-        /packages/percuss-daemon_*.deb /packages/percuss-tools_*.deb /packages/libpercuss0_*.deb' || fail "apt-get install"
+        /packages/percuss-daemon_*.deb /packages/percuss-tools_*.deb /packages/libpercuss1_*.deb' || fail "apt-get install"
     umount -R "$root/dev" "$root/proc" "$root/run/domains"
     timeout -s KILL 180 unshare --mount --pid --fork --kill-child --uts --ipc --net --cgroup \
         sh tests/fresh/boot.sh "$root" >>"$log" 2>&1 || true

@@ -15,7 +15,7 @@ scenes=$(cd "$1" && pwd)
 record=$2
 
 python() {
-    PYTHONPATH=$source_dir/client/python PERCUSS_LIBRARY=$build/client/libpercuss.so.0 PYTHONDONTWRITEBYTECODE=1 \
+    PYTHONPATH=$source_dir/client/python PERCUSS_LIBRARY=$build/client/libpercuss.so PYTHONDONTWRITEBYTECODE=1 \
         "${PERCUSS_PYTHON:-python3}" "$ask_py" "$@" 9>&-
 }
 

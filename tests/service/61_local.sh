@@ -122,7 +122,7 @@ says "wrong.yaml:"
 says "bodies.al-rod.radius"
 
 say "a plugin loads and unloads it, threads and all"
-library=$build/client/libpercuss-local.so.0
+library=$build/client/libpercuss-local.so
 if is_sanitized; then
     say "  not looked at: a sanitizer keeps it"
 else

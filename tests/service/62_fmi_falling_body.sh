@@ -34,6 +34,6 @@ diff "$work/wanted" "$work/found" >"$out" || fail "not the functions of the stan
 for source in "$source_dir"/client/fmi/*.c; do
     # with the standard's declarations in place of ours
     expect 0 cc -std=gnu17 -fsyntax-only -Werror=incompatible-pointer-types -DPERCUSS_FMI3_H -DPERCUSS_FMI3_TYPES_H \
-        -D_GNU_SOURCE -DPERCUSS_VERSION='""' -I"$headers" -include fmi3Functions.h -DFMI3_PLAIN_TYPES= \
-        -I"$source_dir/client/include" -I"$source_dir/idl" "$source"
+        -D_GNU_SOURCE -DPERCUSS_VERSION='""' -DPERCUSS_SOVERSION='""' -I"$headers" -include fmi3Functions.h \
+        -DFMI3_PLAIN_TYPES= -I"$source_dir/client/include" -I"$source_dir/idl" "$source"
 done

@@ -15,6 +15,6 @@ start_daemon
 expect 0 "$venv/bin/fmpy" validate "$fmu"
 shows "No problems found."
 expect 0 "$venv/bin/python" "$here/fmi_impact_law.py" "$fmu" "$bin/percuss" \
-    "$build/client/libpercuss.so.0" "$domain"
+    "$build/client/libpercuss.so" "$domain"
 shows "e = 0.1662"
 stop_daemon

@@ -11,7 +11,7 @@ venv=$build/python-venv
     exit 77
 }
 PATH=$venv/bin:$PATH
-PERCUSS_LIBRARY=$build/client/libpercuss.so.0
+PERCUSS_LIBRARY=$build/client/libpercuss.so
 PERCUSS_DOMAIN=$domain
 export PATH PERCUSS_LIBRARY PERCUSS_DOMAIN
 prints() { # PATTERN

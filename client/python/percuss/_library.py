@@ -6,10 +6,10 @@ import ctypes
 import os
 from pathlib import Path
 
-VERSION = "0.1.0"
+VERSION = "0.2.0"
 
 # the interface's number in the library's name; the layouts in _abi.py are those of this one
-_NUMBER = "so.0"
+_NUMBER = "so.1"
 
 
 def _candidates(name: str) -> list[str]:

@@ -12,7 +12,7 @@ set -eu
 . "$PERCUSS_SOURCE/tests/service/lib.sh"
 PATH=$PERCUSS_VENV/bin:$PATH
 PERCUSS_DOMAIN=$domain
-PERCUSS_LIBRARY=$build/client/libpercuss.so.0
+PERCUSS_LIBRARY=$build/client/libpercuss.so
 export PATH PERCUSS_DOMAIN PERCUSS_LIBRARY
 
 start_daemon

@@ -400,11 +400,11 @@ class Mistakes(Beside):
             percuss.connect(domain=229, timeout=0.2)
 
     def test_library_is_looked_for(self) -> None:
-        environment = {**os.environ, "PERCUSS_LIBRARY": "/nowhere/libpercuss.so.0"}
+        environment = {**os.environ, "PERCUSS_LIBRARY": "/nowhere/libpercuss.so.1"}
         command = [sys.executable, "-c", "import percuss"]
         failed = subprocess.run(command, env=environment, capture_output=True, text=True)
         self.assertIn("set PERCUSS_LIBRARY", failed.stderr)
-        self.assertIn("/nowhere/libpercuss.so.0", failed.stderr)
+        self.assertIn("/nowhere/libpercuss.so.1", failed.stderr)
         # the build tree beside the source, without any help
         environment = {**os.environ, "PYTHONPATH": os.environ["PERCUSS_SOURCE"] + "/client/python"}
         del environment["PERCUSS_LIBRARY"]
@@ -413,15 +413,15 @@ class Mistakes(Beside):
     def test_build_comes_before_others(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             for build in ("build-address", "build", "build-thread"):
-                library = Path(folder, build, "client", "libx.so.0")
+                library = Path(folder, build, "client", "libx.so.1")
                 library.parent.mkdir(parents=True)
                 library.touch()
             here = Path(folder, "client", "python", "percuss", "_library.py")
             with mock.patch.dict(os.environ), mock.patch.object(_library, "__file__", str(here)):
                 del os.environ["PERCUSS_LIBRARY"]
-                found = _library._candidates("libx.so.0")
+                found = _library._candidates("libx.so.1")
         builds = [Path(one).parts[-3] for one in found[1:]]
-        self.assertEqual((found[0], builds), ("libx.so.0", ["build", "build-address", "build-thread"]))
+        self.assertEqual((found[0], builds), ("libx.so.1", ["build", "build-address", "build-thread"]))
 
 
 if __name__ == "__main__":
