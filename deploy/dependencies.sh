@@ -13,7 +13,8 @@ liblapacke-dev libyaml-dev libjansson-dev libcminpack-dev gnuplot-nox librandom1
 libmumps-seq-dev libhdf5-dev libssl-dev"
 test="libcmocka-dev python3-venv libmujoco-dev valgrind openssl iproute2 mount gmsh calculix-ccx
 python3-prometheus-client libudunits2-dev python3-jsonschema zsh fish
-python3-sphinx python3-myst-parser g++ libfastrtps-dev fastddsgen poppler-utils"
+python3-sphinx python3-myst-parser g++ libfastrtps-dev fastddsgen poppler-utils
+dwarves doxygen"
 mpi="libslepc-real-dev mpi-default-dev mpi-default-bin"
 package="dpkg-dev file"
 ci="clang libclang-rt-14-dev mmdebstrap lintian"
