@@ -49,3 +49,15 @@ if(SPHINX_BUILD AND PERCUSS_HAVE_MYST)
 else()
   message(STATUS "without sphinx-build and MyST: no target site")
 endif()
+
+# the reference of the C interface, in build/reference
+find_program(DOXYGEN doxygen)
+if(DOXYGEN)
+  add_custom_target(docs VERBATIM COMMAND sh ${PROJECT_SOURCE_DIR}/deploy/reference/make.sh ${PROJECT_SOURCE_DIR}
+    ${PROJECT_BINARY_DIR}/reference)
+  if(BUILD_TESTING)
+    add_test(NAME c_reference COMMAND sh ${PROJECT_SOURCE_DIR}/tests/site/c_reference.sh ${PROJECT_SOURCE_DIR})
+  endif()
+else()
+  message(STATUS "without doxygen: no target docs")
+endif()

@@ -28,8 +28,10 @@ PERCUSS_API enum percuss_result percuss_solve_ensemble(
     struct percuss_client *client, const struct percuss_ensemble_request *request, double timeout,
     percuss_progress_function *progress, void *context, struct percuss_ensemble_reply *reply);
 
+/* Releases the arrays and empties the reply; NULL is allowed. */
 PERCUSS_API void percuss_ensemble_reply_free(struct percuss_ensemble_reply *reply);
 
+/* As percuss_status_name. */
 PERCUSS_API const char *percuss_distribution_name(unsigned distribution);
 PERCUSS_API const char *percuss_sampling_name(unsigned sampling);
 

@@ -103,6 +103,7 @@ percuss_measured_create(size_t count, const struct percuss_measured_impact *impa
                         struct percuss_measured **measured);
 PERCUSS_API void percuss_measured_free(struct percuss_measured *measured);
 
+/* The number of impacts. */
 PERCUSS_API size_t percuss_measured_count(const struct percuss_measured *measured);
 
 /* What was noticed when they were taken, such as rows that were left out, a text each, the

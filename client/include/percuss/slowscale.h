@@ -112,6 +112,7 @@ struct percuss_slow_counts {
                            vibration then */
     uint64_t declared;  /* impacts solved with the declared restitution */
 };
+/* The work done since percuss_slow_create. */
 PERCUSS_API struct percuss_slow_counts percuss_slow_counts(const struct percuss_slow *slow);
 
 /* What went wrong in the thread's last call that did not return OK, or was given a NULL. */
