@@ -17,7 +17,7 @@ python3-sphinx python3-myst-parser g++ libfastrtps-dev fastddsgen poppler-utils
 dwarves doxygen"
 mpi="libslepc-real-dev mpi-default-dev mpi-default-bin"
 package="dpkg-dev file"
-ci="clang libclang-rt-14-dev mmdebstrap lintian"
+ci="clang clang-tidy libclang-rt-14-dev mmdebstrap lintian"
 
 case ${1:-build} in
 build) packages=$build ;;

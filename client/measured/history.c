@@ -157,7 +157,7 @@ static double crossing(const struct search *search, struct range range, double l
 {
     const double *t = search->history->time;
     size_t m = search->window / 4;
-    size_t i = range.first;
+    size_t i;
     double previous = 0.0;
     /* where half of the jump is made */
     for (i = range.first; i + 1 < range.end; i++)

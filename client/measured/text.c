@@ -156,7 +156,7 @@ static void unify_line_ends(uint8_t *text)
 static uint8_t *decode(const uint8_t *bytes, size_t size, size_t *length)
 {
     static const uint8_t mark[] = {0xEF, 0xBB, 0xBF};
-    uint8_t *text = malloc(3 * size + 1), *end = text;
+    uint8_t *text = malloc(3 * size + 1), *end;
     if (!text)
         return NULL;
     if (size >= 2 && bytes[0] == 0xFF && bytes[1] == 0xFE) {
