@@ -61,7 +61,8 @@ say "yield: none is as elastic, and silent"
 elastic=$(percuss query --a ball --b wall --speed 4.43 --json 2>/dev/null | grep -m 1 '"restitution"')
 expect 0 percuss query --a idol --b stage --speed 4.43 --json
 [ "$(grep -m 1 '"restitution"' "$out")" = "$elastic" ] || fail "another restitution"
-! grep -q "yield" "$out" || fail "told"
+! grep -q "no yield\|yield above" "$out" || fail "told"
+awk -v e="$(field restitution_yield)" 'BEGIN { exit !(e == 0) }' || fail "the error of a yield"
 awk -v e="$(field restitution_model)" 'BEGIN { exit !(e < 0.001) }' || fail "the models' error"
 
 say "the same in process"
