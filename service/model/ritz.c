@@ -43,7 +43,6 @@ struct ritz_class {
 };
 
 struct ritz {
-    struct ritz_shape asked;
     double poisson;
     bool round;
     double side[3], mass;
@@ -103,12 +102,6 @@ bool ritz_reaches(const struct ritz_shape *shape)
     const double *side = shape->side;
     double longest = fmax(side[0], fmax(side[1], side[2]));
     return fmin(side[0], fmin(side[1], side[2])) >= THINNEST * longest;
-}
-
-bool ritz_is_of(const struct ritz *ritz, const struct ritz_shape *shape, double poisson)
-{
-    return ritz->poisson == poisson && ritz->round == shape->round &&
-           memcmp(ritz->asked.side, shape->side, sizeof shape->side) == 0;
 }
 
 size_t ritz_mode_count(const struct ritz *ritz)
@@ -496,7 +489,6 @@ struct ritz *ritz_create(const struct ritz_shape *shape, double poisson, struct 
     double longest = fmax(side[0], fmax(side[1], side[2]));
     if (!ritz)
         return NULL;
-    ritz->asked = *shape;
     ritz->round = shape->round;
     ritz->poisson = poisson;
     ritz->mass = shape->round ? 0.25 * M_PI : 1.0;

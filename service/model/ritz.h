@@ -41,9 +41,6 @@ void ritz_free(struct ritz *ritz); /* NULL is allowed */
 /* What it holds, but for small things, bytes. */
 size_t ritz_size(const struct ritz *ritz);
 
-/* Whether it is of these proportions, to the last bit. */
-bool ritz_is_of(const struct ritz *ritz, const struct ritz_shape *shape, double poisson);
-
 /* Elastic modes, ascending: as many as the polynomials resolve to some 1e-3. */
 size_t ritz_mode_count(const struct ritz *ritz);
 const double *ritz_omega(const struct ritz *ritz);

@@ -72,7 +72,7 @@ static void free_box(struct ritz_box *box)
     free(box);
 }
 
-/* While it is taken: what nobody holds beyond so many bytes, oldest ones. */
+/* With the store taken: drops the oldest boxes that are not held, beyond so many bytes. */
 static void trim(struct ritz_store *store, size_t bytes)
 {
     size_t kept = 0;
@@ -102,7 +102,7 @@ void ritz_store_free(struct ritz_store *store)
     free(store);
 }
 
-/* While it is taken: the one of these proportions, taken out; or NULL. */
+/* With the store taken: removes the box of these proportions from the list; NULL: there is none. */
 static struct ritz_box *take_out(struct ritz_store *store, const struct ritz_shape *shape,
                                  double poisson)
 {
@@ -123,8 +123,9 @@ static void put_first(struct ritz_store *store, struct ritz_box *box)
     store->boxes = box;
 }
 
-/* The one of these proportions, held: to be computed by the caller where *mine, else by another
- * thread while it has no vibration; then it is not held. NULL: out of memory. */
+/* The box of these proportions. *mine: it is new, held, and the caller computes it. *ready: it is
+ * computed and held. Neither: another thread computes it, and it is not held. NULL: out of memory.
+ */
 static struct ritz_box *find(struct ritz_store *store, const struct ritz_shape *shape,
                              double poisson, bool *mine, bool *ready)
 {
@@ -144,7 +145,7 @@ static struct ritz_box *find(struct ritz_store *store, const struct ritz_shape *
     return box;
 }
 
-/* What find left to the caller. */
+/* Computes a new box. NULL: out of memory, or stopped; the box is gone. */
 static struct ritz_box *compute(struct ritz_store *store, struct ritz_box *box, struct pace *pace)
 {
     struct ritz *made = ritz_create(&box->shape, box->poisson, pace);
@@ -193,7 +194,7 @@ const struct ritz *ritz_box_vibration(const struct ritz_box *box)
     return box->ritz;
 }
 
-/* While it is taken. */
+/* With the store taken. */
 static const struct place *find_place(const struct ritz_box *box, int axis, int side,
                                       const double point[3])
 {

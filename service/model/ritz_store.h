@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Vibrations of boxes and cylinders (ritz.h) that threads share: each is computed once, and kept
- * while somebody holds it, or while there is room. */
+ * while a thread holds it, or while there is room. */
 #ifndef PERCUSS_MODEL_RITZ_STORE_H
 #define PERCUSS_MODEL_RITZ_STORE_H
 
@@ -11,13 +11,13 @@
 struct ritz_store;
 struct ritz_box; /* one of it: a vibration, and its flexibility at some places */
 
-/* Keeps what nobody holds while all take no more than so many bytes: RITZ_STORE_BYTES lets the
- * pilots of an ensemble of a varied size or Poisson's ratio find theirs again, of some 4 to 30 MB.
- * NULL: out of memory. */
+/* A store that drops the oldest boxes that are not held once all take more than `bytes`. One takes
+ * some 4 to 30 MB: in RITZ_STORE_BYTES the pilots of an ensemble of a varied size or Poisson's
+ * ratio find theirs again. NULL: out of memory. */
 struct ritz_store *ritz_store_create(size_t bytes);
 enum { RITZ_STORE_BYTES = 128 << 20 };
 
-/* One more owner of it; it goes with the last one, who has released all that he holds. NULL is
+/* One more owner. The last owner's free ends the store; by then every box must be released. NULL is
  * allowed in both. */
 struct ritz_store *ritz_store_share(struct ritz_store *store);
 void ritz_store_free(struct ritz_store *store);
@@ -29,7 +29,7 @@ struct ritz_box *ritz_store_hold(struct ritz_store *store, const struct ritz_sha
                                  double poisson, struct pace *pace);
 void ritz_store_release(struct ritz_store *store, struct ritz_box *box);
 
-/* Of one that is held. ritz_flexibility is kept of the last places. */
+/* Both of a box that is held. The second one is ritz_flexibility, kept for the last places. */
 const struct ritz *ritz_box_vibration(const struct ritz_box *box);
 double ritz_box_flexibility(struct ritz_store *store, struct ritz_box *box, int axis, int side,
                             const double point[3]);

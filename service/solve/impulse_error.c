@@ -14,31 +14,32 @@
  * of the largest change that they make of any, relative to its own. */
 static const double AGREED = 0.2;
 
-/* What the errors of the impulses make of a body's velocities, none of which is known to balance
- * another. */
-static void find_velocities(const struct problem *problem, struct solve_result *result, size_t b)
+/* Adds what the error of a contact's impulse makes of the velocities of one of its bodies. */
+static void add_velocity_error(const struct problem *problem, const struct contact_side *side,
+                               double impulse_error, struct solve_body_result *body)
 {
-    struct solve_body_result *body = &result->bodies[b];
-    body->velocity_error = body->angular_velocity_error = 0.0;
+    double impulse[3];
+    double velocity[3] = {0.0, 0.0, 0.0};
+    double angular[3] = {0.0, 0.0, 0.0};
+    scale3(impulse_error, side->direction, impulse);
+    rigid_apply_impulse(problem->bodies[side->body], side->site.point, impulse, velocity, angular);
+    body->velocity_error += norm3(velocity);
+    body->angular_velocity_error += norm3(angular);
+}
+
+/* The errors of a body's contacts add up: none of them is known to balance another. */
+static void report_velocity_errors(const struct problem *problem, struct solve_result *result)
+{
+    if (!result->velocities_known)
+        return;
+    for (size_t b = 0; b < problem->body_count; b++)
+        result->bodies[b].velocity_error = result->bodies[b].angular_velocity_error = 0.0;
     for (size_t c = 0; c < problem->contact_count; c++)
         for (int which = 0; which < 2; which++) {
             const struct contact_side *side = &problem->sides[c][which];
-            double impulse[3];
-            double velocity[3] = {0.0, 0.0, 0.0};
-            double angular[3] = {0.0, 0.0, 0.0};
-            if (side->body != b)
-                continue;
-            scale3(result->contacts[c].impulse_error, side->direction, impulse);
-            rigid_apply_impulse(problem->bodies[b], side->site.point, impulse, velocity, angular);
-            body->velocity_error += norm3(velocity);
-            body->angular_velocity_error += norm3(angular);
+            add_velocity_error(problem, side, result->contacts[c].impulse_error,
+                               &result->bodies[side->body]);
         }
-}
-
-static void report_velocity_errors(const struct problem *problem, struct solve_result *result)
-{
-    for (size_t b = 0; result->velocities_known && b < problem->body_count; b++)
-        find_velocities(problem, result, b);
 }
 
 void impulse_error_alone(const struct problem *problem, struct solve_result *result)
