@@ -6,6 +6,7 @@
 # sanitizers, in build-fuzz/. What is found lies in build-fuzz/findings; to be kept in tests/fuzz/corpus
 # once it is mended. New inputs are kept in build-fuzz/inputs from run to run.
 # usage: fuzz.sh [SECONDS [HARNESS...]]    of each harness, 5 by default; all of them
+# PERCUSS_FUZZ_SEED=N: the inputs that N gives; without it others in each run
 set -eu
 cd "$(dirname "$0")/.."
 seconds=${1:-5}
@@ -35,6 +36,7 @@ for harness in "$@"; do
     done <"$root/build-fuzz/tests/fuzz/$harness.seeds"
     code=0
     "$root/build-fuzz/tests/fuzz/fuzz_$harness" "$inputs" -max_total_time="$seconds" \
+        -seed="${PERCUSS_FUZZ_SEED:-0}" \
         -timeout="$patience" -rss_limit_mb=3000 -malloc_limit_mb=100000 -print_final_stats=1 \
         -artifact_prefix="$root/build-fuzz/findings/$harness-" >/dev/null 2>"$log" || code=$?
     runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
