@@ -33,6 +33,11 @@ static double gap_rate_of(const struct solve_request *request, size_t contact)
     return dot3(request->contacts[contact].normal, relative);
 }
 
+static bool is_beam(const struct body *body)
+{
+    return body->second_moment[0] > 0.0;
+}
+
 /* Whether the (only) contact is on the side of this body, not on its end: x is along its axis. */
 static bool is_on_side(const struct solve_request *request, size_t body)
 {
@@ -51,7 +56,7 @@ static enum percuss_status check_site(const struct variation *variation, size_t 
     const struct body *body = body_set_find(spec->catalogue, id);
     const struct solve_contact *contact = &spec->request->contacts[0];
     bool touches = contact->a == input->body || contact->b == input->body;
-    if (touches && body_bends(body) && is_on_side(spec->request, input->body))
+    if (touches && is_beam(body) && is_on_side(spec->request, input->body))
         return PERCUSS_OK;
     return fault_set(fault, PERCUSS_BAD_REQUEST,
                      "inputs[%zu].body: %s: must be a beam that is hit on its side for the "
@@ -146,7 +151,7 @@ static void keep_touching(struct variation *variation, const char *id, double gr
     for (int side = 0; side < 2; side++) {
         size_t index = side == 0 ? contact->a : contact->b;
         bool round =
-            body_solid(body).form == SOLID_BALL || (body_bends(body) && is_on_side(request, index));
+            body_solid(body).form == SOLID_BALL || (is_beam(body) && is_on_side(request, index));
         if (round && strcmp(request->bodies[index].id, id) == 0)
             move(request->bodies[index].position, contact->normal, side == 0 ? growth : -growth);
     }

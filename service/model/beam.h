@@ -11,6 +11,9 @@
 
 #include "model/body.h"
 
+/* Broader sections, in depths, bend across their breadth as well: a beam is none of theirs. */
+#define BEAM_BROADEST 2.5
+
 /* One plane of bending. x runs from -length/2 to +length/2. */
 struct beam_plane {
     double length;

@@ -2,12 +2,15 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 #include <math.h>
+#include <string.h>
 
 #include "model/bar.h"
 #include "model/beam.h"
 #include "model/beam_families.h"
 #include "model/key.h"
 #include "model/longitudinal.h"
+#include "model/mesh_family.h"
+#include "model/ritz.h"
 #include "model/torsion.h"
 
 static const char *const ends[] = {
@@ -35,7 +38,9 @@ static const struct key keys[] = {
     {"diameter", KEY_TWICE, &limit_diameter, KEY_OF(body, radius),
      KEY_SAYS("radius or section stands instead", "twice the radius")},
     {"section", KEY_SECTION, .nested = &keys_section,
-     KEY_SAYS("radius or diameter stands instead", "a rectangular section")},
+     KEY_SAYS("radius or diameter stands instead",
+              "a rectangular section; the vibration of a free beam more than 2.5 times as broad as "
+              "deep is a block's unless shear_factor is stated")},
     {"length", KEY_NUMBER, &limit_length, true, KEY_OF(body, length),
      KEY_SAYS(NULL, "along its axis, which is x")},
     {"tip_radius", KEY_NUMBER, &limit_length, KEY_OF(body, tip_radius), .absent = INFINITY,
@@ -56,6 +61,9 @@ static const struct key keys[] = {
     {"modes", KEY_WHOLE, &limit_modes, KEY_OF(body, modes),
      KEY_SAYS("as many as the tolerance asks for", "fixed number of modes")},
 };
+
+/* A beam in the catalogue whose vibration is a block's. */
+static const struct body_kind strip_kind;
 
 static bool is_round(const struct body *body)
 {
@@ -157,9 +165,37 @@ static void shear_factors(struct body *body)
     }
 }
 
+static bool box(const struct body *body, struct ritz_shape *shape)
+{
+    *shape = (struct ritz_shape){.side = {body->size[0], body->size[1], body->size[2]}};
+    return ritz_reaches(shape);
+}
+
+/* A free strip bends across its breadth, too, as a block does: its vibration is a block's, unless a
+ * theory of beams is asked for. */
+static void choose_kind(struct body *body)
+{
+    double w = body->width, h = body->height;
+    struct ritz_shape shape;
+    bool broad = !is_round(body) && fmax(w, h) > BEAM_BROADEST * fmin(w, h);
+    bool held = body->supports[0] != SUPPORT_FREE || body->supports[1] != SUPPORT_FREE;
+    bool asked = body->theory != THEORY_TIMOSHENKO || body->shear_rule != SHEAR_ABSENT;
+
+    body->kind = &beam_kind;
+    memset(body->size, 0, sizeof body->size);
+    if (!broad || held || asked)
+        return;
+    memcpy(body->size, (const double[]){body->length, w, h}, sizeof body->size);
+    if (box(body, &shape))
+        body->kind = &strip_kind;
+    else
+        memset(body->size, 0, sizeof body->size);
+}
+
 static enum percuss_status complete(struct body *body, struct fault *fault)
 {
     complete_section(body);
+    choose_kind(body);
     if (body->theory == THEORY_EULER_BERNOULLI)
         return PERCUSS_OK;
     shear_factors(body);
@@ -184,6 +220,8 @@ static double smallest_radius(const struct body *body)
 static int find_faces(const struct body *body, const double p[3], struct face *faces)
 {
     const double half[3] = {0.5 * body->length, 0.5 * body->width, 0.5 * body->height};
+    if (body->kind->box)
+        return face_box(half, p, faces);
     int count = is_round(body) ? bar_round_faces(body, body->tip_radius, p, faces)
                                : face_box(half, p, faces);
     for (int i = 0; i < count; i++)
@@ -191,6 +229,7 @@ static int find_faces(const struct body *body, const double p[3], struct face *f
     return count;
 }
 
+static const struct mode_family *const strip_families[] = {&mesh_family};
 static const struct mode_family *const families[] = {
     [BAR_LONGITUDINAL] = &longitudinal_family,
     [BAR_BENDING_Y] = &beam_bending_family,
@@ -258,7 +297,9 @@ static void describe(const struct body *body, struct body_description *descripti
         describe_extents(description, 0.5 * body->length, 0.5 * body->width, 0.5 * body->height);
         describe_add(description, "section %g m x %g m", body->width, body->height);
     }
-    if (body->theory == THEORY_TIMOSHENKO)
+    if (body->kind->box)
+        describe_add(description, "as a block: broader than %g depths", BEAM_BROADEST);
+    else if (body->theory == THEORY_TIMOSHENKO)
         describe_add(description, "Timoshenko, shear factor %.4g", body->shear_factor[1]);
     else
         describe_add(description, "Euler-Bernoulli");
@@ -279,5 +320,21 @@ const struct body_kind beam_kind = {
     .load = load_families,
     .alike = alike,
     .theory = theory,
+    .describe = describe,
+};
+
+static const struct body_kind strip_kind = {
+    .name = "beam",
+    .keys = keys,
+    .key_count = sizeof keys / sizeof *keys,
+    .check = check,
+    .complete = complete,
+    .smallest_radius = smallest_radius,
+    .faces = find_faces,
+    .box = box,
+    .families = strip_families,
+    .family_count = sizeof strip_families / sizeof *strip_families,
+    .load = mesh_family_load,
+    .theory = mesh_family_theory,
     .describe = describe,
 };

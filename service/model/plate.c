@@ -73,27 +73,37 @@ static double spectrum(double s)
     return amplitude * amplitude;
 }
 
-/* Of the modes in bending of both sides; sheared sections, Timoshenko's, make short waves slower:
- * 1/omega^2 = 1/(bending k^2)^2 + 1/(shear k)^2. */
-static double bending_sum(const struct side sides[2], double poisson, const double waves[2],
-                          double duration)
+/* What modes in bending of both sides do, times the mass: of a blow's impulse squared, and by the
+ * faster ones as a spring. */
+struct bending {
+    double taken;
+    double give; /* s^2 */
+};
+
+/* Of those that bend across the second side at least so often: 0 all, 2 those that a bar lacks.
+ * Sheared sections, Timoshenko's, make short waves slower: 1/omega^2 = 1/(bending k^2)^2 + 1/(shear
+ * k)^2. */
+static struct bending bending_sum(const struct side sides[2], int first, double poisson,
+                                  const double waves[2], double duration)
 {
     const struct side *x = &sides[0], *y = &sides[1];
     double a = M_PI / x->length, b = M_PI / y->length;
-    double sum = 0.0;
+    struct bending sum = {0};
     for (int i = 0; i < MODES; i++)
-        for (int j = 0; j < MODES; j++) {
+        for (int j = first; j < MODES; j++) {
             double across = poisson * x->h[i] * y->h[j] + (1.0 - poisson) * x->j[i] * y->j[j];
             double fourth =
                 pow(a * x->g[i], 4.0) + pow(b * y->g[j], 4.0) + 2.0 * a * a * b * b * across;
             if (!(fourth > 0.0)) /* rigid motions */
                 continue;
             double slow = 1.0 / (waves[0] * waves[0] * fourth);
-            double s = duration / M_PI / sqrt(slow + 1.0 / (waves[1] * waves[1] * sqrt(fourth)));
-            if (s > FASTEST && j > 1)
+            double omega = 1.0 / sqrt(slow + 1.0 / (waves[1] * waves[1] * sqrt(fourth)));
+            double s = omega * duration / M_PI;
+            if (s > FASTEST && j > first + 1)
                 break;
             double shape = x->shape[i] * y->shape[j];
-            sum += s > FASTEST ? 0.0 : shape * shape * spectrum(s);
+            sum.taken += s > FASTEST ? 0.0 : shape * shape * spectrum(s);
+            sum.give += s > 1.0 ? shape * shape / (omega * omega) : 0.0;
         }
     return sum;
 }
@@ -116,23 +126,47 @@ static double eccentric_sum(const struct plate *plate, int side, double shear, d
     return sum;
 }
 
-double plate_share(const struct plate *plate, double reduced, double duration)
+/* How a plate takes a blow: its sides as far as waves come, and what of its mass that is. */
+struct reach {
+    struct side sides[2];
+    double waves[2]; /* omega = bending k^2 of long waves, shear k of short ones */
+    double mass;     /* kg */
+};
+
+static void reach_of(const struct plate *plate, double duration, struct reach *reach)
 {
     const struct material *material = plate->material;
     double poisson = material->poisson;
     double speed = sqrt(material->young / material->density);
-    /* omega = bending k^2 of long waves, shear k of short ones */
     double bending = plate->height * speed / sqrt(12.0 * (1.0 - poisson * poisson));
-    double waves[2] = {bending, speed * sqrt(SHEAR / (2.0 * (1.0 + poisson)))};
-    double mass = plate->mass, sum;
-    struct side sides[2];
+    reach->waves[0] = bending;
+    reach->waves[1] = speed * sqrt(SHEAR / (2.0 * (1.0 + poisson)));
+    reach->mass = plate->mass;
     for (int i = 0; i < 2; i++) {
-        make_side(plate->sides[i], plate->at[i], REACH * sqrt(bending * duration), &sides[i]);
-        mass *= sides[i].length / plate->sides[i];
+        make_side(plate->sides[i], plate->at[i], REACH * sqrt(bending * duration),
+                  &reach->sides[i]);
+        reach->mass *= reach->sides[i].length / plate->sides[i];
     }
+}
+
+double plate_share(const struct plate *plate, double reduced, double duration)
+{
+    struct reach reach;
+    reach_of(plate, duration, &reach);
     /* each mode takes the square of its part in the impulse 2 mu v, over 2 */
-    sum = bending_sum(sides, poisson, waves, duration) / mass;
+    double poisson = plate->material->poisson;
+    double sum = bending_sum(reach.sides, 0, poisson, reach.waves, duration).taken / reach.mass;
     for (int i = 0; i < 2; i++)
-        sum += eccentric_sum(plate, i, waves[1], duration) / plate->mass;
+        sum += eccentric_sum(plate, i, reach.waves[1], duration) / plate->mass;
     return 4.0 * reduced * sum;
+}
+
+struct plate_across plate_across_of(const struct plate *plate, double reduced, double duration)
+{
+    struct reach reach;
+    reach_of(plate, duration, &reach);
+    struct bending sum =
+        bending_sum(reach.sides, 2, plate->material->poisson, reach.waves, duration);
+    return (struct plate_across){.share = 4.0 * reduced * sum.taken / reach.mass,
+                                 .compliance = sum.give / reach.mass};
 }

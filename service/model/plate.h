@@ -20,4 +20,13 @@ struct plate {
  * small one or of a bar. To first order: it may exceed 1. */
 double plate_share(const struct plate *plate, double reduced, double duration);
 
+/* The part of bending that a bar along the first side lacks: its section bends across the second
+ * one. Modes slower than half a period a blow take energy, faster ones give way. */
+struct plate_across {
+    double share;      /* of the energy, as above */
+    double compliance; /* m/N */
+};
+
+struct plate_across plate_across_of(const struct plate *plate, double reduced, double duration);
+
 #endif

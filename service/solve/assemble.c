@@ -182,7 +182,7 @@ static void add_omitted(const struct addition *add, const double *left)
         assembly->omitted[i].viscosity += damping * beyond / omega;
         /* kept for assemble_remainder */
         assembly->parts[assembly->part_count++] =
-            (struct omitted_part){add->body, i, add->family, add->count, beyond};
+            (struct omitted_part){add->body, i, add->family, add->count, beyond, omega};
     }
     assembly->lowest_omitted = fmin(assembly->lowest_omitted, omega);
 }

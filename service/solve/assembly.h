@@ -14,6 +14,7 @@ struct omitted_part {
     size_t family;
     size_t first;
     double compliance; /* m/N */
+    double omega;      /* of the first, rad/s; of a body that has no more, of its last one */
 };
 
 /* What the omitted modes of all bodies do to a contact besides residual flexibility: their response

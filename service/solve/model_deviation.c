@@ -7,6 +7,7 @@
 
 #include "contact/law_closed_form.h"
 #include "contact/plastic.h"
+#include "model/beam.h"
 #include "model/half_space.h"
 #include "model/plate.h"
 #include "solve/contact_model.h"
@@ -22,15 +23,12 @@ static const double SIDE = 0.6;
 static const double SIDE_WITHOUT_SHEAR = 1.0;
 /* Of a beam's side where it is matched (beam_side.c): on the axis; more by the square of the
  * distance from the axis over half the breadth; nearer to an edge than the fit goes, by (half
- * thickness / distance) beyond 6.5; and near an end, by the square of that. */
+ * thickness / distance) beyond that; and near an end, by the square of that. */
 static const double SIDE_MATCHED = 0.03;
 static const double SIDE_ASIDE = 0.08;
 static const double SIDE_EDGE = 0.2;
-static const double SIDE_KNOWN = 6.5;
-static const double SIDE_END = 0.015;
-/* And of sections broader than 2.5 depths, by what they are broader: they bend across. */
-static const double SIDE_BROAD = 0.4;
-static const double BROAD = 2.5;
+static const double SIDE_KNOWN = 0.85;
+static const double SIDE_END = 0.05;
 /* No contact is nearer to an edge than this, half thicknesses. */
 static const double SIDE_NEAREST = 0.05;
 static const double COMPACT = 0.3;
@@ -74,6 +72,12 @@ static double scale_of(const struct body *body)
     return body->radius > 0.0 ? body->radius : body_smallest_radius(body);
 }
 
+/* Half of the longer side of a bar's section: how far waves go within it. */
+static double half_section(const struct body *body)
+{
+    return body->radius > 0.0 ? body->radius : 0.5 * fmax(body->width, body->height);
+}
+
 /* A body that vibrates as a rod or beam does; any other one as its mesh says, regular compliance
  * included. */
 static bool is_bar(const struct body *body)
@@ -99,9 +103,30 @@ static double unknown_of_side(const struct body *body, const struct site *site)
     double half = 0.5 * (across == 1 ? body->width : body->height);
     double aside = fabs(site->point[across]) / half;
     double edge = fmax((half - fabs(site->point[across])) / size, SIDE_NEAREST);
-    double breadth = half / (0.5 * (across == 1 ? body->height : body->width));
-    sum += SIDE_BROAD * fmax(breadth - BROAD, 0.0);
-    return sum + SIDE_ASIDE * aside * aside + SIDE_EDGE * fmax(1.0 / edge - SIDE_KNOWN, 0.0);
+    double known = (1.0 - SIDE_KNOWN) * half / size;
+    return sum + SIDE_ASIDE * aside * aside + SIDE_EDGE * fmax(1.0 / edge - 1.0 / known, 0.0);
+}
+
+/* What a beam broader than that lacks, hit on its side: it bends across as a plate does. */
+static struct plate_across across_of(const struct problem *problem, size_t contact, int which,
+                                     double duration)
+{
+    const struct body *body = problem_body(problem, contact, which);
+    const struct site *site = &problem->sides[contact][which].site;
+    double reduced = 1.0 / problem->w[contact * (problem->contact_count + 1)];
+    if (!body_bends(body) || site->face != SITE_BEAM_SIDE || !(duration > 0.0))
+        return (struct plate_across){0};
+    bool on_top = fabs(site->outward[2]) > fabs(site->outward[1]);
+    double depth = on_top ? body->height : body->width;
+    double breadth = on_top ? body->width : body->height;
+    if (!(breadth > BEAM_BROADEST * depth))
+        return (struct plate_across){0};
+    struct plate plate = {.material = &body->material,
+                          .height = depth,
+                          .sides = {body->length, breadth},
+                          .at = {site->point[0], site->point[on_top ? 1 : 2]},
+                          .mass = body->mass};
+    return plate_across_of(&plate, reduced, duration);
 }
 
 /* Times E and the radius of the body. */
@@ -129,8 +154,9 @@ static double near_edge(const struct problem *problem, size_t contact, int which
     return NEAR_EDGE / (young * fmax(spot->edge, 0.1 * spot->element));
 }
 
-/* Of all bodies, or of those that vibrate. */
-static double compliance_of(const struct problem *problem, size_t contact, bool all)
+/* Of all bodies, or of those that vibrate; of a blow that lasts so long. */
+static double compliance_of(const struct problem *problem, size_t contact, bool all,
+                            double duration)
 {
     double sum = 0.0;
     for (int which = 0; which < 2; which++) {
@@ -140,6 +166,7 @@ static double compliance_of(const struct problem *problem, size_t contact, bool 
         if (isfinite(size) && (all || body_is_flexible(body)))
             sum += unknown_compliance(problem, side) / (body->material.young * size) +
                    near_edge(problem, contact, which) + side->load.family[0].mesh.unknown;
+        sum += across_of(problem, contact, which, duration).compliance;
     }
     return sum;
 }
@@ -147,7 +174,7 @@ static double compliance_of(const struct problem *problem, size_t contact, bool 
 /* Of a bar's frequencies that the blow excites: as a stiffness it counts twice. */
 static double theory_of(const struct body *body, const struct site *site, double duration)
 {
-    double ratio = scale_of(body) / (wave_speed(body) * duration);
+    double ratio = half_section(body) / (wave_speed(body) * duration);
     if (!is_bar(body) || !isfinite(ratio))
         return 0.0;
     if (site->face == SITE_END)
@@ -175,9 +202,9 @@ static double force_of(const struct problem *problem, size_t contact, const stru
 
 /* Of the law, and of what an unknown compliance stores of the work of unloading: C F^2 / 2 of 0.4 F
  * times the way back, and half of that in e. That of a compact body is in its size and shape. */
-static double yield_of(const struct problem *problem, size_t contact,
-                       const struct contact_history *history)
+static double yield_of(const struct problem *problem, size_t contact, const struct model_blow *blow)
 {
+    const struct contact_history *history = &blow->history;
     double parts[2];
     if (!(history->max_indentation > 0.0))
         return 0.0;
@@ -187,7 +214,8 @@ static double yield_of(const struct problem *problem, size_t contact,
     if (contact_law_asked(asked)->method == CONTACT_CONCURRENT)
         parts[1] = 0.0;
     double back = history->max_indentation - history->dent;
-    double stored = 0.625 * compliance_of(problem, contact, false) * history->max_force / back;
+    double stored =
+        0.625 * compliance_of(problem, contact, false, blow->duration) * history->max_force / back;
     return ROUND * parts[0] + parts[1] + stored;
 }
 
@@ -218,8 +246,8 @@ struct model_deviation model_deviation_of(const struct problem *problem, size_t 
 {
     return (struct model_deviation){
         .force = force_of(problem, contact, blow),
-        .compliance = compliance_of(problem, contact, true),
-        .yield = yield_of(problem, contact, &blow->history),
+        .compliance = compliance_of(problem, contact, true, blow->duration),
+        .yield = yield_of(problem, contact, blow),
     };
 }
 
@@ -330,6 +358,8 @@ double model_deviation_side(const struct problem *problem, size_t contact, int w
     const struct body *body = problem_body(problem, contact, which);
     double reduced = 1.0 / problem->w[contact * (problem->contact_count + 1)];
     struct plate plate;
+    if (body_bends(body))
+        return 1.0 - exp(-0.5 * BENDING * across_of(problem, contact, which, blow->duration).share);
     if (body_is_flexible(body) || !isfinite(body->mass) || !(blow->duration > 0.0))
         return 0.0;
     double along = fmin(along_it(body, reduced, blow->duration), 1.0);
@@ -352,21 +382,50 @@ double model_deviation_ringing(const struct problem *problem, size_t contact,
 /* Of a half-space's waves, of which a fast blow loses a per cent of e: nothing. */
 static const double NO_WAVES = 0.01;
 
-/* The surface is that of a half-space until waves come back from the other side of a bar, or at its
- * end from its sides; later the bar's modes have them, by the square of what is left of that way
- * (as the frequencies of the theory go). */
-double model_deviation_waves(const struct problem *problem, const struct impact_outcome *outcome,
-                             size_t contact, const struct model_blow *blow)
+/* What a bar's theory has not of the waves that a half-space would take. At its end: all until they
+ * come back from the sides, later by the square of what is left of that way (as the frequencies of
+ * the theory go). On its side, of bars on and beside the axis: 0.7, 0.45, 0.15 and 0.05 where they
+ * go 1.8, 2.4, 3 and 4 times its depth or breadth meanwhile. */
+static double of_bar(const struct body *body, const struct site *site, double duration)
+{
+    bool on_end = site->face == SITE_END;
+    double way = (on_end ? 2.0 : 2.2 * 2.0) * half_section(body);
+    double ratio = way / (wave_speed(body) * duration);
+    return fmin(on_end ? ratio * ratio : pow(ratio, 4.0), 1.0);
+}
+
+/* Share of int F'^2 dt of a Hertz contact beyond a frequency, times its duration. The spectrum has
+ * 0.95, 0.52, 0.099, 0.028 and 0.0083 of it beyond 2, 5, 8, 10 and 20. */
+static double faster_than(double angle)
+{
+    double slow = exp(-pow(angle / 5.84, 2.7)), tail = 3.0 / (angle * angle);
+    return fmin(fmax(slow, tail), 1.0);
+}
+
+/* The modes of a block or mesh have the waves up to where they end. */
+static double of_solid(const struct assembly *assembly, size_t body, size_t contact,
+                       double duration)
+{
+    for (size_t p = 0; p < assembly->part_count; p++) {
+        const struct omitted_part *part = &assembly->parts[p];
+        if (part->body == body && part->contact == contact)
+            return faster_than(part->omega * duration);
+    }
+    return 0.0;
+}
+
+double model_deviation_waves(const struct problem *problem, const struct assembly *assembly,
+                             const struct impact_outcome *outcome, size_t contact,
+                             const struct model_blow *blow)
 {
     double sum = 0.0;
     for (int which = 0; which < 2; which++) {
         const struct contact_side *side = &problem->sides[contact][which];
         const struct body *body = problem->bodies[side->body];
-        if (!is_bar(body) || !(blow->duration > 0.0))
+        if (!body_is_flexible(body) || !(blow->duration > 0.0))
             continue;
-        double way = (side->site.face == SITE_END ? 2.0 : 4.0) * scale_of(body);
-        double ratio = way / (wave_speed(body) * blow->duration);
-        double weight = ratio < 1.0 ? ratio * ratio : 1.0;
+        double weight = is_bar(body) ? of_bar(body, &side->site, blow->duration)
+                                     : of_solid(assembly, side->body, contact, blow->duration);
         if (weight < NO_WAVES)
             continue;
         sum +=

@@ -8,6 +8,7 @@
 #define PERCUSS_SOLVE_MODEL_DEVIATION_H
 
 #include "impact/impact.h"
+#include "solve/assembly.h"
 #include "solve/problem.h"
 
 /* Deviations that nineteen of twenty stay below. */
@@ -61,7 +62,8 @@ struct model_stiffening model_deviation_stiffening(const struct model_deviation 
                                                    const struct model_blow *blow);
 
 /* What the body on one side of a contact, if it is taken as rigid, would keep as vibration of its
- * own, as a part of the restitution: waves along it, and bending (model/plate.h). */
+ * own, as a part of the restitution: waves along it, and bending (model/plate.h); of a broad beam,
+ * bending across it. */
 double model_deviation_side(const struct problem *problem, size_t contact, int which,
                             const struct model_blow *blow);
 
@@ -69,9 +71,11 @@ double model_deviation_side(const struct problem *problem, size_t contact, int w
 double model_deviation_ringing(const struct problem *problem, size_t contact,
                                const struct model_blow *blow);
 
-/* Energy that a blow leaves in waves within bars whose theory has none of them, before they come
- * back from the far side, J. */
-double model_deviation_waves(const struct problem *problem, const struct impact_outcome *outcome,
-                             size_t contact, const struct model_blow *blow);
+/* Energy that a blow leaves in waves that no mode has, J: within bars, whose theory has none of
+ * them, before they come back from the far side; in a body whose modes end before the blow's
+ * spectrum does. */
+double model_deviation_waves(const struct problem *problem, const struct assembly *assembly,
+                             const struct impact_outcome *outcome, size_t contact,
+                             const struct model_blow *blow);
 
 #endif

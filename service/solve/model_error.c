@@ -59,7 +59,8 @@ static double by_waves(const struct model_margin *margin, size_t c)
     const struct problem *problem = margin->problem;
     const struct impact_outcome *outcome = &margin->solution->outcome;
     double compression = problem->impulse_compression[c];
-    double lost = model_deviation_waves(problem, outcome, c, &margin->blow[c]);
+    double lost =
+        model_deviation_waves(problem, margin->solution->assembly, outcome, c, &margin->blow[c]);
     if (!(compression > 0.0) || lost == 0.0)
         return 0.0;
     double rebound = fmax(fabs(outcome_restitution(problem, outcome, c)), LEAST_REBOUND);

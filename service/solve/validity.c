@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/beam.h"
 #include "model/rigid.h"
 #include "model/vector.h"
 #include "solve/askew.h"
@@ -34,8 +35,6 @@ static const double OTHER_BODIES = 0.01;
 static const double WRONG_LAW = 0.05;
 /* Of compact bodies that meet: what tables are deep enough for unless they are told. */
 static const double TABLE_SPEED = 1.0;
-/* Breadth of a section over its depth up to which beams are held against meshes (beam_side.c). */
-static const double BROADEST = 2.5;
 /* A coefficient of friction as of dry metals, to say how much it may be about. */
 static const double FRICTION = 0.3;
 
@@ -328,15 +327,15 @@ static void find_breadth(const struct problem *problem, size_t c, struct warning
     for (unsigned which = 0; which < 2; which++) {
         const struct body *body = problem_body(problem, c, (int)which);
         const struct site *site = &problem->sides[c][which].site;
-        if (site->face != SITE_BEAM_SIDE || !(body->width > 0.0))
+        if (!body_bends(body) || site->face != SITE_BEAM_SIDE || !(body->width > 0.0))
             continue;
         bool on_top = fabs(site->outward[2]) > fabs(site->outward[1]);
         double broad = on_top ? body->width / body->height : body->height / body->width;
-        if (broad > BROADEST)
+        if (broad > BEAM_BROADEST)
             warnings_add(warnings, WARNING_BREADTH + which,
                          "contacts[%zu]: the section of %s is %.3g times as broad as deep, and "
-                         "bends across its breadth as well, which a beam leaves out: a free one is "
-                         "better a block",
+                         "bends across its breadth as well, which a theory of beams leaves out: a "
+                         "free one without theory and shear_factor is computed as a block",
                          c, body->id, broad);
     }
 }

@@ -92,7 +92,7 @@ def restitution(hertz, w, speed, omega, shape, flexibility, steps=400, cut=80.0,
     k = hertz.stiffness
     x, v, f = 0.0, speed, 0.0  # rigid approach, its speed, force
     q, p = np.zeros_like(omega), np.zeros_like(omega)
-    impulse, blows, time, end = 0.0, 0, 0.0, min(most * duration, max(0.02, 4 * np.pi / omega.min()))
+    impulse, blows, time, end = 0.0, 0, 0.0, min(most * duration, max(0.02, 4 * np.pi / omega.min(initial=np.inf)))
     pressed = False
     while True:
         ahead = x + v * dt - w * dt * dt * f / 3

@@ -18,6 +18,7 @@ static struct body beam(double width, double height)
         .height = height,
         .length = 1.0,
         .tip_radius = INFINITY,
+        .shear_rule = SHEAR_COWPER, /* a flat one's vibration is a block's else */
     };
     assert_int_equal(body_complete(&body, NULL), PERCUSS_OK);
     return body;

@@ -29,6 +29,7 @@ static struct body flat_beam(void)
     body.radius = 0.0;
     body.width = 0.03;
     body.height = 0.01;
+    body.shear_rule = SHEAR_COWPER; /* else its vibration is a block's */
     return body;
 }
 
