@@ -100,6 +100,9 @@ static void print_sub_impacts(const struct percuss_contact_result *contact)
         printf("  ... %u more\n", contact->sub_impact_count - contact->sub_impacts_listed);
 }
 
+/* Where an unstated yield makes so much of the error, its rest is told. */
+static const double ELASTIC_SHARE = 0.9;
+
 /* With all that is known to be wrong with it, and the parts of that. A server of 0.1.0 knows no
  * error of the models. */
 static void print_restitution(const struct percuss_reply *reply, double restitution)
@@ -114,14 +117,21 @@ static void print_restitution(const struct percuss_reply *reply, double restitut
     else
         printf("not known");
     printf(", modes and steps %.1g)\n", numerical);
+    double elastic = reply->error.restitution_total - reply->error.restitution_yield;
+    if (whole && elastic < ELASTIC_SHARE * reply->error.restitution_total)
+        printf("               +- %.2g if metals whose yield is not stated stay elastic\n",
+               elastic);
 }
 
 static void print_contact(const struct percuss_reply *reply,
                           const struct percuss_contact_result *contact)
 {
     print_restitution(reply, contact->restitution);
-    printf("  impulse      %.6g N s  (%.6g N s stops the approach)\n", contact->impulse,
-           contact->impulse_compression);
+    printf("  impulse      %.6g N s", contact->impulse);
+    /* a group's restitution is as wrong as its worst contact's */
+    if (reply->contact_count > 1 && contact->impulse_error > 0.0)
+        printf(" +- %.2g", contact->impulse_error);
+    printf("  (%.6g N s stops the approach)\n", contact->impulse_compression);
     printf("  duration     %.4g ms (%s)\n", 1e3 * contact->end_time,
            percuss_end_reason_name(reply->end_reason));
     printf("  sub-impacts  %u", contact->sub_impact_count);

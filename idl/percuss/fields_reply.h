@@ -63,7 +63,8 @@
     F(VALUE, restitution_total, "of the restitution: time, modes and models together")             \
     F(FLAG, total_met, "the tolerance, by that total")                                             \
     F(VALUE, restitution_yield,                                                                    \
-      "of the restitution, of `restitution_model`: if metals whose yield is not stated do yield")
+      "of `restitution_total`, what metals whose yield is not stated add: without it they are "    \
+      "elastic")
 
 #define PERCUSS_BODY_MODEL_FIELDS(F, ...)                                                          \
     F(ID, id, "of the body")                                                                       \

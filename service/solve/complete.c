@@ -295,10 +295,10 @@ enum percuss_status complete_answer(const struct problem *problem, struct pace *
     double e = result->contacts[0].restitution;
     double range = result->complete ? fmax(e, 1.0 - e) : 2.0;
     const struct unstated_blow whole = {blow.force, .rebound = fabs(e), .range = range};
-    result->restitution_yield = unstated_change(problem, 0, &whole);
-    double model = model_error_complete(problem, &blow) + loss_of_contact(problem, 0, fabs(e)) +
-                   result->restitution_yield;
-    report_model_error(model, range, result);
+    double yield = unstated_change(problem, 0, &whole);
+    double model =
+        model_error_complete(problem, &blow) + loss_of_contact(problem, 0, fabs(e)) + yield;
+    report_model_error(model, yield, range, result);
     impulse_error_alone(problem, result);
     /* where small strains end, and what materials lose of themselves */
     struct warnings warnings = {0};

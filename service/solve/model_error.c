@@ -256,13 +256,13 @@ enum percuss_status model_error_find(const struct problem *problem, const struct
     /* what the materials lose of themselves, and what metals would of whose yield nothing is said
      */
     double loss = loss_worst(problem, &solution->outcome);
-    error->yield = unstated_worst(problem, &solution->outcome);
-    error->restitution += loss;
-    error->restitution += error->yield;
-    error->restitution = fmin(error->restitution, outcome_range(problem, &solution->outcome));
+    double yield = unstated_worst(problem, &solution->outcome);
+    double range = outcome_range(problem, &solution->outcome);
+    double elastic = fmin(error->restitution + loss, range);
+    error->restitution = fmin(error->restitution + loss + yield, range);
+    error->yield = error->restitution - elastic;
     for (size_t c = 0; c < n; c++)
-        error->impulse[c] +=
-            (loss + error->yield) * outcome_impulse_scale(problem, &solution->outcome, c);
+        error->impulse[c] += (loss + yield) * outcome_impulse_scale(problem, &solution->outcome, c);
     return status;
 }
 

@@ -15,7 +15,7 @@
 
 struct model_error {
     double restitution;                   /* of the contact where it is largest */
-    double yield;                         /* the part of metals whose yield is not stated */
+    double yield;                         /* what metals whose yield is not stated add to it */
     double impulse[PERCUSS_MAX_CONTACTS]; /* of each contact, N s; INFINITY: nobody knows */
 };
 

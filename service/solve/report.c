@@ -332,11 +332,12 @@ static void fill_errors(const struct problem *problem, const struct solution *so
     warn_counts(problem, solution, result);
 }
 
-void report_model_error(double model, double range, struct solve_result *result)
+void report_model_error(double model, double yield, double range, struct solve_result *result)
 {
     double numerical = result->restitution_time + result->restitution_modes;
     result->restitution_model = model;
     result->restitution_total = fmin(numerical + model, range);
+    result->restitution_yield = result->restitution_total - fmin(numerical + model - yield, range);
     result->total_met = result->tolerance_met && result->restitution_total <= result->tolerance;
 }
 

@@ -15,8 +15,9 @@ void report_fill(const struct problem *problem, const struct solution *solution,
 
 /* Fills what the models may be wrong by, on the restitution, and what that makes in all with the
  * errors that are there: their sum, since modes and steps are no accidents, but not more than the
- * answer can be wrong by, `range`. */
-void report_model_error(double model, double range, struct solve_result *result);
+ * answer can be wrong by, `range`. `yield` is the part of `model` that metals of no stated yield
+ * make. */
+void report_model_error(double model, double yield, double range, struct solve_result *result);
 
 /* What the bodies' new states are wrong by, from all errors of `result`. */
 void report_state_errors(const struct problem *problem, const struct solution *solution,

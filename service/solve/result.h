@@ -58,7 +58,7 @@ struct solve_result {
     bool tolerance_met;
     double restitution_model, restitution_total; /* of the models; of all that is known */
     bool total_met;
-    double restitution_yield; /* of the models': of metals whose yield is not stated */
+    double restitution_yield; /* what metals whose yield is not stated add to the total */
     double tolerance;         /* on the restitution, as asked for */
     enum percuss_contact_model contact_model;
     enum percuss_compliance compliance;

@@ -140,9 +140,8 @@ static enum percuss_status answer(struct solve_workspace *workspace,
     if (!status) {
         solution->start = start.restitution;
         report_fill(problem, solution, result);
-        report_model_error(model.restitution + start.model,
+        report_model_error(model.restitution + start.model, model.yield,
                            outcome_range(problem, &solution->outcome), result);
-        result->restitution_yield = model.yield;
         impulse_error_report(problem, solution, &model, start.model, result);
         report_state_errors(problem, solution, result);
         if (concurrent)

@@ -34,6 +34,16 @@ expect 0 percuss query --request - --json <"$work/request.json"
 [ "$(field restitution)" = "$restitution" ] && [ "$(field impulse)" = "$impulse" ] ||
     fail "a request on standard input has other numbers"
 
+say "a group: its impulses have errors of their own"
+cat >"$work/group.json" <<'JSON'
+{"bodies": [{"id": "steel-sphere", "position": [0, 0, 0], "velocity": [0.3, 0, 0]},
+            {"id": "steel-sphere", "position": [0.03, 0, 0]}, {"id": "steel-sphere", "position": [0.06, 0, 0]}],
+ "contacts": [{"a": 0, "b": 1, "point": [0.015, 0, 0], "normal": [-1, 0, 0]},
+              {"a": 1, "b": 2, "point": [0.045, 0, 0], "normal": [-1, 0, 0]}]}
+JSON
+expect 0 percuss query --request "$work/group.json"
+[ "$(grep -c '^  impulse  .* N s +- [0-9.e-]*  (' "$out")" = 2 ] || fail "impulses without errors: $(cat "$out")"
+
 say "a rod, and a state that goes on ringing"
 expect 0 percuss query --a steel-sphere --b al-rod --speed 0.3 --json
 token=$(sed -n 's/^ *"state": "\([0-9a-f]\{32\}\)"$/\1/p' "$work/first")

@@ -53,9 +53,12 @@ once "$told 4023 MPa, which hardly any does (young/100: 2100 MPa)" "$out"
 [ "$(field total_met)" = false ] || fail "the total error is said to be within the tolerance"
 awk -v a="$(field restitution)" -v b="$with" -v e="$(field restitution_model)" \
     'BEGIN { exit !(a > 0.99 && b < 0.92 && a - b < e) }' || fail "the error of $(field restitution) does not hold $with"
+awk -v t="$(field restitution_total)" -v y="$(field restitution_yield)" \
+    'BEGIN { exit !(t > 0.08 && t - y > 0 && t - y < 0.002) }' || fail "the error without a yield"
 expect 0 percuss query --a ball --b wall --speed 4.43
 says "$told 4023 MPa"
 shows "holds for metals that yield above 4023 MPa"
+shows "if metals whose yield is not stated stay elastic"
 
 say "yield: none is as elastic, and silent"
 elastic=$(percuss query --a ball --b wall --speed 4.43 --json 2>/dev/null | grep -m 1 '"restitution"')

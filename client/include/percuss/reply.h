@@ -64,7 +64,7 @@ struct percuss_error_estimate {
     double restitution_model;                   /* by the models of contact and bodies */
     double restitution_total;                   /* all three */
     bool total_met;                             /* the tolerance, by that */
-    double restitution_yield; /* of the models': if metals whose yield is not stated do yield */
+    double restitution_yield; /* of that: what metals whose yield is not stated add */
 };
 
 struct percuss_body_model {

@@ -135,7 +135,7 @@ class ErrorEstimate:
     total_met: bool
     """The tolerance, by that total."""
     restitution_yield: float
-    """Of restitution_model: if metals whose yield is not stated do yield."""
+    """Of restitution_total, what metals whose yield is not stated add: without it they are elastic."""
 
     @property
     def restitution(self) -> float:
