@@ -358,8 +358,6 @@ double model_deviation_side(const struct problem *problem, size_t contact, int w
     const struct body *body = problem_body(problem, contact, which);
     double reduced = 1.0 / problem->w[contact * (problem->contact_count + 1)];
     struct plate plate;
-    if (body_bends(body))
-        return 1.0 - exp(-0.5 * BENDING * across_of(problem, contact, which, blow->duration).share);
     if (body_is_flexible(body) || !isfinite(body->mass) || !(blow->duration > 0.0))
         return 0.0;
     double along = fmin(along_it(body, reduced, blow->duration), 1.0);
@@ -374,8 +372,11 @@ double model_deviation_ringing(const struct problem *problem, size_t contact,
                                const struct model_blow *blow)
 {
     double kept = 1.0;
-    for (int which = 0; which < 2; which++)
+    for (int which = 0; which < 2; which++) {
+        double across = across_of(problem, contact, which, blow->duration).share;
         kept *= 1.0 - model_deviation_side(problem, contact, which, blow);
+        kept *= exp(-0.5 * BENDING * across);
+    }
     return 1.0 - kept;
 }
 

@@ -62,12 +62,11 @@ struct model_stiffening model_deviation_stiffening(const struct model_deviation 
                                                    const struct model_blow *blow);
 
 /* What the body on one side of a contact, if it is taken as rigid, would keep as vibration of its
- * own, as a part of the restitution: waves along it, and bending (model/plate.h); of a broad beam,
- * bending across it. */
+ * own, as a part of the restitution: waves along it, and bending (model/plate.h). */
 double model_deviation_side(const struct problem *problem, size_t contact, int which,
                             const struct model_blow *blow);
 
-/* The same of both bodies. */
+/* The same of both bodies, with the bending across broad beams. */
 double model_deviation_ringing(const struct problem *problem, size_t contact,
                                const struct model_blow *blow);
 

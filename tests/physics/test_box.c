@@ -105,6 +105,7 @@ static void strips_are_blocks(void **state)
         e[i] = result.contacts[0].restitution;
         total[i] = result.restitution_total;
         assert_true(says("times as broad as deep") == (i == 2));
+        assert_false(says("is taken as rigid"));
     }
     assert_true(e[1] == e[0] && total[1] == total[0]);
     assert_true(fabs(e[2] - e[0]) > 0.02 && fabs(e[2] - e[0]) <= total[2] + total[0]);
