@@ -165,29 +165,6 @@ static enum percuss_status find_place(struct problem *problem, size_t index, str
     return PERCUSS_OK;
 }
 
-/* The same, or as it is kept. */
-static enum percuss_status place_contact(struct problem *problem, size_t index, struct fault *fault)
-{
-    const struct solve_contact *contact = &problem->request->contacts[index];
-    const struct placed_key key = {
-        .bodies = {problem->bodies[contact->a], problem->bodies[contact->b]},
-        .poses = {&problem->poses[contact->a], &problem->poses[contact->b]},
-        .point = contact->point,
-        .normal = contact->normal,
-    };
-    struct contact_side *sides = problem->sides[index];
-    struct placed *room;
-    if (placed_find(prepared_places(problem->cache), &key, sides, &problem->hertz[index], &room)) {
-        sides[0].body = contact->a;
-        sides[1].body = contact->b;
-        return PERCUSS_OK;
-    }
-    enum percuss_status status = find_place(problem, index, fault);
-    if (!status && room)
-        placed_keep(room, &key, sides, &problem->hertz[index]);
-    return status;
-}
-
 /* Whether the curvatures make a point as far as a mesh's fit knows them. */
 static enum percuss_status check_fit(const struct problem *problem, size_t index,
                                      struct fault *fault)
@@ -385,7 +362,7 @@ enum percuss_status placement_find(struct problem *problem, const struct body_se
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     enum percuss_status status = find_bodies(problem, catalogue, fault);
     for (size_t i = 0; !status && i < problem->contact_count; i++) {
-        status = place_contact(problem, i, fault);
+        status = find_place(problem, i, fault);
         if (!status)
             status = check_fit(problem, i, fault);
     }

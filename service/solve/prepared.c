@@ -65,7 +65,6 @@ struct prepared_cache {
     struct prepared_family *retired; /* outgrown, but a scene may still point at them */
     size_t varied;                   /* entries of varied bodies */
     struct prepared_parts parts;
-    struct placed_store *places;
 };
 
 static void family_free(struct prepared_family *family)
@@ -132,15 +131,7 @@ static struct prepared_family *family_create(const struct body *body, size_t whi
 
 struct prepared_cache *prepared_cache_create(void)
 {
-    struct prepared_cache *cache = calloc(1, sizeof *cache);
-    if (!cache)
-        return NULL;
-    cache->places = placed_store_create();
-    if (!cache->places) {
-        free(cache);
-        return NULL;
-    }
-    return cache;
+    return calloc(1, sizeof(struct prepared_cache));
 }
 
 static void remainders_free(struct remainder *list)
@@ -218,7 +209,6 @@ void prepared_cache_free(struct prepared_cache *cache)
     ritz_store_free(cache->boxes);
     free_retired(cache);
     forget(cache, false);
-    placed_store_free(cache->places);
     free(cache);
 }
 
@@ -396,11 +386,6 @@ double prepared_ritz_flexibility(struct prepared_cache *cache, const struct ritz
         held = held->next;
     return held ? ritz_box_flexibility(cache->boxes, held->box, axis, side, point)
                 : ritz_flexibility(ritz, axis, side, point);
-}
-
-struct placed_store *prepared_places(struct prepared_cache *cache)
-{
-    return cache->places;
 }
 
 /* Asks for the compliance at an octave. False: out of memory. */

@@ -10,7 +10,6 @@
 #include "contact/hertz.h"
 #include "model/modal_basis.h"
 #include "solve/participation.h"
-#include "solve/placed.h"
 #include "solve/prepared_part.h"
 
 struct ritz_shape;
@@ -77,9 +76,6 @@ const struct ritz *prepared_ritz_get(struct prepared_cache *cache, struct ritz_s
 /* ritz_flexibility of one of those; of the last places it is kept. */
 double prepared_ritz_flexibility(struct prepared_cache *cache, const struct ritz *ritz, int axis,
                                  int side, const double point[3]);
-
-/* How contacts lie on their bodies. */
-struct placed_store *prepared_places(struct prepared_cache *cache);
 
 /* matched_compliance of a sphere, or of a rod's or cylinder's end, with the contact radius `patch`
  * (m). It takes milliseconds when first asked for. A sphere's is linear in the logarithm of the

@@ -10,11 +10,22 @@
 #include "base/arena.h"
 #include "contact/hertz.h"
 #include "contact/law.h"
+#include "model/modal_basis.h"
 #include "model/roll.h"
+#include "model/site.h"
 #include "solve/prepared.h"
 #include "solve/request.h"
 
 struct contact_choice; /* contact_model.h */
+
+/* One side of a contact. */
+struct contact_side {
+    size_t body; /* index into the request's bodies */
+    struct site site;
+    struct material material; /* of the surface there */
+    double direction[3];      /* of the force on the body per newton, body frame */
+    struct site_load load;
+};
 
 /* The contacts' laws, see contact_model.h. */
 struct contact_model {
