@@ -8,7 +8,7 @@ project = "percuss"
 copyright = "The percuss authors"
 extensions = ["myst_parser"]
 root_doc = "README"
-include_patterns = ["README.md", "SECURITY.md", "CHANGELOG.md", "docs/**", "client/python/README.md"]
+include_patterns = ["README.md", "SECURITY.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/**", "client/python/README.md"]
 source_suffix = {".md": "markdown"}
 # links into a page, as repositories' hosts make them of headings
 myst_heading_anchors = 4

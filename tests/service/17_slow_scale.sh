@@ -50,7 +50,7 @@ has_lines() {
 }
 line_is() { # NUMBER WHAT: it begins so
     wait_for 150 has_lines "$1" || fail "no line $1"
-    sed -n "$1p" "$out" | grep -q "^$2" || fail "line $1 is not: $2"
+    sed -n "$1p" "$out" | grep -q "^$2" || fail "line $1 is not: $2, but: $(sed -n "$1p" "$out")"
 }
 # However loaded the machine is, a daemon that is there is found within 60 s; 1 s is enough not to find
 # one that is not.

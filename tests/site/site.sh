@@ -38,7 +38,8 @@ mkdir "$work/copy"
 for name in client idl config deploy; do
     ln -s "$source_dir/$name" "$work/copy/$name"
 done
-cp -r "$source_dir/docs" "$source_dir/README.md" "$source_dir/SECURITY.md" "$source_dir/CHANGELOG.md" "$work/copy"
+cp -r "$source_dir/docs" "$source_dir/README.md" "$source_dir/SECURITY.md" "$source_dir/CHANGELOG.md" \
+    "$source_dir/CONTRIBUTING.md" "$work/copy"
 cat >>"$work/copy/docs/mesh.md" <<'END'
 
 A link to [no page](no-page.md), [no heading of one](specimens.md#no-heading), [of this one](#no-own-heading),
