@@ -84,3 +84,14 @@ double hertz_peak_pressure(const struct hertz_contact *contact, double force)
     hertz_ellipse(contact, force, axes);
     return force > 0.0 ? 1.5 * force / (M_PI * axes[0] * axes[1]) : 0.0;
 }
+
+double hertz_pressure_ratio(const struct hertz_contact *contact)
+{
+    double axes[2];
+    if (contact->axis_ratio >= HERTZ_CIRCULAR_RATIO)
+        return 1.0;
+    /* of the circle: a^2 = R d, with k = (4/3) E-star sqrt(R) */
+    double root = 0.75 * contact->stiffness / contact->effective_modulus;
+    hertz_ellipse(contact, contact->stiffness, axes); /* whose indentation is 1 m */
+    return root * root / (axes[0] * axes[1]);
+}

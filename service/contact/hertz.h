@@ -40,4 +40,8 @@ void hertz_ellipse(const struct hertz_contact *contact, double force, double axe
 /* Largest pressure at a force, Pa: 3 F / (2 pi a b). */
 double hertz_peak_pressure(const struct hertz_contact *contact, double force);
 
+/* The same over that of the circular contact of equal stiffness: 1 for circles, 1.05 where the axes
+ * are as 0.54 to 1, 1.56 where as 0.14. */
+double hertz_pressure_ratio(const struct hertz_contact *contact);
+
 #endif

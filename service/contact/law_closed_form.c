@@ -66,7 +66,8 @@ double closed_form_yield(const struct hertz_contact *hertz, const struct materia
 {
     double root = 0.5 * M_PI * fmin(closed_form_pressure(a), closed_form_pressure(b)) /
                   hertz->effective_modulus;
-    return root * root * closed_form_radius(hertz);
+    double ratio = hertz_pressure_ratio(hertz);
+    return root * root * closed_form_radius(hertz) / (ratio * ratio);
 }
 
 double closed_form_restitution(double times, double strain)

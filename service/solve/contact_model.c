@@ -306,7 +306,9 @@ static void explain_plastic(const struct problem *problem, const struct impact_o
     if (!tabulated && asked_of(problem)->tables == CONTACT_TABLES_IF_ANY)
         text_add(text, "; no table for these bodies");
     if (problem->hertz[c].axis_ratio < HERTZ_CIRCULAR_RATIO && !used->elliptic)
-        text_format(text, "; elliptic: by the sphere of equal stiffness, %.3g m, an approximation",
+        text_format(text,
+                    "; elliptic: by the sphere of equal stiffness, %.3g m, at the ellipse's peak "
+                    "pressure, an approximation",
                     closed_form_radius(&problem->hertz[c]));
     if (!tabulated && body->material.tangent > 0.0)
         text_format(text, "; hardening of %s left out", body->id);

@@ -3,6 +3,7 @@
 
 /* Impacts that leave dents, by the closed form: the paper's rods, repeated blows, the choice of the
  * model, both methods, the energy. */
+#include "contact/hertz.h"
 #include "physics/support.h"
 
 #define AL_205 ((struct material){"al-205", 70e9, 0.33, 2700.0, 205e6, 0.0})
@@ -321,6 +322,40 @@ static void the_stated_error_holds(void **state)
     lab_free(lab);
 }
 
+/* A ball of 100 mm on the side of a drum of 5 mm, an ellipse of 7 to 1: whatever yields by the law
+ * has a peak pressure of Hertz's beyond that of yield, and the other way round. */
+static void an_ellipse_yields_at_its_own_pressure(void **state)
+{
+    (void)state;
+    static struct solve_result result;
+    struct hertz_contact ellipse = hertz_contact_make(hertz_effective_modulus(&AL_205, &STEEL),
+                                                      0.5 / 0.1, 0.5 / 0.1 + 0.5 / 0.005);
+    double pressure = 1.295 * exp(0.736 * 0.33) * 205e6;
+    struct body drum = make_bar(&cylinder_kind, AL_205, 0.005, 0.05);
+    drum.rigid = true;
+    struct lab *lab = lab_create();
+    lab_add(lab, "ball", make_sphere(STEEL, 0.1));
+    lab_add(lab, "drum", drum);
+    size_t yielded = 0, elastic = 0;
+    for (double speed = 0.002; speed < 0.4; speed *= 1.1) {
+        struct solve_request request =
+            strike(sphere_spot("ball", 0.1), side_spot("drum", 0.0, 0.005, 0.0), speed);
+        request.options.contact_model = PERCUSS_CONTACT_CLOSED_FORM;
+        lab_solve(lab, &request, &result);
+        double force = result.contacts[0].sub_impacts[0].peak_force;
+        double above = hertz_peak_pressure(&ellipse, force) / pressure;
+        bool flows = result.energy.plastic > 0.0;
+        if (above > 1.0 + 1e-6)
+            assert_true(flows);
+        if (above < 1.0 - 1e-6)
+            assert_false(flows);
+        yielded += flows;
+        elastic += !flows;
+    }
+    assert_true(yielded > 10 && elastic > 10);
+    lab_free(lab);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -333,6 +368,7 @@ int main(void)
         cmocka_unit_test(the_choice_is_continuous),
         cmocka_unit_test(both_methods_agree_and_the_energy_closes),
         cmocka_unit_test(the_stated_error_holds),
+        cmocka_unit_test(an_ellipse_yields_at_its_own_pressure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
