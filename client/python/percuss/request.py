@@ -11,15 +11,16 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Optional, overload
+from typing import Any, Generic, Optional, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _abi, _convert
-from .vocabulary import MAX_BODIES, MAX_CONTACTS, Compliance, ContactModel, Dents, Method, Parameter
+from .vocabulary import MAX_BODIES, MAX_CONTACTS, Choice, Compliance, ContactModel, Dents, Method, Parameter
 
 FloatArray = NDArray[np.float64]
+_ChoiceType = TypeVar("_ChoiceType", bound=Choice)
 
 
 class _Vector:
@@ -67,6 +68,25 @@ class _Quantity:
 
     def __set__(self, instance: object, value: float | str) -> None:
         instance.__dict__[self._name] = _convert.number(self._name, value, self._quantity)
+
+
+class _Chosen(Generic[_ChoiceType]):
+    """A dataclass field that is a choice, whatever name or number of one was assigned to it."""
+
+    def __init__(self, default: _ChoiceType) -> None:
+        self._default = default
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, instance: object | None, owner: type) -> _ChoiceType:
+        if instance is None:
+            return self._default
+        value: _ChoiceType = instance.__dict__[self._name]
+        return value
+
+    def __set__(self, instance: object, value: _ChoiceType | str) -> None:
+        instance.__dict__[self._name] = type(self._default).of(value)
 
 
 @dataclass
@@ -117,10 +137,11 @@ class Options:
     """On the restitution; 0: 1e-3."""
     horizon: _Quantity = _Quantity("time")
     """s, or a text with a unit: "20ms"; 0: the longer of 20 ms and two longest periods."""
-    contact_model: ContactModel = ContactModel.AUTO
-    method: Method = Method.MODAL
-    compliance: Compliance = Compliance.DEFAULT
-    dents: Dents = Dents.KEEP
+    contact_model: _Chosen[ContactModel] = _Chosen(ContactModel.AUTO)
+    """It and the next three: a member, or its name: "closed-form"."""
+    method: _Chosen[Method] = _Chosen(Method.MODAL)
+    compliance: _Chosen[Compliance] = _Chosen(Compliance.DEFAULT)
+    dents: _Chosen[Dents] = _Chosen(Dents.KEEP)
     conditioning: bool = False
     """Also report d(restitution)/d(speed)."""
     trace: bool = False

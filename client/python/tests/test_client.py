@@ -246,6 +246,11 @@ class Announced(Beside):
 
     def test_numbers_with_units(self) -> None:
         """By the table of the command line."""
+        options = percuss.Options(contact_model="closed-form", method="CVODE")
+        self.assertIs(options.contact_model, percuss.ContactModel.CLOSED_FORM)
+        self.assertIs(options.method, percuss.Method.CVODE)
+        with self.assertRaisesRegex(ValueError, "ContactModel: 'steel': one of AUTO, HERTZ, "):
+            options.contact_model = "steel"
         options = percuss.Options(horizon="30ms", deadline="2 s")
         self.assertEqual((options.horizon, options.deadline), (0.03, 2.0))
         self.assertEqual(percuss.Contact(0, 1, gap="8 um").gap, 8e-6)
