@@ -309,6 +309,14 @@ static void describe_place(const struct scene *scene, const struct percuss_pair 
         if (!site && body->site_count > 1)
             add(text, size, " (default; --at-%c NAME)", 'a' + which);
     }
+    /* the only place of a pair, as percuss_contact_pair chooses it */
+    if (!strcmp(body->shape, "rod"))
+        add(text, size, "on the end of %s at %cx", body->id,
+            body->supports[1] == PERCUSS_SUPPORT_FREE ? '+' : '-');
+    else if (!strcmp(body->shape, "cylinder"))
+        add(text, size, "in the middle of the end of %s at +x", body->id);
+    else if (!strcmp(body->shape, "block"))
+        add(text, size, "in the middle of the face of %s at +z", body->id);
     /* along a beam */
     if (strcmp(body->shape, "beam") != 0)
         return;
