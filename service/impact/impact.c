@@ -26,6 +26,8 @@ bool impact_create(struct impact_outcome *outcome, const struct scene *scene, st
 void impact_begin(struct impact_outcome *outcome, const struct scene *scene)
 {
     memcpy(outcome->laws, scene->laws, scene->contacts * sizeof *outcome->laws);
+    outcome->group = scene->group;
+    outcome->groups = scene->groups;
     outcome->steps = outcome->rejected = 0;
     outcome->plastic = 0.0;
     outcome->too_stiff = false;

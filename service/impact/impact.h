@@ -48,9 +48,11 @@ struct impact_outcome {
     struct contact_law *laws; /* [contact], with what they remember at the end */
     double plastic;           /* dissipated by yielding, J */
     struct impact_energy energy;
-    double *vibration;    /* [body], J, at the end */
-    struct motion motion; /* at the end; gaps count to the bottoms of the dents */
-    unsigned long steps;  /* contact steps accepted */
+    double *vibration;         /* [body], J, at the end */
+    struct motion motion;      /* at the end; gaps count to the bottoms of the dents */
+    struct scene_group *group; /* [groups], of the scene that was solved */
+    size_t groups;
+    unsigned long steps; /* contact steps accepted */
     unsigned long rejected;
     unsigned long effort; /* of all that, in steps; failures to converge count as several */
 };

@@ -377,5 +377,13 @@ enum percuss_status tangent_follow(struct tangent_path *path, const struct tange
         close_part(&follower, tangent);
     if (!path->sound)
         tangent->strain = INFINITY;
+    carrier_leave(&follower.first.carrier, &path->scene, &follower.first.motion);
+    tangent->motion = follower.first.motion;
     return PERCUSS_OK;
+}
+
+double tangent_vibration(const struct tangent_path *path, const struct tangent *tangent,
+                         size_t body)
+{
+    return motion_vibration(&tangent->motion, &path->scene, body);
 }

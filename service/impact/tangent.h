@@ -9,7 +9,7 @@
 #define PERCUSS_IMPACT_TANGENT_H
 
 #include "impact/force_log.h"
-#include "impact/scene.h"
+#include "impact/motion.h"
 
 /* The change. */
 struct tangent_source {
@@ -23,12 +23,13 @@ struct tangent_source {
 
 /* What it does. */
 struct tangent {
-    double impulse;   /* to the contact's, N s */
-    double curvature; /* its second derivative by the size of the change; 0: not asked for */
-    double largest;   /* the largest of what the first is after each sub-impact */
-    double strain;    /* largest change of a sub-impact's impulse, by either order, over that
-                         impulse: they are enough where it is far below 1; INFINITY: it could not
-                         be followed */
+    double impulse;       /* to the contact's, N s */
+    double curvature;     /* its second derivative by the size of the change; 0: not asked for */
+    double largest;       /* the largest of what the first is after each sub-impact */
+    double strain;        /* largest change of a sub-impact's impulse, by either order, over that
+                             impulse: they are enough where it is far below 1; INFINITY: it could not
+                             be followed */
+    struct motion motion; /* of the scene at the end of the last contact, by the first */
 };
 
 /* What every source meets along the log of a solution of the scene by impact_modal: one contact,
@@ -41,5 +42,9 @@ struct tangent_path *tangent_path_create(const struct scene *scene, const struct
  * where the pace stopped it. */
 enum percuss_status tangent_follow(struct tangent_path *path, const struct tangent_source *source,
                                    struct pace *pace, struct tangent *tangent);
+
+/* Energy of what it does to the vibration of a body, J, after a source of unit size. */
+double tangent_vibration(const struct tangent_path *path, const struct tangent *tangent,
+                         size_t body);
 
 #endif

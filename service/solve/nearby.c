@@ -4,6 +4,7 @@
 #include "solve/nearby.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "solve/outcome.h"
 
@@ -11,6 +12,8 @@ void nearby_begin(struct nearby *nearby, const struct problem *problem,
                   const struct impact_outcome *answer)
 {
     nearby->solutions = 1;
+    nearby->answer = *answer;
+    memset(nearby->vibration, 0, problem->body_count * sizeof *nearby->vibration);
     for (size_t c = 0; c < problem->contact_count; c++) {
         nearby->low[c] = nearby->high[c] = outcome_restitution(problem, answer, c);
         nearby->weakest[c] = nearby->strongest[c] = answer->tracks[c].impulse;
@@ -22,6 +25,7 @@ void nearby_add(struct nearby *nearby, const struct problem *problem,
                 const struct impact_outcome *other)
 {
     nearby->solutions++;
+    outcome_widen_vibration(problem, &nearby->answer, other, nearby->vibration);
     for (size_t c = 0; c < problem->contact_count; c++) {
         double e = outcome_restitution(problem, other, c);
         size_t count = other->tracks[c].count;

@@ -15,6 +15,8 @@ struct nearby {
     double low[PERCUSS_MAX_CONTACTS], high[PERCUSS_MAX_CONTACTS]; /* restitution; NAN: has none */
     double weakest[PERCUSS_MAX_CONTACTS], strongest[PERCUSS_MAX_CONTACTS]; /* impulse, N s */
     size_t fewest[PERCUSS_MAX_CONTACTS], most[PERCUSS_MAX_CONTACTS];       /* sub-impacts */
+    double vibration[PERCUSS_MAX_BODIES]; /* J, by which that of a body differs at most */
+    struct impact_outcome answer;         /* from which it does */
 };
 
 /* The range of one solution alone. */

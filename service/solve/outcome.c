@@ -108,6 +108,102 @@ void outcome_widen_impulses(const struct problem *problem, const struct impact_o
         change[c] = fmax(change[c], fabs(a->tracks[c].impulse - b->tracks[c].impulse));
 }
 
+/* The group of the same oscillators in another solution; its number of groups: none is. */
+static size_t same_group(const struct impact_outcome *outcome, const struct scene_group *group)
+{
+    size_t g = 0;
+    while (g < outcome->groups &&
+           (outcome->group[g].set != group->set || outcome->group[g].body != group->body))
+        g++;
+    return g;
+}
+
+/* The modes of a solution, as a scene without contacts: motions move freely by it. */
+static struct scene modes_of(const struct impact_outcome *outcome)
+{
+    return (struct scene){.groups = outcome->groups, .group = outcome->group};
+}
+
+/* A solution's motion at an instant not before its end. False: out of memory. */
+static bool find_motion(const struct impact_outcome *outcome, double time, struct arena *arena,
+                        struct motion *motion)
+{
+    const struct scene modes = modes_of(outcome);
+    *motion = outcome->motion;
+    if (outcome->window >= time)
+        return true;
+    if (!motion_create(motion, &modes, arena))
+        return false;
+    motion_copy(motion, &outcome->motion, &modes);
+    motion_turn(motion, &modes, time - outcome->window);
+    return true;
+}
+
+/* Takes from a motion what it has of the stated one. False: out of memory. */
+static bool take_stated(const struct impact_outcome *outcome, double time, struct arena *arena,
+                        struct motion *motion)
+{
+    const struct scene modes = modes_of(outcome);
+    struct motion free;
+    struct motion forced = *motion;
+    if (!motion_create(&free, &modes, arena) || !motion_create(motion, &modes, arena))
+        return false;
+    motion_start(&free, &modes);
+    motion_turn(&free, &modes, time);
+    for (size_t g = 0; g < modes.groups; g++)
+        for (size_t k = 0; k < modes.group[g].count; k++) {
+            motion->q[g][k] = forced.q[g][k] - free.q[g][k];
+            motion->v[g][k] = forced.v[g][k] - free.v[g][k];
+        }
+    return true;
+}
+
+/* Energy of the difference of the modes of two groups, in motion. */
+static double difference(const struct scene_group *group, size_t count, const double *const q[2],
+                         const double *const v[2])
+{
+    double squares = 0.0;
+    for (size_t k = 0; k < count; k++) {
+        double spring = group->set->omega[k] * (q[0][k] - q[1][k]);
+        double speed = v[0][k] - v[1][k];
+        squares += speed * speed + spring * spring;
+    }
+    return 0.5 * squares;
+}
+
+void outcome_widen_vibration(const struct problem *problem, const struct impact_outcome *a,
+                             const struct impact_outcome *b, double *energy)
+{
+    struct motion ends[2];
+    double sum[PERCUSS_MAX_BODIES] = {0.0};
+    double time = fmax(a->window, b->window);
+    if (!find_motion(a, time, problem->arena, &ends[0]) ||
+        !find_motion(b, time, problem->arena, &ends[1]))
+        return;
+    /* begun otherwise, they have that in them, too */
+    bool alike = true;
+    for (size_t g = 0; g < a->groups; g++) {
+        size_t h = same_group(b, &a->group[g]);
+        alike = alike && (h == b->groups || a->group[g].q == b->group[h].q);
+    }
+    if (!alike && (!take_stated(a, time, problem->arena, &ends[0]) ||
+                   !take_stated(b, time, problem->arena, &ends[1])))
+        return;
+    for (size_t g = 0; g < a->groups; g++) {
+        const struct scene_group *group = &a->group[g];
+        size_t h = same_group(b, group);
+        size_t count = h == b->groups                     ? 0
+                       : b->group[h].count < group->count ? b->group[h].count
+                                                          : group->count;
+        if (count > 0)
+            sum[group->body] +=
+                difference(group, count, (const double *[]){ends[0].q[g], ends[1].q[h]},
+                           (const double *[]){ends[0].v[g], ends[1].v[h]});
+    }
+    for (size_t g = 0; g < a->groups; g++)
+        energy[a->group[g].body] = fmax(energy[a->group[g].body], sum[a->group[g].body]);
+}
+
 double outcome_impulse_scale(const struct problem *problem, const struct impact_outcome *outcome,
                              size_t contact)
 {

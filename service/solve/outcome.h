@@ -44,6 +44,11 @@ struct outcome_difference outcome_compare(const struct problem *problem,
 void outcome_widen_impulses(const struct problem *problem, const struct impact_outcome *a,
                             const struct impact_outcome *b, double *change);
 
+/* Raises each body's energy (J) to that of the difference between the two of what the forces have
+ * made of its vibration, by the modes that both have. */
+void outcome_widen_vibration(const struct problem *problem, const struct impact_outcome *a,
+                             const struct impact_outcome *b, double *energy);
+
 /* Impulse that the shares of a contact's restitution are of, N s: that which stops its approach, or
  * what has compressed it where that is more, by way of others. */
 double outcome_impulse_scale(const struct problem *problem, const struct impact_outcome *outcome,

@@ -343,7 +343,7 @@ void report_model_error(double model, double yield, double range, struct solve_r
 
 /* Of the largest impulse. */
 void report_state_errors(const struct problem *problem, const struct solution *solution,
-                         struct solve_result *result)
+                         const struct start_error *start, struct solve_result *result)
 {
     double impulse = 0.0;
     for (size_t c = 0; c < result->contact_count; c++)
@@ -355,7 +355,7 @@ void report_state_errors(const struct problem *problem, const struct solution *s
                                         share * result->restitution_model};
     for (size_t b = 0; b < result->body_count; b++)
         if (result->bodies[b].state_after)
-            start_error_after(problem, solution, &shares, b,
+            start_error_after(problem, solution, start, &shares, b,
                               (struct body_state *)result->bodies[b].state_after);
 }
 

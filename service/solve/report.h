@@ -9,6 +9,8 @@
 #include "solve/solution.h"
 #include "solve/warnings.h"
 
+struct start_error; /* start_error.h */
+
 /* Fills everything of `result` that the solution decides; status and message too. */
 void report_fill(const struct problem *problem, const struct solution *solution,
                  struct solve_result *result);
@@ -21,7 +23,7 @@ void report_model_error(double model, double yield, double range, struct solve_r
 
 /* What the bodies' new states are wrong by, from all errors of `result`. */
 void report_state_errors(const struct problem *problem, const struct solution *solution,
-                         struct solve_result *result);
+                         const struct start_error *start, struct solve_result *result);
 
 /* Fills the bodies' velocities after all impulses of result->contacts, by the bodies' own masses.
  */

@@ -127,6 +127,16 @@ static enum percuss_status follow(struct attempt_context *context, struct attemp
     return tangent_follow(best->path, &source, context->pace, tangent);
 }
 
+/* What the first order says of the bodies' vibration, which is wrong by as much more as the impulse
+ * is: by steps, too. */
+static void find_vibration(struct attempt_context *context, const struct attempt *best,
+                           const struct tangent *tangent, double more)
+{
+    double *vibration = context->nearby->vibration;
+    for (size_t b = 0; b < context->problem->body_count; b++)
+        vibration[b] = fmax(vibration[b], more * more * tangent_vibration(best->path, tangent, b));
+}
+
 /* By first order, where that says it; *known then. */
 static enum percuss_status by_first_order(struct attempt_context *context, struct attempt *best,
                                           struct mode_error *error, bool *known)
@@ -159,6 +169,8 @@ static enum percuss_status by_first_order(struct attempt_context *context, struc
     error->restitution = both;
     error->impulse = error->restitution * compression;
     error->covers_steps = modes <= allowed;
+    if (change > 0.0)
+        find_vibration(context, best, &tangent, hypot(change, steps) / change);
     return PERCUSS_OK;
 }
 

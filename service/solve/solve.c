@@ -132,7 +132,7 @@ static enum percuss_status answer(struct solve_workspace *workspace,
         status = concurrent_refine(solution, problem, &pace, &effort, &result->fault);
     /* the answer, and its histories */
     struct model_error model;
-    struct start_error start = {0.0, 0.0};
+    struct start_error start = {0};
     if (!status)
         status = pace_fault(&result->fault, model_error_find(problem, solution, &pace, &model));
     if (!status && !concurrent)
@@ -143,7 +143,7 @@ static enum percuss_status answer(struct solve_workspace *workspace,
         report_model_error(model.restitution + start.model, model.yield,
                            outcome_range(problem, &solution->outcome), result);
         impulse_error_report(problem, solution, &model, start.model, result);
-        report_state_errors(problem, solution, result);
+        report_state_errors(problem, solution, &start, result);
         if (concurrent)
             concurrent_report(&effort, problem, solution, result);
         status = result->status;

@@ -128,7 +128,7 @@ static bool make_scene(const struct problem *problem, const struct solution *sol
 /* Farthest of the solutions from the answer; of what cannot be solved nothing is known. */
 static enum percuss_status solve_starts(struct attempt_context *context,
                                         const struct solution *solution, bool model,
-                                        double *farthest)
+                                        double *farthest, double *vibration)
 {
     const double effort = EFFORT * impact_work(solution->scene, &solution->outcome);
     for (uint64_t start = 0; start < STARTS[model]; start++) {
@@ -146,12 +146,14 @@ static enum percuss_status solve_starts(struct attempt_context *context,
         context->work += left - allowed;
         if (status)
             return status;
-        if (attempt_is_spent(&attempt) || attempt.outcome.always_overlapped)
+        if (attempt_is_spent(&attempt) || attempt.outcome.always_overlapped) {
             *farthest = INFINITY;
-        else
-            *farthest = fmax(*farthest,
-                             outcome_compare(context->problem, &solution->outcome, &attempt.outcome)
-                                 .restitution);
+            continue;
+        }
+        *farthest = fmax(
+            *farthest,
+            outcome_compare(context->problem, &solution->outcome, &attempt.outcome).restitution);
+        outcome_widen_vibration(context->problem, &solution->outcome, &attempt.outcome, vibration);
     }
     return PERCUSS_OK;
 }
@@ -171,7 +173,9 @@ enum percuss_status start_error_find(const struct problem *problem, const struct
             if (share_of(problem, b, model) > largest)
                 largest = share_of(problem, b, model);
         enum percuss_status status =
-            largest > 0.0 ? solve_starts(&context, solution, model, &farthest[model]) : PERCUSS_OK;
+            largest > 0.0
+                ? solve_starts(&context, solution, model, &farthest[model], error->vibration[model])
+                : PERCUSS_OK;
         if (status)
             return status;
     }
@@ -198,10 +202,11 @@ static double energy_before(const struct scene *scene, size_t body)
 }
 
 /* Amplitudes go with the root of the energy: what was wrong before is still, and the blow's share
- * of what it has changed, at most all of both. */
-static double share_after(double share, double before, double blow, double after)
+ * of what it has changed, at most all of both; but no less than by what solutions beside the answer
+ * differ, in energy: sub-impacts trade impulse where its sum hardly changes. */
+static double share_after(double share, double before, double blow, double differs, double after)
 {
-    double changed = blow * (sqrt(before) + sqrt(after));
+    double changed = fmax(blow * (sqrt(before) + sqrt(after)), sqrt(differs));
     double wrong = sqrt((share * share * before + changed * changed) / after);
     return !(after > 0.0) ? 0.0 : wrong < ALL ? wrong : ALL;
 }
@@ -245,11 +250,14 @@ static size_t known_after(const struct problem *problem, const struct solution *
 }
 
 void start_error_after(const struct problem *problem, const struct solution *solution,
-                       const struct start_shares *shares, size_t body, struct body_state *state)
+                       const struct start_error *start, const struct start_shares *shares,
+                       size_t body, struct body_state *state)
 {
     double before = energy_before(solution->scene, body);
     double after = solution->outcome.vibration[body];
-    state->unknown = share_after(share_of(problem, body, false), before, shares->numerical, after);
+    double differs = fmax(solution->nearby.vibration[body], start->vibration[false][body]);
+    state->unknown =
+        share_after(share_of(problem, body, false), before, shares->numerical, differs, after);
     state->abruptness = abruptness_after(problem, solution, body);
     for (size_t f = 0; f < problem->bodies[body]->kind->family_count; f++)
         state->known[f] = known_after(problem, solution, body, f);
@@ -258,5 +266,6 @@ void start_error_after(const struct problem *problem, const struct solution *sol
     size_t *planes = &state->known[roll->first];
     if (roll->sine != 0.0)
         planes[0] = planes[1] = planes[0] < planes[1] ? planes[0] : planes[1];
-    state->unknown_model = share_after(share_of(problem, body, true), before, shares->model, after);
+    state->unknown_model = share_after(share_of(problem, body, true), before, shares->model,
+                                       start->vibration[true][body], after);
 }

@@ -11,6 +11,8 @@
 struct start_error {
     double restitution; /* by the errors of modes and steps of the answers before */
     double model;       /* and by their models' */
+    /* J, what either does to the vibration of a body by the forces that it changes */
+    double vibration[2][PERCUSS_MAX_BODIES];
 };
 
 /* Solutions beside the answer, whose vibration begins as wrong as the states say. Zero where none
@@ -27,6 +29,7 @@ struct start_shares {
 /* What the vibration of a body after the answer is wrong by, as shares of its amplitudes, for its
  * new state. */
 void start_error_after(const struct problem *problem, const struct solution *solution,
-                       const struct start_shares *shares, size_t body, struct body_state *state);
+                       const struct start_error *start, const struct start_shares *shares,
+                       size_t body, struct body_state *state);
 
 #endif

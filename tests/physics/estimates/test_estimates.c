@@ -124,14 +124,18 @@ static void references_settle_to_known_numbers(void **state)
 }
 
 /* Sequences whose answers were met and wrong while those beside them ended contacts in the same way
- * (IMPACT_CARE_BESIDE). */
+ * (IMPACT_CARE_BESIDE), and chains of blows whose sub-impacts trade impulse: the amplitudes that
+ * they leave are wrong by much more than its sum. */
 static void what_agrees_by_chance_is_not_met(void **state)
 {
     (void)state;
     static const struct campaign_settings scenes[] = {
         {.class = CLASS_HEAVY, .first = 9, .count = 1, .effort = 1e8},
         {.class = CLASS_HEAVY, .first = 64, .count = 1, .effort = 1e8},
-        {.class = CLASS_ROLLED, .first = 37, .count = 1, .effort = 1e8}};
+        {.class = CLASS_ROLLED, .first = 37, .count = 1, .effort = 1e8},
+        {.class = CLASS_CHAIN, .first = 257, .count = 1, .effort = 1e8},
+        {.class = CLASS_CHAIN, .first = 472, .count = 1, .effort = 1e8},
+        {.class = CLASS_CHAIN, .first = 566, .count = 1, .effort = 1e8}};
     for (size_t i = 0; i < COUNT(scenes); i++) {
         static struct campaign campaign;
         campaign_run(&campaign, &scenes[i]);

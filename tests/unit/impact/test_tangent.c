@@ -4,6 +4,7 @@
 /* Mirrors service/impact/tangent.c: what first and second order say of a sequence of sub-impacts
  * against solutions of the changed scene. */
 #include "contact/plastic.h"
+#include "impact/oscillator.h"
 #include "impact/tangent.h"
 #include "unit/impact/toy_scene.h"
 
@@ -84,6 +85,48 @@ static void first_order_is_that_of_solutions(double damping)
         (changed(&toy, &arena, 0.0, STEP) - changed(&toy, &arena, 0.0, -STEP)) / (2.0 * STEP);
     print_message("by compliance %.9g %.9g\n", tangent.impulse, difference);
     near(tangent.impulse, difference, 1e-5 * fabs(difference));
+    toy_free(&toy);
+    arena_release(&arena);
+}
+
+/* Energy of the difference of two motions of a group of undamped modes. */
+static double difference_energy(const struct impact_outcome *a, const struct impact_outcome *b)
+{
+    double energy = 0.0;
+    double time = fmax(a->window, b->window);
+    for (size_t k = 0; k < MODES; k++) {
+        double q[2] = {a->motion.q[0][k], b->motion.q[0][k]};
+        double v[2] = {a->motion.v[0][k], b->motion.v[0][k]};
+        oscillator_advance(omegas[k], 0.0, time - a->window, &q[0], &v[0]);
+        oscillator_advance(omegas[k], 0.0, time - b->window, &q[1], &v[1]);
+        energy += 0.5 * (pow(v[0] - v[1], 2.0) + pow(omegas[k] * (q[0] - q[1]), 2.0));
+    }
+    return energy;
+}
+
+static void vibration_changes_as_that_of_solutions(void **state)
+{
+    (void)state;
+    struct toy toy;
+    struct arena arena = {0};
+    struct tangent tangent;
+    struct impact_outcome changed[2];
+    make(&toy, MODES, 0.0);
+    struct force_log log = force_log_make(&arena, 1);
+    impulse_of(&toy.scene, &arena, &log, NULL);
+    struct tangent_path *path = tangent_path_create(&toy.scene, &log, &arena);
+    const struct tangent_source softer = {.compliance = 1.0};
+    assert_int_equal(tangent_follow(path, &softer, NULL, &tangent), PERCUSS_OK);
+    const double compliance = toy.residual[0];
+    for (int side = 0; side < 2; side++) {
+        toy.residual[0] = compliance + (side ? STEP : -STEP);
+        changed[side] = toy_run(&toy, FINE, 1e3);
+    }
+    double energy = difference_energy(&changed[0], &changed[1]) / (4.0 * STEP * STEP);
+    print_message("energy of the change %.9g %.9g\n", tangent_vibration(path, &tangent, 0), energy);
+    /* as impulses are, to 1e-5, by their squares */
+    near(tangent_vibration(path, &tangent, 0), energy, 2e-5 * energy);
+    near(tangent_vibration(path, &tangent, 1), 0.0, 0.0);
     toy_free(&toy);
     arena_release(&arena);
 }
@@ -211,6 +254,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(undamped_modes_carry_it),
         cmocka_unit_test(damped_modes_carry_it),
+        cmocka_unit_test(vibration_changes_as_that_of_solutions),
         cmocka_unit_test(second_order_is_that_of_solutions),
         cmocka_unit_test(inertia_and_viscosity_are_those_of_fast_oscillators),
         cmocka_unit_test(a_log_of_nothing_changes_nothing),
