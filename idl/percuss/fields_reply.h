@@ -100,7 +100,9 @@
 #define PERCUSS_REPLY_FIELDS(F, L)                                                                 \
     F(FLAG, complete, "false: the restitution is not the final one")                               \
     F(CHOICE, end_reason, end_reason, PERCUSS_END_COUNT, "why the fast time scale ended")          \
-    F(VALUE, window, "s; from then on vibration cannot cause a contact")                           \
+    F(VALUE, window,                                                                               \
+      "s; from then on vibration cannot cause a contact; `states_after` are those of that "        \
+      "instant")                                                                                   \
     L(LIST, contacts, contact_count, contact_result, "in the order of the request")                \
     F(CHOICE, delassus_source, delassus_source, PERCUSS_DELASSUS_COUNT, "whose matrix was used")   \
     L(LIST, velocity_after, velocity_after_count, body_velocity, "with the service's own matrix")  \

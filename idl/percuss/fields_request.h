@@ -13,7 +13,7 @@
     F(VECTOR, velocity, 1e6, "m/s; of the centre of mass, world")                                  \
     F(VECTOR, angular_velocity, 1e6, "rad/s; world")                                               \
     F(TEXT, state, "token of an earlier reply; empty: at rest, without dents")                     \
-    F(NUMBER, elapsed, 0.0, 1e9, "s; since that state")                                            \
+    F(NUMBER, elapsed, 0.0, 1e9, "s; since that state, which is that at `window` of its reply")    \
     F(TEXT, specimen, "durable object on a rig; empty: none")                                      \
     L(OVERRIDES, overrides, override_count, "in this request instead of the catalogue's")
 

@@ -29,7 +29,7 @@ struct percuss_body_motion {
     double velocity[3];             /* of the centre of mass, world, m/s */
     double angular_velocity[3];     /* world, rad/s */
     char state[PERCUSS_ID_SIZE];    /* token of an earlier reply; "": at rest, without dents */
-    double elapsed;                 /* s since that state */
+    double elapsed;                 /* s since that state: that of its reply's `window` */
     char specimen[PERCUSS_ID_SIZE]; /* durable object on a rig; "": none */
     uint32_t override_count;
     struct percuss_override overrides[PERCUSS_PARAMETER_COUNT]; /* each parameter once */

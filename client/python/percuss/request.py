@@ -106,7 +106,7 @@ class BodyMotion:
     state: str = ""
     """Token of an earlier reply (Reply.states_after); empty: at rest, without dents."""
     elapsed: _Quantity = _Quantity("time")
-    """s since that state, or a text with a unit: "20ms"."""
+    """s since that state, which is as at `window` of its reply, or a text with a unit: "20ms"."""
     specimen: str = ""
     """Name of a durable object on a rig; empty: none."""
     overrides: dict[Parameter, float] = field(default_factory=dict)
