@@ -101,11 +101,11 @@ done | awk '
 [ -z "$rounds" ] || complain "modules include each other:
 $rounds"
 
-# one owner for each library; no files, clock or output below the catalogue
+# one owner for each library (a folder or a module); no files, clock or output below the catalogue
 only() {
     pattern=$1
     owner=$2
-    found=$(grep -lE "^ *# *include *<($pattern)" service/*/*.[ch] client/*/*.[ch] 2>/dev/null | grep -vE "^($owner)/")
+    found=$(grep -lE "^ *# *include *<($pattern)" service/*/*.[ch] client/*/*.[ch] 2>/dev/null | grep -vE "^($owner)[/.]")
     [ -z "$found" ] || complain "<$pattern> outside $owner: $found"
 }
 only 'cvode|arkode|sundials|nvector|sunlinsol|sunmatrix|sunnonlinsol' 'service/numeric'
@@ -121,7 +121,7 @@ only 'sqlite3' 'service/store'
 only 'hdf5' 'service/mesh'
 only 'zmumps' 'service/spatial'
 only 'dds/' 'service/endpoint|service/daemon|client/lib|client/ros2'
-only 'time\.h|sys/|unistd|pthread' 'service/exchange|service/respond|service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/local|client/cli|client/twins|client/ros2'
+only 'time\.h|sys/|unistd|pthread' 'service/base/atomic_file|service/exchange|service/respond|service/endpoint|service/daemon|service/catalogue|service/mesh|service/store|service/tables|service/reduce|client/api|client/lib|client/local|client/cli|client/twins|client/ros2'
 
 # clients do not look into the service, but for the one that is a service to itself; the slow scale is built
 # with its complementarity solver, and clients, command lines and files of measurements with its numbers

@@ -32,7 +32,7 @@ static const struct body_order *find(const struct body_set *set, const char *nam
 /* "1234.messages": a file of a process that is there no more. */
 static bool is_orphan(const char *suffix)
 {
-    static const char *const kinds[] = {".h5", ".messages", ".yaml"};
+    static const char *const kinds[] = {".h5", ".h5.part", ".messages", ".yaml"};
     char *end;
     long process = strtol(suffix, &end, 10);
     bool known = false;

@@ -10,6 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/atomic_file.h"
 #include "daemon/queue.h"
 #include "daemon/specimen_lane.h"
 #include "exchange/clock.h"
@@ -97,15 +98,21 @@ static bool print_all(struct shared *shared, FILE *file)
 
 bool metrics_file_write(struct shared *shared, const char *path, struct fault *fault)
 {
-    /* not ending as the files do that monitoring systems look for */
-    char aside[SETTINGS_PATH_SIZE + 8];
-    snprintf(aside, sizeof aside, "%s.part", path);
-    FILE *file = fopen(aside, "we");
-    bool good = file && print_all(shared, file) && rename(aside, path) == 0;
-    if (!good) {
-        fault_set(fault, PERCUSS_INTERNAL, "metrics: %.300s: %s", path, strerror(errno));
-        if (file)
-            unlink(aside);
+    struct atomic_file aside;
+    struct fault reason = {""};
+    /* its name does not end as those do that monitoring systems look for */
+    int descriptor = atomic_file_create(&aside, path, 0666, &reason);
+    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "w");
+    if (descriptor >= 0 && !file)
+        close(descriptor);
+    bool good = file && print_all(shared, file);
+    if (descriptor >= 0 && !good) {
+        fault_set(&reason, PERCUSS_INTERNAL, "%.300s: %s", path, strerror(errno));
+        atomic_file_abandon(&aside);
     }
+    /* not synchronised: it is of one second, and the main thread must not wait for the disk */
+    good = good && !atomic_file_finish(&aside, false, &reason);
+    if (!good)
+        fault_set(fault, PERCUSS_INTERNAL, "metrics: %s", reason.text);
     return good;
 }

@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/atomic_file.h"
 #include "daemon/log.h"
 
 static const int NICE = 15; /* below the long lane, which somebody waits for */
@@ -115,11 +116,20 @@ static bool name_files(struct reducer *reducer)
 
 static bool write_text(const char *path, const char *text)
 {
-    FILE *file = path ? fopen(path, "we") : NULL;
-    if (!file)
+    struct atomic_file aside;
+    int file = path ? atomic_file_create(&aside, path, 0666, NULL) : -1;
+    if (file < 0)
         return false;
-    bool good = fputs(text, file) >= 0;
-    return fclose(file) == 0 && good;
+    /* less than all is written where there is no more room */
+    errno = ENOSPC;
+    bool good = write(file, text, strlen(text)) == (ssize_t)strlen(text);
+    int reason = errno;
+    close(file);
+    if (good)
+        return !atomic_file_finish(&aside, false, NULL);
+    atomic_file_abandon(&aside);
+    errno = reason;
+    return false;
 }
 
 /* The program beside this one, else as PATH knows it. */
@@ -145,12 +155,13 @@ static int spawn(struct reducer *reducer, char **arguments)
     posix_spawnattr_t attributes;
     sigset_t none, pipe;
     find_program(program);
+    unlink(reducer->files[MESSAGES]);
     /* messages to their file, and nothing else of ours */
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 2, reducer->files[MESSAGES],
-                                     O_WRONLY | O_CREAT | O_TRUNC, 0644);
+                                     O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0644);
     posix_spawn_file_actions_addclosefrom_np(&actions, 3);
     posix_spawnattr_init(&attributes);
     sigemptyset(&none);
@@ -252,16 +263,6 @@ static void last_message(const char *path, char text[400])
     fclose(file);
 }
 
-/* A body that has its name is whole, whatever becomes of the machine. */
-static bool keep(const char *from, const char *to)
-{
-    int file = open(from, O_RDONLY | O_CLOEXEC);
-    bool good = file >= 0 && fsync(file) == 0;
-    if (file >= 0)
-        close(file);
-    return good && rename(from, to) == 0;
-}
-
 /* Puts what the child has made, or why it has made nothing, where the catalogue finds it. */
 static void conclude(struct reducer *reducer, const struct body_set *set, int status)
 {
@@ -272,7 +273,8 @@ static void conclude(struct reducer *reducer, const struct body_set *set, int st
                              : WIFSIGNALED(status) ? KILLED
                                                    : REFUSED);
     if (made) {
-        noted = path && keep(reducer->files[BODY], path);
+        /* a body that has its name is whole, whatever becomes of the machine */
+        noted = path && !atomic_file_rename(reducer->files[BODY], path, NULL);
         tell(reducer, set, PERCUSS_BUSY, "its mesh is reduced and being loaded: ask again");
     } else {
         if (WIFSIGNALED(status))

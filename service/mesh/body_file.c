@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "mesh/aside.h"
+#include "base/atomic_file.h"
 #include "mesh/body_layout.h"
 #include "mesh/silence.h"
 
@@ -166,24 +166,39 @@ static enum percuss_status write_all(const struct file *file, const struct mesh_
     return status;
 }
 
+/* Writes the file and gives it its name. */
+static enum percuss_status write_aside(struct file *file, const struct atomic_file *place,
+                                       const struct mesh_body *body)
+{
+    struct fault reason;
+    enum percuss_status status;
+    file->id = H5Fcreate(place->aside, H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
+    status = file->id >= 0 ? write_all(file, body)
+                           : refuse(file, "cannot be created: %s", strerror(errno));
+    if (file->id >= 0 && H5Fclose(file->id) < 0 && !status)
+        status = refuse(file, "cannot be written: is the disk full?");
+    if (status)
+        atomic_file_abandon(place);
+    else if (atomic_file_finish(place, true, &reason))
+        status = refuse(file, "%s", reason.text);
+    return status;
+}
+
 enum percuss_status body_file_write(const char *path, const struct mesh_body *body,
                                     struct fault *fault)
 {
-    char aside[ASIDE_SIZE];
-    /* its end of the process falls over a file whose closing has failed; nothing is left to write */
+    struct atomic_file place;
+    struct fault reason;
+    /* its end of the process falls over a file whose closing has failed; nothing is left to write
+     */
     H5dont_atexit();
     struct silence kept = silence_begin();
     struct file file = {path, -1, fault};
-    enum percuss_status status = PERCUSS_BAD_REQUEST;
-    if (aside_begin(path, aside) &&
-        (file.id = H5Fcreate(aside, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)) >= 0)
-        status = write_all(&file, body);
+    enum percuss_status status = atomic_file_begin(&place, path, &reason);
+    if (status)
+        refuse(&file, "cannot be created: %s", reason.text);
     else
-        refuse(&file, "cannot be created: %s", strerror(errno));
-    if (file.id >= 0 && H5Fclose(file.id) < 0 && !status)
-        status = refuse(&file, "cannot be written: is the disk full?");
-    if (!aside_end(aside, path, !status) && !status)
-        status = refuse(&file, "cannot be written: %s", strerror(errno));
+        status = write_aside(&file, &place, body);
     silence_end(&kept);
     return status;
 }

@@ -8,9 +8,9 @@
 #include "base/fault.h"
 #include "model/mesh_body.h"
 
-/* Writes the file anew: aside and then in its place, so that what was there stays where it cannot
- * be written whole (links and devices are written to). PERCUSS_OK, or PERCUSS_BAD_REQUEST with the
- * file's name and the reason. */
+/* Writes the file anew (base/atomic_file: a former file is left where the new one cannot be written
+ * whole, a link is replaced). PERCUSS_OK, or PERCUSS_BAD_REQUEST with the file's name and the
+ * reason. */
 enum percuss_status body_file_write(const char *path, const struct mesh_body *body,
                                     struct fault *fault);
 

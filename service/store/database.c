@@ -215,7 +215,7 @@ enum percuss_status database_copy(struct database *database, const char *path, s
 {
     sqlite3 *copy = NULL;
     sqlite3_backup *backup = NULL;
-    int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
+    int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_NOMUTEX;
     enum percuss_status status = PERCUSS_OK;
     /* all pages in one step: nobody else uses the store meanwhile */
     if (sqlite3_open_v2(path, &copy, flags, NULL) == SQLITE_OK)

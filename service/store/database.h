@@ -75,8 +75,9 @@ void database_close(struct database *database);
 /* Complains of each flaw in the structure: indices, pages, free space. False: cannot be read. */
 bool database_audit(struct database *database, struct audit *audit);
 
-/* Copies the whole file, as it is between two transactions, to a new one and has it on the disk.
- * PERCUSS_INTERNAL with what went wrong; the copy is to be removed then. */
+/* Copies the whole file, as it is between two transactions, to an empty one and has it on the disk;
+ * no link may be in that path. PERCUSS_INTERNAL with what went wrong; the copy is to be removed
+ * then. */
 enum percuss_status database_copy(struct database *database, const char *path, struct fault *fault);
 
 /* Whether a column is that checksum. */

@@ -9,10 +9,6 @@
 
 #include "base/fault.h"
 
-/* Has the names in a file's folder on the disk: until then a loss of power may undo a rename.
- * PERCUSS_BAD_REQUEST with the system's reason. */
-enum percuss_status folder_sync(const char *path, struct fault *fault);
-
 /* Makes a folder and its parents as far as they are missing. False: errno says why it is not there.
  */
 bool folder_make(const char *path);

@@ -80,7 +80,8 @@ enum percuss_status specimen_store_clear(struct specimen_store *store, const cha
 enum percuss_status specimen_store_audit(struct specimen_store *store, struct audit *audit,
                                          struct fault *fault);
 
-/* Copies the store, as it is now, to a new file. PERCUSS_INTERNAL: what is there is no copy. */
+/* Copies the store, as it is now, to an empty file, in whose path no link may be. PERCUSS_INTERNAL:
+ * what is there is no copy. */
 enum percuss_status specimen_store_copy(struct specimen_store *store, const char *path,
                                         struct fault *fault);
 

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/atomic_file.h"
 #include "store/folder.h"
 #include "store/table_key.h"
 
@@ -52,7 +53,7 @@ enum percuss_status table_file_write(const char *folder, const char *text, const
     bool good = write_all(file, text) && fchmod(file, 0644) == 0;
     good = close(file) == 0 && good;
     if (good && rename(aside, path) == 0)
-        return folder_sync(path, fault);
+        return atomic_file_sync_folder(path, fault);
     enum percuss_status status = refuse(fault, path, "cannot be written");
     unlink(aside);
     return status;

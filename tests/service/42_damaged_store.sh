@@ -7,7 +7,7 @@
 
 store=$work/specimens.db
 copy=$work/copy.db
-settings "store: specimens.db" "backup: copy.db"
+settings "store: specimens.db" "backup: copy.db" "metrics: percuss.prom"
 
 # strike SPECIMEN NUMBER: an impact with that number
 strike() {
@@ -66,6 +66,17 @@ mkdir "$copy.part"
 back_up "store: not copied: .*copy.db.part: cannot be written"
 cmp -s "$copy" "$work/before.db" || fail "the former copy is gone"
 rmdir "$copy.part"
+
+say "links at the names of what is written lead to no other file"
+echo precious >"$work/victim"
+for name in "$copy.part" "$work/percuss.prom.part" "$work/percuss.prom"; do
+    ln -sf "$work/victim" "$name"
+done
+sleep 2
+back_up "store: copied to $copy"
+[ "$(cat "$work/victim")" = precious ] || fail "a link was followed"
+cp "$work/before.db" "$copy"
+[ -s "$work/percuss.prom" ] && [ ! -L "$work/percuss.prom" ] || fail "no metrics"
 stop_daemon
 [ "$(ls "$work" | grep -c 'part\|-wal\|-journal')" -eq 0 ] || fail "left: $(ls "$work")"
 cp "$store" "$work/whole.db"

@@ -69,7 +69,7 @@ expect 2 percuss status --watch=0
 say "a file that cannot be written is told once"
 rm -rf "$work/percuss.prom"
 mkdir "$work/percuss.prom"
-wait_for 5 logged "error.*metrics: .*percuss.prom: Is a directory" || fail "not told"
+wait_for 5 logged "error.*metrics: .*percuss.prom: cannot be written: Is a directory" || fail "not told"
 sleep 2.5
 [ "$(grep -c 'metrics: ' "$log")" -eq 1 ] || fail "told again"
 expect 0 percuss query --a steel-sphere --b al-rod --speed 0.25

@@ -271,18 +271,45 @@ static void says_where_it_cannot_write(void **state)
     struct mesh_body *body = make_body();
     struct fault fault = {""};
     assert_int_equal(body_file_write("/nowhere/body.h5", body, &fault), PERCUSS_BAD_REQUEST);
-    assert_non_null(strstr(fault.text, "/nowhere/body.h5: cannot be created"));
+    assert_non_null(strstr(fault.text, "/nowhere/body.h5: cannot be created: /nowhere/: "));
+    mesh_body_free(body);
+}
+
+/* A link at either of its names leads to no other file. */
+static void follows_no_link(void **state)
+{
+    (void)state;
+    char path[64], part[72], victim[72], text[16] = "";
+    struct mesh_body *body = make_body(), *read;
+    struct fault fault = {""};
+    name_file(path);
+    snprintf(part, sizeof part, "%s.part", path);
+    snprintf(victim, sizeof victim, "%s.victim", path);
+    FILE *file = fopen(victim, "w");
+    fputs("precious", file);
+    fclose(file);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(symlink(victim, i ? part : path), 0);
+        assert_int_equal(body_file_write(path, body, &fault), PERCUSS_OK);
+        file = fopen(victim, "r");
+        assert_int_equal(fread(text, 1, sizeof text, file), 8);
+        fclose(file);
+        assert_memory_equal(text, "precious", 8);
+        read = read_back(path);
+        expect_same(body, read);
+        mesh_body_free(read);
+    }
+    remove(path);
+    remove(victim);
     mesh_body_free(body);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comes_back_as_written),
-        cmocka_unit_test(refuses_wrong_numbers),
-        cmocka_unit_test(refuses_files_that_are_none),
-        cmocka_unit_test(bears_any_damage),
-        cmocka_unit_test(says_where_it_cannot_write),
+        cmocka_unit_test(comes_back_as_written),         cmocka_unit_test(refuses_wrong_numbers),
+        cmocka_unit_test(refuses_files_that_are_none),   cmocka_unit_test(bears_any_damage),
+        cmocka_unit_test(says_where_it_cannot_write),    cmocka_unit_test(follows_no_link),
         cmocka_unit_test(refuses_more_than_it_can_hold),
     };
     /* damaged files leave what the library complains of at its end */
