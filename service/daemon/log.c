@@ -3,6 +3,7 @@
 
 #include "daemon/log.h"
 
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -10,12 +11,19 @@
 #include <unistd.h>
 
 #include "base/text.h"
+#include "daemon/log_rate.h"
+#include "exchange/clock.h"
 
 /* Bytes: of a message; of a line, in which JSON writes a byte as six at most. */
 enum { MESSAGE_SIZE = 1200, LINE_SIZE = 6 * MESSAGE_SIZE + 200, ID_SIZE = 33 };
 
 static atomic_int limit = LEVEL_INFO;
 static enum log_format used_format = LOG_TEXT;
+
+/* Of the process, as its log is. */
+static bool rate_is_limited;
+static struct log_rate rate;
+static pthread_mutex_t rate_lock = PTHREAD_MUTEX_INITIALIZER;
 
 void log_limit(enum log_level level)
 {
@@ -30,6 +38,11 @@ bool log_shows(enum log_level level)
 void log_use(enum log_format format)
 {
     used_format = format;
+}
+
+void log_limit_rate(void)
+{
+    rate_is_limited = true;
 }
 
 /* "2026-11-22T22:21:05.123Z" */
@@ -136,12 +149,9 @@ static void write_plain(struct text *line, enum log_level level, const struct lo
     text_add(line, message);
 }
 
-static void write_line(enum log_level level, const struct log_request *request, const char *format,
-                       va_list arguments)
+static void put_line(enum log_level level, const struct log_request *request, char *message)
 {
-    char message[MESSAGE_SIZE], line[LINE_SIZE];
-    if (vsnprintf(message, sizeof message, format, arguments) < 0)
-        message[0] = '\0';
+    char line[LINE_SIZE];
     struct text text = text_begin(line, sizeof line - 1);
     if (used_format == LOG_JSON)
         write_json(&text, level, request, message);
@@ -151,6 +161,42 @@ static void write_line(enum log_level level, const struct log_request *request, 
     /* one write a line, so that lines of several threads do not mix */
     ssize_t written = write(STDERR_FILENO, line, (size_t)(text.at - line));
     (void)written;
+}
+
+/* Whoever asks for the debug level gets all of it. */
+static bool admits(enum log_level level, const char *format, const char *message)
+{
+    if (!rate_is_limited || level == LEVEL_DEBUG)
+        return true;
+    uint64_t kind = log_rate_kind(format, message);
+    pthread_mutex_lock(&rate_lock);
+    bool admitted = log_rate_admits(&rate, kind, level, message, clock_now());
+    pthread_mutex_unlock(&rate_lock);
+    return admitted;
+}
+
+static void write_line(enum log_level level, const struct log_request *request, const char *format,
+                       va_list arguments)
+{
+    char message[MESSAGE_SIZE];
+    if (vsnprintf(message, sizeof message, format, arguments) < 0)
+        message[0] = '\0';
+    if (admits(level, format, message))
+        put_line(level, request, message);
+}
+
+void log_sum_up(bool all)
+{
+    enum log_level level;
+    char message[MESSAGE_SIZE];
+    bool found = rate_is_limited;
+    while (found) {
+        pthread_mutex_lock(&rate_lock);
+        found = log_rate_sum(&rate, clock_now(), all, &level, message, sizeof message);
+        pthread_mutex_unlock(&rate_lock);
+        if (found)
+            put_line(level, NULL, message);
+    }
 }
 
 void log_line(enum log_level level, const char *format, ...)

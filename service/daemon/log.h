@@ -19,6 +19,14 @@ bool log_shows(enum log_level level);
 /* LOG_TEXT at first. Before there are threads. */
 void log_use(enum log_format format);
 
+/* From now on LOG_RATE_LINES of a kind are written a minute, and the others are summed up; not at
+ * the debug level. Before there are threads. */
+void log_limit_rate(void);
+
+/* Tells how many lines were left out, of kinds whose minute is over, or of `all`. Once a second and
+ * at the end. Thread-safe. */
+void log_sum_up(bool all);
+
 /* One line; control characters in it become spaces. Thread-safe. */
 void log_line(enum log_level level, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -192,6 +192,7 @@ int main(int argc, char **argv)
     if (!arguments.check_config) {
         log_limit(settings.log_level);
         log_use(settings.log_format);
+        log_limit_rate();
     }
     name_settings(&arguments, arguments.check_config);
     if (arguments.check_config)
@@ -216,7 +217,9 @@ int main(int argc, char **argv)
     }
     /* until a signal, and then what is still queued */
     serve(service, &signals, &notifier, settings.standby);
-    if (!drain(service, &signals, settings.drain_seconds, &notifier)) {
+    bool drained = drain(service, &signals, settings.drain_seconds, &notifier);
+    log_sum_up(true);
+    if (!drained) {
         /* a thread still works, so nothing is taken apart */
         log_line(LEVEL_ERROR, "ends with requests unanswered");
         _exit(EXIT_FAILURE);
@@ -229,6 +232,7 @@ int main(int argc, char **argv)
         _exit(EXIT_FAILURE);
     }
     notifier_close(&notifier);
+    log_sum_up(true);
     log_line(LEVEL_INFO, "ended");
     return EXIT_SUCCESS;
 }

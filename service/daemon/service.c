@@ -331,7 +331,7 @@ void service_tick(struct service *service)
         tidy_bodies(service);
     token_store_sweep(shared->tokens, now);
     reply_store_sweep(shared->replies, now);
-    dds_log_report();
+    log_sum_up(false);
     unsigned long long undelivered = atomic_load(&shared->undelivered);
     if (undelivered > service->reported)
         log_line(LEVEL_WARNING, "%llu replies were not taken by their clients",

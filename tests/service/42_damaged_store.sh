@@ -163,7 +163,13 @@ done
 shows "the store of specimens failed: nothing has changed, ask again"
 expect 0 percuss query --a steel-sphere --b al-beam --speed 0.3
 [ "$(impacts bar-1)" = $((number - 8)) ] || fail "$(field impacts) impacts, $((number - 8)) acknowledged"
-kill_daemon
+# the log of a full disk does not fill it further
+for again in $(seq 30); do
+    ! strike bar-1 "$number" >/dev/null 2>&1 || fail "there is room"
+done
+stop_daemon
+[ "$(grep -c 'error .*the impact is not stored' "$log")" -eq 21 ] || fail "not 20 lines and their sum"
+logged "error   and 11 more in [0-9]* s: .*specimens.db: the impact is not stored" || fail "no sum"
 start_daemon
 expect 0 strike bar-1 "$number"
 [ "$(impacts bar-1)" = $((number - 7)) ] || fail "$(field impacts) impacts of $((number - 7))"
