@@ -14,18 +14,39 @@
 #include "exchange/clock.h"
 #include "exchange/encode.h"
 #include "exchange/question.h"
+#include "store/database_check.h"
 #include "store/specimens.h"
 
 /* Not the id of any body. */
 static const char DAMAGED_BODY[] = "(damaged)";
 
 struct specimen_lane {
-    struct specimen_store *store;
+    const char *path;
+    unsigned replies;
+    struct specimen_store *store; /* NULL: there was no room for it yet */
     struct endpoint *endpoint;
     struct histogram *commits;
     atomic_size_t count;
     struct body_state *states[PERCUSS_MAX_BODIES]; /* of the request at hand */
 };
+
+static enum percuss_status open_store(struct specimen_lane *lane, struct fault *fault)
+{
+    enum percuss_status status =
+        specimen_store_open(lane->path, lane->replies, &lane->store, fault);
+    /* how much is lacking, where the volume tells */
+    if (status == PERCUSS_BUSY)
+        database_room_check(lane->path, fault);
+    if (!status)
+        status = store_care_check(lane->store, false, fault);
+    if (status) {
+        specimen_store_close(lane->store);
+        lane->store = NULL;
+        return status;
+    }
+    atomic_store(&lane->count, specimen_store_count(lane->store));
+    return PERCUSS_OK;
+}
 
 enum percuss_status specimen_lane_open(const char *path, unsigned replies,
                                        struct histogram *commits, struct specimen_lane **lane,
@@ -35,15 +56,20 @@ enum percuss_status specimen_lane_open(const char *path, unsigned replies,
     *lane = NULL;
     if (!created)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    created->path = path;
+    created->replies = replies;
     created->commits = commits;
-    enum percuss_status status = specimen_store_open(path, replies, &created->store, fault);
-    if (!status)
-        status = store_care_check(created->store, false, fault);
-    if (status) {
+    atomic_init(&created->count, 0);
+    enum percuss_status status = open_store(created, fault);
+    if (status && status != PERCUSS_BUSY) {
         specimen_lane_close(created);
         return status;
     }
-    atomic_init(&created->count, specimen_store_count(created->store));
+    /* a daemon that does not start answers nobody; the next tries would not find more room */
+    struct fault room;
+    if (status || database_room_check(path, &room))
+        log_line(LEVEL_WARNING, "store: %s: requests that name specimens are refused meanwhile",
+                 status ? fault->text : room.text);
     *lane = created;
     return PERCUSS_OK;
 }
@@ -76,7 +102,8 @@ static void announce_again(struct specimen_lane *lane, const char *specimen)
 void specimen_lane_announce(struct specimen_lane *lane, struct endpoint *endpoint)
 {
     lane->endpoint = endpoint;
-    announce_again(lane, NULL);
+    if (lane->store)
+        announce_again(lane, NULL);
 }
 
 size_t specimen_lane_count(struct specimen_lane *lane)
@@ -91,6 +118,37 @@ bool specimen_lane_concerns(const percuss_v1_Request *request)
             return true;
     }
     return false;
+}
+
+/* Whether there is a store now. */
+static enum percuss_status need_store(struct specimen_lane *lane, struct fault *fault)
+{
+    if (lane->store)
+        return PERCUSS_OK;
+    enum percuss_status status = open_store(lane, fault);
+    if (status)
+        return status;
+    log_line(LEVEL_INFO, "store: %s: there is room", lane->path);
+    announce_again(lane, NULL);
+    return PERCUSS_OK;
+}
+
+/* By the specimen whose impact cannot be stored; PERCUSS_BUSY: for lack of room. */
+static struct answer *refuse_specimen(const struct question *question, enum percuss_status status,
+                                      const char *problem)
+{
+    char text[640];
+    const percuss_v1_Request *request = question->request;
+    uint32_t i = 0;
+    while (i + 1 < request->bodies._length && !request->bodies._buffer[i].specimen[0])
+        i++;
+    log_line(LEVEL_ERROR, "store: an impact on %s is refused: %s",
+             request->bodies._buffer[i].specimen, problem);
+    snprintf(text, sizeof text,
+             "bodies[%u].specimen: %s: cannot be stored: %s: nothing has changed: %s and ask again",
+             i, request->bodies._buffer[i].specimen, problem,
+             status == PERCUSS_BUSY ? "make room there" : "mend the store");
+    return encode_refusal(&question->envelope, PERCUSS_INTERNAL, text);
 }
 
 static void release(struct specimen_lane *lane)
@@ -171,6 +229,8 @@ static struct answer *compute(struct specimen_lane *lane, struct responder *resp
                               const struct question *question, struct stored_reply *reply)
 {
     struct fault fault;
+    if (database_room_check(lane->path, &fault))
+        return refuse_specimen(question, PERCUSS_BUSY, fault.text);
     enum percuss_status status = load(lane, question, &fault);
     if (status)
         return encode_refusal(&question->envelope, status, fault.text);
@@ -183,6 +243,8 @@ static struct answer *compute(struct specimen_lane *lane, struct responder *resp
     if (!problem)
         return answer;
     answer_release(answer);
+    if (database_room_check(lane->path, &fault))
+        return refuse_specimen(question, PERCUSS_BUSY, fault.text);
     return encode_refusal(&question->envelope, PERCUSS_INTERNAL, problem);
 }
 
@@ -246,8 +308,11 @@ struct answer *specimen_lane_answer(struct specimen_lane *lane, struct responder
     memcpy(reply.client, question->envelope.client, sizeof reply.client);
     struct stored_reply kept = reply;
     struct fault fault;
+    enum percuss_status status = need_store(lane, &fault);
+    if (status)
+        return refuse_specimen(question, status, fault.text);
     /* what was answered before */
-    enum percuss_status status = specimen_store_find(lane->store, &kept, &fault);
+    status = specimen_store_find(lane->store, &kept, &fault);
     if (status == PERCUSS_INTERNAL)
         return kept.damaged ? refuse_damaged(question, fault.text)
                             : refuse_for_now(question, fault.text);
@@ -264,7 +329,7 @@ struct answer *specimen_lane_answer(struct specimen_lane *lane, struct responder
 void specimen_lane_clear(struct specimen_lane *lane, const char *specimen)
 {
     struct fault fault;
-    if (specimen_store_clear(lane->store, specimen, &fault)) {
+    if (need_store(lane, &fault) || specimen_store_clear(lane->store, specimen, &fault)) {
         log_line(LEVEL_ERROR, "%s", fault.text);
         return;
     }
@@ -275,5 +340,9 @@ void specimen_lane_clear(struct specimen_lane *lane, const char *specimen)
 
 void specimen_lane_back_up(struct specimen_lane *lane, const char *path)
 {
-    store_care_back_up(lane->store, path);
+    struct fault fault;
+    if (need_store(lane, &fault))
+        log_line(LEVEL_ERROR, "store: not looked through: %s", fault.text);
+    else
+        store_care_back_up(lane->store, path);
 }

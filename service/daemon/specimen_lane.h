@@ -14,8 +14,10 @@
 struct specimen_lane;
 
 /* Opens the store and logs what is damaged in it. Its status is specimen_store_open's;
- * PERCUSS_BAD_REQUEST too where it is damaged so that it must not be used. `commits` notes how long
- * its writing takes. */
+ * PERCUSS_BAD_REQUEST too where it is damaged so that it must not be used. Where the disk has no
+ * room to create it or to bring it up to date, the lane is there without it: it refuses requests
+ * and opens the store when there is room. `path` is borrowed; `commits` notes how long writing
+ * takes. */
 enum percuss_status specimen_lane_open(const char *path, unsigned replies,
                                        struct histogram *commits, struct specimen_lane **lane,
                                        struct fault *fault);

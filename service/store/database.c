@@ -3,8 +3,14 @@
 
 #include "store/database.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+
+/* The write-ahead log is written back into the file from 256 pages on, and cut to 1 MiB: a volume
+ * that it fills has no room to write it back to. */
+static const char BOUND_LOG[] = "PRAGMA wal_autocheckpoint = 256;"
+                                "PRAGMA journal_size_limit = 1048576";
 
 static const int BUSY_MILLISECONDS = 2000; /* a killed daemon's lock goes with its process */
 
@@ -20,6 +26,14 @@ enum percuss_status database_fault(struct database *database, const char *what, 
                      sqlite3_errmsg(database->connection));
 }
 
+static bool lacks_room(struct database *database)
+{
+    int code = sqlite3_errcode(database->connection) & 0xff;
+    int reason = sqlite3_system_errno(database->connection);
+    return code == SQLITE_FULL || ((code == SQLITE_IOERR || code == SQLITE_CANTOPEN) &&
+                                   (reason == ENOSPC || reason == EDQUOT));
+}
+
 /* What SQLite says about a file that cannot be used. */
 static enum percuss_status refuse_file(struct database *database, struct fault *fault)
 {
@@ -28,6 +42,9 @@ static enum percuss_status refuse_file(struct database *database, struct fault *
         return fault_set(fault, PERCUSS_INTERNAL, "%s: out of memory", database->path);
     if (sqlite3_errcode(database->connection) == SQLITE_BUSY)
         return refuse(database, "is in use by another process", fault);
+    if (lacks_room(database))
+        return fault_set(fault, PERCUSS_BUSY, "%s: cannot be made or brought up to date: no room",
+                         database->path);
     snprintf(problem, sizeof problem, "cannot be used as a store of specimens: %s",
              sqlite3_errmsg(database->connection));
     return refuse(database, problem, fault);
@@ -134,7 +151,8 @@ static enum percuss_status set_up(struct database *database, const struct databa
         return refuse_file(database, fault);
     enum percuss_status status = check_schema(database, design, fault);
     /* it is written into the file: not into that of another program */
-    if (!status && !execute(database, "COMMIT; PRAGMA journal_mode = WAL"))
+    if (!status &&
+        !(execute(database, "COMMIT; PRAGMA journal_mode = WAL") && execute(database, BOUND_LOG)))
         status = refuse_file(database, fault);
     return status;
 }

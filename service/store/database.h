@@ -66,8 +66,8 @@ struct database_design {
 };
 
 /* Opens the file, brings one of an older version up to date, or creates it; keeps other processes
- * out, checks that it is ours and whole, and prepares the statements. database_close is due
- * whatever came of it. */
+ * out, checks that it is ours and whole, and prepares the statements. PERCUSS_BUSY: there is no
+ * room to create it or to bring it up to date. database_close is due whatever came of it. */
 enum percuss_status database_open(struct database *database, const char *path,
                                   const struct database_design *design, struct fault *fault);
 void database_close(struct database *database);

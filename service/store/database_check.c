@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include "store/database.h"
@@ -17,6 +18,8 @@
  * whose locks say that a process has the file to itself. */
 enum { HEADER_SIZE = 100, AT_VERSION = 60, AT_APPLICATION = 68 };
 static const char MAGIC[] = "SQLite format 3"; /* and its zero */
+/* KiB: the log's bound (database.c), written back, and an impact with its reply. */
+static const unsigned long long ROOM = 2048;
 static const off_t LOCKS = 0x40000000, LOCK_COUNT = 512;
 
 static enum percuss_status refuse(const char *path, const char *problem, struct fault *fault)
@@ -99,6 +102,23 @@ static enum percuss_status check_header(const char *path, int file, int version,
     snprintf(problem, sizeof problem, "is of version %u: must be of version 1 to %d", found,
              version);
     return refuse(path, problem, fault);
+}
+
+enum percuss_status database_room_check(const char *path, struct fault *fault)
+{
+    const char *slash = strrchr(path, '/');
+    char folder[4096];
+    struct statvfs volume;
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash + 1 - path) : 1,
+             slash ? path : ".");
+    if (statvfs(folder, &volume) != 0 || volume.f_blocks == 0)
+        return PERCUSS_OK;
+    unsigned long long left = (unsigned long long)volume.f_bavail * volume.f_frsize / 1024;
+    if (left >= ROOM)
+        return PERCUSS_OK;
+    return fault_set(fault, PERCUSS_BUSY,
+                     "there is no room: %llu KiB are free in %.300s, and %llu are needed", left,
+                     folder, ROOM);
 }
 
 static enum percuss_status check_locks(const char *path, int file, struct fault *fault)

@@ -24,7 +24,7 @@ struct specimen_store;
 
 /* Opens or creates the file; `replies` >= 1 of the last requests are kept. PERCUSS_OK, or
  * PERCUSS_BAD_REQUEST with "FILE: ...": no store, damaged, of a newer version, used by another
- * process. */
+ * process; PERCUSS_BUSY: the disk has no room to create it or to bring it up to date. */
 enum percuss_status specimen_store_open(const char *path, unsigned replies,
                                         struct specimen_store **store, struct fault *fault);
 void specimen_store_close(struct specimen_store *store); /* NULL is allowed */

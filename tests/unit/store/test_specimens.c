@@ -4,6 +4,7 @@
 /* Tests store/specimens.c: what is committed is there after reopening, together or not at all;
  * whose specimen it is; how many replies are kept. */
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include "unit/store/specimen_lab.h"
@@ -139,13 +140,39 @@ static void keeps_the_last_replies(void **state)
     specimen_store_close(store);
 }
 
+/* 1 MiB and what one impact writes; without the bound 300 impacts of 9 pages make 4 MiB. */
+static void bounds_the_log(void **state)
+{
+    (void)state;
+    char name[160], text[20000];
+    struct stat log;
+    struct body body = rod();
+    struct fault fault;
+    struct specimen_store *store = open_store(9);
+    struct body_state *dents = dented(30, 1.0);
+    memset(text, 'a', sizeof text - 1);
+    text[sizeof text - 1] = '\0';
+    snprintf(name, sizeof name, "%s-wal", path);
+    off_t most = 0;
+    for (uint64_t i = 1; i <= 300; i++) {
+        struct specimen_change change = {"bar", &body, dents};
+        struct stored_reply reply = reply_of(1, i, text);
+        assert_int_equal(specimen_store_commit(store, &change, 1, &reply, &fault), PERCUSS_OK);
+        assert_int_equal(stat(name, &log), 0);
+        most = log.st_size > most ? log.st_size : most;
+    }
+    print_message("    at most %ld KiB\n", (long)most / 1024);
+    assert_true(most > 900 * 1024 && most < 1200 * 1024);
+    specimen_store_close(store);
+    free(dents);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(keeps_to_the_last_bit),
-        WITH_FOLDER(survives_a_kill),
-        WITH_FOLDER(refuses_another_body),
-        WITH_FOLDER(keeps_the_last_replies),
+        WITH_FOLDER(keeps_to_the_last_bit), WITH_FOLDER(survives_a_kill),
+        WITH_FOLDER(refuses_another_body),  WITH_FOLDER(keeps_the_last_replies),
+        WITH_FOLDER(bounds_the_log),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
