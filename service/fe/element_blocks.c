@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "base/vector_clones.h"
+
 void elastic_block_put(struct elastic_block *block, size_t lane, const struct quad *quad,
                        const struct material *material, const double scale[QUAD_NODES])
 {
@@ -121,5 +123,157 @@ void plastic_block_energy(const struct plastic_block *block, const double *y, do
             /* the yield stress is linear in the path */
             *plastic += weight * path * (block->yield[lane] + 0.5 * block->hardening[lane] * path);
         }
+    }
+}
+
+/* The inner loops of explicit dynamics: forces of four elements at once, straight onto the
+ * velocities. */
+
+typedef double lanes __attribute__((vector_size(FE_LANES * sizeof(double)), may_alias));
+typedef double pair __attribute__((vector_size(2 * sizeof(double)), may_alias));
+typedef long long mask __attribute__((vector_size(FE_LANES * sizeof(double))));
+
+#define INLINE static inline __attribute__((always_inline))
+
+/* x in the lanes of the mask, 0 elsewhere */
+#define ONLY(of, x) ((lanes)((mask)(x) & (of)))
+#define AT(array)   (*(const lanes *)(array))
+#define PUT(array)  (*(lanes *)(array))
+
+/* u[2a] and u[2a + 1] of the four elements from the nodes' pairs */
+INLINE void gather(const uint32_t node[QUAD_NODES][FE_LANES], const double *y,
+                   lanes u[QUAD_FREEDOMS])
+{
+    for (int a = 0; a < QUAD_NODES; a++) {
+        const uint32_t *n = node[a];
+        pair p0 = *(const pair *)(y + 2 * (size_t)n[0]);
+        pair p1 = *(const pair *)(y + 2 * (size_t)n[1]);
+        pair p2 = *(const pair *)(y + 2 * (size_t)n[2]);
+        pair p3 = *(const pair *)(y + 2 * (size_t)n[3]);
+        lanes even = __builtin_shufflevector(p0, p2, 0, 1, 2, 3);
+        lanes odd = __builtin_shufflevector(p1, p3, 0, 1, 2, 3);
+        u[2 * a] = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+        u[2 * a + 1] = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+    }
+}
+
+/* v -= step f, lane after lane: elements of a block may share nodes */
+INLINE void scatter(const uint32_t node[QUAD_NODES][FE_LANES], const lanes f[QUAD_FREEDOMS],
+                    double step, double *v)
+{
+    for (int a = 0; a < QUAD_NODES; a++) {
+        const uint32_t *n = node[a];
+        lanes r = step * f[2 * a];
+        lanes z = step * f[2 * a + 1];
+        lanes even = __builtin_shufflevector(r, z, 0, 4, 2, 6);
+        lanes odd = __builtin_shufflevector(r, z, 1, 5, 3, 7);
+        *(pair *)(v + 2 * (size_t)n[0]) -= __builtin_shufflevector(even, even, 0, 1);
+        *(pair *)(v + 2 * (size_t)n[1]) -= __builtin_shufflevector(odd, odd, 0, 1);
+        *(pair *)(v + 2 * (size_t)n[2]) -= __builtin_shufflevector(even, even, 2, 3);
+        *(pair *)(v + 2 * (size_t)n[3]) -= __builtin_shufflevector(odd, odd, 2, 3);
+    }
+}
+
+VECTOR_CLONES void elastic_blocks_kick(const struct elastic_block *blocks, size_t count,
+                                       const double *y, double *v, double step)
+{
+    for (const struct elastic_block *block = blocks; block < blocks + count; block++) {
+        lanes u[QUAD_FREEDOMS];
+        lanes f[QUAD_FREEDOMS] = {{0.0}};
+        /* displacements of four elements */
+        gather(block->node, y, u);
+        /* f = K u, of which the lower triangle is kept */
+#pragma GCC unroll 8
+        for (int i = 0; i < QUAD_FREEDOMS; i++) {
+            const double(*row)[FE_LANES] = block->stiffness + i * (i + 1) / 2;
+#pragma GCC unroll 8
+            for (int j = 0; j < i; j++) {
+                lanes k = AT(row[j]);
+                f[i] += k * u[j];
+                f[j] += k * u[i];
+            }
+            f[i] += AT(row[i]) * u[i];
+        }
+        /* onto their nodes' velocities */
+        scatter(block->node, f, step, v);
+    }
+}
+
+/* Radial return where the trial stress exceeds the yield stress; s: deviator rr, zz, tt, rz. */
+INLINE void flow(struct plastic_block *block, int p, lanes s[4])
+{
+    lanes g = AT(block->shear);
+    lanes path = AT(block->accumulated[p]);
+    /* q^2 = 3/2 s:s, at most the yield stress' square */
+    lanes limit = AT(block->yield) + AT(block->hardening) * path;
+    lanes square = 1.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * s[3] * s[3]);
+    mask beyond = square > limit * limit;
+    if (!(beyond[0] | beyond[1] | beyond[2] | beyond[3]))
+        return;
+    /* beyond it 3 G slip + H slip = q - limit (Simo and Hughes, box 3.2) */
+    lanes q = {sqrt(square[0]), sqrt(square[1]), sqrt(square[2]), sqrt(square[3])};
+    lanes slip = ONLY(beyond, (q - limit) / (3.0 * g + AT(block->hardening)));
+    /* plastic strain over the deviator of the trial stress */
+    lanes along = ONLY(beyond, 1.5 * slip / q);
+    PUT(block->accumulated[p]) = path + slip;
+    PUT(block->strain[p][0]) += along * s[0];
+    PUT(block->strain[p][1]) += along * s[1];
+    PUT(block->strain[p][2]) += 2.0 * along * s[3];
+    for (int i = 0; i < 4; i++)
+        s[i] -= 2.0 * g * along * s[i];
+}
+
+/* Deviatoric trial stress at point p. */
+INLINE void trial(const struct plastic_block *block, int p, const lanes u[QUAD_FREEDOMS],
+                  lanes s[4])
+{
+    lanes rr = {0.0}, zz = {0.0}, tt = {0.0}, rz = {0.0};
+    for (int a = 0; a < QUAD_NODES; a++) {
+        lanes dr = AT(block->gradient[p][a][0]);
+        lanes dz = AT(block->gradient[p][a][1]);
+        rr += dr * u[2 * a];
+        zz += dz * u[2 * a + 1];
+        tt += AT(block->gradient[p][a][2]) * u[2 * a];
+        rz += dz * u[2 * a] + dr * u[2 * a + 1];
+    }
+    lanes third = (rr + zz + tt) * (1.0 / 3.0);
+    lanes g = AT(block->shear);
+    s[0] = 2.0 * g * (rr - third - AT(block->strain[p][0]));
+    s[1] = 2.0 * g * (zz - third - AT(block->strain[p][1]));
+    s[2] = -s[0] - s[1];
+    s[3] = g * (rz - AT(block->strain[p][2]));
+}
+
+VECTOR_CLONES void plastic_blocks_kick(struct plastic_block *blocks, size_t count, const double *y,
+                                       double *v, double step)
+{
+    for (struct plastic_block *block = blocks; block < blocks + count; block++) {
+        lanes u[QUAD_FREEDOMS];
+        lanes f[QUAD_FREEDOMS];
+        /* displacements of four elements */
+        gather(block->node, y, u);
+        /* the pressure, of the mean change of volume */
+        lanes dilatation = {0.0};
+        for (int i = 0; i < QUAD_FREEDOMS; i++)
+            dilatation += AT(block->mean[i]) * u[i];
+        lanes pressure = AT(block->bulk_volume) * dilatation;
+        for (int i = 0; i < QUAD_FREEDOMS; i++)
+            f[i] = pressure * AT(block->mean[i]);
+        /* the deviator at each point, after flow, onto the nodes */
+        for (int p = 0; p < QUAD_POINTS; p++) {
+            lanes s[4];
+            trial(block, p, u, s);
+            flow(block, p, s);
+            for (int i = 0; i < 4; i++)
+                s[i] *= AT(block->weight[p]);
+            for (int a = 0; a < QUAD_NODES; a++) {
+                lanes dr = AT(block->gradient[p][a][0]);
+                lanes dz = AT(block->gradient[p][a][1]);
+                f[2 * a] += dr * s[0] + dz * s[3] + AT(block->gradient[p][a][2]) * s[2];
+                f[2 * a + 1] += dz * s[1] + dr * s[3];
+            }
+        }
+        /* onto their nodes' velocities */
+        scatter(block->node, f, step, v);
     }
 }

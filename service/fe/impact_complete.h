@@ -7,7 +7,33 @@
 #ifndef PERCUSS_FE_IMPACT_COMPLETE_H
 #define PERCUSS_FE_IMPACT_COMPLETE_H
 
-#include "fe/complete_setup.h"
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "base/watch.h"
+#include "fe/complete_body.h"
+#include "fe/dynamics.h"
+
+/* The problem, meshes and start of a complete finite-element impact. */
+
+struct complete_sample {
+    double time, force; /* s; N, mean since the sample before */
+    double indentation; /* m */
+    double radius;      /* outermost closed pair, m */
+};
+
+struct complete_problem {
+    struct complete_body a, b; /* one of them a sphere */
+    double speed;              /* of A towards B, m/s, > 0 */
+    unsigned cells;            /* elements across the expected contact radius, 4 ... 96 */
+    double phase;   /* 0 <= phase < 1: moves the nodes by this part of an element, less one from a
+                     * half on, against the patch's rim: see swing.h */
+    double horizon; /* s, > 0: end of the search for further contacts */
+    struct pace *pace;  /* may stop it; NULL: nobody */
+    double done, share; /* of the whole work, which it is told: before this solution, and its own */
+    void (*sample)(void *context, const struct complete_sample *sample); /* NULL: nobody */
+    void *context;                                                       /* handed to it */
+};
 
 enum { COMPLETE_SUB_IMPACTS = 64 };
 

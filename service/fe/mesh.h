@@ -16,7 +16,16 @@
 #include <stdint.h>
 
 #include "base/fault.h"
-#include "fe/mesh_rings.h"
+
+/* Where the rings of a mesh lie: positions along the contact surface and rows along a rod. */
+
+struct mesh_grade {
+    double size;    /* m, elements of the core */
+    size_t core;    /* elements along a side of the core, 2 ... 200 */
+    double growth;  /* of the rings' widths, 1 ... 2 */
+    double matched; /* m, contact nodes up to here are the same in every body of this grade */
+    double coarse;  /* m, longest element wanted beyond a rod's end region; 0: as in the region */
+};
 
 struct mesh_nodes {
     uint32_t *index;

@@ -6,7 +6,7 @@
 #define PERCUSS_TABLES_FAMILY_POINT_H
 
 #include "contact/family.h"
-#include "fe/indentation_run.h"
+#include "fe/indentation.h"
 
 /* Depths in units of that of first yield: ten to a decade up to FAMILY_DEEPEST; unloadings at every
  * second of them, and all where dents begin; branches up to the depth 1000, beyond which they keep

@@ -1,10 +1,279 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
+#include "fe/solid.h"
+
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "fe/solid_parts.h"
+#include "fe/boussinesq.h"
+#include "numeric/band.h"
+
+typedef struct plastic_state histories[QUAD_POINTS];
+
+/* What a step starts from or may return to. */
+struct snapshot {
+    double *displacement; /* all nodes, r and z */
+    histories *history;   /* by element */
+    double force;         /* N, of all contact nodes: the far boundary moves with it */
+    double *forces;       /* N, by contact node; of a solid that never yields */
+    bool settled;         /* the displacement is that of the forces; else not found yet */
+};
+
+/* Forward solutions L^-1 e_j of unit contact forces, what any two of them have in common, and each
+ * with the far boundary's. */
+struct solid_loads {
+    double *forward;      /* candidates x freedoms; row j from its own freedom on */
+    double *common;       /* candidates x candidates, lower triangle: products of two rows */
+    double *share;        /* products with `boundary` */
+    size_t known, stride; /* rows that are there; candidates */
+};
+
+struct solid {
+    bool linear; /* never yields: its displacement follows from the forces, when it is asked for */
+    const struct mesh *mesh;
+    const struct quad *quads;
+    struct plastic_law law;
+    size_t free_nodes; /* the far nodes come last */
+    double *far;       /* displacement of the far nodes per newton, r and z */
+    double *pull;      /* forces on the free freedoms per newton, from the far displacement */
+    double *pulled;    /* elastic factor's forward solution of `pull` */
+    double (*stiffness)[QUAD_FREEDOMS * QUAD_FREEDOMS]; /* elastic, by element */
+    struct band elastic, tangent;
+    struct snapshot committed, start, present;
+    size_t zone;                  /* elements before this one may flow */
+    bool yielding;                /* some point flows now: the tangent is not the elastic one */
+    size_t first;                 /* first freedom that takes part in the present linearisation */
+    double *balance;              /* internal forces on the free freedoms */
+    double *residual;             /* forward solution of `balance` */
+    double *boundary;             /* forward solution of `pull` */
+    struct solid_loads unloading; /* by the elastic factor: found once */
+    struct solid_loads flowing;   /* by the tangent's: anew in every linearisation */
+};
+
+static inline size_t freedoms(const struct solid *solid)
+{
+    return 2 * solid->free_nodes;
+}
+
+/* freedom of a free node's r; z is the next */
+static inline size_t freedom(const struct solid *solid, size_t node)
+{
+    return 2 * (solid->free_nodes - 1 - node);
+}
+
+static inline bool is_fixed(const struct solid *solid, size_t node, size_t component)
+{
+    return component == 0 && solid->mesh->r[node] == 0.0;
+}
+
+/* displacements of an element's nodes */
+static void solid_gather(const struct solid *solid, size_t element, double local[QUAD_FREEDOMS])
+{
+    const uint32_t *nodes = solid->mesh->quads[element];
+    for (size_t i = 0; i < QUAD_FREEDOMS; i++)
+        local[i] = solid->present.displacement[2 * nodes[i / 2] + i % 2];
+}
+
+/* Forces of the elastic element at its present displacements. */
+static void solid_elastic_force(const struct solid *solid, size_t element,
+                                double force[QUAD_FREEDOMS])
+{
+    double local[QUAD_FREEDOMS];
+    solid_gather(solid, element, local);
+    for (size_t i = 0; i < QUAD_FREEDOMS; i++) {
+        force[i] = 0.0;
+        for (size_t k = 0; k < QUAD_FREEDOMS; k++)
+            force[i] += solid->stiffness[element][QUAD_FREEDOMS * i + k] * local[k];
+    }
+}
+
+/* local forces of an element onto free freedoms; a fixed one stays in balance by its support */
+static void solid_scatter(const struct solid *solid, size_t element, const double *local,
+                          double *forces)
+{
+    const uint32_t *nodes = solid->mesh->quads[element];
+    for (size_t i = 0; i < QUAD_FREEDOMS; i++)
+        if (nodes[i / 2] < solid->free_nodes && !is_fixed(solid, nodes[i / 2], i % 2))
+            forces[freedom(solid, nodes[i / 2]) + i % 2] += local[i];
+}
+
+/* adds an element's stiffness to columns from `first` on; a fixed freedom keeps its diagonal alone
+ */
+static void solid_assemble(const struct solid *solid, size_t element, const double *local,
+                           size_t first, struct band *matrix)
+{
+    const uint32_t *nodes = solid->mesh->quads[element];
+    for (size_t i = 0; i < QUAD_FREEDOMS; i++) {
+        size_t a = nodes[i / 2];
+        if (a >= solid->free_nodes)
+            continue;
+        for (size_t k = 0; k < QUAD_FREEDOMS; k++) {
+            size_t b = nodes[k / 2];
+            if (b >= solid->free_nodes)
+                continue;
+            /* lower triangle from `first` on; a fixed freedom keeps its diagonal alone */
+            size_t row = freedom(solid, a) + i % 2;
+            size_t column = freedom(solid, b) + k % 2;
+            bool fixed = is_fixed(solid, a, i % 2) || is_fixed(solid, b, k % 2);
+            if (row >= column && column >= first && (row == column || !fixed))
+                *band_entry(matrix, row, column) += local[QUAD_FREEDOMS * i + k];
+        }
+    }
+}
+
+static bool snapshot_make(const struct mesh *mesh, size_t candidates, struct snapshot *snapshot)
+{
+    snapshot->settled = true;
+    snapshot->forces = calloc(candidates, sizeof *snapshot->forces);
+    snapshot->displacement = calloc(2 * mesh->nodes, sizeof *snapshot->displacement);
+    snapshot->history = calloc(mesh->elements, sizeof *snapshot->history);
+    return snapshot->displacement && snapshot->history && snapshot->forces;
+}
+
+static void snapshot_free(struct snapshot *snapshot)
+{
+    free(snapshot->displacement);
+    free(snapshot->history);
+    free(snapshot->forces);
+}
+
+static size_t half_width(const struct mesh *mesh)
+{
+    size_t width = 0;
+    for (size_t e = 0; e < mesh->elements; e++)
+        for (size_t i = 0; i < 4; i++)
+            for (size_t k = 0; k < 4; k++)
+                if (mesh->quads[e][i] > mesh->quads[e][k] + width)
+                    width = mesh->quads[e][i] - mesh->quads[e][k];
+    return 2 * width + 1;
+}
+
+static bool loads_make(struct solid_loads *loads, size_t candidates, size_t n)
+{
+    loads->stride = candidates;
+    loads->forward = calloc(candidates * n, sizeof(double));
+    loads->common = calloc(candidates * candidates, sizeof(double));
+    loads->share = calloc(candidates, sizeof(double));
+    return loads->forward && loads->common && loads->share;
+}
+
+static void loads_free(struct solid_loads *loads)
+{
+    free(loads->forward);
+    free(loads->common);
+    free(loads->share);
+}
+
+static bool allocate(struct solid *solid, size_t candidates)
+{
+    const struct mesh *mesh = solid->mesh;
+    size_t n = freedoms(solid);
+    size_t width = half_width(mesh);
+    solid->elastic = (struct band){n, width, calloc(n * (width + 1), sizeof(double))};
+    solid->tangent = (struct band){n, width, calloc(n * (width + 1), sizeof(double))};
+    solid->far = calloc(2 * mesh->far.count, sizeof(double));
+    solid->pull = calloc(n, sizeof(double));
+    solid->pulled = calloc(n, sizeof(double));
+    solid->stiffness = calloc(mesh->elements, sizeof *solid->stiffness);
+    solid->balance = calloc(n, sizeof(double));
+    solid->residual = calloc(n, sizeof(double));
+    solid->boundary = calloc(n, sizeof(double));
+    return solid->elastic.values && solid->tangent.values && solid->far && solid->pull &&
+           solid->pulled && solid->stiffness && solid->balance && solid->residual &&
+           solid->boundary && loads_make(&solid->unloading, candidates, n) &&
+           loads_make(&solid->flowing, candidates, n) &&
+           snapshot_make(mesh, candidates, &solid->committed) &&
+           snapshot_make(mesh, candidates, &solid->start) &&
+           snapshot_make(mesh, candidates, &solid->present);
+}
+
+/* the elastic matrix and its factor */
+static bool prepare_elastic(struct solid *solid)
+{
+    double moduli[STRESS_COMPONENTS * STRESS_COMPONENTS];
+    plastic_law_moduli(&solid->law, moduli);
+    for (size_t e = 0; e < solid->mesh->elements; e++) {
+        for (int p = 0; p < QUAD_POINTS; p++)
+            quad_add_stiffness(&solid->quads[e], p, moduli, solid->stiffness[e]);
+        solid_assemble(solid, e, solid->stiffness[e], 0, &solid->elastic);
+    }
+    return band_factor(&solid->elastic);
+}
+
+/* The far nodes move as under this contact force, N. */
+static void solid_move_far(struct solid *solid, double force)
+{
+    for (size_t i = 0; i < solid->mesh->far.count; i++)
+        for (size_t c = 0; c < 2; c++)
+            solid->present.displacement[2 * solid->mesh->far.index[i] + c] =
+                force * solid->far[2 * i + c];
+    solid->present.force = force;
+}
+
+/* The far nodes follow the field of the contact force taken as a point load: what its spread and
+ * the plastic strains add falls off with the square of the distance. */
+static void prepare_far(struct solid *solid, const struct material *material)
+{
+    const struct mesh *mesh = solid->mesh;
+    for (size_t i = 0; i < mesh->far.count; i++) {
+        size_t node = mesh->far.index[i];
+        boussinesq_displacement(material->young, material->poisson, mesh->r[node], mesh->z[node],
+                                &solid->far[2 * i]);
+    }
+    solid_move_far(solid, 1.0);
+    for (size_t e = 0; e < mesh->elements; e++) {
+        double forces[QUAD_FREEDOMS];
+        solid_elastic_force(solid, e, forces);
+        solid_scatter(solid, e, forces, solid->pull);
+    }
+    solid_move_far(solid, 0.0);
+    memcpy(solid->pulled, solid->pull, freedoms(solid) * sizeof *solid->pull);
+    band_forward(&solid->elastic, 0, freedoms(solid), solid->pulled);
+}
+
+struct solid *solid_create(const struct mesh *mesh, const struct quad *quads,
+                           const struct material *material, size_t candidates)
+{
+    struct solid *solid = calloc(1, sizeof *solid);
+    if (!solid)
+        return NULL;
+    solid->mesh = mesh;
+    solid->quads = quads;
+    solid->law = plastic_law_make(material);
+    solid->linear = isinf(solid->law.yield);
+    solid->free_nodes = mesh->nodes - mesh->far.count;
+    if (!allocate(solid, candidates) || !prepare_elastic(solid)) {
+        solid_destroy(solid);
+        return NULL;
+    }
+    prepare_far(solid, material);
+    return solid;
+}
+
+void solid_destroy(struct solid *solid)
+{
+    if (!solid)
+        return;
+    free(solid->elastic.values);
+    free(solid->tangent.values);
+    free(solid->far);
+    free(solid->pull);
+    free(solid->pulled);
+    free(solid->stiffness);
+    free(solid->balance);
+    free(solid->residual);
+    free(solid->boundary);
+    loads_free(&solid->unloading);
+    loads_free(&solid->flowing);
+    snapshot_free(&solid->committed);
+    snapshot_free(&solid->start);
+    snapshot_free(&solid->present);
+    free(solid);
+}
+
+/* Newton steps. */
 
 static size_t contact_freedom(const struct solid *solid, size_t i)
 {
@@ -308,7 +577,8 @@ static void add_displacement(struct solid *solid, const double *step, double for
     solid_move_far(solid, force);
 }
 
-void solid_settle(struct solid *solid)
+/* The displacement of a linear solid's present forces. */
+static void solid_settle(struct solid *solid)
 {
     if (solid->present.settled)
         return;
@@ -372,4 +642,54 @@ double solid_surface(struct solid *solid, size_t i)
 {
     solid_settle(solid);
     return solid->present.displacement[2 * solid->mesh->contact.index[i] + 1];
+}
+
+/* Flow and energies. */
+
+double solid_flow(const struct solid *solid)
+{
+    double most = 0.0;
+    for (size_t e = 0; e < solid->zone; e++)
+        for (int p = 0; p < QUAD_POINTS; p++)
+            most = fmax(most, solid->present.history[e][p].accumulated);
+    return most;
+}
+
+double solid_plastic_work(const struct solid *solid)
+{
+    /* while a point flows its equivalent stress is yield + hardening p: the integral over p */
+    double work = 0.0;
+    for (size_t e = 0; e < solid->zone; e++)
+        for (int p = 0; p < QUAD_POINTS; p++) {
+            double flow = solid->present.history[e][p].accumulated;
+            if (flow > 0.0)
+                work += solid->quads[e].volume[p] * flow *
+                        (solid->law.yield + 0.5 * solid->law.hardening * flow);
+        }
+    return work;
+}
+
+double solid_elastic_energy(struct solid *solid)
+{
+    double energy = 0.0;
+    double moduli[STRESS_COMPONENTS * STRESS_COMPONENTS];
+    solid_settle(solid);
+    plastic_law_moduli(&solid->law, moduli);
+    for (size_t e = 0; e < solid->mesh->elements; e++) {
+        double local[QUAD_FREEDOMS];
+        solid_gather(solid, e, local);
+        for (int p = 0; p < QUAD_POINTS; p++) {
+            /* half of the elastic strain times its stress */
+            double strain[STRESS_COMPONENTS];
+            double density = 0.0;
+            quad_strain(&solid->quads[e], p, local, strain);
+            for (int i = 0; i < STRESS_COMPONENTS; i++)
+                strain[i] -= solid->present.history[e][p].strain[i];
+            for (int i = 0; i < STRESS_COMPONENTS; i++)
+                for (int j = 0; j < STRESS_COMPONENTS; j++)
+                    density += 0.5 * strain[i] * moduli[4 * i + j] * strain[j];
+            energy += solid->quads[e].volume[p] * density;
+        }
+    }
+    return energy;
 }
