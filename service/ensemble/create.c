@@ -3,13 +3,203 @@
 
 #include "ensemble/create.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "contact/law.h"
-#include "ensemble/choice.h"
+#include "ensemble/worker.h"
 #include "solve/solve.h"
+
+/* One model for all samples. */
+
+enum {
+    PILOTS = 24,
+    JUDGES = 21, /* of these at least, for a coarser model than the finest */
+    MODEL_LEVELS = 12
+};
+
+static const double MODEL_RATIO = 1.25; /* between frequencies that are tried */
+
+/* Share of the tolerance within which a pilot agrees while the model is chosen: of other samples
+ * some are worse than the worst of so few pilots. */
+static const double STRICT = 0.5;
+
+/* A pilot's inputs, its solution by the full search, and the model of that. */
+struct pilot {
+    double values[ENSEMBLE_MAX_INPUTS];
+    double restitution;
+    double allowed; /* difference from it with which a model agrees; INFINITY: none can */
+    struct solution_model model;
+};
+
+/* What is needed while the model is chosen. */
+struct choice {
+    struct ensemble *ensemble;
+    struct ensemble_worker *worker;
+    const struct watch *watch; /* NULL: nobody */
+    struct pilot *pilots;
+    unsigned count; /* pilots with an answer */
+};
+
+static bool is_wanted(const struct choice *choice)
+{
+    return !choice->watch || choice->watch->proceed(choice->watch->context, 0.0);
+}
+
+/* Solves the pilots. A refusal of all is the ensemble's. */
+static enum percuss_status solve_pilots(struct choice *choice, struct fault *fault)
+{
+    const struct ensemble *ensemble = choice->ensemble;
+    struct random_stream stream = {ensemble->spec.seed, STREAM_PILOTS};
+    enum percuss_status status = PERCUSS_INTERNAL;
+    for (unsigned k = 0; k < PILOTS && is_wanted(choice); k++) {
+        double point[SAMPLING_MAX_DIMENSIONS];
+        struct pilot *pilot = &choice->pilots[choice->count];
+        struct repeat_outcome outcome;
+        /* a Latin hypercube: no part of an input's range is without one */
+        for (size_t d = 0; d < ensemble->sampling.dimensions; d++) {
+            uint64_t cell = random_permute(random_bits(&stream, PILOTS, d), k, PILOTS);
+            point[d] = ((double)cell + random_uniform(&stream, k, d)) / PILOTS;
+        }
+        copula_apply(&ensemble->copula, point);
+        /* lists taken in order are looked at along all their length */
+        ensemble_values(ensemble, point, k * ensemble->count / PILOTS, pilot->values);
+        /* kept if the search answers it */
+        status = worker_search(choice->worker, pilot->values, &pilot->model, &outcome, fault);
+        pilot->restitution = outcome.restitution;
+        choice->count += ensemble_has_result(status);
+    }
+    return choice->count > 0 ? PERCUSS_OK : status;
+}
+
+/* How far the model's answer to pilot k is from the search's; INFINITY: it has none. */
+static double difference_of(struct choice *choice, unsigned k)
+{
+    struct ensemble *ensemble = choice->ensemble;
+    struct repeat_outcome outcome;
+    /* the first with another model must not keep the scene */
+    ensemble->same_scene = k > 0 && !spec_changes_scene(&ensemble->spec);
+    worker_solve(choice->worker, choice->pilots[k].values, &outcome, NULL);
+    double difference = fabs(outcome.restitution - choice->pilots[k].restitution);
+    return ensemble_has_result(outcome.status) && isfinite(difference) ? difference : INFINITY;
+}
+
+static bool all_agree(struct choice *choice)
+{
+    for (unsigned k = 0; k < choice->count && is_wanted(choice); k++)
+        if (difference_of(choice, k) > choice->pilots[k].allowed)
+            return false;
+    return true;
+}
+
+/* What a coarser model is to keep of the finest one's agreement. */
+static void find_allowed(struct choice *choice)
+{
+    double tolerance = choice->ensemble->model.tolerance;
+    for (unsigned k = 0; k < choice->count && is_wanted(choice); k++) {
+        double difference = difference_of(choice, k);
+        choice->pilots[k].allowed = difference <= STRICT * tolerance ? STRICT * tolerance
+                                    : difference <= tolerance        ? tolerance
+                                                                     : INFINITY;
+    }
+}
+
+static unsigned count_agreeing(struct choice *choice)
+{
+    unsigned agreeing = 0;
+    for (unsigned k = 0; k < choice->count && is_wanted(choice); k++)
+        agreeing += difference_of(choice, k) <= choice->ensemble->model.tolerance;
+    return agreeing;
+}
+
+/* Whether enough pilots can judge a model at all. */
+static bool can_judge(const struct choice *choice)
+{
+    unsigned judges = 0;
+    for (unsigned k = 0; k < choice->count; k++)
+        judges += isfinite(choice->pilots[k].allowed);
+    return judges * PILOTS >= choice->count * JUDGES;
+}
+
+/* As few modes as do not lose a pilot, from all that the search takes for any of them down to a
+ * small share. By halves, since many steps down would give a coarse model as many chances to agree
+ * by luck. */
+static void choose_modes(struct choice *choice)
+{
+    struct solution_model *model = &choice->ensemble->model.model;
+    double highest = model->cut;
+    int agrees = 0, fails = highest > 0.0 ? MODEL_LEVELS + 1 : 1;
+    while (fails - agrees > 1) {
+        int below = (agrees + fails) / 2;
+        model->cut = highest * pow(MODEL_RATIO, -below);
+        if (all_agree(choice))
+            agrees = below;
+        else
+            fails = below;
+    }
+    model->cut = highest * pow(MODEL_RATIO, -agrees);
+}
+
+/* As long steps as do not lose a pilot. */
+static void choose_steps(struct choice *choice)
+{
+    struct ensemble_model *chosen = &choice->ensemble->model;
+    double finest = chosen->model.accuracy;
+    for (double accuracy = 10.0 * chosen->tolerance; accuracy > finest; accuracy /= 10.0) {
+        chosen->model.accuracy = accuracy;
+        if (all_agree(choice))
+            return;
+    }
+    chosen->model.accuracy = finest;
+}
+
+/* From the finest, with all modes and steps that the search takes for any pilot. Where sequences of
+ * sub-impacts are so chaotic that few pilots agree even with that, it stays. */
+static void choose(struct choice *choice)
+{
+    struct ensemble_model *chosen = &choice->ensemble->model;
+    chosen->model = (struct solution_model){0.0, INFINITY};
+    for (unsigned k = 0; k < choice->count; k++) {
+        chosen->model.cut = fmax(chosen->model.cut, choice->pilots[k].model.cut);
+        chosen->model.accuracy = fmin(chosen->model.accuracy, choice->pilots[k].model.accuracy);
+    }
+    find_allowed(choice);
+    if (can_judge(choice)) {
+        choose_modes(choice);
+        choose_steps(choice);
+    }
+    chosen->pilots = choice->count;
+    chosen->agreeing = count_agreeing(choice);
+}
+
+/* Fills ensemble->model: the coarsest one that answers some pilot samples as the accuracy search
+ * does. PERCUSS_OK; a refusal of all pilots; TIMEOUT where the watch (NULL: nobody) stopped it;
+ * INTERNAL: out of memory. */
+static enum percuss_status choice_of_model(struct ensemble *ensemble, const struct watch *watch,
+                                           struct fault *fault)
+{
+    /* the pilots, and the model that they agree on */
+    ensemble->model.tolerance = solve_tolerance(&ensemble->spec.request->options);
+    struct choice choice = {.ensemble = ensemble, .watch = watch};
+    enum percuss_status status = ensemble_worker_create(&choice.worker, ensemble, watch, fault);
+    if (status)
+        return status;
+    choice.pilots = calloc(PILOTS, sizeof *choice.pilots);
+    status = choice.pilots ? solve_pilots(&choice, fault)
+                           : fault_set(fault, PERCUSS_INTERNAL, "out of memory");
+    if (!status)
+        choose(&choice);
+    /* a stop leaves no model */
+    if (!is_wanted(&choice))
+        status = fault_set(fault, PERCUSS_TIMEOUT, "stopped before the first sample");
+    /* the scene can be kept where only the blow varies */
+    ensemble->same_scene = !spec_changes_scene(&ensemble->spec);
+    ensemble_worker_free(choice.worker);
+    free(choice.pilots);
+    return status;
+}
 
 /* Of seconds each there would be too many. */
 static enum percuss_status refuse_long(unsigned asked, struct fault *fault)

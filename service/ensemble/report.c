@@ -4,12 +4,18 @@
 #include "ensemble/report.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+static const double REPORT_LEVEL = 0.95; /* of all intervals */
 
 static const double default_quantiles[] = {0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975};
 
-void report_probabilities(const struct ensemble_spec *spec, const double **probabilities,
-                          size_t *count)
+/* Probabilities of the quantiles: those asked for, or the default ones. */
+static void report_probabilities(const struct ensemble_spec *spec, const double **probabilities,
+                                 size_t *count)
 {
     bool given = spec->quantile_count > 0;
     *probabilities = given ? spec->quantiles : default_quantiles;
@@ -65,4 +71,529 @@ struct report_progress report_progress(const struct ensemble *ensemble,
                                       progress.quantile_half_width <= spec->quantile_half_width);
     free(values);
     return progress;
+}
+
+/* How well the one model of all samples answers. */
+
+/* Largest difference of the quantiles of two samples of equal size, which are sorted here. */
+static double quantile_shift(const struct ensemble_spec *spec, double *a, double *b, size_t count)
+{
+    const double *probabilities;
+    size_t quantiles;
+    double worst = 0.0;
+    report_probabilities(spec, &probabilities, &quantiles);
+    summary_sort(a, count, a);
+    summary_sort(b, count, b);
+    for (size_t i = 0; i < quantiles; i++)
+        worst = fmax(worst, fabs(summary_quantile(a, count, probabilities[i]) -
+                                 summary_quantile(b, count, probabilities[i])));
+    return worst;
+}
+
+/* Restitutions of the same samples by both ways, and their differences. */
+struct comparison {
+    double *fast, *searched, *difference;
+};
+
+static void compare(struct report_verification *out, const struct ensemble *ensemble,
+                    const struct report_material *material, struct comparison *comparison)
+{
+    double tolerance = ensemble->model.tolerance;
+    uint64_t count = ensemble_extras(ensemble, material->done);
+    size_t within = 0;
+    /* both answers of every sample that was solved again */
+    for (uint64_t k = 0; k < count; k++) {
+        struct ensemble_extra_place place = ensemble_extra_place(ensemble, material->done, k);
+        double fast = material->samples[place.sample].restitution;
+        double shift = fast - material->extras[k].restitution;
+        if (place.dimension != SIZE_MAX)
+            break; /* the others are not of this kind */
+        if (!isfinite(shift))
+            continue;
+        comparison->fast[out->count] = fast;
+        comparison->searched[out->count] = material->extras[k].restitution;
+        comparison->difference[out->count++] = shift;
+        within += fabs(shift) <= tolerance;
+        out->unmet += !(material->extras[k].error <= tolerance);
+        out->largest = fmax(out->largest, fabs(shift));
+    }
+    /* the share that agrees */
+    out->within = (double)within / (double)out->count;
+    out->within_bounds = interval_share(within, out->count, REPORT_LEVEL);
+}
+
+/* Fills report->verification from the samples that were solved again by the accuracy search.
+ * False: out of memory. */
+static bool verification_fill(struct ensemble_report *report, const struct ensemble *ensemble,
+                              const struct report_material *material)
+{
+    /* both answers side by side */
+    struct report_verification *out = &report->verification;
+    uint64_t count = ensemble_extras(ensemble, report->done);
+    double *memory = calloc(3 * count + 1, sizeof *memory);
+    if (!memory)
+        return false;
+    struct comparison comparison = {memory, memory + count, memory + 2 * count};
+    compare(out, ensemble, material, &comparison);
+    /* what the fast one does to the mean and the deviation */
+    struct moments moments = summary_moments(comparison.difference, out->count);
+    struct interval_sample sample = {comparison.difference, out->count, 1, NULL, out->count,
+                                     REPORT_LEVEL};
+    out->mean_shift = moments.mean;
+    out->mean_shift_half_width = interval_mean(&sample, &moments).high - moments.mean;
+    out->deviation_shift = summary_moments(comparison.fast, out->count).deviation -
+                           summary_moments(comparison.searched, out->count).deviation;
+    /* and to the quantiles, last as these sort the values */
+    out->quantile_shift =
+        quantile_shift(&ensemble->spec, comparison.fast, comparison.searched, out->count);
+    free(memory);
+    return true;
+}
+
+/* The warnings of an ensemble: what single impacts would be warned of, counted, and its own. */
+
+/* More of a distribution than this outside its truncation is worth a word. */
+static const double TRUNCATED_SHARE = 0.01;
+
+/* More samples than this that differ from the accuracy search by more than the tolerance, or one
+ * that does by so many times of it, too. */
+static const double OUTSIDE_SHARE = 0.05, OUTSIDE_FACTOR = 10.0;
+
+__attribute__((format(printf, 2, 3))) static void warn(struct ensemble_report *report,
+                                                       const char *format, ...)
+{
+    if (report->warning_count == REPORT_WARNINGS)
+        return;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(report->warnings[report->warning_count++], sizeof *report->warnings, format, args);
+    va_end(args);
+}
+
+/* Samples of which something is to be said. */
+struct occurrence {
+    uint64_t count, first;
+};
+
+static void note(struct occurrence *occurrence, uint64_t index)
+{
+    if (occurrence->count++ == 0)
+        occurrence->first = index;
+}
+
+/* A sample that is solved again for its words. */
+struct witness {
+    const struct ensemble *ensemble;
+    const struct watch *watch;      /* NULL: nobody */
+    struct ensemble_worker *worker; /* NULL: none was called yet */
+    uint64_t index;
+    struct ensemble_sample sample;
+    struct fault fault;
+};
+
+/* False: out of memory. */
+static bool call(struct witness *witness, uint64_t index)
+{
+    if (witness->worker && witness->index == index)
+        return true;
+    if (!witness->worker &&
+        ensemble_worker_create(&witness->worker, witness->ensemble, witness->watch, NULL))
+        return false;
+    witness->index = index;
+    ensemble_solve(witness->worker, index, &witness->sample, &witness->fault);
+    return true;
+}
+
+/* What it says to a kind of warning, or with WARNING_KINDS to its refusal. */
+static const char *words_of(const struct witness *witness, enum warning_kind kind)
+{
+    /* what the worker has in mind then is another sample */
+    if (witness->sample.status == PERCUSS_TIMEOUT)
+        return "(no time was left to say why)";
+    const char *text = kind == WARNING_KINDS
+                           ? witness->fault.text
+                           : warnings_text(ensemble_warnings(witness->worker), kind);
+    return text ? text : "";
+}
+
+/* In the words of the first of them. */
+static void quote(struct ensemble_report *report, const struct witness *witness,
+                  const struct occurrence *occurrence, enum warning_kind kind)
+{
+    bool refusal = kind == WARNING_KINDS;
+    warn(report, "samples: %llu of %llu%s, first %llu: %s", (unsigned long long)occurrence->count,
+         (unsigned long long)report->done, refusal ? " were refused and are left out" : "",
+         (unsigned long long)occurrence->first, words_of(witness, kind));
+}
+
+/* Every kind of warning once, and the refusals. False: out of memory. */
+static bool warn_samples(struct ensemble_report *report, struct witness *witness,
+                         const struct ensemble_sample *samples)
+{
+    /* how often each occurs, and where first */
+    struct occurrence found[WARNING_KINDS + 1] = {0};
+    for (uint64_t i = 0; i < report->done; i++) {
+        if (!ensemble_sample_has_result(&samples[i]))
+            note(&found[WARNING_KINDS], i);
+        for (unsigned kinds = samples[i].warnings; kinds; kinds &= kinds - 1)
+            note(&found[__builtin_ctz(kinds)], i);
+    }
+    /* in the words of that sample, solved again */
+    bool good = true;
+    for (int kind = 0; good && kind <= WARNING_KINDS; kind++) {
+        if (found[kind].count == 0)
+            continue;
+        good = call(witness, found[kind].first);
+        if (good)
+            quote(report, witness, &found[kind], (enum warning_kind)kind);
+    }
+    return good;
+}
+
+static bool is_of_table(unsigned model)
+{
+    return contact_law_asked(model)->tables == CONTACT_TABLES_ONLY;
+}
+
+/* A table and the closed form differ by some 0.01: not to be taken for a spread of the inputs. */
+static void warn_models(struct ensemble_report *report, const struct ensemble *ensemble,
+                        const struct ensemble_sample *samples)
+{
+    uint64_t closed = 0;
+    bool tables = is_of_table(ensemble->stated_model);
+    for (uint64_t i = 0; i < report->done; i++) {
+        if (!ensemble_sample_has_result(&samples[i]))
+            continue;
+        bool tabulated = is_of_table(samples[i].contact_model);
+        tables = tables || tabulated;
+        closed += contact_law_asked(samples[i].contact_model)->curve && !tabulated;
+    }
+    if (tables && closed)
+        warn(report,
+             "samples: %llu of %llu follow the closed form, for want of a table for their "
+             "materials or so deep, others (or the impact as it is stated) a table: the two differ "
+             "by some 0.01 in the restitution (contact_model closed-form takes one for all)",
+             (unsigned long long)closed, (unsigned long long)report->done);
+}
+
+static void warn_numbers(struct ensemble_report *report, const struct ensemble *ensemble)
+{
+    const struct ensemble_spec *spec = &ensemble->spec;
+    if (report->truncated)
+        warn(report,
+             "samples: %llu of %llu reached the horizon or the effort allowed before they "
+             "were over",
+             (unsigned long long)report->truncated, (unsigned long long)report->done);
+    for (size_t i = 0; i < spec->input_count; i++) {
+        double share = input_truncated(&spec->inputs[i]);
+        if (share > TRUNCATED_SHARE)
+            warn(report,
+                 "inputs[%zu]: %s: %.2g of its distribution lies outside what is possible or "
+                 "allowed and is cut off",
+                 i, input_quantity_name(spec->inputs[i].quantity), share);
+    }
+}
+
+/* What the samples that were solved again say of all. */
+static void warn_verification(struct ensemble_report *report, const struct ensemble *ensemble)
+{
+    const struct report_verification *verification = &report->verification;
+    double tolerance = ensemble->model.tolerance;
+    if (verification->count == 0)
+        return;
+    /* samples that differ */
+    double outside = 1.0 - verification->within;
+    if (outside > OUTSIDE_SHARE || verification->largest > OUTSIDE_FACTOR * tolerance)
+        warn(report,
+             "verification: %.2g %% of %zu samples solved again by the accuracy search differ by "
+             "more than the tolerance of %g, by up to %.2g: so do as many of all samples, %.2g to "
+             "%.2g %% (the mean is off by %.1g, a quantile by up to %.1g)",
+             100.0 * outside, verification->count, tolerance, verification->largest,
+             100.0 * (1.0 - verification->within_bounds.high),
+             100.0 * (1.0 - verification->within_bounds.low), fabs(verification->mean_shift),
+             verification->quantile_shift);
+    /* searches that do not know better */
+    if ((double)verification->unmet > OUTSIDE_SHARE * (double)verification->count)
+        warn(report,
+             "verification: %zu of %zu samples: the accuracy search itself does not reach the "
+             "tolerance of %g, by its own estimate",
+             verification->unmet, verification->count, tolerance);
+    /* a mean that is off */
+    if (fabs(verification->mean_shift) > tolerance)
+        warn(report,
+             "verification: the mean is off by %.2g: more than the tolerance: ask for a "
+             "finer one",
+             verification->mean_shift);
+}
+
+/* Fills report->warnings, when all else is filled, from samples 0 .. report->done - 1 in their
+ * order: the same for any number of workers. What is quoted is solved again: where the watch (NULL:
+ * nobody) stops that, the words are left out. False: out of memory. */
+static bool remarks_fill(struct ensemble_report *report, const struct ensemble *ensemble,
+                         const struct ensemble_sample *samples, const struct watch *watch)
+{
+    struct witness witness = {.ensemble = ensemble, .watch = watch};
+    bool good = warn_samples(report, &witness, samples);
+    ensemble_worker_free(witness.worker);
+    if (!good)
+        return false;
+    warn_models(report, ensemble, samples);
+    warn_numbers(report, ensemble);
+    warn_verification(report, ensemble);
+    return true;
+}
+
+static double value_of(const struct ensemble_sample *sample, int quantity)
+{
+    const double all[] = {sample->restitution, sample->impulse, sample->end_time,
+                          sample->peak_force};
+    return all[quantity];
+}
+
+static bool take_quantity(struct report_quantity *quantity, struct arena *arena)
+{
+    size_t n = quantity->quantile_count;
+    quantity->quantiles = arena_take(arena, n, sizeof(double));
+    quantity->quantiles_low = arena_take(arena, n, sizeof(double));
+    quantity->quantiles_high = arena_take(arena, n, sizeof(double));
+    quantity->edges = arena_take(arena, quantity->bins + 1, sizeof(double));
+    quantity->counts = arena_take(arena, quantity->bins, sizeof(uint64_t));
+    quantity->curve_values = arena_take(arena, REPORT_CURVE + 1, sizeof(double));
+    quantity->curve_shares = arena_take(arena, REPORT_CURVE + 1, sizeof(double));
+    return quantity->quantiles && quantity->quantiles_low && quantity->quantiles_high &&
+           quantity->edges && quantity->counts && quantity->curve_values && quantity->curve_shares;
+}
+
+static void fill_curve(struct report_quantity *quantity, const double *sorted, size_t count)
+{
+    bool few = count <= REPORT_CURVE;
+    quantity->curve_count = few ? count : REPORT_CURVE + 1;
+    for (size_t i = 0; i < quantity->curve_count; i++) {
+        double share = few ? (double)(i + 1) / (double)count : (double)i / REPORT_CURVE;
+        quantity->curve_shares[i] = share;
+        quantity->curve_values[i] = few ? sorted[i] : summary_quantile(sorted, count, share);
+    }
+}
+
+static bool fill_quantity(struct ensemble_report *report, const struct ensemble *ensemble,
+                          struct report_quantity *quantity, struct interval_sample *sample)
+{
+    /* what is told of it */
+    report_probabilities(&ensemble->spec, &quantity->probabilities, &quantity->quantile_count);
+    quantity->moments = summary_moments(sample->values, sample->count);
+    quantity->bins = ensemble->spec.bins ? ensemble->spec.bins : summary_bins(sample->kept);
+    if (!summary_varies(&quantity->moments))
+        quantity->bins = 0; /* they would have no width */
+    if (!take_quantity(quantity, &report->memory))
+        return false;
+    /* mean, deviation and quantiles with their intervals */
+    quantity->mean = interval_mean(sample, &quantity->moments);
+    quantity->deviation = interval_deviation(sample, &quantity->moments);
+    for (size_t i = 0; i < quantity->quantile_count; i++) {
+        double p = quantity->probabilities[i];
+        struct interval interval = interval_quantile(sample, p);
+        quantity->quantiles[i] = summary_quantile(sample->sorted, sample->kept, p);
+        quantity->quantiles_low[i] = interval.low;
+        quantity->quantiles_high[i] = interval.high;
+    }
+    /* and the distribution */
+    summary_histogram(sample->sorted, sample->kept, quantity->bins, quantity->edges,
+                      quantity->counts);
+    fill_curve(quantity, sample->sorted, sample->kept);
+    return true;
+}
+
+/* At rest and left alone, one contact separates two bodies with at most the energy they met with:
+ * 0 <= e <= 1. Vibration, acceleration and other contacts may add to it or take from it. */
+static struct shape_range possible_range(const struct ensemble_spec *spec)
+{
+    const struct solve_request *request = spec->request;
+    bool alone = request->contact_count == 1 && request->contacts[0].gap_acceleration == 0.0;
+    for (size_t b = 0; b < request->body_count; b++)
+        alone = alone && !request->bodies[b].state;
+    return alone ? (struct shape_range){0.0, 1.0} : (struct shape_range){-1.0, INFINITY};
+}
+
+static void fill_shape(struct ensemble_report *report, const struct ensemble *ensemble,
+                       const double *sorted)
+{
+    static const double sigmas[REPORT_INTERVALS] = {0.5, 1.0, 1.5, 2.0};
+    const struct moments *moments = &report->quantities[0].moments;
+    report->range = possible_range(&ensemble->spec);
+    for (int i = 0; i < REPORT_INTERVALS; i++)
+        report->intervals[i] = shape_sigma_interval(sorted, moments, sigmas[i], &report->range);
+    report->beta = shape_fit_beta(sorted, moments, &report->range);
+}
+
+static bool fill_quantities(struct ensemble_report *report, const struct ensemble *ensemble,
+                            const struct ensemble_sample *samples)
+{
+    static const char *const names[] = {"restitution", "impulse", "end_time", "peak_force"};
+    double *values = malloc((report->done + 1) * sizeof *values);
+    double *sorted = malloc((report->done + 1) * sizeof *sorted);
+    bool good = values && sorted;
+    for (int q = 0; good && q < REPORT_QUANTITIES; q++) {
+        /* its values, and sorted */
+        for (uint64_t i = 0; i < report->done; i++)
+            values[i] = value_of(&samples[i], q);
+        struct interval_sample sample = {
+            .values = values,
+            .count = report->done,
+            .replicates = ensemble->sampling.replicates,
+            .sorted = sorted,
+            .kept = summary_sort(values, report->done, sorted),
+            .level = REPORT_LEVEL,
+        };
+        /* what follows from them */
+        report->quantities[q].name = names[q];
+        good = fill_quantity(report, ensemble, &report->quantities[q], &sample);
+        if (good && q == 0)
+            fill_shape(report, ensemble, sorted);
+    }
+    free(values);
+    free(sorted);
+    return good;
+}
+
+static bool fill_counts(struct ensemble_report *report, const struct ensemble_sample *samples)
+{
+    /* as long as the longest sequence */
+    size_t most = 0;
+    for (uint64_t i = 0; i < report->done; i++)
+        if (ensemble_sample_has_result(&samples[i]) && samples[i].sub_impacts > most)
+            most = samples[i].sub_impacts;
+    report->count_length = most + 1;
+    report->sub_impact_counts = arena_take(&report->memory, most + 1, sizeof(uint64_t));
+    report->significant_counts = arena_take(&report->memory, most + 1, sizeof(uint64_t));
+    if (!report->sub_impact_counts || !report->significant_counts)
+        return false;
+    /* how many samples have so many */
+    for (uint64_t i = 0; i < report->done; i++) {
+        report->refused += !ensemble_sample_has_result(&samples[i]);
+        report->truncated += samples[i].status == PERCUSS_TRUNCATED;
+        if (!ensemble_sample_has_result(&samples[i]))
+            continue;
+        report->sub_impact_counts[samples[i].sub_impacts]++;
+        report->significant_counts[samples[i].significant]++;
+    }
+    return true;
+}
+
+static bool fill_input(struct report_input *out, struct influence_pair *pairs, size_t kept,
+                       struct arena *arena)
+{
+    out->parts = arena_take(arena, REPORT_PARTS, sizeof *out->parts);
+    if (!out->parts)
+        return false;
+    double range = kept ? pairs[kept - 1].x - pairs[0].x : 0.0;
+    out->resolution = 0.01 * range;
+    if (range > 0.0) {
+        out->part_count = REPORT_PARTS;
+        influence_parts(pairs, kept, out->resolution, out->parts, REPORT_PARTS);
+    }
+    return true;
+}
+
+/* Uncertain: drawn, or a list that differs from sample to sample. */
+static bool is_uncertain(const struct ensemble_spec *spec, size_t input)
+{
+    const struct ensemble_input *one = &spec->inputs[input];
+    return spec_is_drawn(spec, input) ||
+           (one->distribution == DISTRIBUTION_IS_LIST && one->value_count > 1);
+}
+
+/* The extras with the input drawn anew, if there are any. False: out of memory. */
+static bool find_indices(const struct report_material *material, const struct ensemble *ensemble,
+                         struct report_input *out, struct indices_data *data)
+{
+    /* rows: the extras in which this input alone is another */
+    uint64_t count = material->extras ? ensemble_extras(ensemble, material->done) : 0;
+    struct indices_row *rows = malloc((count + 1) * sizeof *rows);
+    if (!rows)
+        return false;
+    for (uint64_t k = 0; k < count; k++) {
+        struct ensemble_extra_place place = ensemble_extra_place(ensemble, material->done, k);
+        double values[ENSEMBLE_MAX_INPUTS];
+        if (place.dimension == SIZE_MAX || ensemble->drawn[place.dimension] != out->input)
+            continue;
+        ensemble_extra_inputs(ensemble, &place, values);
+        rows[data->row_count++] =
+            (struct indices_row){place.sample, values[out->input], material->extras[k].restitution};
+    }
+    /* the indices from them */
+    data->rows = rows;
+    bool good = indices_find(data, &out->indices);
+    free(rows);
+    return good;
+}
+
+/* What the inputs are of one sample after the other, and their answers. */
+struct columns {
+    double *x, *y;
+    struct influence_pair *pairs;
+};
+
+static bool take_columns(struct columns *columns, size_t count)
+{
+    columns->x = malloc((count + 1) * sizeof *columns->x);
+    columns->y = malloc((count + 1) * sizeof *columns->y);
+    columns->pairs = malloc((count + 1) * sizeof *columns->pairs);
+    return columns->x && columns->y && columns->pairs;
+}
+
+static void release_columns(struct columns *columns)
+{
+    free(columns->x);
+    free(columns->y);
+    free(columns->pairs);
+}
+
+static bool fill_inputs(struct ensemble_report *report, const struct ensemble *ensemble,
+                        const struct report_material *material)
+{
+    /* room for all inputs, and for the columns of one */
+    const struct ensemble_spec *spec = &ensemble->spec;
+    size_t n = report->done;
+    struct columns columns;
+    report->inputs = arena_take(&report->memory, spec->input_count, sizeof *report->inputs);
+    bool good = take_columns(&columns, n) && report->inputs;
+    /* where nothing varies there is nothing to explain */
+    bool varies = summary_varies(&report->quantities[0].moments);
+    for (size_t i = 0; good && i < spec->input_count; i++) {
+        if (!is_uncertain(spec, i))
+            continue;
+        struct report_input *out = &report->inputs[report->input_count++];
+        /* its values beside the restitutions */
+        for (size_t k = 0; k < n; k++) {
+            double values[ENSEMBLE_MAX_INPUTS];
+            ensemble_inputs(ensemble, k, values);
+            columns.x[k] = values[i];
+            columns.y[k] = varies ? material->samples[k].restitution : NAN;
+            columns.pairs[k] = (struct influence_pair){columns.x[k], columns.y[k]};
+        }
+        /* how the restitution depends on them */
+        out->input = i;
+        out->values = summary_moments(columns.x, n);
+        struct indices_data data = {.count = n,
+                                    .x = columns.x,
+                                    .y = columns.y,
+                                    .replicates = ensemble->sampling.replicates,
+                                    .level = REPORT_LEVEL};
+        good = find_indices(material, ensemble, out, &data) &&
+               fill_input(out, columns.pairs, influence_sort(columns.pairs, n), &report->memory);
+    }
+    release_columns(&columns);
+    return good;
+}
+
+bool report_create(struct ensemble_report *report, const struct ensemble *ensemble,
+                   const struct report_material *material, const struct watch *watch)
+{
+    const struct ensemble_sample *samples = material->samples;
+    memset(report, 0, sizeof *report);
+    report->done = material->done;
+    bool good = fill_counts(report, samples) && fill_quantities(report, ensemble, samples) &&
+                fill_inputs(report, ensemble, material) &&
+                (!material->extras || verification_fill(report, ensemble, material));
+    return good && remarks_fill(report, ensemble, samples, watch);
 }

@@ -21,8 +21,6 @@ enum {
     REPORT_WARNING_SIZE = 1152
 };
 
-static const double REPORT_LEVEL = 0.95; /* of all intervals */
-
 /* One quantity of the impacts. */
 struct report_quantity {
     const char *name; /* restitution, impulse, end_time, peak_force */
@@ -85,10 +83,6 @@ struct report_material {
     const struct ensemble_extra *extras; /* NULL: none were solved */
 };
 
-/* Probabilities of the quantiles: those asked for, or the default ones. */
-void report_probabilities(const struct ensemble_spec *spec, const double **probabilities,
-                          size_t *count);
-
 void report_release(struct ensemble_report *report);
 
 /* Mean of the restitution so far, for progress and for stopping. */
@@ -101,5 +95,10 @@ struct report_progress {
 struct report_progress report_progress(const struct ensemble *ensemble,
                                        const struct ensemble_sample *samples, uint64_t done,
                                        bool quantiles);
+
+/* The report on the material. What its warnings quote is solved again, watched by `watch` (NULL:
+ * nobody). False: out of memory. Release it all the same. */
+bool report_create(struct ensemble_report *report, const struct ensemble *ensemble,
+                   const struct report_material *material, const struct watch *watch);
 
 #endif

@@ -9,10 +9,26 @@
 #define PERCUSS_ENSEMBLE_SAMPLING_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/fault.h"
-#include "ensemble/sobol.h"
 #include "numeric/random_stream.h"
+
+/* Sobol's sequence with the direction numbers of Joe and Kuo 2008 (SIAM J. Sci. Comput. 30, 2635;
+ * set D6). */
+
+enum { SOBOL_DIMENSIONS = 16, SOBOL_BITS = 32 };
+
+/* One dimension's direction numbers, as binary fractions: directions[0] is 1/2. */
+struct sobol_directions {
+    uint32_t bit[SOBOL_BITS];
+};
+
+/* Of dimension 0 .. SOBOL_DIMENSIONS - 1. */
+struct sobol_directions sobol_directions(unsigned dimension);
+
+/* Coordinate `index` (below 2^32) as a binary fraction. */
+uint32_t sobol_point(const struct sobol_directions *directions, uint64_t index);
 
 /* The numbers of SAMPLING_* on the wire. */
 enum sampling_method {

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ensemble/report_make.h"
+#include "ensemble/report.h"
 #include "exchange/clock.h"
 #include "exchange/encode.h"
 #include "exchange/encode_ensemble.h"

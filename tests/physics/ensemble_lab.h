@@ -6,7 +6,7 @@
 #define PERCUSS_TEST_ENSEMBLE_LAB_H
 
 #include "ensemble/create.h"
-#include "ensemble/report_make.h"
+#include "ensemble/report.h"
 #include "physics/support.h"
 
 struct ensemble_lab {
