@@ -52,7 +52,8 @@ static bool evaluate(struct active_set *set)
         return set->kind == ACTIVE_SET_BY_INDENTATION;
     if (!solve_active(set, active, constant, slope))
         return false;
-    /* the total as a line over the indentation; where on it, by what is given */
+    /* the total is linear in the indentation; the prescribed quantity fixes the point on the
+     * line */
     double at_zero = 0.0;
     for (size_t k = 0; k < active; k++) {
         at_zero += constant[k];

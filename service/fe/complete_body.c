@@ -25,7 +25,7 @@ enum percuss_status complete_body_make(const struct body *body, struct complete_
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "%s: tip_radius: %g: complete finite elements have rods with flat ends",
                          body->id, solid.tip_radius);
-    /* what meshes leave out */
+    /* supports and damping are not meshed */
     if (body->supports[0] != SUPPORT_FREE || body->supports[1] != SUPPORT_FREE)
         return fault_set(fault, PERCUSS_UNSUPPORTED_GEOMETRY,
                          "%s: supports: complete finite elements have free bodies only", body->id);

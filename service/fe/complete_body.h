@@ -20,7 +20,7 @@ struct complete_body {
 
 /* A sphere, a free rod with flat ends, a compact cylinder hit on its end, or a block hit on its
  * face z = +-size[2]/2 and taken as a cylinder of the same section. OK, or UNSUPPORTED_GEOMETRY
- * naming what cannot be meshed so: other shapes, rounded tips, supports, damping. */
+ * naming the property that cannot be meshed: other shapes, rounded tips, supports, damping. */
 enum percuss_status complete_body_make(const struct body *body, struct complete_body *complete,
                                        struct fault *fault);
 

@@ -14,7 +14,7 @@ enum { AIMS = 3 };
 /* the solution that answers may be off the limit by this part of the limit's error */
 static const double OFF_LIMIT = 0.25;
 
-/* What the limit would be wrong by if the means had no jitter; sets limit and order. */
+/* Error of the limit for means without jitter; sets limit and order. */
 static double judge_bias(struct complete_convergence *convergence)
 {
     const struct swing *swing = convergence->swing;
@@ -30,7 +30,8 @@ static double judge_bias(struct complete_convergence *convergence)
     double second = swing[2].mean - swing[1].mean;
     convergence->order = log2(fabs(first / second));
     /* A change of sign is no order: nothing to extrapolate. Two means may lie close together by
-     * chance: half of what second order would leave of the first difference is the least. */
+     * chance: the error is at least half of the remainder of the first difference at second
+     * order. */
     double order = fmin(fmax(convergence->order, 1.0), 2.0);
     if (first * second > 0.0)
         convergence->restitution += second / (exp2(order) - 1.0);
@@ -83,7 +84,7 @@ static enum percuss_status add_phases(struct search *search, unsigned count, str
             return status;
         swing->restitution[k] = search->latest[k].restitution;
     }
-    /* what they say of the mean and of the limit */
+    /* the mean of the phases and the limit that follows */
     swing->phases = count;
     swing_judge(swing);
     complete_converge_judge(search->convergence);

@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What a complete finite-element impact's restitution tends to as the elements become small, and
- * how far that is known. */
+/* Limit of a complete finite-element impact's restitution for small elements, and its
+ * uncertainty. */
 #ifndef PERCUSS_FE_COMPLETE_CONVERGE_H
 #define PERCUSS_FE_COMPLETE_CONVERGE_H
 

@@ -9,7 +9,7 @@
 
 #include "fe/impact_complete.h"
 
-/* Mean of `count` results, > 0, by weights >= 0 whose sum is 1. Impulses, energies, times and
+/* Mean of `count` results, > 0, by weights >= 0 with the sum 1. Impulses, energies, times and
  * lengths are means, so that sums and balances of each hold for it; counts are those of the result
  * of the largest weight, momentum_error the worst. False: they differ in their sub-impacts' number
  * or their ends, and have no mean. */

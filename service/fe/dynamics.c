@@ -140,7 +140,7 @@ static void put(const struct dynamics *dynamics, size_t element, struct elastic_
     double scale[QUAD_NODES];
     const struct material *material = &dynamics->body[dynamics_body_of(dynamics, element)].material;
     dynamics_quad(dynamics, element, &quad);
-    /* its nodes, by whose root of mass their displacements are divided */
+    /* its nodes; their displacements are divided by the root of the mass */
     for (int a = 0; a < QUAD_NODES; a++) {
         uint32_t node = dynamics->quads[element][a];
         scale[a] = 1.0 / dynamics->root_mass[node];
@@ -507,7 +507,7 @@ struct dynamics_energy dynamics_energy(const struct dynamics *dynamics, const do
             0.5 * (dynamics_mean(dynamics, b, dynamics->v) + dynamics_mean(dynamics, b, v_before));
         energy.vibration[b] = energy.kinetic[b] - 0.5 * dynamics->mass[b] * mean * mean;
     }
-    /* of strain, and what flow took */
+    /* of strain and of plastic flow */
     for (unsigned k = 0; k < dynamics->levels; k++)
         add_strain_energy(dynamics, &dynamics->level[k], &energy);
     return energy;

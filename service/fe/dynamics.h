@@ -26,7 +26,7 @@ struct dynamics_body {
     const struct mesh *mesh;
     struct material material;
     double mass; /* kg; a mesh of straight edges is scaled to it */
-    size_t fine; /* contact nodes from the axis on whose elements take the smallest step */
+    size_t fine; /* contact nodes from the axis on with elements of the smallest step */
 };
 
 struct dynamics_level {
@@ -71,10 +71,10 @@ static inline size_t dynamics_period(const struct dynamics *dynamics)
     return (size_t)1 << (dynamics->levels - 1);
 }
 
-/* Forces of the elements whose turn it is at smallest step `n`. */
+/* Forces of the elements that are due at smallest step `n`. */
 void dynamics_kick(struct dynamics *dynamics, size_t n);
 
-/* Free flight of the nodes whose flight ends with smallest step `n`. */
+/* Free flight of the nodes until the end of smallest step `n`, if theirs ends there. */
 void dynamics_drift(struct dynamics *dynamics, size_t n);
 
 /* When all nodes meet: elements of yielding material that come near yield get a history. Returns

@@ -114,7 +114,7 @@ void plastic_block_energy(const struct plastic_block *block, const double *y, do
             u[i] = y[2 * block->node[i / 2][lane] + i % 2];
             dilatation += block->mean[i][lane] * u[i];
         }
-        /* what pressure stores, then at each point what shear stores and flow takes */
+        /* energy of pressure, then at each point energy of shear and work of flow */
         *stored += 0.5 * block->bulk_volume[lane] * dilatation * dilatation;
         for (int p = 0; p < QUAD_POINTS; p++) {
             double weight = block->weight[p][lane];

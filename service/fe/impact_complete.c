@@ -6,11 +6,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Frictionless contact of two bodies whose contact surfaces have nodes at the same radii: each pair
- * of nodes may not interpenetrate. Impulses that close a pair exactly at the end of a step
- * (Carpenter, Taylor and Katona 1991): no penalty stiffness, no influence on the stable step,
- * momentum exact. The normal is the axis and nodes keep their partner: exact to (contact radius /
- * radius of curvature)^2, as small strains are. */
+/* Frictionless contact of two bodies with contact nodes at the same radii: each pair of nodes may
+ * not interpenetrate. Impulses that close a pair exactly at the end of a step (Carpenter, Taylor
+ * and Katona 1991): no penalty stiffness, no influence on the stable step, momentum exact. The
+ * normal is the axis and nodes keep their partner: exact to (contact radius / radius of
+ * curvature)^2, as small strains are. */
 
 struct node_contact {
     size_t pairs;
@@ -39,7 +39,7 @@ static bool allocate(struct node_contact *contact, struct arena *arena)
 }
 
 /* Pairs the first `fine` contact nodes of both bodies. OK, INTERNAL without memory, BAD_REQUEST for
- * meshes whose contact nodes lie at different radii. */
+ * meshes with contact nodes at different radii. */
 static enum percuss_status node_contact_create(const struct dynamics *dynamics, struct arena *arena,
                                                struct node_contact *contact, struct fault *fault)
 {
@@ -108,12 +108,11 @@ struct complete_run {
     struct mesh mesh[DYNAMICS_BODIES];
     struct dynamics dynamics;
     struct node_contact contact;
-    double patch;                       /* contact radius meshed for, m */
-    double mass[DYNAMICS_BODIES];       /* of the true bodies, kg */
-    double compliance[DYNAMICS_BODIES]; /* static, of the patch, m/N */
-    double duration;                    /* of the contact, expected, s */
-    uint32_t
-        *reference[DYNAMICS_BODIES]; /* nodes whose mean motion the indentation is taken from */
+    double patch;                         /* contact radius meshed for, m */
+    double mass[DYNAMICS_BODIES];         /* of the true bodies, kg */
+    double compliance[DYNAMICS_BODIES];   /* static, of the patch, m/N */
+    double duration;                      /* of the contact, expected, s */
+    uint32_t *reference[DYNAMICS_BODIES]; /* the indentation is taken from their mean motion */
     size_t references[DYNAMICS_BODIES];
     double *v_before; /* as dynamics.v */
 };
@@ -138,7 +137,7 @@ static enum percuss_status check_body(const struct complete_body *body, const ch
                                       struct fault *fault)
 {
     const struct material *m = &body->material;
-    /* every field with what is allowed */
+    /* each field with its allowed range */
     const struct {
         const char *field;
         double value;
@@ -162,7 +161,7 @@ static enum percuss_status check_body(const struct complete_body *body, const ch
     return PERCUSS_OK;
 }
 
-/* OK, or BAD_REQUEST with the field, its value and what is allowed. */
+/* OK, or BAD_REQUEST with the field, its value and its allowed range. */
 static enum percuss_status complete_check(const struct complete_problem *problem,
                                           struct fault *fault)
 {
@@ -377,7 +376,7 @@ static const double ENERGY_KEPT = 1e-2;
 /* Part told as done once twice the duration expected has passed: the end may come at any time. */
 static const double NEARLY_DONE = 0.99;
 
-/* Beyond what the setup holds: where a run stands. */
+/* State of a run, beyond its setup. */
 struct progress {
     struct complete_run run;
     size_t n;            /* smallest steps done */
@@ -483,7 +482,7 @@ static void look(struct progress *progress)
         result->contact_radius = fmax(result->contact_radius, sample.radius);
         result->max_indentation = fmax(result->max_indentation, sample.indentation);
     }
-    /* for who follows it */
+    /* the caller's record */
     if (problem->sample)
         problem->sample(problem->context, &sample);
 }
@@ -533,13 +532,13 @@ static void audit(struct progress *progress)
     total->available = 0.5 * reduced * speed * speed;
     total->rebound = 0.5 * reduced * rate * rate;
     total->contact = run->contact.loss;
-    /* what either body holds */
+    /* energy held by each body */
     for (size_t b = 0; b < DYNAMICS_BODIES; b++) {
         total->vibration_of[b] = energy.vibration[b] + energy.strain[b];
         total->vibration += total->vibration_of[b];
         total->plastic += energy.plastic[b];
     }
-    /* and what is missing */
+    /* and the missing rest */
     total->closure =
         total->available - total->rebound - total->vibration - total->plastic - total->contact;
 }
@@ -551,7 +550,7 @@ static enum percuss_status summarize(struct progress *progress, struct fault *fa
     const struct dynamics *dynamics = &run->dynamics;
     struct complete_result *result = progress->result;
     close_sub_impact(progress);
-    /* impulse, restitution by it, and what the bodies' momenta say of it */
+    /* impulse, restitution by it, and its difference from the change of momentum */
     result->impulse = run->contact.impulse;
     result->restitution =
         result->impulse * (1.0 / run->mass[0] + 1.0 / run->mass[1]) / run->problem->speed - 1.0;
@@ -567,7 +566,7 @@ static enum percuss_status summarize(struct progress *progress, struct fault *fa
         result->sub_impacts < COMPLETE_SUB_IMPACTS ? result->sub_impacts : COMPLETE_SUB_IMPACTS;
     for (size_t i = 0; i < listed; i++)
         result->contact_time += result->sub_impact[i].end - result->sub_impact[i].start;
-    /* what it took */
+    /* effort */
     result->end_time = now(progress);
     result->elements = dynamics->elements;
     result->levels = dynamics->levels;

@@ -29,9 +29,9 @@ struct complete_problem {
     double phase;   /* 0 <= phase < 1: moves the nodes by this part of an element, less one from a
                      * half on, against the patch's rim: see swing.h */
     double horizon; /* s, > 0: end of the search for further contacts */
-    struct pace *pace;  /* may stop it; NULL: nobody */
+    struct pace *pace;  /* may stop it; NULL: none */
     double done, share; /* of the whole work, which it is told: before this solution, and its own */
-    void (*sample)(void *context, const struct complete_sample *sample); /* NULL: nobody */
+    void (*sample)(void *context, const struct complete_sample *sample); /* NULL: none */
     void *context;                                                       /* handed to it */
 };
 
@@ -52,7 +52,7 @@ struct complete_energy {
     double vibration_of[2]; /* the same of a and b */
     double plastic;         /* work of plastic flow */
     double contact;         /* work of the impulses on nodes as they close */
-    double closure;         /* what is missing: available less all of the above */
+    double closure;         /* missing: available less all of the above */
 };
 
 struct complete_result {
@@ -76,7 +76,7 @@ struct complete_result {
     double step; /* s, smallest */
 };
 
-/* Solves on one mesh. OK; BAD_REQUEST naming the field and what is allowed; TIMEOUT when `pace`
+/* Solves on one mesh. OK; BAD_REQUEST naming the field and its allowed range; TIMEOUT when `pace`
  * stopped it; INTERNAL without memory or where the energy does not balance to 1e-2. Same input,
  * same bits. */
 enum percuss_status impact_complete_solve(const struct complete_problem *problem,

@@ -11,7 +11,7 @@ struct passage {
     const struct indentation_plan *plan;
     struct indentation_run *run;
     struct region *region;
-    struct pace pace; /* asks whoever is told of the progress, within the region's solutions too */
+    struct pace pace; /* progress and cancellation, within the region's solutions too */
     double hertz;
     double edge;   /* m, indentation at the last edge */
     double factor; /* between the last two edges */
@@ -59,7 +59,7 @@ static bool flows(const struct region *region)
     return ledger.flow[0] > 0.0 || ledger.flow[1] > 0.0;
 }
 
-/* From the state whose contact edge is at one node to that of the next, in steps; the mean over the
+/* From the state with the contact edge at one node to that at the next, in steps; the mean over the
  * logarithm of the indentation becomes a ring of the run. */
 static enum percuss_status cross(struct passage *passage, size_t node)
 {
@@ -102,8 +102,8 @@ static enum percuss_status cross(struct passage *passage, size_t node)
     return PERCUSS_OK;
 }
 
-/* Unloads from the committed state, which stays. Unloading is elastic, the dent conforming to what
- * made it, so that each sample may be reached in one step. */
+/* Unloads from the committed state, which stays. Unloading is elastic, the dent conforming to its
+ * indenter, so that each sample may be reached in one step. */
 static enum percuss_status add_branch(struct passage *passage, double force)
 {
     struct indentation_run *run = passage->run;
@@ -134,7 +134,7 @@ static void add_elastic_branch(struct indentation_run *run)
     run->branches = 1;
 }
 
-/* the last elastic ring becomes ring 0, and what its ratio is off 1 is the mesh's error */
+/* the last elastic ring becomes ring 0, and its ratio's difference from 1 is the mesh's error */
 static void restart(struct indentation_run *run, double *mesh_error)
 {
     size_t last = run->rings - 1;
@@ -282,7 +282,7 @@ static void fill(struct indentation_table *table, const struct runs *runs)
         table->indentation[i] = d;
         table->force[i] = ratio * table->hertz * pow(d, 1.5);
         table->radius[i] = run->radius[i];
-        /* steps: what a second extrapolation would bring is well below a third of the first */
+        /* steps: a second extrapolation would bring well below a third of the first */
         table->force_error = fmax(table->force_error, (fabs(ratio - coarse) + step / 3.0) / ratio);
     }
 }

@@ -35,7 +35,7 @@ struct indentation_plan {
     size_t steps;              /* of a crossing */
     size_t branch_every;       /* crossings between unloadings; 0: none */
     double done, share;        /* of the whole work: before this run, and its own */
-    const struct watch *watch; /* NULL: nobody */
+    const struct watch *watch; /* NULL: none */
 };
 
 /* Statuses as indentation_table_make. */
@@ -72,8 +72,8 @@ struct indentation_table {
     size_t branches;
     double *largest, *largest_force, *residual, *recovery;
 
-    /* Largest differences to a mesh 1.5 times coarser, and for the force a third of what shorter
-     * steps still change: more than what is left. */
+    /* Largest differences to a mesh 1.5 times coarser, and for the force a third of the change by
+     * shorter steps: above the remaining error. */
     double force_error;    /* of the loading force, relative */
     double residual_error; /* of the residual over the largest indentation */
     double recovery_error; /* of the recovery */

@@ -226,7 +226,7 @@ static void load_side(struct cylinder *cylinder, size_t ez)
     }
 }
 
-/* and on the far face, whose outward normal is -z */
+/* and on the far face, with the outward normal -z */
 static void load_far(struct cylinder *cylinder, size_t er)
 {
     const struct basis *b = &cylinder->basis;
@@ -362,7 +362,7 @@ double matched_sphere(double poisson, double patch)
     /* A load of 1 spread as Hertz's pressure has the surface stress sum (2n + 1) / (4 pi) h_n P_n
      * with h_n the transform at (n + 1/2) patch; displacement is averaged with the same pressure.
      * Of each term the half-space's is taken off; their sum over n + 1/2 is its integral (midpoint
-     * rule of a smooth even function). What is left falls off like 1/n, whence the logarithm. */
+     * rule of a smooth even function). The rest falls off like 1/n, whence the logarithm. */
     double lame = 2.0 * poisson / (1.0 - 2.0 * poisson);
     double half_space = (1.0 - poisson * poisson) / M_PI;
     double sum = 0.0;
@@ -383,7 +383,7 @@ bool matched_compliance(const struct body *body, double patch, double *complianc
     double scale = 1.0 / (body->material.young * solid.radius);
     double slenderness = solid.length / solid.radius;
     double held = body_is_flexible(body) ? slenderness / (3.0 * M_PI) : 0.0;
-    /* in units of 1/(E R), by form; none for what has no answer */
+    /* in units of 1/(E R), by form; none for other forms */
     switch (solid.form) {
     case SOLID_HALF_SPACE:
         *compliance = 0.0;

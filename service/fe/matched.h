@@ -2,14 +2,14 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* Matched local compliance: Hertz's half-space holds compliance out to infinity, and a body's modes
- * with their residual flexibility hold its far field again. What has to be put in series with the
- * contact law so that both together are the real body's static compliance under the contact patch
- * is
+ * with their residual flexibility hold its far field again. The compliance in series with the
+ * contact law, by which both together are the real body's static compliance under the contact
+ * patch, is
  *
  *     (body, balanced by its inertia) - (half-space) - (modes and residual flexibility),
  *
- * mostly negative. Displacements are relative to the body's mean: orthogonal to its rigid motion.
- */
+ * mostly negative. Displacements are relative to the body's mean: orthogonal to its rigid
+ * motion. */
 #ifndef PERCUSS_FE_MATCHED_H
 #define PERCUSS_FE_MATCHED_H
 
@@ -21,8 +21,8 @@
  * of an end face, a half-space (0). `patch` is the contact radius in m: a sphere's surface bends
  * away from the half-space's, which leaves a term in its logarithm; a flat end does not need it.
  * The basis held elsewhere is taken as rigid (sphere, cylinder) or as the free rod's L / (3 E A); a
- * rod whose other end is fixed gets the same, since both differ far from the hit end alone. NAN:
- * no solution for such a solid (beam, block, rounded tip). False: out of memory. */
+ * rod with a fixed far end gets the same, since both differ far from the hit end alone. NAN: no
+ * solution for such a solid (beam, block, rounded tip). False: out of memory. */
 bool matched_compliance(const struct body *body, double patch, double *compliance);
 
 /* Times young * radius, dimensionless: of a cylinder that is long or short, rigid basis. False:

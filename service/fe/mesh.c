@@ -37,7 +37,7 @@ static double fitting_ratio(double rest, double width, size_t n)
     return 0.5 * (low + high);
 }
 
-/* number of steps whose fitting ratio is nearest to the wanted one */
+/* number of steps with the fitting ratio nearest to the wanted one */
 static size_t fitting_count(double rest, double width, double growth)
 {
     size_t n = 1;
@@ -198,7 +198,7 @@ static void grow_core(struct growing *growing, double sphere)
     }
 }
 
-/* What the outermost ring is: point i of 2 core. */
+/* Shape of the outermost ring: point i of 2 core. */
 struct outline {
     enum { OUTLINE_CIRCLE, OUTLINE_RECTANGLE, OUTLINE_EQUATOR } kind;
     double radius, depth;

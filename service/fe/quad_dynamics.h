@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What explicit dynamics wants to know of an element. */
+/* Properties of an element for explicit dynamics. */
 #ifndef PERCUSS_FE_QUAD_DYNAMICS_H
 #define PERCUSS_FE_QUAD_DYNAMICS_H
 

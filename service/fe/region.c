@@ -15,7 +15,7 @@
 /* Of the contact radius at the largest load, the least that elements are made for. */
 static const double REGION_FINEST = 1e-3;
 
-/* What a step starts from. */
+/* Start of a step. */
 struct contact_state {
     double indentation, force;
     double *forces; /* by contact node */
@@ -36,12 +36,12 @@ struct region {
     double first_yield; /* m, contact radius at which a body first flows */
     double *offsets, *compliance, *more, *initial, *scratch;
     struct region_effort effort;
-    struct pace *pace; /* NULL: nobody */
-    double done;       /* what it is told */
+    struct pace *pace; /* NULL: none */
+    double done;       /* reported to it */
 };
 
-/* The point load's field at the boundary leaves out what falls off with its square and cube: at 30
- * contact radii a thousandth of the indentation. */
+/* The point load's field at the boundary leaves out terms that fall off with the square and cube of
+ * the distance: at 30 contact radii a thousandth of the indentation. */
 static const double EXTENT = 30.0;
 
 static double plane_modulus(const struct material *material)
@@ -216,8 +216,8 @@ void region_destroy(struct region *region)
 
 enum { NEWTON_MAX = 25, HALVINGS_MAX = 8 };
 
-/* Of the largest force so far may be out of balance: where curves are drawn from the states, and in
- * series with bodies, whose steps are much coarser. */
+/* Allowed imbalance over the largest force so far: where curves are drawn from the states, and in
+ * series with bodies, where steps are much coarser. */
 static const double BALANCED = 1e-9;
 static const double BALANCED_IN_SERIES = 1e-6;
 
@@ -229,7 +229,7 @@ static void state_copy(size_t n, struct contact_state *to, const struct contact_
     to->force = from->force;
 }
 
-/* What is asked of an equilibrium. */
+/* Prescribed quantity of an equilibrium. */
 struct target {
     enum { BY_APPROACH, BY_FORCE, BY_EDGE, WITHOUT_CONTACT } kind;
     double value;

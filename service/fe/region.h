@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: Apache-2.0 */
 
 /* The contact region of two bodies: axisymmetric, static, elastic-plastic, frictionless, small
- * strains. Both are half-spaces whose surfaces part like r^2 / (2 radius); indentation is the
+ * strains. Both are half-spaces with surfaces that part like r^2 / (2 radius); indentation is the
  * approach of their points at infinity, as in Hertz's F = k d^1.5, so that the region takes the
  * place of Hertz's law in series with modes and residual flexibility. Contact is exact at the nodes
  * (forces as unknowns, no penalty). Stepping: press or load as often as wanted, each time from the
@@ -35,18 +35,18 @@ struct region_answer {
 
 struct region;
 
-/* OK; BAD_REQUEST naming the input, its value and what is allowed; INTERNAL: memory. */
+/* OK; BAD_REQUEST naming the input, its value and its allowed range; INTERNAL: memory. */
 enum percuss_status region_create(const struct region_input *input, struct region **region,
                                   struct fault *fault);
 void region_destroy(struct region *region);
 
-/* From now on `pace` (borrowed; NULL: nobody) is asked at every Newton step and told `done`, the
- * part of the whole work that is done: a TIMEOUT of what follows. */
+/* From now on every Newton step asks `pace` (borrowed; NULL: none) whether to go on and reports
+ * `done`, the finished part of the whole work. A stop makes later calls return TIMEOUT. */
 void region_watch(struct region *region, struct pace *pace, double done);
 
 /* Static equilibrium at an indentation (m; any sign), or under a force (N, > 0), reached from the
  * committed state. INTERNAL with a reason where no equilibrium is found or the indentation is
- * beyond what the mesh was made for (BAD_REQUEST where a body flows long before the finest element
+ * beyond the range of the mesh (BAD_REQUEST where a body flows long before the finest element
  * touches); the committed state stays as it was. */
 enum percuss_status region_press(struct region *region, double indentation,
                                  struct region_answer *answer, struct fault *fault);
@@ -84,7 +84,7 @@ struct region_ledger {
 };
 void region_ledger(const struct region *region, struct region_ledger *ledger);
 
-/* What it took since creation. */
+/* Effort since creation. */
 struct region_effort {
     size_t newton_steps, nodes;
 };

@@ -12,7 +12,7 @@
 
 typedef struct plastic_state histories[QUAD_POINTS];
 
-/* What a step starts from or may return to. */
+/* State that a step starts from or may return to. */
 struct snapshot {
     double *displacement; /* all nodes, r and z */
     histories *history;   /* by element */
@@ -21,7 +21,7 @@ struct snapshot {
     bool settled;         /* the displacement is that of the forces; else not found yet */
 };
 
-/* Forward solutions L^-1 e_j of unit contact forces, what any two of them have in common, and each
+/* Forward solutions L^-1 e_j of unit contact forces, the products of any two of them, and of each
  * with the far boundary's. */
 struct solid_loads {
     double *forward;      /* candidates x freedoms; row j from its own freedom on */
@@ -212,8 +212,8 @@ static void solid_move_far(struct solid *solid, double force)
     solid->present.force = force;
 }
 
-/* The far nodes follow the field of the contact force taken as a point load: what its spread and
- * the plastic strains add falls off with the square of the distance. */
+/* The far nodes follow the field of the contact force taken as a point load: the effects of its
+ * spread and of the plastic strains fall off with the square of the distance. */
 static void prepare_far(struct solid *solid, const struct material *material)
 {
     const struct mesh *mesh = solid->mesh;
@@ -411,11 +411,11 @@ static bool tangent_element(const struct solid *solid, const struct plastic_law 
 
 static bool factor_tangent(struct solid *solid, size_t outermost, bool loading)
 {
-    /* a hair below, so that what lies on the yield surface counts as flowing */
+    /* a hair below, so that points on the yield surface count as flowing */
     struct plastic_law law = solid->law;
     if (loading)
         law.yield *= 1.0 - 1e-8;
-    /* only what lies within `outermost` is softer than what is factored */
+    /* only elements within `outermost` are softer than the factored ones */
     size_t n = freedoms(solid);
     memset(band_entry(&solid->tangent, solid->first, solid->first), 0,
            (n - solid->first) * (solid->tangent.width + 1) * sizeof(double));
@@ -438,7 +438,7 @@ static const struct band *inner_factor(const struct solid *solid)
     return solid->yielding ? &solid->tangent : &solid->elastic;
 }
 
-/* forward solution whose part before `first` is elastic */
+/* forward solution, elastic before `first` */
 static void forward(const struct solid *solid, double *b)
 {
     band_carry_forward(&solid->elastic, solid->first, b, b);
@@ -475,7 +475,7 @@ static void find_loads(const struct solid *solid, size_t count, struct solid_loa
         memset(load + from, 0, (n - from) * sizeof *load);
         load[from] = 1.0;
         band_forward(inner_factor(solid), from, n, load);
-        /* what it has in common with those farther in, and with the boundary */
+        /* its products with those farther in, and with the boundary */
         loads->share[i] = dot(load, solid->boundary, from, n);
         for (size_t j = 0; j <= i; j++)
             loads->common[i * loads->stride + j] =

@@ -1,12 +1,12 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* One elastic-plastic body of a contact region: a half-space whose near part is meshed and whose
- * far boundary moves as the point load's exact field, so that displacements are relative to
+/* One elastic-plastic body of a contact region: a half-space, meshed near the contact, with a far
+ * boundary that moves as the point load's exact field, so that displacements are relative to
  * infinity.
  *
  * Nodes count from the outside in, and plastic flow stays inside: the far rings are elastic, their
- * rows are factored once, and a Newton step factors only what lies within the plastic zone. */
+ * rows are factored once, and a Newton step factors only the plastic zone. */
 #ifndef PERCUSS_FE_SOLID_H
 #define PERCUSS_FE_SOLID_H
 

@@ -23,19 +23,19 @@ struct swing {
     double jitter; /* estimated error of the mean, as that of the limit of many phases */
 };
 
-/* The swing is what elements of this size do where material flows, of first order; its mean is off
- * by a part of it, which two means may hide by coming close on their way: of 13 scenes
+/* The swing is a first-order effect of the element size where material flows; its mean is off by a
+ * part of it, which two means may hide by coming close on their way: of 13 scenes
  * (docs/complete-fe.md) by 1/12 at most, against meshes three and four times as fine. */
 static const double SWING_IN_MEAN = 1.0 / 12.0;
 
 /* Fills mean, width and jitter from the phases. */
 void swing_judge(struct swing *swing);
 
-/* Weights of the phases, their sum 1: as even as those can be whose mean is `wanted`; tilted that
- * way until one vanishes where it lies too far from the mean. */
+/* Weights of the phases, their sum 1: as even as the mean `wanted` allows; tilted that way until
+ * one vanishes where it lies too far from the mean. */
 void swing_weigh(const struct swing *swing, double wanted, double weights[SWING_PHASES]);
 
-/* Two phases, in order, and e less what is wanted there, of different signs. */
+/* Two phases, in order, and e less the wanted value there, of different signs. */
 struct swing_bracket {
     double phase[2], off[2];
 };
@@ -44,8 +44,8 @@ struct swing_bracket {
  * phases, and the two phases around it; NAN where `wanted` lies outside of them. */
 double swing_phase(const struct swing *swing, double wanted, struct swing_bracket *bracket);
 
-/* Puts what was found at a phase in the place of one end of the bracket: the line through both ends
- * gives the next phase. */
+/* Replaces one end of the bracket by the value found at a phase: the line through both ends gives
+ * the next phase. */
 double swing_narrow(struct swing_bracket *bracket, double phase, double off);
 
 #endif
