@@ -34,11 +34,11 @@ struct pilot {
     struct solution_model model;
 };
 
-/* What is needed while the model is chosen. */
+/* State while the model is chosen. */
 struct choice {
     struct ensemble *ensemble;
     struct ensemble_worker *worker;
-    const struct watch *watch; /* NULL: nobody */
+    const struct watch *watch; /* NULL: none */
     struct pilot *pilots;
     unsigned count; /* pilots with an answer */
 };
@@ -94,7 +94,7 @@ static bool all_agree(struct choice *choice)
     return true;
 }
 
-/* What a coarser model is to keep of the finest one's agreement. */
+/* Sets each pilot's allowed difference by the finest model's agreement. */
 static void find_allowed(struct choice *choice)
 {
     double tolerance = choice->ensemble->model.tolerance;
@@ -175,7 +175,7 @@ static void choose(struct choice *choice)
 }
 
 /* Fills ensemble->model: the coarsest one that answers some pilot samples as the accuracy search
- * does. PERCUSS_OK; a refusal of all pilots; TIMEOUT where the watch (NULL: nobody) stopped it;
+ * does. PERCUSS_OK; a refusal of all pilots; TIMEOUT where the watch (NULL: none) stopped it;
  * INTERNAL: out of memory. */
 static enum percuss_status choice_of_model(struct ensemble *ensemble, const struct watch *watch,
                                            struct fault *fault)

@@ -10,7 +10,7 @@
 #include "ensemble/spec.h"
 #include "solve/solution.h"
 
-/* What one impact did. */
+/* Outcome of one impact. */
 struct ensemble_sample {
     double restitution, impulse, end_time, peak_force; /* NAN where it was refused */
     uint16_t sub_impacts, significant;
@@ -30,8 +30,8 @@ static inline bool ensemble_sample_has_result(const struct ensemble_sample *samp
 }
 
 /* How the one model for all samples was chosen: some pilot samples are solved by the full accuracy
- * search, and it is the coarsest model that loses none of them: who agrees with the finest within
- * half of the tolerance, or within all of it, still does. */
+ * search, and it is the coarsest model that loses none of them: a pilot that agrees with the finest
+ * model within half of the tolerance, or within all of it, still does. */
 struct ensemble_model {
     struct solution_model model;
     double tolerance;
@@ -39,7 +39,7 @@ struct ensemble_model {
 };
 
 struct ensemble {
-    struct ensemble_spec spec; /* what it points to is the caller's and must stay */
+    struct ensemble_spec spec; /* borrowed: its pointers must stay valid */
     struct sampling sampling;
     struct copula copula;
     size_t drawn[ENSEMBLE_MAX_INPUTS]; /* inputs that the dimensions belong to */

@@ -1,18 +1,18 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* How many samples and extra solutions an ensemble takes, and what the extras belong to. */
+/* Numbers of samples and extra solutions of an ensemble, and the place of each extra. */
 #ifndef PERCUSS_ENSEMBLE_EXTRAS_H
 #define PERCUSS_ENSEMBLE_EXTRAS_H
 
 #include "ensemble/worker.h"
 
 /* After `done` samples (their places in order, none missing) some more solutions tell how good they
- * are and what each input does; `ensemble_extras` is their number. */
+ * are and the influence of each input; `ensemble_extras` is their number. */
 uint64_t ensemble_extras(const struct ensemble *ensemble, uint64_t done);
 
-/* What extra k belongs to: the sample, and the dimension drawn anew (SIZE_MAX: none). The samples
- * are drawn at random, as many of each replicate. */
+/* Place of extra k: the sample, and the dimension drawn anew (SIZE_MAX: none). The samples are
+ * drawn at random, as many of each replicate. */
 struct ensemble_extra_place {
     uint64_t sample;
     size_t dimension;

@@ -26,7 +26,7 @@ struct class
     double sum; /* of y */
 };
 
-/* What one replicate has in a class. */
+/* Part of one replicate in a class. */
 struct class_part {
     double sum, count;
 };
@@ -153,9 +153,9 @@ static bool classes_split(struct classes *classes)
     return true;
 }
 
-/* Mean of y in a class of what is independent of a member (an index; of this or another class):
- * without it, or where there are replicates without all of its own. 0, which is the mean of all,
- * where nothing else is left. */
+/* Mean of y over the members of a class that are independent of one member (an index; of this or
+ * another class): without it, or where there are replicates without all of its own. 0, which is the
+ * mean of all, where nothing else is left. */
 static double class_mean_without(const struct classes *classes, const struct class *class,
                                  size_t member)
 {
@@ -236,11 +236,11 @@ static double chance_of(const struct classes *classes)
     return sum / (n * n);
 }
 
-/* 1 - R, R = the variance within classes over that of all. The error follows from what each class
- * adds to (variance within) - R (variance): these numbers are independent of each other, but for a
- * drift along x. Neighbours tell their scatter; the drift adds to the error where x itself is
- * random. Where all class means happen to be alike that is too small: chance is the least. `added`:
- * memory, one number a class. */
+/* 1 - R, R = the variance within classes over that of all. The error follows from the contribution
+ * of each class to (variance within) - R (variance): these numbers are independent of each other,
+ * but for a drift along x. Neighbours tell their scatter; the drift adds to the error where x
+ * itself is random. Where all class means happen to be alike that is too small: chance is the
+ * least. `added`: memory, one number a class. */
 static struct estimate first_order(const struct classes *classes, double *added)
 {
     /* variance within the classes */
@@ -250,7 +250,7 @@ static struct estimate first_order(const struct classes *classes, double *added)
         added[k] = class_size(class) * class_variance(classes, class);
         within += added[k];
     }
-    /* what each class adds to the error, and how neighbours scatter */
+    /* contribution of each class to the error, and scatter of neighbours */
     double rest = within / (n * classes->variance), all = 0.0, scatter = 0.0;
     for (size_t k = 0; k < classes->count; k++) {
         for (size_t i = classes->list[k].first; i < classes->list[k].end; i++)
@@ -268,8 +268,8 @@ static struct estimate first_order(const struct classes *classes, double *added)
                              2.0 / 3.0 * (count - 1.0)};
 }
 
-/* How much of the class means is to be believed: their variance, less what chance gives, over what
- * is seen; 0 where all of it may be chance. */
+/* Trusted share of the class means: their variance, less that of chance, over the observed one; 0
+ * where all of it may be chance. */
 static double belief(const struct classes *classes)
 {
     double n = (double)classes->member_count, spare = (double)classes->count - 1.0, between = 0.0;
@@ -280,14 +280,15 @@ static double belief(const struct classes *classes)
     return explained > ONE_SIDED * sqrt(2.0 * spare) / n ? explained / seen : 0.0;
 }
 
-/* What one replicate, or all plain points, add to the total index: u of samples, v of rows. */
+/* Contribution of one replicate, or of all plain points, to the total index: u of samples, v of
+ * rows. */
 struct contribution {
     double samples, u, u_squares;
     double rows, v, v_squares, uv;
 };
 
-/* u = (y - g(x))^2 of every member, g = trust times the mean of its class without what depends on
- * that member. */
+/* u = (y - g(x))^2 of every member, g = trust times the mean of its class without the values that
+ * depend on that member. */
 static double find_u(const struct classes *classes, double trust, double *u)
 {
     double sum = 0.0, n = (double)classes->member_count;
@@ -358,7 +359,7 @@ static struct estimate total_order(const struct indices_data *data, const struct
     struct estimate total = {1.0 + (mean_v - mean_u) / classes->variance, NAN, NAN};
     if (isnan(mean_v))
         return total;
-    /* what samples and rows of each replicate add to its error */
+    /* contributions of samples and rows of each replicate to its error */
     double n = (double)classes->member_count, part = (1.0 - total.value) * n / (n - 1.0);
     for (size_t i = 0; i < classes->member_count; i++) {
         const struct member *member = &classes->members[i];
@@ -450,7 +451,7 @@ static void widen(struct interval *interval, double value)
     interval->high = fmax(interval->high, value);
 }
 
-/* Pools what chance has put the wrong way round. */
+/* Pools two estimates that chance has put in the wrong order. */
 static void order(const struct estimate *first, const struct estimate *total,
                   struct indices *indices)
 {

@@ -31,7 +31,7 @@ struct indices_data {
 /* NAN: too few values, or none differ.
  *
  * First order, Var(E[y|x])/Var(y): 1 - the variance that is left within classes of some 8
- * neighbours in x, over all of it. What y does within a class counts as not explained. 0 where
+ * neighbours in x, over all of it. Variation of y within a class counts as not explained. 0 where
  * chance makes it negative.
  *
  * Total, E[Var(y|all others)]/Var(y), after Jansen (1999) with the class means g(x) of the samples
@@ -39,8 +39,8 @@ struct indices_data {
  *
  *     E[(y' - y)^2]/2 = Var(y) - E[(y - g(x))^2] + E[(y' - g(x') - y + g(x))^2]/2,
  *
- * where the samples, which are many, tell the first two terms, and the rows only what x does
- * together with others.
+ * where the samples, which are many, tell the first two terms, and the rows only the interactions
+ * of x with others.
  *
  * The total index is never less than the first-order one. Where chance puts the estimates the other
  * way round, both are their mean, weighted with their variances: the most likely values in the

@@ -80,7 +80,7 @@ void influence_parts(const struct influence_pair *sorted, size_t count, double r
         *part = (struct influence_part){
             .low = low + width * (double)k, .mean = NAN, .deviation = NAN, .local = NAN};
         part->high = k + 1 < part_count ? low + width * (double)(k + 1) : sorted[count - 1].x;
-        /* what lies in one */
+        /* samples in this part */
         size_t end = first;
         while (end < count && (k + 1 == part_count || sorted[end].x < part->high))
             end++;

@@ -14,8 +14,8 @@
 /* Less than this share of a distribution inside its truncation is a mistake. */
 static const double LEAST_SHARE = 1e-6;
 
-/* What a quantity may be, beside the limits of the catalogue. A contact slower than a micrometre a
- * second or more than 80 degrees askew is no impact that anyone measures. */
+/* Limits of the quantities that the catalogue does not limit. No impact is measured below a
+ * micrometre a second or at more than 80 degrees. */
 static const struct limit limit_speed = {1e-6,           1e4, false, false, "1e-6 to 1e4 m/s",
                                          QUANTITY_NUMBER};
 static const struct limit limit_direction = {
@@ -227,7 +227,7 @@ enum percuss_status input_check(const struct ensemble_input *input, size_t index
                                 struct fault *fault)
 {
     const struct limit *limit = limit_of(input->quantity);
-    /* what the distribution needs */
+    /* parameters of the distribution */
     switch (input->distribution) {
     case DISTRIBUTION_IS_LIST:
         return check_list(input, index, fault);
@@ -249,7 +249,7 @@ enum percuss_status input_check(const struct ensemble_input *input, size_t index
     default:
         break;
     }
-    /* and a place within what is possible */
+    /* and its place within the limits */
     if (!limit_holds(limit, input->first))
         return refuse(input, index, "first", input->first, limit->text, fault);
     return PERCUSS_OK;

@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* An uncertain number of an impact: what it is, whose, and how it is distributed. */
+/* An uncertain number of an impact: its quantity, its body and its distribution. */
 #ifndef PERCUSS_ENSEMBLE_INPUT_H
 #define PERCUSS_ENSEMBLE_INPUT_H
 
@@ -11,9 +11,9 @@
 #include "base/fault.h"
 
 /* speed: at which the contact approaches, m/s. direction: angle of the approach from the contact's
- * normal, rad. model-force, -compliance, -yield: what the models may be wrong by, of all contacts,
- * in standard deviations (solve/model_deviation.h). site: place of the contact along a rod or beam,
- * 0 .. 1. The others: of a body; scale: of a mesh. */
+ * normal, rad. model-force, -compliance, -yield: error of the models, of all contacts, in standard
+ * deviations (solve/model_deviation.h). site: place of the contact along a rod or beam, 0 .. 1. The
+ * others: of a body; scale: of a mesh. */
 #define INPUT_QUANTITY_LIST(X)                                                                     \
     X(SPEED, "speed")                                                                              \
     X(DIRECTION, "direction")                                                                      \
@@ -47,7 +47,7 @@ struct ensemble_input {
     enum distribution distribution;
     double first, second; /* constant: value; uniform: range; normal and log-normal: mean and
                              standard deviation of the value (before it is truncated) */
-    double lower, upper;  /* truncation; NAN: only what the quantity itself demands */
+    double lower, upper;  /* truncation; NAN: only the limits of the quantity */
     const double *values; /* a list's; borrowed */
     size_t value_count;
 };

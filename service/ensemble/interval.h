@@ -16,7 +16,7 @@ struct interval {
     double low, high;
 };
 
-/* What intervals are made from. */
+/* Data of an interval. */
 struct interval_sample {
     const double *values; /* [count], in order */
     size_t count;
@@ -33,10 +33,10 @@ struct interval interval_mean(const struct interval_sample *sample, const struct
 struct interval interval_deviation(const struct interval_sample *sample,
                                    const struct moments *moments);
 
-/* Quantile at p. Plain: between the order statistics whose binomial probabilities enclose the
- * level, for any continuous distribution (Nyblom 1992, Stat. Prob. Lett. 14, 129: interpolated).
- * Replicates: quantiles at
- * p -+ h, where h is the half-width for the share of values below (Woodruff 1952). */
+/* Quantile at p. Plain: between the order statistics that enclose the level by their binomial
+ * probabilities, for any continuous distribution (Nyblom 1992, Stat. Prob. Lett. 14, 129:
+ * interpolated). Replicates: quantiles at p -+ h, where h is the half-width for the share of values
+ * below (Woodruff 1952). */
 struct interval interval_quantile(const struct interval_sample *sample, double p);
 
 /* A probability of which `hits` of `count` independent trials are known: Wilson's (1927). NAN

@@ -135,7 +135,7 @@ static bool verification_fill(struct ensemble_report *report, const struct ensem
         return false;
     struct comparison comparison = {memory, memory + count, memory + 2 * count};
     compare(out, ensemble, material, &comparison);
-    /* what the fast one does to the mean and the deviation */
+    /* shift of the mean and the deviation by the fast model */
     struct moments moments = summary_moments(comparison.difference, out->count);
     struct interval_sample sample = {comparison.difference, out->count, 1, NULL, out->count,
                                      REPORT_LEVEL};
@@ -150,7 +150,7 @@ static bool verification_fill(struct ensemble_report *report, const struct ensem
     return true;
 }
 
-/* The warnings of an ensemble: what single impacts would be warned of, counted, and its own. */
+/* The warnings of an ensemble: the warnings of single impacts, counted, and its own. */
 
 /* More of a distribution than this outside its truncation is worth a word. */
 static const double TRUNCATED_SHARE = 0.01;
@@ -184,7 +184,7 @@ static void note(struct occurrence *occurrence, uint64_t index)
 /* A sample that is solved again for its words. */
 struct witness {
     const struct ensemble *ensemble;
-    const struct watch *watch;      /* NULL: nobody */
+    const struct watch *watch;      /* NULL: none */
     struct ensemble_worker *worker; /* NULL: none was called yet */
     uint64_t index;
     struct ensemble_sample sample;
@@ -204,10 +204,10 @@ static bool call(struct witness *witness, uint64_t index)
     return true;
 }
 
-/* What it says to a kind of warning, or with WARNING_KINDS to its refusal. */
+/* Text of a kind of warning, or with WARNING_KINDS of the refusal. */
 static const char *words_of(const struct witness *witness, enum warning_kind kind)
 {
-    /* what the worker has in mind then is another sample */
+    /* the worker then still holds another sample */
     if (witness->sample.status == PERCUSS_TIMEOUT)
         return "(no time was left to say why)";
     const char *text = kind == WARNING_KINDS
@@ -294,7 +294,7 @@ static void warn_numbers(struct ensemble_report *report, const struct ensemble *
     }
 }
 
-/* What the samples that were solved again say of all. */
+/* Warns by the samples that were solved again. */
 static void warn_verification(struct ensemble_report *report, const struct ensemble *ensemble)
 {
     const struct report_verification *verification = &report->verification;
@@ -327,8 +327,8 @@ static void warn_verification(struct ensemble_report *report, const struct ensem
 }
 
 /* Fills report->warnings, when all else is filled, from samples 0 .. report->done - 1 in their
- * order: the same for any number of workers. What is quoted is solved again: where the watch (NULL:
- * nobody) stops that, the words are left out. False: out of memory. */
+ * order: the same for any number of workers. Quoted samples are solved again: where the watch
+ * (NULL: none) stops that, the words are left out. False: out of memory. */
 static bool remarks_fill(struct ensemble_report *report, const struct ensemble *ensemble,
                          const struct ensemble_sample *samples, const struct watch *watch)
 {
@@ -378,7 +378,7 @@ static void fill_curve(struct report_quantity *quantity, const double *sorted, s
 static bool fill_quantity(struct ensemble_report *report, const struct ensemble *ensemble,
                           struct report_quantity *quantity, struct interval_sample *sample)
 {
-    /* what is told of it */
+    /* probabilities, moments and bins */
     report_probabilities(&ensemble->spec, &quantity->probabilities, &quantity->quantile_count);
     quantity->moments = summary_moments(sample->values, sample->count);
     quantity->bins = ensemble->spec.bins ? ensemble->spec.bins : summary_bins(sample->kept);
@@ -444,7 +444,7 @@ static bool fill_quantities(struct ensemble_report *report, const struct ensembl
             .kept = summary_sort(values, report->done, sorted),
             .level = REPORT_LEVEL,
         };
-        /* what follows from them */
+        /* its statistics */
         report->quantities[q].name = names[q];
         good = fill_quantity(report, ensemble, &report->quantities[q], &sample);
         if (good && q == 0)
@@ -527,7 +527,7 @@ static bool find_indices(const struct report_material *material, const struct en
     return good;
 }
 
-/* What the inputs are of one sample after the other, and their answers. */
+/* Values of an input by sample, and the answers. */
 struct columns {
     double *x, *y;
     struct influence_pair *pairs;

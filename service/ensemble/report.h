@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What an ensemble says, from its samples in order. */
+/* Report of an ensemble, from its samples in order. */
 #ifndef PERCUSS_ENSEMBLE_REPORT_H
 #define PERCUSS_ENSEMBLE_REPORT_H
 
@@ -37,7 +37,7 @@ struct report_quantity {
     double *curve_values, *curve_shares;
 };
 
-/* What one uncertain input does to the restitution. */
+/* Influence of one uncertain input on the restitution. */
 struct report_input {
     size_t input;           /* index into the spec's */
     struct indices indices; /* the total one NAN: not found, or it is correlated */
@@ -96,8 +96,9 @@ struct report_progress report_progress(const struct ensemble *ensemble,
                                        const struct ensemble_sample *samples, uint64_t done,
                                        bool quantiles);
 
-/* The report on the material. What its warnings quote is solved again, watched by `watch` (NULL:
- * nobody). False: out of memory. Release it all the same. */
+/* The report on the material. Samples that its warnings quote are solved again; where `watch`
+ * (NULL: none) stops that, these words are left out. False: out of memory. Release it all the same.
+ */
 bool report_create(struct ensemble_report *report, const struct ensemble *ensemble,
                    const struct report_material *material, const struct watch *watch);
 

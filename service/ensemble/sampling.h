@@ -4,7 +4,7 @@
 /* Points of the unit cube, each a function of its index: plain random points, Latin hypercubes,
  * Sobol's sequence. The latter two come as independent replicates (another permutation, another
  * random scrambling), side by side: point i belongs to replicate i mod R. Their spread tells the
- * error of what is averaged over all of them. */
+ * error of averages over all of them. */
 #ifndef PERCUSS_ENSEMBLE_SAMPLING_H
 #define PERCUSS_ENSEMBLE_SAMPLING_H
 

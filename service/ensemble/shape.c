@@ -29,12 +29,12 @@ struct sigma_interval shape_sigma_interval(const double *sorted, const struct mo
         .quantile_low = summary_quantile(sorted, n, 0.5 - 0.5 * inside),
         .quantile_high = summary_quantile(sorted, n, 0.5 + 0.5 * inside),
     };
-    /* what lies in it, its ends included */
+    /* share of the sample in it, its ends included */
     interval.covered = summary_share(sorted, n, interval.high) -
                        summary_share(sorted, n, nextafter(interval.low, -INFINITY));
     if (half == 0.0) /* all lie there, but for rounding */
         interval.covered = 1.0;
-    /* and what part of it nothing can lie in */
+    /* and the impossible part of its length */
     interval.unphysical =
         half > 0.0 ? length_outside(interval.low, interval.high, range) / (2.0 * half) : 0.0;
     return interval;

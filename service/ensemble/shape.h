@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* What shape a distribution of the restitution has, against what is possible at all. */
+/* Shape of a distribution of the restitution within its possible range. */
 #ifndef PERCUSS_ENSEMBLE_SHAPE_H
 #define PERCUSS_ENSEMBLE_SHAPE_H
 

@@ -86,7 +86,7 @@ static enum percuss_status check_numbers(const struct ensemble_spec *spec, struc
         return fault_set(fault, PERCUSS_BAD_REQUEST,
                          "quantile_half_width: %g: must be >= 0 and finite",
                          spec->quantile_half_width);
-    /* what is to be told of them */
+    /* quantiles and bins */
     for (size_t i = 0; i < spec->quantile_count; i++) {
         if (!(spec->quantiles[i] > 0.0 && spec->quantiles[i] < 1.0))
             return fault_set(fault, PERCUSS_BAD_REQUEST,
@@ -116,7 +116,7 @@ static bool clash(const struct ensemble_spec *spec, size_t i, size_t j)
            (!input_is_of_body(a->quantity) || strcmp(bodies[a->body].id, bodies[b->body].id) == 0);
 }
 
-/* Nor what the request itself replaces. */
+/* Nor a number that the request itself replaces. */
 static enum percuss_status check_overrides(const struct ensemble_spec *spec, size_t i,
                                            struct fault *fault)
 {
@@ -136,7 +136,7 @@ static enum percuss_status check_overrides(const struct ensemble_spec *spec, siz
     return PERCUSS_OK;
 }
 
-/* What the inputs do must be possible with this impact. */
+/* Refuses an input that is impossible with this impact. */
 static enum percuss_status check_input(const struct ensemble_spec *spec, size_t i,
                                        struct fault *fault)
 {
@@ -181,8 +181,8 @@ static enum percuss_status check_correlations(const struct ensemble_spec *spec, 
     return PERCUSS_OK;
 }
 
-/* Whether a contact of a body of that id, which inputs change wherever it stands, leaves dents, in
- * it or its partner. What is no contact of two known bodies is solve()'s to refuse. */
+/* Whether a contact of any body of that id (inputs change all of them) leaves dents, in it or its
+ * partner. solve() refuses contacts of unknown bodies. */
 static bool yields(const struct ensemble_spec *spec, const char *id)
 {
     const struct solve_request *request = spec->request;

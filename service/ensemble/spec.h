@@ -38,8 +38,8 @@ struct ensemble_spec {
     size_t bins;             /* 0: the default */
 };
 
-/* PERCUSS_OK or BAD_REQUEST with the field, its value and what is allowed. The request is solve()'s
- * to judge. */
+/* PERCUSS_OK or BAD_REQUEST with the field, its value and its allowed range. solve() judges the
+ * request. */
 enum percuss_status spec_check(const struct ensemble_spec *spec, struct fault *fault);
 
 /* A table belongs to materials to the last bit: BAD_REQUEST for inputs that change one while

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What differs by less, relative to the values, differs by rounding: some thousand steps of it, far
- * below the 1e-9 to which an impact is computed at its best. */
+/* Values that differ by less, relative to their size, differ by rounding: some thousand steps of
+ * it, far below the 1e-9 to which an impact is computed at its best. */
 static const double ROUNDING = 1e-12;
 
 bool summary_varies(const struct moments *moments)
@@ -54,7 +54,7 @@ struct moments summary_moments(const double *values, size_t count)
         fourth += d * d * d * d;
     }
     double n = (double)moments.count;
-    /* what rounding left in the mean */
+    /* the rounding error of the mean */
     moments.mean += rest / n;
     moments.fourth = fourth / n;
     if (moments.count > 1)

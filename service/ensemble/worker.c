@@ -124,7 +124,7 @@ static enum percuss_status variation_create(struct variation *variation,
     *variation = (struct variation){.spec = spec, .request = *spec->request};
     if (!copy_bodies(variation))
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    /* what every input needs of this impact */
+    /* the impact must suit each input */
     variation->gap_rate = gap_rate_of(spec->request, spec->contact);
     enum percuss_status status = PERCUSS_OK;
     for (size_t i = 0; !status && i < spec->input_count; i++) {
@@ -154,7 +154,7 @@ static void move(double position[3], const double along[3], double distance)
         position[i] += distance * along[i];
 }
 
-/* A body whose surface is rounder or flatter there stands farther off, so that it still touches. */
+/* A body with another radius there is moved along the normal, so that it still touches. */
 static void keep_touching(struct variation *variation, const char *id, double growth)
 {
     struct solve_request *request = &variation->request;
@@ -270,7 +270,7 @@ static void turn_velocities(struct variation *variation, double angle)
     }
 }
 
-/* Back to what was stated. */
+/* Back to the request's values. */
 static void restore(struct variation *variation)
 {
     const struct ensemble_spec *spec = variation->spec;
@@ -351,7 +351,7 @@ enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
     *worker = calloc(1, sizeof **worker);
     if (!*worker)
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory");
-    /* bodies to vary, and what solves with them */
+    /* bodies to vary, and their solver */
     (*worker)->ensemble = ensemble;
     enum percuss_status status = variation_create(&(*worker)->variation, &ensemble->spec, fault);
     (*worker)->repeat = status ? NULL : repeat_create();
