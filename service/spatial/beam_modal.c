@@ -60,8 +60,8 @@ struct beam_modal_contact beam_modal_patch(struct patch *patch)
     return (struct beam_modal_contact){press_patch, patch};
 }
 
-/* Newton's method for F = law(overlap - series F), whose left side less the right rises: kept
- * between bounds */
+/* Newton's method for F = law(overlap - series F), with bounds, as the left side less the right
+ * rises with F */
 static double press_law(void *context, double overlap, double series)
 {
     const struct contact_law *law = context;
@@ -91,7 +91,7 @@ struct state {
     double step, mobility; /* s, W in 1/kg */
     double gap, rate;
     double *q, *v;
-    /* of each mode over a step: its rotation, and what a force does that rises to 1 N */
+    /* of each mode over a step: its rotation, and its response to a force that rises to 1 N */
     double *cosine, *sine, *rise, *rise_rate;
     double series; /* m/N, of all that gives way to such a force by the step's end */
 };
@@ -115,7 +115,7 @@ static bool state_create(const struct beam_modal *modal, double step, double app
     state->sine = room + 3 * n;
     state->rise = room + 4 * n;
     state->rise_rate = room + 5 * n;
-    /* what a force that rises to 1 N moves in a step: rigidly and at once, then by each mode */
+    /* motion by a force that rises to 1 N in a step: rigid and residual, then by each mode */
     state->series = modal->residual + state->mobility * step * step / 6.0;
     for (size_t k = 0; k < n; k++) {
         double w = modal->omega[k], angle = w * step;
@@ -166,7 +166,7 @@ static double bent(const struct state *state)
     return sum;
 }
 
-/* what is to be told of the state */
+/* quantities of the report, from the state */
 static void describe(const struct state *state, double approach, struct collision *now)
 {
     const double *mass = state->modal->mass;

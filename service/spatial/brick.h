@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Stiffness and mass of one brick of 27 nodes (mesh/element.h), whose map may be a mirrored one. */
+/* Stiffness and mass of one brick of 27 nodes (mesh/element.h); its map may be mirrored. */
 #ifndef PERCUSS_SPATIAL_BRICK_H
 #define PERCUSS_SPATIAL_BRICK_H
 

@@ -13,7 +13,7 @@
 
 /* Nodes that face each other are nearer than this across the normal: m. */
 static const double FACING = 1e-9;
-/* What is symmetric about two planes has four quarters. */
+/* Bodies symmetric about two planes have four quarters. */
 static const double QUARTERS = 4.0;
 /* Sides of the sphere's face with the contact over its radius, at most, and layers below it. */
 static const double SPHERE_FACE = 0.6;
@@ -98,7 +98,7 @@ static enum percuss_status make_bodies(struct pair *pair, struct fault *fault)
     struct shape shapes[2];
     double swell[2] = {1.0, 1.0}, exact[2];
     masses(input, exact);
-    /* what is missing, before bricks are halved */
+    /* missing mass, before bricks are halved */
     make_shapes(pair, swell, shapes);
     for (int b = 0; b < 2 && status == PERCUSS_OK; b++) {
         status = make_body(pair, b, &shapes[b], 0, fault);
@@ -171,7 +171,7 @@ static bool face_nodes(struct pair *pair)
     struct places above = {.same = FACING};
     size_t *of_place = malloc(sphere->touching * sizeof *of_place);
     bool faced = of_place && take_room(pair, beam->touching);
-    /* the sphere's nodes by what they stand above, each alone */
+    /* the sphere's nodes by the point below them, one for each */
     for (size_t i = 0; faced && i < sphere->touching; i++) {
         const double *point = sphere->points[sphere->surface[i]];
         size_t place = places_add(&above, (const double[3]){point[0], point[1], 0.0});
@@ -268,7 +268,7 @@ enum percuss_status collider_create(const struct pair *pair, double contact_step
         status = pace3_create(system, RATIONAL_RADAU, contact_step, &collider->contact[b], fault);
         if (status == PERCUSS_OK)
             status = pace3_create(system, RATIONAL_GAUSS, flight_step, &collider->flight[b], fault);
-        /* what the contact's nodes do to each other in a fine step */
+        /* compliance between the contact's nodes in a fine step */
         if (status == PERCUSS_OK &&
             !pressed_add_compliance(system, &pair->pressed[b], &collider->contact[b],
                                     collider->compliance))
@@ -361,7 +361,7 @@ static void accept(struct run *run, double step)
     now->middle = run->moving[PAIR_BEAM].u[3 * run->collider->pair->axis + 2];
 }
 
-/* What a step is made of. */
+/* Parts of a step. */
 enum part { FREE, PRESSED };
 
 /* one part of the step of the chosen runs' body b, all at once */
@@ -395,7 +395,7 @@ static bool find_forces(struct run *run)
         initial[i] = tried_gap(run, i);
     if (!active_set_solve(&run->set))
         return false;
-    /* what all of them are along z */
+    /* their sum along z */
     run->total = 0.0;
     run->now->active = 0;
     for (size_t i = 0; i < run->count; i++) {

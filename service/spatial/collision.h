@@ -38,7 +38,7 @@ struct pair {
     size_t axis;               /* the beam's node on its axis below the contact */
 };
 
-/* OK; BAD_REQUEST naming the field and what is allowed; INTERNAL: no memory. */
+/* OK; BAD_REQUEST naming the field and its allowed range; INTERNAL: no memory. */
 enum percuss_status pair_create(const struct pair_input *input, struct pair *pair,
                                 struct fault *fault);
 void pair_free(struct pair *pair);
@@ -49,7 +49,7 @@ struct collision_sub_impact {
     double start, end, impulse, peak_force; /* s, s, N s, N */
 };
 
-/* What it is at a time, and in the end. */
+/* State of an impact at a time, and at its end. */
 struct collision {
     double time;        /* s */
     double force;       /* N */
@@ -70,8 +70,7 @@ struct collision {
 /* Counts a step that has just ended, along which the force went from `before` to `after` (N). */
 void collision_keep(struct collision *collision, double before, double after, double step);
 
-/* The factors of both bodies for both lengths of step, and what contact nodes feel of each other.
- */
+/* The factors of both bodies for both lengths of step, and the compliance between contact nodes. */
 struct collider {
     const struct pair *pair;          /* borrowed */
     double contact_step, flight_step; /* s */
@@ -90,7 +89,7 @@ struct collision_settings {
     /* m/N: vibration of energy E moves the beam's middle by at most sqrt(2 E compliance); an impact
      * that is open by more than that is over. 0: it goes on to the horizon */
     double compliance;
-    struct pace *pace; /* borrowed; NULL: nobody waits */
+    struct pace *pace; /* borrowed; NULL: never stopped */
     /* told the state of an impact after each step; may be NULL */
     void (*record)(void *context, size_t which, const struct collision *collision);
     void *context;

@@ -21,7 +21,7 @@ struct kept_factor {
     size_t freedoms;
 };
 
-/* entries of the upper triangle; what is held has its own equation 1 x = right */
+/* entries of the upper triangle; a held freedom has its own equation 1 x = right */
 static size_t fill(const struct system3 *system, double complex s, struct kept_factor *factor)
 {
     size_t used = 0;
@@ -92,7 +92,7 @@ enum percuss_status kept_factor_create(const struct system3 *system, double comp
         return fault_set(fault, PERCUSS_INTERNAL, "MUMPS: error %d for %zu freedoms", code,
                          system->freedoms);
     }
-    /* what was factored is in MUMPS's own memory now */
+    /* the factor is in MUMPS's own memory now */
     free(factor->rows);
     free(factor->columns);
     free(factor->values);

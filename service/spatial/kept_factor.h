@@ -11,7 +11,7 @@
 
 struct kept_factor;
 
-/* OK, or INTERNAL with what MUMPS says. */
+/* OK, or INTERNAL with the error code of MUMPS. */
 enum percuss_status kept_factor_create(const struct system3 *system, double complex s,
                                        struct kept_factor **factor, struct fault *fault);
 void kept_factor_free(struct kept_factor *factor);

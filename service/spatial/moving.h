@@ -47,19 +47,19 @@ void moving_load(struct moving *moving, const struct pace3 *pace, const double *
                  double complex *right);
 void moving_try(struct moving *moving, const struct pace3 *pace, const double complex *solution);
 
-/* The same for what forces add that go from 0 to `end`. */
+/* The same for forces that go from 0 to `end`, added to it. */
 void moving_load_end(const struct moving *moving, const struct pace3 *pace, const double *end,
                      double complex *right);
 void moving_press(struct moving *moving, const struct pace3 *pace, const double complex *solution);
 
-/* What was tried becomes the state. */
+/* The tried state becomes the state. */
 void moving_accept(struct moving *moving);
 
 /* Displacement of a pressed node along its direction, m: now, or as tried. */
 double moving_at(const struct moving *moving, size_t i, bool tried);
 
-/* compliance[i * count + j] += what a force of 1 N at the end of a step on j moves i by then.
- * False: the factor failed, or no memory. */
+/* compliance[i * count + j] += the displacement of i by then under a force on j that reaches 1 N at
+ * the end of a step. False: the factor failed, or no memory. */
 bool pressed_add_compliance(const struct system3 *system, const struct pressed *pressed,
                             const struct pace3 *pace, double *compliance);
 

@@ -10,7 +10,7 @@
 
 #include "spatial/moving.h"
 
-/* What is symmetric about two planes has four quarters. */
+/* Bodies symmetric about two planes have four quarters. */
 static const double QUARTERS = 4.0;
 /* The mesh ends at least so many longer semi-axes away, held: an approach of 0.4 to 0.6 of the
  * inverse of that is lost. */

@@ -1,11 +1,11 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* The contact region of two elastic half-spaces whose surfaces part like A x^2 + B y^2, in three
- * dimensions: static, frictionless, small strains. Indentation is the approach of their points at
- * infinity, as in Hertz's F = k d^(3/2). What the nodes that may touch feel of each other is found
- * once; a force then is a dense problem of complementarity. Nothing yields: the paper's beam is
- * elastic. */
+/* The contact region of two elastic half-spaces with surfaces that part like A x^2 + B y^2, in
+ * three dimensions: static, frictionless, small strains. Indentation is the approach of their
+ * points at infinity, as in Hertz's F = k d^(3/2). The compliance between the nodes that may touch
+ * is found once; a force then is a dense problem of complementarity. Nothing yields: the paper's
+ * beam is elastic. */
 #ifndef PERCUSS_SPATIAL_PATCH_H
 #define PERCUSS_SPATIAL_PATCH_H
 
@@ -26,14 +26,14 @@ struct patch {
     size_t count;            /* nodes that may touch, of a quarter */
     double (*points)[2];     /* m */
     double *compliance;      /* m/N, of forces on a quarter's nodes with their images */
-    double *coupled, series; /* m/N: the same with what else gives way */
+    double *coupled, series; /* m/N: the same with the compliance in series */
     double *initial;         /* m, gaps at an indentation of 0 */
     size_t freedoms;         /* of both meshes */
     struct active_set set;   /* of the last answer */
     double *gaps;            /* m, which the set points to */
 };
 
-/* OK; BAD_REQUEST naming the field and what is allowed; INTERNAL. */
+/* OK; BAD_REQUEST naming the field and its allowed range; INTERNAL. */
 enum percuss_status patch_create(const struct patch_input *input, struct patch *patch,
                                  struct fault *fault);
 void patch_free(struct patch *patch);

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A cell of the grid that sorts points is so many times as wide as what is one point: few points
- * lie near its walls, and few of them share it. */
+/* A cell of the grid that sorts points is so many times as wide as the tolerance of one point: few
+ * points lie near its walls, and few of them share it. */
 static const double CELL = 1000.0;
 static const size_t FIRST_ROOM = 1024;
 

@@ -1,9 +1,9 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Steps of linear vibration M u'' + K u = f by collocation at two places, whose matrix has one pair
+/* Steps of linear vibration M u'' + K u = f by collocation at two places with a matrix of one pair
  * of complex eigenvalues: one complex solution is a step. Radau's (places 1/3, 1; third order)
- * follows what is too stiff for the step statically and is made for contact; Gauss's (fourth order)
+ * follows modes too stiff for the step statically and is made for contact; Gauss's (fourth order)
  * keeps energy to rounding and is made for free flight. Hairer, Wanner: Solving Ordinary
  * Differential Equations II, section IV.8. */
 #ifndef PERCUSS_SPATIAL_RATIONAL_H

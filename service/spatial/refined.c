@@ -10,7 +10,7 @@
 
 #include "spatial/places.h"
 
-/* Nodes that hang on the faces of larger bricks, and what they hang on in the end. */
+/* Nodes that hang on the faces of larger bricks, and the free nodes that these depend on. */
 
 struct hanging {
     size_t nodes;
@@ -86,7 +86,7 @@ static void hanging_add(struct hanging *hanging, size_t node, unsigned level,
     }
 }
 
-/* what a node hangs on in the end, being itself where it is free, times `share` */
+/* free nodes that a node hangs on (itself if it is free), times `share` */
 struct gathering {
     const struct hanging *hanging;
     size_t count, room, *masters;
@@ -102,7 +102,7 @@ static void gather_one(struct gathering *gathering, size_t from, size_t node, do
             gathering->weights[i] += share;
             return;
         }
-    /* room for another; what was had stays good if there is none */
+    /* room for another; the lists stay valid if there is none */
     if (gathering->count == gathering->room) {
         size_t room = gathering->room ? 2 * gathering->room : 1024;
         size_t *masters = realloc(gathering->masters, room * sizeof *masters);
@@ -134,8 +134,8 @@ static void gather(struct gathering *gathering, size_t from, size_t node, double
     }
 }
 
-/* Lists for each node the free ones that it hangs on: first[nodes + 1] and what it points into, the
- * caller's to free. False: no memory. */
+/* Lists for each node the free ones that it hangs on: first[nodes + 1] and its targets, for the
+ * caller to free. False: no memory. */
 static bool hanging_resolve(const struct hanging *hanging, size_t **first, size_t **masters,
                             double **weights)
 {
@@ -335,7 +335,7 @@ enum percuss_status refined_create(const struct shape *shape, unsigned levels, s
         mesh->bricks = calloc(cutting.count, sizeof *mesh->bricks);
         made = mesh->bricks && number_nodes(&cutting, &places, mesh);
     }
-    /* what hangs, what may touch */
+    /* nodes that hang, nodes that may touch */
     if (made) {
         mesh->node_count = places.count;
         made = hang_nodes(&cutting, &places, mesh) && list_surface(&cutting, mesh);

@@ -26,7 +26,7 @@ struct refined {
      * is free */
     size_t *first, *masters;
     double *weights;
-    double edge;     /* m: what is as far along any axis is held; 0: nothing */
+    double edge;     /* m: nodes as far along any axis are held; 0: none */
     size_t touching; /* nodes of the face that holds the contact, as far as halved most */
     size_t *surface;
 };

@@ -20,7 +20,7 @@ struct shape {
     void (*map)(const struct shape *shape, size_t block, const double at[3], double place[3]);
     double brick[3];       /* m, sides of the brick at the contact */
     double core[3];        /* m, how far from the contact bricks are to be finest */
-    double edge;           /* m: what is as far along any axis is held; 0: nothing */
+    double edge;           /* m: nodes as far along any axis are held; 0: none */
     double length, radius; /* m; length: of a beam */
     double half[2];        /* m, of block 0's outer face along x, y */
     double inner[3];       /* m, corner of the block in the middle */

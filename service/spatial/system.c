@@ -10,7 +10,7 @@
 
 /* Nodes nearer than this to a plane of symmetry lie on it: m. */
 static const double ON_PLANE = 1e-9;
-/* The same for what is held, over its distance. */
+/* The same for the held edge, over its distance. */
 static const double AT_EDGE = 1e-9;
 
 /* A brick's matrices in the nodes that its own hang on in the end. */
@@ -77,7 +77,7 @@ static uint64_t *list_blocks(const struct refined *mesh, const struct system3 *s
     struct reduced reduced;
     for (size_t b = 0; b < mesh->brick_count; b++) {
         bool fits = reduce(mesh, system, &mesh->bricks[b], &reduced);
-        /* room for this brick's blocks: first by dropping what is there twice */
+        /* room for this brick's blocks: first by dropping duplicates */
         size_t more = reduced.count * reduced.count;
         if (fits && used + more > room) {
             used = unique(keys, used);
@@ -165,7 +165,7 @@ static enum percuss_status fill(const struct refined *mesh, const struct materia
             return fault_set(fault, PERCUSS_INTERNAL,
                              "brick %zu of block %zu with a corner at (%g, %g, %g) m is folded", b,
                              brick->block, points[0][0], points[0][1], points[0][2]);
-        /* hanging nodes to their masters, then what lies above the diagonal */
+        /* hanging nodes to their masters, then the blocks above the diagonal */
         reduce(mesh, system, brick, &reduced);
         for (size_t i = 0; i < reduced.count; i++)
             for (size_t j = 0; j < reduced.count; j++)
@@ -192,7 +192,7 @@ static bool number_free(const struct refined *mesh, struct system3 *system)
         system->index[n] = SIZE_MAX;
         if (mesh->first[n + 1] > mesh->first[n])
             continue;
-        /* a plane of symmetry keeps what is on it, the edge holds */
+        /* nodes stay on their plane of symmetry, the edge is held */
         const double *point = mesh->points[n];
         size_t i = system->nodes++;
         system->index[n] = i;

@@ -56,8 +56,8 @@ static double area_at(const struct indentation_run *run, double d)
     return root * root / d;
 }
 
-/* What springs back. Up to the first computed branch dents begin with the square of the way beyond
- * yield, as in table_curves.c. */
+/* Recovered share of the indentation. Up to the first computed branch dents begin with the square
+ * of the way beyond yield, as in table_curves.c. */
 static double back_at(const struct indentation_run *run, const double *back, double unit, double d)
 {
     double first = run->largest[1];
@@ -95,7 +95,7 @@ bool family_point_fill(const struct indentation_run *in_long,
     double back[INDENTATION_RINGS_MAX];
     if (in_long->rings < 4 || in_short->rings < 4 || in_short->branches < 5)
         return false;
-    /* what comes back of each depth that was unloaded from */
+    /* recovered share of each depth before unloading */
     for (size_t b = 0; b < in_short->branches; b++)
         back[b] = 1.0 - in_short->residual[b] / in_short->largest[b];
     /* first order in the steps: twice the short ones less the long ones */
@@ -224,9 +224,9 @@ static double mean_share(const double share[FAMILY_SAMPLES])
     return sum / (3.0 * (FAMILY_SAMPLES - 1));
 }
 
-/* Where dents begin what is lost is less than the computation's error: a contact gives back no more
- * than it took up, less what the computed ones lose at least (3 % times the square of the depth's
- * logarithm, half of what a metal without hardening does). */
+/* Where dents begin, the loss is below the computation's error: a contact gives back at most the
+ * work of loading, less the smallest computed loss (3 % times the square of the depth's logarithm,
+ * half of that of a metal without hardening). */
 static void lose(struct family_numbers *numbers, size_t t)
 {
     const double least = 0.005;
@@ -305,7 +305,7 @@ static enum percuss_status make_hardening(const struct family_source *source, si
                 fill_hertz(numbers, t);
                 continue;
             }
-            /* on the coarse mesh, whose error is taken to be that of the base */
+            /* on the coarse mesh, with the error of the base */
             if (!is_base(&place))
                 status = source->point(source->context, &place, FAMILY_COARSE, &point, fault);
             if (!status)

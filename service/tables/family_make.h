@@ -30,14 +30,14 @@ enum { FAMILY_LONG = 4, FAMILY_BRANCH_EVERY = 4 };
 double family_depth(size_t i);   /* of loading point i < FAMILY_DEPTHS */
 double family_largest(size_t i); /* of unloading i < FAMILY_SPRINGS */
 
-/* What struct contact_family_samples holds of one table. */
+/* One table of struct contact_family_samples. */
 struct family_point {
     double force[FAMILY_DEPTHS], area[FAMILY_DEPTHS];
     double back[FAMILY_SPRINGS];
     double share[FAMILY_BRANCHES][FAMILY_SAMPLES];
 };
 
-/* What to compute for a place. */
+/* Input of the computation for a place. */
 struct region_input family_input(const struct contact_family_place *place, size_t resolution);
 
 /* From a passage in long steps and one, with unloadings, in steps half as long: the steps' error is

@@ -29,7 +29,7 @@ struct bar {
     const char *label;
     int shown; /* per mille */
     bool wanted;
-    double from, share; /* of the whole: before what is told now, and its own */
+    double from, share; /* of the whole: before the present part, and of that part */
 };
 
 enum { WIDTH = 40 };
@@ -66,7 +66,7 @@ static void bar_clear(const struct bar *bar)
 
 struct options {
     const char *catalogue, *folder;
-    const char *bodies; /* folder of what percussd has reduced; "": none */
+    const char *bodies; /* folder of bodies that percussd has reduced; "": none */
     const char *a, *b;  /* NULL: every pair that needs a table */
     double speed;       /* m/s */
     size_t resolution;
@@ -307,7 +307,7 @@ static enum percuss_status family_compute(const char *folder, struct fault *faul
     free(work);
     if (!numbers)
         return PERCUSS_INTERNAL;
-    /* saved with who made it, in how long, on which meshes */
+    /* saved with its maker, its time and its meshes */
     struct contact_family_samples samples = family_numbers_samples(numbers);
     struct family_origin origin = {"percuss-tables " PERCUSS_VERSION,
                                    (double)(clock() - start) / CLOCKS_PER_SEC, FAMILY_COARSE,
@@ -361,7 +361,7 @@ static enum percuss_status make(const struct options *options, const struct tabl
     bar_clear(&bar);
     if (status)
         return status;
-    /* saved with who made it and in how long */
+    /* saved with its maker and its time */
     struct table_origin origin = {"percuss-tables " PERCUSS_VERSION, processor_seconds() - start};
     status = table_file_save(options->folder, &table, &origin, path, fault);
     if (!status)
