@@ -12,7 +12,7 @@
 #include "ensemble/worker.h"
 #include "solve/solve.h"
 
-/* One model for all samples. */
+/* The choice of one model for all samples, by pilot samples. */
 
 enum {
     PILOTS = 24,
@@ -48,7 +48,7 @@ static bool is_wanted(const struct choice *choice)
     return !choice->watch || choice->watch->proceed(choice->watch->context, 0.0);
 }
 
-/* Solves the pilots. A refusal of all is the ensemble's. */
+/* Solves the pilots. Where all are refused, so is the ensemble. */
 static enum percuss_status solve_pilots(struct choice *choice, struct fault *fault)
 {
     const struct ensemble *ensemble = choice->ensemble;
@@ -64,9 +64,9 @@ static enum percuss_status solve_pilots(struct choice *choice, struct fault *fau
             point[d] = ((double)cell + random_uniform(&stream, k, d)) / PILOTS;
         }
         copula_apply(&ensemble->copula, point);
-        /* lists taken in order are looked at along all their length */
+        /* lists taken in order: values from their whole length */
         ensemble_values(ensemble, point, k * ensemble->count / PILOTS, pilot->values);
-        /* kept if the search answers it */
+        /* a pilot counts if the search answers it */
         status = worker_search(choice->worker, pilot->values, &pilot->model, &outcome, fault);
         pilot->restitution = outcome.restitution;
         choice->count += ensemble_has_result(status);
@@ -74,7 +74,7 @@ static enum percuss_status solve_pilots(struct choice *choice, struct fault *fau
     return choice->count > 0 ? PERCUSS_OK : status;
 }
 
-/* How far the model's answer to pilot k is from the search's; INFINITY: it has none. */
+/* Difference of the model's answer to pilot k from the search's; INFINITY: it has none. */
 static double difference_of(struct choice *choice, unsigned k)
 {
     struct ensemble *ensemble = choice->ensemble;
@@ -194,14 +194,14 @@ static enum percuss_status choice_of_model(struct ensemble *ensemble, const stru
     /* a stop leaves no model */
     if (!is_wanted(&choice))
         status = fault_set(fault, PERCUSS_TIMEOUT, "stopped before the first sample");
-    /* the scene can be kept where only the blow varies */
+    /* the scene is kept where only velocities vary */
     ensemble->same_scene = !spec_changes_scene(&ensemble->spec);
     ensemble_worker_free(choice.worker);
     free(choice.pilots);
     return status;
 }
 
-/* Of seconds each there would be too many. */
+/* Refuses laws that take seconds an impact: an ensemble would take too long. */
 static enum percuss_status refuse_long(unsigned asked, struct fault *fault)
 {
     /* the others, as a list in words */
@@ -224,7 +224,7 @@ static enum percuss_status refuse_long(unsigned asked, struct fault *fault)
                      contact_model_name(asked), names);
 }
 
-/* The impact as it is stated must be one that solve() answers. */
+/* solve() must answer the impact as stated. */
 static enum percuss_status try_request(struct ensemble *ensemble, const struct watch *watch,
                                        struct fault *fault)
 {

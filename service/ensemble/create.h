@@ -9,7 +9,7 @@
 
 /* Checks the request and chooses the model, which takes some ten milliseconds, or seconds where
  * single impacts take long. PERCUSS_OK, or the refusal: of the ensemble, or of the impact as it is
- * stated; TIMEOUT where the watch (NULL: none), asked as above, stopped it. */
+ * stated; TIMEOUT where the watch (NULL: none) stopped it. */
 enum percuss_status ensemble_create(struct ensemble *ensemble, const struct ensemble_spec *spec,
                                     const struct watch *watch, struct fault *fault);
 

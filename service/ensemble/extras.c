@@ -24,8 +24,8 @@ static uint64_t verified(const struct ensemble *ensemble, uint64_t done)
     return most < VERIFIED ? most : VERIFIED;
 }
 
-/* Sample k of those that are looked at again. Every so manieth would not do: of a Sobol sequence
- * these share a part of the cube. */
+/* Sample k of those that are solved again. They are random: every n-th point of a Sobol sequence
+ * lies in one part of the cube. */
 static uint64_t chosen(const struct ensemble *ensemble, uint64_t done, uint64_t k)
 {
     const struct random_stream stream = {ensemble->spec.seed, STREAM_CHOSEN};
@@ -34,9 +34,9 @@ static uint64_t chosen(const struct ensemble *ensemble, uint64_t done, uint64_t 
     return random_permute(key, k / replicates, done / replicates) * replicates + replicate;
 }
 
-/* Samples to be repeated with an input drawn anew: all of that within half the work so far. Without
- * a second input there is nothing to tell apart, and correlated ones cannot change by themselves.
- */
+/* Samples to be repeated with an input drawn anew: all of that within half the work so far. None
+ * for a single input, which causes all of the variance, or for correlated inputs, which cannot
+ * change alone. */
 static uint64_t substituted(const struct ensemble *ensemble, uint64_t done)
 {
     size_t dimensions = ensemble->sampling.dimensions;

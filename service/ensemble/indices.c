@@ -212,8 +212,7 @@ static double class_variance(const struct classes *classes, const struct class *
     return (all + apart) / pairs;
 }
 
-/* FINE: members of a class, for the first-order index; LEAST: samples, or rows, that say anything.
- */
+/* FINE: members of a class, for the first-order index; LEAST: samples, or rows, for an estimate. */
 enum { FINE = 8, LEAST = 16 };
 
 static const double ONE_SIDED = 1.645; /* deviations of a normal distribution that 95 % are below */
@@ -238,9 +237,9 @@ static double chance_of(const struct classes *classes)
 
 /* 1 - R, R = the variance within classes over that of all. The error follows from the contribution
  * of each class to (variance within) - R (variance): these numbers are independent of each other,
- * but for a drift along x. Neighbours tell their scatter; the drift adds to the error where x
- * itself is random. Where all class means happen to be alike that is too small: chance is the
- * least. `added`: memory, one number a class. */
+ * but for a drift along x. Differences of neighbours give their scatter; the drift adds to the
+ * error where x itself is random. Where all class means are alike by chance, that error is too
+ * small: the error by chance is its lower bound. `added`: memory, one number a class. */
 static struct estimate first_order(const struct classes *classes, double *added)
 {
     /* variance within the classes */
@@ -260,10 +259,10 @@ static struct estimate first_order(const struct classes *classes, double *added)
             scatter += 0.5 * (added[k] - added[k - 1]) * (added[k] - added[k - 1]);
     }
     scatter *= count / (count - 1.0);
-    /* the drift is chance where x is, in plain points */
+    /* plain points have random x, and hence a random drift */
     double drift = classes->replicates == 1 ? fmax(0.0, all - scatter) * count / n : 0.0;
     double error = sqrt(scatter + drift) / (n * classes->variance);
-    /* of differences two thirds as many are independent */
+    /* the scatter of differences has two thirds of their degrees of freedom */
     return (struct estimate){1.0 - rest, fmax(error, rest * sqrt(chance_of(classes))),
                              2.0 / 3.0 * (count - 1.0)};
 }
@@ -408,10 +407,10 @@ static void find_first(const struct indices_data *data, struct classes *classes,
     *first = first_order(classes, work);
     indices->noise = ONE_SIDED * sqrt(chance_of(classes));
     double half = half_width(first, data->level);
-    /* classes half as wide find more where y is rough: still finer ones may once more */
+    /* half as wide classes explain more where y is rough; finer ones may add as much again */
     double hidden = fmax(0.0, first->value - coarse.value);
     indices->first_order = clip(first->value);
-    /* of a negative one the upper bound is taken from 0 */
+    /* the upper bound of a negative estimate starts from 0 */
     indices->first_bounds =
         (struct interval){clip(first->value - half), clip(fmax(0.0, first->value) + half + hidden)};
 }
@@ -427,8 +426,8 @@ static struct interval total_bounds(const struct estimate *total, double half)
                              clip(fmin(value * exp(half / value), value + 2.0 * half))};
 }
 
-/* By the class means as control variate, or, where an input does next to nothing and they are mere
- * noise, without: whichever error is smaller. */
+/* With the class means as control variate or, where these are mere noise, without: the estimate
+ * with the smaller error. */
 static bool find_total(const struct indices_data *data, struct classes *classes, double *work,
                        struct estimate *total, struct indices *indices)
 {
@@ -469,7 +468,7 @@ static void order(const struct estimate *first, const struct estimate *total,
 
 bool indices_find(const struct indices_data *data, struct indices *indices)
 {
-    /* unknown, unless there is enough to tell */
+    /* unknown where there are too few values */
     static const struct interval unknown = {NAN, NAN};
     *indices = (struct indices){NAN, NAN, unknown, unknown, NAN};
     /* samples sorted by x */

@@ -6,8 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Deviation of neighbours, of that of all samples, from which on an input does not tell the answer.
- */
+/* From this share of the deviation of all samples on, neighbours count as chaotic. */
 static const double CHAOTIC = 0.5;
 
 static int compare(const void *a, const void *b)

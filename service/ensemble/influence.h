@@ -1,8 +1,8 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Where along an input the answer is smooth: from the samples alone, whatever the points are. NAN:
- * a value is missing. */
+/* Where along an input the answer is smooth: from the samples alone, for any sampling. NAN: a value
+ * is missing. */
 #ifndef PERCUSS_ENSEMBLE_INFLUENCE_H
 #define PERCUSS_ENSEMBLE_INFLUENCE_H
 

@@ -73,7 +73,7 @@ struct report_progress report_progress(const struct ensemble *ensemble,
     return progress;
 }
 
-/* How well the one model of all samples answers. */
+/* Accuracy of the one model for all samples. */
 
 /* Largest difference of the quantiles of two samples of equal size, which are sorted here. */
 static double quantile_shift(const struct ensemble_spec *spec, double *a, double *b, size_t count)
@@ -152,11 +152,11 @@ static bool verification_fill(struct ensemble_report *report, const struct ensem
 
 /* The warnings of an ensemble: the warnings of single impacts, counted, and its own. */
 
-/* More of a distribution than this outside its truncation is worth a word. */
+/* More of a distribution than this outside its truncation is warned of. */
 static const double TRUNCATED_SHARE = 0.01;
 
-/* More samples than this that differ from the accuracy search by more than the tolerance, or one
- * that does by so many times of it, too. */
+/* A larger share of samples that differ from the accuracy search by more than the tolerance, or one
+ * that differs by so many times of it, is warned of. */
 static const double OUTSIDE_SHARE = 0.05, OUTSIDE_FACTOR = 10.0;
 
 __attribute__((format(printf, 2, 3))) static void warn(struct ensemble_report *report,
@@ -170,7 +170,7 @@ __attribute__((format(printf, 2, 3))) static void warn(struct ensemble_report *r
     va_end(args);
 }
 
-/* Samples of which something is to be said. */
+/* Samples with one kind of warning. */
 struct occurrence {
     uint64_t count, first;
 };
@@ -181,7 +181,7 @@ static void note(struct occurrence *occurrence, uint64_t index)
         occurrence->first = index;
 }
 
-/* A sample that is solved again for its words. */
+/* A sample that is solved again for the text of its warnings. */
 struct witness {
     const struct ensemble *ensemble;
     const struct watch *watch;      /* NULL: none */
@@ -216,7 +216,7 @@ static const char *words_of(const struct witness *witness, enum warning_kind kin
     return text ? text : "";
 }
 
-/* In the words of the first of them. */
+/* Quotes the warning of the first of them. */
 static void quote(struct ensemble_report *report, const struct witness *witness,
                   const struct occurrence *occurrence, enum warning_kind kind)
 {
@@ -230,7 +230,7 @@ static void quote(struct ensemble_report *report, const struct witness *witness,
 static bool warn_samples(struct ensemble_report *report, struct witness *witness,
                          const struct ensemble_sample *samples)
 {
-    /* how often each occurs, and where first */
+    /* count of each, and its first sample */
     struct occurrence found[WARNING_KINDS + 1] = {0};
     for (uint64_t i = 0; i < report->done; i++) {
         if (!ensemble_sample_has_result(&samples[i]))
@@ -238,7 +238,7 @@ static bool warn_samples(struct ensemble_report *report, struct witness *witness
         for (unsigned kinds = samples[i].warnings; kinds; kinds &= kinds - 1)
             note(&found[__builtin_ctz(kinds)], i);
     }
-    /* in the words of that sample, solved again */
+    /* quoted from that sample, solved again */
     bool good = true;
     for (int kind = 0; good && kind <= WARNING_KINDS; kind++) {
         if (found[kind].count == 0)
@@ -312,7 +312,7 @@ static void warn_verification(struct ensemble_report *report, const struct ensem
              100.0 * (1.0 - verification->within_bounds.high),
              100.0 * (1.0 - verification->within_bounds.low), fabs(verification->mean_shift),
              verification->quantile_shift);
-    /* searches that do not know better */
+    /* searches that miss the tolerance themselves */
     if ((double)verification->unmet > OUTSIDE_SHARE * (double)verification->count)
         warn(report,
              "verification: %zu of %zu samples: the accuracy search itself does not reach the "
@@ -467,7 +467,7 @@ static bool fill_counts(struct ensemble_report *report, const struct ensemble_sa
     report->significant_counts = arena_take(&report->memory, most + 1, sizeof(uint64_t));
     if (!report->sub_impact_counts || !report->significant_counts)
         return false;
-    /* how many samples have so many */
+    /* samples by number of sub-impacts */
     for (uint64_t i = 0; i < report->done; i++) {
         report->refused += !ensemble_sample_has_result(&samples[i]);
         report->truncated += samples[i].status == PERCUSS_TRUNCATED;
@@ -557,7 +557,7 @@ static bool fill_inputs(struct ensemble_report *report, const struct ensemble *e
     struct columns columns;
     report->inputs = arena_take(&report->memory, spec->input_count, sizeof *report->inputs);
     bool good = take_columns(&columns, n) && report->inputs;
-    /* where nothing varies there is nothing to explain */
+    /* no indices of a constant restitution */
     bool varies = summary_varies(&report->quantities[0].moments);
     for (size_t i = 0; good && i < spec->input_count; i++) {
         if (!is_uncertain(spec, i))

@@ -45,7 +45,7 @@ bool spec_changes_scene(const struct ensemble_spec *spec)
     return changes;
 }
 
-/* Without a number of samples the lists say how many: all of them the same. */
+/* Without a number of samples the lists give it: they must have one length. */
 static enum percuss_status check_lists(const struct ensemble_spec *spec, struct fault *fault)
 {
     size_t count = 0;

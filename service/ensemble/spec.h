@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* An ensemble as it is asked for. */
+/* Specification of an ensemble. */
 #ifndef PERCUSS_ENSEMBLE_SPEC_H
 #define PERCUSS_ENSEMBLE_SPEC_H
 
@@ -23,7 +23,7 @@ struct ensemble_spec {
     const struct body_set *catalogue;
     const struct contact_table_source *tables; /* NULL: none */
     const struct solve_request *request;       /* the impact; the inputs replace numbers of it */
-    size_t contact;                            /* index of the one that is looked at */
+    size_t contact;                            /* index of the observed contact */
     size_t input_count;
     const struct ensemble_input *inputs;
     size_t correlation_count;
@@ -32,7 +32,7 @@ struct ensemble_spec {
     uint64_t samples; /* at most; 0: the values of the lists in their order, each once */
     uint64_t seed;
     double half_width;          /* stop when the mean's interval is within; 0: never */
-    double quantile_half_width; /* and those of all quantiles; 0: whatever they are */
+    double quantile_half_width; /* and those of all quantiles; 0: not checked */
     size_t quantile_count;
     const double *quantiles; /* probabilities */
     size_t bins;             /* 0: the default */

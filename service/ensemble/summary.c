@@ -37,7 +37,7 @@ struct moments summary_moments(const double *values, size_t count)
     /* first pass: range and mean */
     find_range(values, count, &moments);
     if (moments.count > 1 && !summary_varies(&moments)) {
-        /* the mean of equal values is one of them, whatever adding them up has left */
+        /* the mean of equal values is that value, in spite of rounding in the sum */
         moments.mean = fmax(moments.lowest, fmin(moments.mean, moments.highest));
         moments.deviation = moments.fourth = 0.0;
         return moments;

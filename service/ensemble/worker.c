@@ -169,7 +169,7 @@ static void keep_touching(struct variation *variation, const char *id, double gr
     }
 }
 
-/* A body that grows about its centre of mass is moved so that the place that is hit stays. */
+/* A body that grows about its centre of mass is moved so that the contact point stays. */
 static void keep_place(struct variation *variation, const char *id, double growth)
 {
     struct solve_request *request = &variation->request;
@@ -222,7 +222,7 @@ static void change_body(struct variation *variation, const struct ensemble_input
     }
 }
 
-/* The contact and the other body go along the beam. */
+/* Moves the contact and the other body along the beam. */
 static void change_site(struct variation *variation, const struct ensemble_input *input,
                         double fraction)
 {
@@ -297,7 +297,7 @@ static enum percuss_status variation_apply(struct variation *variation, const do
 {
     const struct ensemble_spec *spec = variation->spec;
     restore(variation);
-    /* bodies before places, and the speed before it is turned, in whatever order they are given */
+    /* bodies before places, and the speed before it is turned, in any order of the inputs */
     for (int quantity = INPUT_QUANTITY_COUNT - 1; quantity > INPUT_SITE; quantity--)
         for (size_t i = 0; i < spec->input_count; i++)
             if (spec->inputs[i].quantity == (enum input_quantity)quantity)
@@ -359,7 +359,7 @@ enum percuss_status ensemble_worker_create(struct ensemble_worker **worker,
         status = fault_set(fault, PERCUSS_INTERNAL, "out of memory");
     (*worker)->means = (struct solve_means){&(*worker)->variation.set, ensemble->spec.tables,
                                             watch ? *watch : (struct watch){0}};
-    /* all of it or nothing */
+    /* nothing on failure */
     if (status) {
         ensemble_worker_free(*worker);
         *worker = NULL;
@@ -427,7 +427,7 @@ void ensemble_solve(struct ensemble_worker *worker, uint64_t index, struct ensem
     ensemble_inputs(worker->ensemble, index, values);
     enum percuss_status status = worker_solve(worker, values, &outcome, fault);
     bool good = ensemble_has_result(status);
-    /* in short; NAN where refused */
+    /* summary of the outcome; NAN where refused */
     *sample = (struct ensemble_sample){
         .restitution = good ? outcome.restitution : NAN,
         .impulse = good ? outcome.impulse : NAN,

@@ -36,7 +36,7 @@ static bool solve_active(struct active_set *set, size_t active, double *constant
 /* forces, indentation or total from the present set */
 static bool evaluate(struct active_set *set)
 {
-    /* open nodes bear nothing */
+    /* open nodes carry no force */
     size_t active = 0;
     for (size_t i = 0; i < set->count; i++) {
         set->force[i] = 0.0;
@@ -117,14 +117,14 @@ bool active_set_solve(struct active_set *set)
             set->active[i] = i <= set->edge;
         return evaluate(set);
     }
-    /* a total needs a node that bears it */
+    /* a total needs a node that carries it */
     if (set->kind == ACTIVE_SET_BY_TOTAL) {
         bool any = false;
         for (size_t i = 0; i < set->count; i++)
             any |= set->active[i];
         set->active[0] |= !any;
     }
-    /* all at once settles in a few turns; should it cycle, one at a time does not */
+    /* turning all at once settles in a few turns; if it cycles, turning one at a time does not */
     for (size_t turns = 0; turns < 30 + 4 * set->count; turns++) {
         if (!evaluate(set))
             return false;

@@ -9,7 +9,7 @@ enum percuss_status complete_body_make(const struct body *body, struct complete_
                                        struct fault *fault)
 {
     struct solid solid = body_solid(body);
-    /* a cylinder of its measures, unless its form says otherwise */
+    /* a cylinder of its dimensions, other forms below */
     *complete = (struct complete_body){
         .shape = solid.form == SOLID_BALL ? COMPLETE_SPHERE : COMPLETE_CYLINDER,
         .radius = solid.radius,

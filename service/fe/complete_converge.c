@@ -9,9 +9,9 @@
 
 /* cost of a mesh over that of one half as fine */
 static const double TWICE_AS_FINE = 8.0;
-/* solutions at most that aim at the limit */
+/* most solutions that aim at the limit */
 enum { AIMS = 3 };
-/* the solution that answers may be off the limit by this part of the limit's error */
+/* allowed distance of the answer from the limit, over the limit's error */
 static const double OFF_LIMIT = 0.25;
 
 /* Error of the limit for means without jitter; sets limit and order. */
@@ -45,7 +45,7 @@ void complete_converge_judge(struct complete_convergence *convergence)
     convergence->error = bias + finest->jitter;
 }
 
-/* All that is needed while meshes are added. */
+/* State while meshes are added. */
 struct search {
     struct complete_convergence *convergence;
     struct complete_problem problem; /* as given, but for the progress, mesh and phase */
@@ -128,8 +128,8 @@ static enum percuss_status aim(struct search *search, const struct swing *swing,
     return PERCUSS_OK;
 }
 
-/* The mean of the finest mesh's phases that has the limit; where they differ in their course, or
- * one of them is nearer, that one, or others aimed at the limit. */
+/* The weighted mean of the finest mesh's phases that equals the limit; where their sub-impacts
+ * differ or one phase is nearer, that phase, or one aimed at the limit. */
 static enum percuss_status choose(struct search *search, struct fault *fault)
 {
     struct complete_convergence *convergence = search->convergence;

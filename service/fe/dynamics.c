@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Which element steps how fast, and the order of the nodes that follows. */
+/* Levels: the step of each element, and the order of the nodes by level. */
 
 /* elements between a level and the next but one */
 enum { BAND = 3 };
@@ -117,7 +117,7 @@ static inline size_t dynamics_body_of(const struct dynamics *dynamics, size_t el
 }
 
 /* an element gets a history when its stress reaches this part of the yield stress, so that it
- * cannot come to yield before it is looked at again */
+ * cannot come to yield before it is checked again */
 static const double NEAR_YIELD = 0.6;
 
 /* False: degenerate. */
@@ -323,6 +323,8 @@ static bool allocate(struct dynamics *dynamics)
     return ok;
 }
 
+/* Creation. */
+
 /* Coordinates and elements of both meshes in one numbering, permuted by `order` when given. */
 static void copy_meshes(struct dynamics *dynamics, const uint32_t *order)
 {
@@ -372,7 +374,7 @@ static void weigh(struct dynamics *dynamics)
         for (int a = 0; a < QUAD_NODES; a++)
             dynamics->root_mass[dynamics->quads[e][a]] += share[a];
     }
-    /* with the density that makes each body as heavy as it is */
+    /* with the density that gives each body its mass */
     for (size_t b = 0; b < DYNAMICS_BODIES; b++) {
         const struct dynamics_body *body = &dynamics->body[b];
         double volume = 0.0;

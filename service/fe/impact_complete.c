@@ -82,12 +82,12 @@ static double node_contact_close(struct node_contact *contact, struct dynamics *
         size_t b = contact->at[1][i];
         double scale_a = contact->scale[0][i];
         double scale_b = contact->scale[1][i];
-        /* where the pair is, and the impulse that closes its gap by the end of the step */
+        /* gap of the pair, and the impulse that closes it by the end of the step */
         double gap = contact->gap[i] - y[a] * scale_a - y[b] * scale_b;
         double closing = v[a] * scale_a + v[b] * scale_b;
         double impulse = (closing - gap / step) * contact->mass[i];
         double before = contact->closing[i];
-        /* an open one bears nothing */
+        /* an open pair carries no force */
         contact->closing[i] = closing;
         if (!(impulse > 0.0))
             continue;
@@ -223,9 +223,9 @@ static double reduced_mass(const struct complete_problem *problem)
     return 1.0 / (1.0 / mass_of(&problem->a) + 1.0 / mass_of(&problem->b));
 }
 
-/* Energy into Hertz's spring, (2/5) k d^2.5; or into a constant mean pressure of 2.8 yield stresses
- * (Johnson, Contact Mechanics, section 6.3) over a spherical cap, pi p a^4 / (4 R). */
-/* Contact radius to be expected at most, m: from the energy, elastic or fully plastic. */
+/* Contact radius to be expected at most, m. The energy goes into Hertz's spring, (2/5) k d^2.5; or
+ * into a constant mean pressure of 2.8 yield stresses (Johnson, Contact Mechanics, section 6.3)
+ * over a spherical cap, pi p a^4 / (4 R). */
 static double complete_patch(const struct complete_problem *problem)
 {
     double radius = 1.0 / (curvature(&problem->a) + curvature(&problem->b));
@@ -543,7 +543,7 @@ static void audit(struct progress *progress)
         total->available - total->rebound - total->vibration - total->plastic - total->contact;
 }
 
-/* Fills the result; an answer that does not keep the energy is none. */
+/* Fills the result; an answer that does not keep the energy is refused. */
 static enum percuss_status summarize(struct progress *progress, struct fault *fault)
 {
     const struct complete_run *run = &progress->run;
@@ -602,7 +602,7 @@ static enum percuss_status march(struct progress *progress, struct fault *fault)
         /* elements that come near yield, and the contact */
         dynamics_watch_yield(&run->dynamics);
         look(progress);
-        /* the end, if this is one */
+        /* the end of the impact, if vibration cannot bridge the gap */
         if (is_over(progress)) {
             progress->result->end = PERCUSS_END_SEPARATED;
             return PERCUSS_OK;

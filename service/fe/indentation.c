@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* One passage over the contact region. */
+
 struct passage {
     const struct indentation_plan *plan;
     struct indentation_run *run;
@@ -73,7 +75,7 @@ static enum percuss_status cross(struct passage *passage, size_t node)
         enum percuss_status status;
         if (i < passage->plan->steps && !(from > 0.0))
             continue;
-        /* short of the edge: beyond it the way back would be an unloading */
+        /* short of the edge: the way back from beyond would be an unloading */
         double part = 0.97 * (double)i / (double)passage->plan->steps;
         if (i < passage->plan->steps)
             status = region_press(passage->region, from * pow(passage->factor, part), &answer,
@@ -183,7 +185,7 @@ static enum percuss_status pass(struct passage *passage)
         if (!flowed)
             add_elastic_branch(run);
         flowed = true;
-        /* its force without the mesh's elastic error, and now and then a branch */
+        /* its force without the mesh's elastic error, and a branch every so many crossings */
         double force = run->ratio[run->rings] * passage->hertz * pow(passage->edge, 1.5);
         run->ratio[run->rings - 1] /= mesh_error;
         if (plan->branch_every && run->rings % plan->branch_every == 0)
@@ -225,6 +227,8 @@ enum percuss_status indentation_run(const struct indentation_plan *plan,
 }
 
 enum { STEPS = 8, BRANCH_EVERY = 3 };
+
+/* The table from four passages. */
 
 /* Runs on the wanted mesh and on one 1.5 times coarser, each with long and short steps. */
 struct runs {

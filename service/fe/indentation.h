@@ -54,7 +54,7 @@ double indentation_interpolate(size_t n, const double *x, const double *y, size_
 #define INDENTATION_VERSION 1
 
 struct indentation_table {
-    struct region_input input; /* all there is: the table's key, with the version */
+    struct region_input input; /* with the version, the table's key */
     unsigned version;
     double hertz; /* N/m^1.5, k of F = k d^1.5 up to point 0 */
 

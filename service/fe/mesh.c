@@ -10,6 +10,8 @@
 
 enum { MESH_RINGS_MAX = 20000 };
 
+/* Positions of the rings and heights of the rows. */
+
 static double arc_of(double radius, double sphere)
 {
     return isinf(sphere) ? radius : sphere * asin(radius / sphere);
@@ -105,11 +107,13 @@ static size_t mesh_rows(double length, double first, const struct mesh_grade *gr
         list[rows] = height;
         sum += height;
     }
-    /* all lowered alike, so that they end there */
+    /* all scaled alike, so that they end there */
     for (size_t i = 0; i < rows; i++)
         list[i] *= length / sum;
     return rows;
 }
+
+/* Nodes and elements. */
 
 /* A mesh grows by chains of nodes from the axis to the surface, each joined to the one before:
  * shell k of a core has 2k + 1 nodes (k elements below, k beside it), a ring 2 core + 1. */
@@ -140,7 +144,7 @@ static void node_add(struct growing *growing, double r, double z)
     mesh->nodes++;
 }
 
-/* counter-clockwise whatever the order of growth */
+/* counter-clockwise for any order of growth */
 static void quad_add(struct mesh *mesh, size_t a, size_t b, size_t c, size_t d)
 {
     double area = (mesh->r[c] - mesh->r[a]) * (mesh->z[d] - mesh->z[b]) -
@@ -347,7 +351,7 @@ static enum percuss_status check_grade(const struct mesh_grade *grade, double ro
     return PERCUSS_OK;
 }
 
-/* Why there are no rings or rows: without a list there was no memory for it. */
+/* The reason for missing rings or rows: no memory where there is no list. */
 static enum percuss_status misfit(struct fault *fault, const struct mesh_grade *grade, double end,
                                   const double *list)
 {
@@ -402,7 +406,7 @@ enum percuss_status mesh_sphere(double radius, const struct mesh_grade *grade, s
         grow_rings(&growing, radius, &equator, positions + round, rings - round);
         grow_southern_half(&growing, radius);
     }
-    /* grown or not */
+    /* on success and failure */
     free(positions);
     return status;
 }

@@ -411,7 +411,7 @@ static bool tangent_element(const struct solid *solid, const struct plastic_law 
 
 static bool factor_tangent(struct solid *solid, size_t outermost, bool loading)
 {
-    /* a hair below, so that points on the yield surface count as flowing */
+    /* yield stress slightly lower: points on the yield surface count as flowing */
     struct plastic_law law = solid->law;
     if (loading)
         law.yield *= 1.0 - 1e-8;
@@ -463,7 +463,7 @@ static struct solid_loads *present_loads(struct solid *solid)
     return solid->yielding ? &solid->flowing : &solid->unloading;
 }
 
-/* Those of contact nodes that are not known yet. */
+/* Finds the loads of contact nodes that are not known yet. */
 static void find_loads(const struct solid *solid, size_t count, struct solid_loads *loads)
 {
     size_t n = freedoms(solid);

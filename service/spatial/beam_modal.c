@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Steps from one look at the energies to the next. */
+/* Steps between two checks of the energies. */
 static const size_t LOOK_EVERY = 100;
 /* Of a force: halving the bounds alone takes 40. */
 enum { MOST_ITERATIONS = 100 };
@@ -202,7 +202,7 @@ enum percuss_status beam_modal_run(const struct beam_modal *modal,
         return fault_set(fault, PERCUSS_INTERNAL, "out of memory for %zu modes", modal->modes);
     enum percuss_status status = PERCUSS_OK;
     for (size_t i = 1; status == PERCUSS_OK && !now->over && now->time < settings->horizon; i++) {
-        /* as if no force were left at the step's end, then the one that is */
+        /* first with a force that falls to 0 at the step's end, then with the force there added */
         double before = now->force, after = 0.0;
         fall(&state, before);
         double overlap = -(state.gap + bent(&state));

@@ -95,8 +95,8 @@ struct collision_settings {
     void *context;
 };
 
-/* The sphere flies at the beam, `count` times, each with its own approach (m/s) and none knowing of
- * the others: solved side by side they take hardly longer than one. Both bodies are free of stress
+/* The sphere flies at the beam, `count` times, each with its own approach (m/s) and all
+ * independent: solved side by side they take hardly longer than one. Both bodies are free of stress
  * and touch in one point. OK; TIMEOUT where the pace stopped it; INTERNAL where no set of pressing
  * nodes was found, or without memory. */
 enum percuss_status collider_run(const struct collider *collider,

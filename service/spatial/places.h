@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Points of space with numbers: which one is here? */
+/* Numbered points of space, found by their coordinates. */
 #ifndef PERCUSS_SPATIAL_PLACES_H
 #define PERCUSS_SPATIAL_PLACES_H
 

@@ -91,7 +91,7 @@ struct gathering {
     const struct hanging *hanging;
     size_t count, room, *masters;
     double *weights;
-    bool lacks; /* memory was out, or a node hangs on its like */
+    bool lacks; /* out of memory, or a node hangs on one of the same or a finer level */
 };
 
 static void gather_one(struct gathering *gathering, size_t from, size_t node, double share)

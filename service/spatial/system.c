@@ -13,7 +13,7 @@ static const double ON_PLANE = 1e-9;
 /* The same for the held edge, over its distance. */
 static const double AT_EDGE = 1e-9;
 
-/* A brick's matrices in the nodes that its own hang on in the end. */
+/* A brick's matrices in the free nodes that its own nodes depend on. */
 enum { MOST_MASTERS = 128 };
 struct reduced {
     size_t count, masters[MOST_MASTERS];
@@ -59,7 +59,7 @@ static int by_number(const void *a, const void *b)
 static size_t unique(uint64_t *keys, size_t count)
 {
     size_t kept = 0;
-    /* of none, there is no array either */
+    /* an empty list has no array */
     if (count > 0)
         qsort(keys, count, sizeof *keys, by_number);
     for (size_t i = 0; i < count; i++)
@@ -68,7 +68,7 @@ static size_t unique(uint64_t *keys, size_t count)
     return kept;
 }
 
-/* which blocks there are, as row << 32 | column; NULL: no memory */
+/* the blocks, as row << 32 | column; NULL: no memory */
 static uint64_t *list_blocks(const struct refined *mesh, const struct system3 *system,
                              size_t *count)
 {
@@ -173,7 +173,7 @@ static enum percuss_status fill(const struct refined *mesh, const struct materia
                     add_block(&reduced, (const size_t[2]){i, j},
                               (const double(*)[BRICK_FREEDOMS])stiffness,
                               (const double(*)[BRICK_NODES])mass, system);
-        /* its mass, however it is shared out */
+        /* its mass, for any shares */
         for (int m = 0; m < BRICK_NODES; m++)
             for (int n = 0; n < BRICK_NODES; n++)
                 system->whole += mass[m][n];

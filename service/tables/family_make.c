@@ -133,7 +133,8 @@ struct family_numbers {
     double error;
 };
 
-/* The place that stands for all of a hardening: on the coarse mesh, and extrapolated to none. */
+/* The place that stands for all of a hardening: on both meshes, and extrapolated to elements of
+ * size 0. */
 struct base {
     struct family_point coarse, fine, limit;
 };
@@ -180,7 +181,7 @@ static enum percuss_status make_base(const struct family_source *source, double 
         status = source->point(source->context, &place, FAMILY_FINE, &base->fine, fault);
     if (status)
         return status;
-    /* extrapolated, which tells how far the finer mesh is off */
+    /* extrapolated; the difference is the finer mesh's error */
     base->limit = base->coarse;
     extrapolate(FAMILY_DEPTHS, NULL, base->coarse.force, base->fine.force, base->limit.force);
     extrapolate(FAMILY_DEPTHS, NULL, base->coarse.area, base->fine.area, base->limit.area);
@@ -198,10 +199,10 @@ static void correct(size_t count, const double *computed, const double *coarse, 
         values[i] = fmin(computed[i] * limit[i] / coarse[i], most);
 }
 
-/* On from the last two of `count` values by their power of the depth, or by one that fades out with
- * its root as a fully plastic contact's does: force over area and area over depth tend to constants
- * as d^(-1/2) (measured: the exponent halves with every factor of 4). `floor`: the power that
- * stays. */
+/* Continues from the last two of `count` values by their power of the depth, or by a power that
+ * decays with the root of the depth as in a fully plastic contact: force over area and area over
+ * depth tend to constants as d^(-1/2) (measured: the exponent halves with every factor of 4).
+ * `floor`: the power that stays. */
 static void go_on(size_t count, size_t all, const double *depth, double floor, bool fades,
                   double *values)
 {
@@ -242,7 +243,7 @@ static void lose(struct family_numbers *numbers, size_t t)
         /* unloadings begin at some of the depths */
         if (numbers->largest[k] > d * (1.0 + 1e-9))
             continue;
-        /* no more comes back than was put in, less the least loss */
+        /* recovered work is at most the work of loading, less the least loss */
         double most = work / (next * d * mean_share(numbers->share[t][k]));
         double way = log(d);
         numbers->back[t][k] =

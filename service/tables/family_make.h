@@ -65,7 +65,7 @@ void family_numbers_free(struct family_numbers *numbers);
 /* Valid as long as the numbers. */
 struct contact_family_samples family_numbers_samples(const struct family_numbers *numbers);
 
-/* How often the source is asked, and how often of that for the fine mesh. */
+/* Calls of the source, and of these the calls for the fine mesh. */
 size_t family_passages(void);
 size_t family_fine_passages(void);
 

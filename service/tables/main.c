@@ -120,7 +120,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct options *options = state->input;
     switch (key) {
-    /* from where, and to where */
+    /* files and folders */
     case 'C':
         options->catalogue = text;
         return 0;
@@ -137,7 +137,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'b':
         options->b = text;
         return 0;
-    /* how far and how finely */
+    /* depth and mesh */
     case 's':
         options->speed = parse_speed(state, text);
         return 0;
@@ -326,7 +326,7 @@ static double processor_seconds(void)
     return (double)clock() / CLOCKS_PER_SEC;
 }
 
-/* Whether that very table lies in the folder, whole. */
+/* Whether this table lies in the folder, complete. */
 static bool is_there(const char *folder, const struct region_input *input)
 {
     char key[TABLE_KEY_SIZE], path[TABLE_PATH_SIZE];
