@@ -4,11 +4,170 @@
 #include "exchange/decode.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
-#include "exchange/check.h"
 #include "exchange/text.h"
 #include "percuss/fields.h"
+
+/* Checks of foreign values, one after the other: the first that fails writes the message "PLACE:
+ * VALUE: must be ALLOWED", and later ones write nothing. */
+
+/* How far from 1 the norm of a unit vector may be. */
+static const double UNIT_TOLERANCE = 1e-4;
+
+struct check {
+    enum percuss_status status; /* PERCUSS_OK or PERCUSS_BAD_REQUEST */
+    struct fault *fault;
+    const char *place; /* that the fields belong to; NULL: the request itself */
+    size_t index;      /* in it; CHECK_NO_LIST: it is no list */
+};
+
+#define CHECK_NO_LIST SIZE_MAX
+
+/* Sets the place to "NAME[INDEX]" or "NAME"; the name stays the caller's and must outlive the
+ * checks of this place. No text is formatted before a check fails: most requests are good. */
+static void check_enter(struct check *check, const char *name, size_t index)
+{
+    check->place = name;
+    check->index = index;
+}
+
+/* Writes the message if `good` is false. */
+static void __attribute__((format(printf, 3, 4)))
+check_that(struct check *check, bool good, const char *format, ...)
+{
+    if (good || check->status)
+        return;
+    char message[sizeof check->fault->text], place[32] = "";
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    if (check->place && check->index == CHECK_NO_LIST)
+        snprintf(place, sizeof place, "%s.", check->place);
+    else if (check->place)
+        snprintf(place, sizeof place, "%s[%zu].", check->place, check->index);
+    check->status = fault_set(check->fault, PERCUSS_BAD_REQUEST, "%s%s", place, message);
+}
+
+static bool is_within(double value, double low, double high)
+{
+    return value >= low && value <= high; /* false for NaN */
+}
+
+/* Finite and within low .. high. */
+static void check_range(struct check *check, const char *field, double value, double low,
+                        double high)
+{
+    check_that(check, is_within(value, low, high), "%s: %g: must be in [%g, %g]", field, value, low,
+               high);
+}
+
+/* The same, or 0 for the default. */
+static void check_range_or_zero(struct check *check, const char *field, double value, double low,
+                                double high)
+{
+    check_that(check, value == 0.0 || is_within(value, low, high),
+               "%s: %g: must be 0 (the default) or in [%g, %g]", field, value, low, high);
+}
+
+struct vector_text {
+    char text[128];
+};
+
+static struct vector_text vector_text(const double *vector, size_t size)
+{
+    struct vector_text list = {"("};
+    size_t used = 1;
+    for (size_t i = 0; i < size && used < sizeof list.text; i++)
+        used += (size_t)snprintf(list.text + used, sizeof list.text - used, "%g%s", vector[i],
+                                 i + 1 < size ? ", " : ")");
+    return list;
+}
+
+/* Three finite numbers of magnitude at most `limit`. */
+static void check_vector(struct check *check, const char *field, const double vector[3],
+                         double limit)
+{
+    bool good = true;
+    for (size_t i = 0; i < 3; i++)
+        good = good && is_within(vector[i], -limit, limit);
+    if (!good)
+        check_that(check, false, "%s: %s: each must be in [%g, %g]", field,
+                   vector_text(vector, 3).text, -limit, limit);
+}
+
+/* A unit vector of 3 or 4 numbers to 1e-4; `unit` receives it normalised. */
+static void check_unit(struct check *check, const char *field, const double *vector, size_t size,
+                       double *unit)
+{
+    double square = 0.0;
+    for (size_t i = 0; i < size; i++)
+        square += vector[i] * vector[i];
+    double norm = sqrt(square);
+    if (!(fabs(norm - 1.0) <= UNIT_TOLERANCE))
+        check_that(check, false, "%s: %s: must be a unit %s (norm within %g of 1)", field,
+                   vector_text(vector, size).text, size == 4 ? "quaternion (w, x, y, z)" : "vector",
+                   UNIT_TOLERANCE);
+    for (size_t i = 0; i < size; i++)
+        unit[i] = vector[i] / norm;
+}
+
+/* A number below `count`; the message names the allowed ones. */
+static void check_choice(struct check *check, const char *field, unsigned value, unsigned count,
+                         const char *(*name)(unsigned))
+{
+    char list[256] = "";
+    size_t used = 0;
+    for (unsigned i = 0; value >= count && i < count && used < sizeof list; i++)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%u (%s)", i ? ", " : "", i,
+                                 name(i));
+    check_that(check, value < count, "%s: %u: must be one of %s", field, value, list);
+}
+
+/* Bytes of the UTF-8 character at `text`; 0: none, or a control character. */
+static size_t character_size(const unsigned char *text)
+{
+    /* forms of one to four octets (RFC 3629): how the first begins, and the least code of each */
+    static const struct {
+        unsigned char mask, lead;
+        unsigned least; /* longer than needed is not UTF-8 */
+    } forms[] = {
+        {0x80, 0x00, 0x20}, {0xe0, 0xc0, 0xa0}, {0xf0, 0xe0, 0x800}, {0xf8, 0xf0, 0x10000}};
+    for (size_t extra = 0; extra < 4; extra++) {
+        if ((text[0] & forms[extra].mask) != forms[extra].lead)
+            continue;
+        /* six bits of the code from each octet that follows */
+        unsigned code = text[0] & (unsigned char)~forms[extra].mask;
+        for (size_t i = 1; i <= extra; i++) {
+            if ((text[i] & 0xc0) != 0x80)
+                return 0;
+            code = code << 6 | (text[i] & 0x3f);
+        }
+        /* neither a control character nor half of a UTF-16 pair */
+        bool surrogate = code >= 0xd800 && code < 0xe000;
+        bool allowed = code >= forms[extra].least && code != 0x7f && code < 0x110000;
+        return allowed && !surrogate ? extra + 1 : 0;
+    }
+    return 0;
+}
+
+/* Text in UTF-8 without control characters. */
+static void check_text(struct check *check, const char *field, const char *text)
+{
+    const unsigned char *at = (const unsigned char *)text;
+    while (*at && character_size(at))
+        at += character_size(at);
+    check_that(check, !*at, "%s: byte 0x%02x at %td: must be UTF-8 without control characters",
+               field, *at, (const char *)at - text);
+}
+
+/* A request. */
 
 static const double DELASSUS_ASYMMETRY = 1e-9; /* of the two contacts' own inverse masses */
 /* 1/kg; what is lighter moves while its indentation is less than the rounding of a place, and the
@@ -168,5 +327,121 @@ enum percuss_status decode_request(const percuss_v1_Request *wire, struct solve_
     request->body_count = body_count;
     request->contact_count = contact_count;
     request->delassus = wire->delassus._length > 0 ? wire->delassus._buffer : NULL;
+    return check.status;
+}
+
+/* An ensemble. */
+
+/* The quantity and whose it is. */
+static void decode_owner(struct check *check, const percuss_v1_EnsembleInput *wire,
+                         const struct solve_request *request, struct ensemble_input *input)
+{
+    check_text(check, "name", wire->name);
+    check_text(check, "body", wire->body);
+    /* what varies */
+    input->quantity = input_quantity_find(wire->name);
+    check_that(check, input->quantity < INPUT_QUANTITY_COUNT,
+               "name: '%s': must be one of speed, direction, model-force, model-compliance, "
+               "model-yield, site (or at), young, poisson, density, radius, yield, damping, scale",
+               wire->name);
+    /* a quantity of the contact has no body */
+    input->body = 0;
+    if (!input_is_of_body(input->quantity)) {
+        check_that(check, !wire->body[0], "body: '%s': must be empty: %s is the contact's",
+                   wire->body, wire->name);
+        return;
+    }
+    /* any other one is of a body of the scene */
+    while (input->body < request->body_count &&
+           strcmp(request->bodies[input->body].id, wire->body) != 0)
+        input->body++;
+    check_that(check, input->body < request->body_count,
+               "body: '%s': must be the id of a body of the scene, whose %s it is", wire->body,
+               wire->name);
+}
+
+static void decode_input(struct check *check, const percuss_v1_EnsembleInput *wire,
+                         const struct solve_request *request, struct ensemble_input *input)
+{
+    decode_owner(check, wire, request, input);
+    check_choice(check, "distribution", wire->distribution, DISTRIBUTION_KINDS, distribution_name);
+    check_that(check, wire->values._length <= ENSEMBLE_MAX_VALUES,
+               "values: %u given: must be at most %d", wire->values._length, ENSEMBLE_MAX_VALUES);
+    input->distribution = wire->distribution;
+    input->first = wire->first;
+    input->second = wire->second;
+    input->lower = wire->lower;
+    input->upper = wire->upper;
+    input->values = wire->values._buffer;
+    input->value_count = wire->values._length;
+}
+
+static void decode_correlations(struct check *check, const percuss_v1_EnsembleRequest *wire,
+                                struct decoded_ensemble *decoded)
+{
+    size_t count = wire->correlations._length;
+    check_that(check, count <= DECODE_MAX_CORRELATIONS,
+               "correlations: %zu given: must be at most %d", count, DECODE_MAX_CORRELATIONS);
+    for (size_t i = 0; !check->status && i < count; i++) {
+        const percuss_v1_EnsembleCorrelation *pair = &wire->correlations._buffer[i];
+        decoded->correlations[i] =
+            (struct copula_pair){pair->first, pair->second, pair->coefficient};
+    }
+}
+
+static void check_scene(struct check *check, const percuss_v1_Request *scene)
+{
+    for (uint32_t i = 0; i < scene->bodies._length; i++) {
+        const char *state = scene->bodies._buffer[i].state;
+        check_that(check, !state[0],
+                   "scene.bodies[%u].state: %s: must be empty: a token names one state, which an "
+                   "ensemble cannot vary",
+                   i, state);
+        const char *specimen = scene->bodies._buffer[i].specimen;
+        check_that(
+            check, !specimen[0],
+            "scene.bodies[%u].specimen: %s: must be empty: no sample of an ensemble leaves a "
+            "dent in it",
+            i, specimen);
+    }
+}
+
+enum percuss_status decode_ensemble(const percuss_v1_EnsembleRequest *wire,
+                                    struct decoded_ensemble *decoded, struct fault *fault)
+{
+    struct check check = {.fault = fault};
+    /* a scene as in a single request, of bodies without a history */
+    enum percuss_status status = decode_request(&wire->scene, &decoded->request, fault);
+    if (status)
+        return status;
+    check_scene(&check, &wire->scene);
+    /* its uncertain inputs */
+    check_that(&check, wire->inputs._length <= ENSEMBLE_MAX_INPUTS,
+               "inputs: %u given: must be at most %d", wire->inputs._length, ENSEMBLE_MAX_INPUTS);
+    for (uint32_t i = 0; !check.status && i < wire->inputs._length; i++) {
+        check_enter(&check, "inputs", i);
+        decode_input(&check, &wire->inputs._buffer[i], &decoded->request, &decoded->inputs[i]);
+    }
+    /* how they depend on each other and are sampled */
+    check.place = NULL;
+    decode_correlations(&check, wire, decoded);
+    check_choice(&check, "sampling", wire->sampling, SAMPLING_METHODS, sampling_name);
+    /* all of it in the ensemble's words */
+    decoded->spec = (struct ensemble_spec){
+        .request = &decoded->request,
+        .contact = wire->contact,
+        .input_count = wire->inputs._length,
+        .inputs = decoded->inputs,
+        .correlation_count = wire->correlations._length,
+        .correlations = decoded->correlations,
+        .sampling = wire->sampling,
+        .samples = wire->samples,
+        .seed = wire->seed,
+        .half_width = wire->half_width,
+        .quantile_half_width = wire->quantile_half_width,
+        .quantile_count = wire->quantiles._length,
+        .quantiles = wire->quantiles._buffer,
+        .bins = wire->bins,
+    };
     return check.status;
 }

@@ -6,7 +6,7 @@
 #define PERCUSS_RESPOND_ENSEMBLE_PREPARE_H
 
 #include "base/hash.h"
-#include "exchange/decode_ensemble.h"
+#include "exchange/decode.h"
 #include "respond/ensemble_means.h"
 
 struct ensemble_prepared {

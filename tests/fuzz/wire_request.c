@@ -7,7 +7,6 @@
 
 #include "endpoint/reply_bytes.h"
 #include "exchange/decode.h"
-#include "exchange/decode_ensemble.h"
 #include "exchange/question.h"
 #include "samples.h"
 

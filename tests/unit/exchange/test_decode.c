@@ -1,7 +1,7 @@
 /* Copyright 2026 The percuss authors
  * SPDX-License-Identifier: Apache-2.0 */
 
-/* Tests endpoint/decode.c and check.c: what passes, and every kind of bad input with its message.
+/* Tests exchange/decode.c: a good request, and every kind of bad input with its message.
  */
 #include "sample.h"
 

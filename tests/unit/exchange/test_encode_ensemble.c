@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "check.h"
-#include "exchange/decode_ensemble.h"
+#include "exchange/decode.h"
 #include "exchange/encode_ensemble.h"
 #include "exchange/question.h"
 
