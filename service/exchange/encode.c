@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "exchange/encode_trace.h"
+#include "impact/trace.h"
 #include "percuss/fields.h"
 
 /* Gives a sequence its elements; they live and die with the answer, not with the sample. */
@@ -225,14 +225,83 @@ static size_t lists_room(const struct solve_result *result, size_t listed)
     return room;
 }
 
+/* Time histories, cut into samples of bounded size. */
+
+enum { TRACE_COLUMNS = 9 };
+
+static size_t trace_parts(const struct trace *trace)
+{
+    return (trace->count + TRACE_PART_INSTANTS - 1) / TRACE_PART_INSTANTS;
+}
+
+/* The room that fill_traces takes of an answer; 0 for NULL. */
+static size_t trace_room(const struct trace *trace)
+{
+    if (!trace)
+        return 0;
+    return answer_room(trace->contacts * trace_parts(trace), sizeof(percuss_v1_Trace)) +
+           trace->contacts * TRACE_COLUMNS * answer_room(trace->count, sizeof(double));
+}
+
+/* Part of a column in each sample of a contact. */
+static void fill_trace_column(struct answer *answer, const struct trace *trace,
+                              const double *values, dds_sequence_double *first)
+{
+    double *copy = answer_take(answer, trace->count, sizeof *copy);
+    memcpy(copy, values, trace->count * sizeof *copy);
+    for (size_t part = 0; part < trace_parts(trace); part++) {
+        /* the same member of the next sample */
+        dds_sequence_double *list =
+            (dds_sequence_double *)((char *)first + part * sizeof(percuss_v1_Trace));
+        size_t start = part * TRACE_PART_INSTANTS;
+        size_t left = trace->count - start;
+        list->_buffer = copy + start;
+        list->_length = (uint32_t)(left < TRACE_PART_INSTANTS ? left : TRACE_PART_INSTANTS);
+        list->_maximum = list->_length;
+        list->_release = false;
+    }
+}
+
+/* Fills answer->traces; nothing for NULL. */
+static void fill_traces(struct answer *answer, const struct envelope *envelope,
+                        const struct trace *trace)
+{
+    if (!trace)
+        return;
+    size_t parts = trace_parts(trace);
+    answer->trace_count = trace->contacts * parts;
+    answer->traces = answer_take(answer, answer->trace_count, sizeof *answer->traces);
+    for (size_t c = 0; c < trace->contacts; c++) {
+        const struct trace_contact *contact = &trace->contact[c];
+        percuss_v1_Trace *first = &answer->traces[c * parts];
+        /* of which request, contact and part each sample is */
+        for (size_t part = 0; part < parts; part++) {
+            memcpy(first[part].client, envelope->client, sizeof first[part].client);
+            first[part].sequence = envelope->sequence;
+            first[part].contact = (uint32_t)c;
+            first[part].part = (uint32_t)part;
+            first[part].parts = (uint32_t)parts;
+        }
+        /* the histories, cut into the parts */
+        fill_trace_column(answer, trace, trace->time, &first->time);
+        fill_trace_column(answer, trace, contact->force, &first->force);
+        fill_trace_column(answer, trace, contact->indentation, &first->indentation);
+        fill_trace_column(answer, trace, contact->gap, &first->gap);
+        fill_trace_column(answer, trace, contact->gap_rate, &first->gap_rate);
+        fill_trace_column(answer, trace, contact->displacement[0], &first->displacement_a);
+        fill_trace_column(answer, trace, contact->velocity[0], &first->velocity_a);
+        fill_trace_column(answer, trace, contact->displacement[1], &first->displacement_b);
+        fill_trace_column(answer, trace, contact->velocity[1], &first->velocity_b);
+    }
+}
+
 struct answer *encode_result(const struct envelope *envelope, const struct solve_result *result,
                              const char (*tokens)[PERCUSS_ID_SIZE], size_t listed)
 {
     if (!encode_status_has_result(result->status))
         return encode_refusal(envelope, result->status, result->fault.text);
-    struct answer *answer =
-        create_blank(envelope, result->status, result->fault.text,
-                     lists_room(result, listed) + encode_trace_room(result->trace));
+    struct answer *answer = create_blank(envelope, result->status, result->fault.text,
+                                         lists_room(result, listed) + trace_room(result->trace));
     if (!answer)
         return NULL;
     fill_reply(result, answer->reply);
@@ -241,6 +310,6 @@ struct answer *encode_result(const struct envelope *envelope, const struct solve
         fill_velocities(answer, result);
     fill_bodies(answer, result, tokens);
     fill_warnings(answer, result);
-    encode_trace(answer, envelope, result->trace);
+    fill_traces(answer, envelope, result->trace);
     return answer;
 }

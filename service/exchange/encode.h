@@ -9,7 +9,10 @@
 #include "exchange/text.h"
 #include "solve/result.h"
 
-/* What all kinds of replies begin with. */
+/* Instants in one sample of a time history: nine columns of doubles in less than 64 KiB. */
+enum { TRACE_PART_INSTANTS = 900 };
+
+/* The members that all kinds of replies begin with. */
 #define ENCODE_HEAD(wire, envelope, state, text)                                                   \
     do {                                                                                           \
         memcpy((wire)->client, (envelope)->client, sizeof(wire)->client);                          \

@@ -10,7 +10,7 @@
 
 #include "exchange/batch.h"
 #include "exchange/encode.h"
-#include "exchange/encode_trace.h"
+#include "impact/trace.h"
 
 static void copies_a_result(void **state)
 {
